@@ -1,0 +1,483 @@
+//! Exact Coulomb contact by a primal–dual active set (semi-smooth Newton) on the condensed contact problem.
+//!
+//! Unknown are the nodal forces of closed nodes and those rigid motions (V, U, Ω) that are not prescribed. Each
+//! iteration solves the linear problem of the present states and updates the states:
+//! - closed if `λ_n − c g > 0`;
+//! - a stuck node slips when `|λ_t| > μ λ_n`; a slipping node whose friction force no longer opposes the slip sticks, so
+//!   a reversal of slip always passes through stick, and a node that closes starts in stick. Without these two rules
+//!   the iteration cycles.
+
+use super::streamline::{Upwind, upwind_rows};
+use super::{ContactGrid, Status};
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// Iterations allowed.
+pub const MAX_ITERATIONS: usize = 40;
+/// Iterations at which a stalled iteration restarts from full stick.
+const RESTARTS: [usize; 2] = [20, 31];
+
+/// Linear answer of one body at the contact surface.
+#[derive(Clone, Copy)]
+pub struct SurfaceResponse<'a> {
+    /// Displacement per unit nodal force on this body.
+    pub compliance: &'a DMatrix<f64>,
+    /// Displacement without contact forces and rigid accelerations.
+    pub free: &'a DVector<f64>,
+}
+
+/// One rigid motion of the wheel and its balance `m a + ṗ = f + Σ contact`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RigidMotion {
+    /// Prescribed, or the start guess of an unknown: V [m/s], U [m], Ω [rad/s].
+    pub value: f64,
+    pub prescribed: bool,
+    /// Acceleration `= gain · value + offset`.
+    pub gain: f64,
+    pub offset: f64,
+    /// Mass or moment of inertia per metre.
+    pub inertia: f64,
+    /// External force or moment per metre; ignored if the motion is prescribed.
+    pub load: f64,
+    /// Rate of deformation momentum without contact forces and rigid accelerations.
+    pub momentum: f64,
+}
+
+impl RigidMotion {
+    /// Acceleration for a value.
+    pub fn acceleration(&self, value: f64) -> f64 {
+        self.gain * value + self.offset
+    }
+}
+
+/// Gap and slip as affine functions of contact forces and rigid motions, for one time step.
+pub struct ContactProblem<'a> {
+    pub grid: &'a ContactGrid,
+    pub wheel: SurfaceResponse<'a>,
+    pub rail: SurfaceResponse<'a>,
+    /// Displacement of the wheel surface per unit rigid acceleration, three columns (x, y, rotation).
+    pub wheel_loads: &'a DMatrix<f64>,
+    /// Rate of deformation momentum per unit nodal force, three rows.
+    pub momentum: &'a DMatrix<f64>,
+    /// Rate of deformation momentum per unit rigid acceleration, 3 × 3.
+    pub momentum_loads: &'a DMatrix<f64>,
+    /// Translation V, hub height U, rotation Ω.
+    pub rigid: [RigidMotion; 3],
+    /// `d_t` of the tangential displacement difference is `slip_gain · (u_c − u_p) + slip_offset`.
+    pub slip_gain: f64,
+    pub slip_offset: &'a [f64],
+    /// Gap of the undeformed bodies with the surface profile [m].
+    pub gap: &'a [f64],
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Line load that scales tolerances [N/m].
+    pub nominal_load: f64,
+    /// Largest change of the edge weight β that counts as converged.
+    pub edge_tolerance: f64,
+}
+
+/// Converged (or starting) state of the contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactSolution {
+    pub status: Vec<Status>,
+    /// Nodal forces on the wheel on all surface displacement components [N/m].
+    pub forces: DVector<f64>,
+    /// Slip velocity of the wheel relative to the rail at closed nodes, zero elsewhere [m/s].
+    pub slip: Vec<f64>,
+    /// Gap at open nodes, zero elsewhere [m].
+    pub gap: Vec<f64>,
+    /// Values of the rigid motions (V, U, Ω).
+    pub rigid: [f64; 3],
+    /// Surface displacements of wheel and rail [m].
+    pub wheel_surface: DVector<f64>,
+    pub rail_surface: DVector<f64>,
+    pub iterations: usize,
+}
+
+impl ContactSolution {
+    /// An open contact without forces.
+    pub fn open(grid: &ContactGrid) -> Self {
+        let n = grid.surface_dofs();
+        Self {
+            status: vec![Status::Open; grid.len()],
+            forces: DVector::zeros(n),
+            slip: vec![0.0; grid.len()],
+            gap: vec![0.0; grid.len()],
+            rigid: [0.0; 3],
+            wheel_surface: DVector::zeros(n),
+            rail_surface: DVector::zeros(n),
+            iterations: 0,
+        }
+    }
+
+    /// Normal nodal force at candidate `i` [N/m].
+    pub fn normal(&self, grid: &ContactGrid, i: usize) -> f64 {
+        self.forces[grid.dof(i) + 1]
+    }
+
+    /// Tangential nodal force on the wheel at candidate `i` [N/m].
+    pub fn tangential(&self, grid: &ContactGrid, i: usize) -> f64 {
+        self.forces[grid.dof(i)]
+    }
+
+    /// Generalised contact forces on the wheel: force x, force y, forward moment about the centre.
+    pub fn resultant(&self, grid: &ContactGrid) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for i in 0..grid.len() {
+            let (t, n) = (self.tangential(grid, i), self.normal(grid, i));
+            sum[0] += t;
+            sum[1] += n;
+            sum[2] -= grid.radius * t + grid.x[i] * n;
+        }
+        sum
+    }
+}
+
+/// Why no contact state could be found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    #[error("contact iteration did not converge in {iterations} iterations")]
+    NotConverged { iterations: usize },
+    #[error("singular contact equations with {closed} closed nodes")]
+    Singular { closed: usize },
+    #[error("the contact patch reached the end of the candidate zone (±{zone:.3e} m) at a line load of {load:.6e} N/m")]
+    ZoneExceeded { zone: f64, load: f64 },
+}
+
+/// A row of the linear system: coefficients of all contact forces, of the rigid values, and the constant.
+struct AffineRow {
+    forces: DVector<f64>,
+    rigid: [f64; 3],
+    constant: f64,
+}
+
+impl ContactProblem<'_> {
+    /// Solves from the states, forces and rigid values of `start`.
+    pub fn solve(&self, start: &ContactSolution) -> Result<ContactSolution, ContactError> {
+        let mut solution = start.clone();
+        for (k, motion) in self.rigid.iter().enumerate() {
+            solution.rigid[k] = motion.value;
+        }
+        let constants = self.constant_displacements();
+        let relative = self.wheel.compliance + self.rail.compliance;
+        let c_n = self.grid.len() as f64 / (0..self.grid.len()).map(|i| self.diagonal(&relative, i)).sum::<f64>();
+        let mut to_right = self.upstream_right(&solution.rigid);
+        let mut rows = self.rows(&solution, to_right);
+
+        for iteration in 1..=MAX_ITERATIONS {
+            if RESTARTS.contains(&iteration) {
+                for s in &mut solution.status {
+                    if s.is_active() {
+                        *s = Status::Stick;
+                    }
+                }
+            }
+            self.solve_linear(&mut solution, &relative, &constants, &rows, to_right)?;
+            solution.iterations = iteration;
+
+            let changed = self.update_states(&mut solution, c_n, iteration);
+            to_right = self.upstream_right(&solution.rigid);
+            let new_rows = self.rows(&solution, to_right);
+            let edge_change = rows.iter().zip(&new_rows).map(|(a, b)| (a.w1 - b.w1).abs()).fold(0.0, f64::max);
+            rows = new_rows;
+            let scale = solution.rigid[0].abs() + (self.grid.radius * solution.rigid[2]).abs();
+            let slip_error = (0..self.grid.len())
+                .filter(|&i| solution.status[i] == Status::Stick)
+                .map(|i| solution.slip[i].abs())
+                .fold(0.0, f64::max);
+            if !changed && edge_change <= self.edge_tolerance && slip_error <= 1e-9 * scale + 1e-13 {
+                return self.check_zone(solution);
+            }
+        }
+        Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+    }
+
+    fn rows(&self, solution: &ContactSolution, to_right: bool) -> Vec<Upwind> {
+        let pressure: Vec<f64> = (0..self.grid.len()).map(|i| solution.normal(self.grid, i)).collect();
+        upwind_rows(&solution.status, &pressure, to_right)
+    }
+
+    fn diagonal(&self, compliance: &DMatrix<f64>, i: usize) -> f64 {
+        let d = self.grid.dof(i) + 1;
+        compliance[(d, d)]
+    }
+
+    /// Whether the material arrives from `+x`.
+    fn upstream_right(&self, rigid: &[f64; 3]) -> bool {
+        rigid[0] + self.grid.radius * rigid[2] >= 0.0
+    }
+
+    /// Surface displacements of wheel and rail with zero contact forces and zero unknown rigid values.
+    fn constant_displacements(&self) -> DVector<f64> {
+        let mut wheel = self.wheel.free.clone();
+        for (k, motion) in self.rigid.iter().enumerate() {
+            let known = if motion.prescribed { motion.acceleration(motion.value) } else { motion.offset };
+            wheel.axpy(known, &self.wheel_loads.column(k), 1.0);
+        }
+        wheel
+    }
+
+    /// Solves the linear problem of the present states; fills forces, rigid values, displacements, slips and gaps.
+    fn solve_linear(
+        &self,
+        solution: &mut ContactSolution,
+        relative: &DMatrix<f64>,
+        wheel_constant: &DVector<f64>,
+        rows: &[Upwind],
+        to_right: bool,
+    ) -> Result<(), ContactError> {
+        let grid = self.grid;
+        let closed: Vec<usize> = (0..grid.len()).filter(|&i| solution.status[i].is_active()).collect();
+        let stuck: Vec<usize> = closed.iter().copied().filter(|&i| solution.status[i] == Status::Stick).collect();
+        let unknown: Vec<usize> = (0..3).filter(|&k| !self.rigid[k].prescribed).collect();
+        let size = closed.len() + stuck.len() + unknown.len();
+        let fixed = solution.rigid;
+
+        let mut system = DMatrix::zeros(size, size);
+        let mut rhs = DVector::zeros(size);
+        let mut put = |r: usize, row: &AffineRow| {
+            let mut constant = row.constant;
+            let mut largest = 0.0f64;
+            for (c, &i) in closed.iter().enumerate() {
+                let d = grid.dof(i);
+                let value = row.forces[d + 1]
+                    + solution.status[i].friction_direction() * self.friction * row.forces[d];
+                system[(r, c)] = value;
+                largest = largest.max(value.abs());
+            }
+            for (c, &i) in stuck.iter().enumerate() {
+                let value = row.forces[grid.dof(i)];
+                system[(r, closed.len() + c)] = value;
+                largest = largest.max(value.abs());
+            }
+            for k in 0..3 {
+                if self.rigid[k].prescribed {
+                    constant += row.rigid[k] * self.rigid[k].value;
+                }
+            }
+            for (c, &k) in unknown.iter().enumerate() {
+                system[(r, closed.len() + stuck.len() + c)] = row.rigid[k];
+                largest = largest.max(row.rigid[k].abs());
+            }
+            let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+            for c in 0..size {
+                system[(r, c)] *= scale;
+            }
+            rhs[r] = -constant * scale;
+        };
+        for (r, &i) in closed.iter().enumerate() {
+            put(r, &self.gap_row(i, relative, wheel_constant));
+        }
+        for (r, &i) in stuck.iter().enumerate() {
+            put(closed.len() + r, &self.slip_row(i, solution, relative, wheel_constant, rows[i], to_right));
+        }
+        for (r, &k) in unknown.iter().enumerate() {
+            put(closed.len() + stuck.len() + r, &self.balance_row(k));
+        }
+        let singular = ContactError::Singular { closed: closed.len() };
+        let x = system.lu().solve(&rhs).ok_or(singular.clone())?;
+        if x.iter().any(|v| !v.is_finite()) {
+            return Err(singular);
+        }
+
+        solution.forces.fill(0.0);
+        for (c, &i) in closed.iter().enumerate() {
+            solution.forces[grid.dof(i) + 1] = x[c];
+            solution.forces[grid.dof(i)] = solution.status[i].friction_direction() * self.friction * x[c];
+        }
+        for (c, &i) in stuck.iter().enumerate() {
+            solution.forces[grid.dof(i)] = x[closed.len() + c];
+        }
+        solution.rigid = fixed;
+        for (c, &k) in unknown.iter().enumerate() {
+            solution.rigid[k] = x[closed.len() + stuck.len() + c];
+        }
+        self.evaluate(solution, wheel_constant, rows, to_right);
+        Ok(())
+    }
+
+    /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid values.
+    fn evaluate(&self, solution: &mut ContactSolution, wheel_constant: &DVector<f64>, rows: &[Upwind], to_right: bool) {
+        let grid = self.grid;
+        let mut wheel = wheel_constant.clone();
+        for (k, motion) in self.rigid.iter().enumerate() {
+            if !motion.prescribed {
+                wheel.axpy(motion.gain * solution.rigid[k], &self.wheel_loads.column(k), 1.0);
+            }
+        }
+        wheel.gemv(1.0, self.wheel.compliance, &solution.forces, 1.0);
+        let mut rail = self.rail.free.clone();
+        rail.gemv(-1.0, self.rail.compliance, &solution.forces, 1.0);
+        solution.wheel_surface = wheel;
+        solution.rail_surface = rail;
+        let (v, v_c) = (solution.rigid[0], grid.radius * solution.rigid[2]);
+        for i in 0..grid.len() {
+            let d = grid.dof(i);
+            let (u_c, u_p) = (&solution.wheel_surface, &solution.rail_surface);
+            if solution.status[i].is_active() {
+                let (d_p, d_c) = (self.stretch(u_p, i, rows[i], to_right), self.stretch(u_c, i, rows[i], to_right));
+                solution.slip[i] = v * (1.0 + d_p) - v_c * (1.0 + d_c)
+                    + self.slip_gain * (u_c[d] - u_p[d])
+                    + self.slip_offset[i];
+                solution.gap[i] = 0.0;
+            } else {
+                solution.slip[i] = 0.0;
+                solution.gap[i] = self.gap[i] + u_c[d + 1] - u_p[d + 1] + solution.rigid[1];
+            }
+        }
+    }
+
+    /// Upwind derivative `∂u_x/∂x` at candidate `i`.
+    fn stretch(&self, u: &DVector<f64>, i: usize, row: Upwind, to_right: bool) -> f64 {
+        let d = self.grid.dof(i);
+        let step = if to_right { 2isize } else { -2 };
+        let stencil = row.stencil(to_right);
+        let sum: f64 = stencil.iter().enumerate().map(|(k, c)| c * u[(d as isize + k as isize * step) as usize]).sum();
+        sum / self.grid.spacing
+    }
+
+    /// `g = 0` at a closed node.
+    fn gap_row(&self, i: usize, relative: &DMatrix<f64>, wheel_constant: &DVector<f64>) -> AffineRow {
+        let d = self.grid.dof(i) + 1;
+        let mut rigid = [0.0, 1.0, 0.0];
+        for (k, motion) in self.rigid.iter().enumerate() {
+            if !motion.prescribed {
+                rigid[k] += motion.gain * self.wheel_loads[(d, k)];
+            }
+        }
+        AffineRow {
+            forces: relative.column(d).into_owned(),
+            rigid,
+            constant: self.gap[i] + wheel_constant[d] - self.rail.free[d],
+        }
+    }
+
+    /// `s = 0` at a stuck node, linearised in V and Ω about the present iterate.
+    fn slip_row(
+        &self,
+        i: usize,
+        solution: &ContactSolution,
+        relative: &DMatrix<f64>,
+        wheel_constant: &DVector<f64>,
+        row: Upwind,
+        to_right: bool,
+    ) -> AffineRow {
+        let grid = self.grid;
+        let d = grid.dof(i);
+        let step = if to_right { 2isize } else { -2 };
+        let (v, v_c) = (solution.rigid[0], grid.radius * solution.rigid[2]);
+        let mut forces = self.slip_gain * relative.column(d);
+        let mut loads = [0.0; 3];
+        for (k, load) in loads.iter_mut().enumerate() {
+            *load = self.slip_gain * self.wheel_loads[(d, k)];
+        }
+        let mut constant =
+            self.slip_gain * (wheel_constant[d] - self.rail.free[d]) + self.slip_offset[i];
+        for (k, c) in row.stencil(to_right).iter().enumerate() {
+            let at = (d as isize + k as isize * step) as usize;
+            let c = c / grid.spacing;
+            forces.axpy(-v * c, &self.rail.compliance.column(at), 1.0);
+            forces.axpy(-v_c * c, &self.wheel.compliance.column(at), 1.0);
+            for (j, load) in loads.iter_mut().enumerate() {
+                *load -= v_c * c * self.wheel_loads[(at, j)];
+            }
+            constant += c * (v * self.rail.free[at] - v_c * wheel_constant[at]);
+        }
+        let stretch_rail = self.stretch(&solution.rail_surface, i, row, to_right);
+        let stretch_wheel = self.stretch(&solution.wheel_surface, i, row, to_right);
+        let mut rigid = [1.0 + stretch_rail, 0.0, -grid.radius * (1.0 + stretch_wheel)];
+        constant += -v * stretch_rail + v_c * stretch_wheel;
+        for (k, motion) in self.rigid.iter().enumerate() {
+            if !motion.prescribed {
+                rigid[k] += motion.gain * loads[k];
+            }
+        }
+        AffineRow { forces, rigid, constant }
+    }
+
+    /// Balance of momentum of an unknown rigid motion.
+    fn balance_row(&self, k: usize) -> AffineRow {
+        let grid = self.grid;
+        let own = &self.rigid[k];
+        let mut forces = self.momentum.row(k).transpose();
+        for i in 0..grid.len() {
+            let d = grid.dof(i);
+            match k {
+                0 => forces[d] -= 1.0,
+                1 => forces[d + 1] -= 1.0,
+                _ => {
+                    forces[d] += grid.radius;
+                    forces[d + 1] += grid.x[i];
+                }
+            }
+        }
+        let mut rigid = [0.0; 3];
+        let mut constant = own.momentum - own.load;
+        for (l, motion) in self.rigid.iter().enumerate() {
+            let inertia = self.momentum_loads[(k, l)] + if l == k { own.inertia } else { 0.0 };
+            if motion.prescribed {
+                constant += inertia * motion.acceleration(motion.value);
+            } else {
+                rigid[l] = inertia * motion.gain;
+                constant += inertia * motion.offset;
+            }
+        }
+        AffineRow { forces, rigid, constant }
+    }
+
+    /// New states from forces, gaps and slips; returns whether any changed.
+    fn update_states(&self, solution: &mut ContactSolution, c_n: f64, iteration: usize) -> bool {
+        let grid = self.grid;
+        let growth = 3f64.powi(iteration.saturating_sub(10) as i32);
+        let share = self.nominal_load / grid.len() as f64;
+        let tolerance = (1e-9 * growth).min(1e-4) * share;
+        let speed = solution.rigid[0].abs() + (grid.radius * solution.rigid[2]).abs();
+        let slip_tolerance = (1e-12 * growth).min(1e-8) * speed;
+        let mut changed = false;
+        for i in 0..grid.len() {
+            let old = solution.status[i];
+            let (t, n) = (solution.tangential(grid, i), solution.normal(grid, i));
+            let indicator = n - c_n * solution.gap[i];
+            let closed = if indicator.abs() <= tolerance { old.is_active() } else { indicator > 0.0 };
+            let new = match (closed, old) {
+                (false, _) => Status::Open,
+                (true, Status::Open) => Status::Stick,
+                (true, Status::Stick) => {
+                    if t.abs() <= self.friction * n + tolerance * self.friction.min(1.0) && self.friction > 0.0 {
+                        Status::Stick
+                    } else if t >= 0.0 {
+                        Status::SlipForward
+                    } else {
+                        Status::SlipBackward
+                    }
+                }
+                (true, slipping) => {
+                    let opposes = slipping.friction_direction() * solution.slip[i] <= slip_tolerance;
+                    if opposes || self.friction == 0.0 { slipping } else { Status::Stick }
+                }
+            };
+            changed |= new != old;
+            solution.status[i] = new;
+        }
+        // A static problem needs at least one support.
+        if self.rigid[1].gain == 0.0 && !self.rigid[1].prescribed && solution.status.iter().all(|s| !s.is_active()) {
+            let nearest = (0..grid.len()).min_by(|&a, &b| solution.gap[a].total_cmp(&solution.gap[b]));
+            if let Some(i) = nearest {
+                solution.status[i] = Status::Stick;
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    fn check_zone(&self, solution: ContactSolution) -> Result<ContactSolution, ContactError> {
+        let ends = [solution.status.first(), solution.status.last()];
+        if ends.iter().flatten().any(|s| s.is_active()) {
+            let zone = self.grid.x.last().copied().unwrap_or(0.0);
+            let load = solution.resultant(self.grid)[1];
+            return Err(ContactError::ZoneExceeded { zone, load });
+        }
+        Ok(solution)
+    }
+}
+

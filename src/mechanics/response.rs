@@ -1,0 +1,89 @@
+//! What the contact sees of a deformable body: one interface for the reduced and the full finite-element model.
+//!
+//! A body is a linear system with *ports*: the Cartesian displacement components of its surface nodes near the contact
+//! (node-major, `2·node + component`, x ascending) and, for the wheel, the three rigid accelerations of its hub
+//! (`V̇`, `Ü`, `Ω̇`; Ω positive for forward rolling, rigid field `r_Ω = (y, −x)`), whose conjugates are the rates of
+//! deformation momentum `r_kᵀ M ÿ`. Displacements `y` are relative to the rigid hub (wheel) or base (rail).
+//! Everything is per metre of width.
+//!
+//! Momentum balance of the wheel (Paper D, eq. 9) after discretisation in space, with `C = ρ∫ w·∂u`,
+//! `S = ρ∫ ∂w·∂u` and `∂ = v̄·∇/speed` the derivative along the streamlines (`−∂_φ` in the wheel, `−∂_x` in the rail):
+//!
+//! `M ÿ + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
+//!
+//! The rail has the same form with `V` in place of `Ω`, no rigid ports, no centrifugal load and the in/outflow (Robin)
+//! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on a known state (`convected`).
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// Linear multistep formula `d_t y = a0 y_{n+1} + a1 y_n + a2 y_{n−1} + b1 (d_t y)_n`; all zero: stationary.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TimeDerivative {
+    pub a0: f64,
+    pub a1: f64,
+    pub a2: f64,
+    pub b1: f64,
+}
+
+impl TimeDerivative {
+    /// The part of `d_t y` known before the step.
+    pub fn offset(&self, now: f64, before: f64, rate: f64) -> f64 {
+        self.a1 * now + self.a2 * before + self.b1 * rate
+    }
+}
+
+/// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Convection {
+    pub speed: f64,
+    pub acceleration: f64,
+}
+
+/// Deformation of one body and the history its time discretisation needs; coordinates are modal or nodal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyState {
+    /// Coordinates `y`.
+    pub displacement: DVector<f64>,
+    /// `d_t y`.
+    pub velocity: DVector<f64>,
+    /// `d_tt y`.
+    pub acceleration: DVector<f64>,
+    /// `y` one step earlier.
+    pub displacement_before: DVector<f64>,
+    /// `d_t y` one step earlier.
+    pub velocity_before: DVector<f64>,
+}
+
+impl BodyState {
+    /// The undeformed body at rest with `n` coordinates.
+    pub fn zeros(n: usize) -> Self {
+        let z = DVector::zeros(n);
+        Self { displacement: z.clone(), velocity: z.clone(), acceleration: z.clone(), displacement_before: z.clone(), velocity_before: z }
+    }
+}
+
+/// Answer of a body to unit port loads for one value of `a0` (0: static).
+pub struct StepOperator {
+    pub a0: f64,
+    /// Surface displacement per unit nodal force, symmetric, `2n × 2n` [m/(N/m)].
+    pub surface: DMatrix<f64>,
+    /// Surface displacement per unit rigid acceleration (V̇, Ü, Ω̇), `2n × 3`; zero for the rail.
+    pub loads: DMatrix<f64>,
+    /// Rate of deformation momentum per unit nodal force, `3 × 2n`.
+    pub momentum: DMatrix<f64>,
+    /// Rate of deformation momentum per unit rigid acceleration, `3 × 3`.
+    pub momentum_loads: DMatrix<f64>,
+    /// What the implementation keeps to solve with (modal denominators or a sparse factorisation).
+    pub solver: StepSolver,
+}
+
+/// Part of a body's answer that is known before the contact is solved.
+pub struct FreeResponse {
+    /// Surface displacement without contact forces and rigid accelerations, `2n` [m].
+    pub surface: DVector<f64>,
+    /// Rate of deformation momentum (x, y, Ω) without contact forces and rigid accelerations.
+    pub momentum: [f64; 3],
+    /// Right-hand side in the body's own coordinates, for `commit`.
+    pub load: DVector<f64>,
+}

@@ -1,0 +1,163 @@
+//! Mixed control: which partner of each work-conjugate pair is prescribed, and to what.
+
+use serde::{Deserialize, Serialize};
+
+/// Prescribed partner of (moment, angular velocity).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Rotation {
+    Velocity,
+    Moment,
+}
+
+/// Prescribed partner of (horizontal force, translational velocity).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Translation {
+    Velocity,
+    Force,
+}
+
+/// Prescribed partner of (vertical load, hub displacement).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Vertical {
+    Force,
+    Displacement,
+}
+
+/// Real-valued inputs of the whole wheel; used for values and for their time derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// Angular velocity, forward rolling positive [rad/s].
+    pub omega: f64,
+    /// Driving moment, forward positive [N m].
+    pub moment: f64,
+    /// Translational velocity [m/s].
+    pub velocity: f64,
+    /// Horizontal driving force on the hub [N].
+    pub force: f64,
+    /// Vertical load pressing the hub down [N].
+    pub load: f64,
+    /// Hub height above just touching, up positive [m].
+    pub displacement: f64,
+    /// Friction coefficient available now [1].
+    pub friction: f64,
+}
+
+/// Everything the outside prescribes during one communication step.
+///
+/// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities and the hub displacement cannot jump:
+/// they move linearly from their present value to the input's value at the end of the communication step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Inputs {
+    pub rotation: Rotation,
+    pub translation: Translation,
+    pub vertical: Vertical,
+    /// Values at the start of the step.
+    pub drive: Drive,
+    /// First time derivatives; zero unless the master supplies them.
+    pub rate: Drive,
+}
+
+/// An input outside its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name} = {value} is outside its range: {low} to {high}")]
+pub struct InputError {
+    /// FMI name of the input.
+    pub name: &'static str,
+    pub value: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+/// Name, smallest and largest meaningful value of each real input, in the order of [`Drive::values`].
+pub const INPUT_RANGES: [(&str, f64, f64); 7] = [
+    ("drive.omega", -2e4, 2e4),
+    ("drive.moment", -1e9, 1e9),
+    ("drive.velocity", -200.0, 200.0),
+    ("drive.force", -1e9, 1e9),
+    ("drive.load", 0.0, 1e9),
+    ("drive.displacement", -0.1, 0.1),
+    ("rail.friction", 0.0, 10.0),
+];
+
+impl Drive {
+    /// The values in the order of [`INPUT_RANGES`].
+    pub fn values(&self) -> [f64; 7] {
+        [self.omega, self.moment, self.velocity, self.force, self.load, self.displacement, self.friction]
+    }
+
+    /// Refuses values out of range, infinite or not a number.
+    pub fn validate(&self) -> Result<(), InputError> {
+        for ((name, low, high), value) in INPUT_RANGES.into_iter().zip(self.values()) {
+            if !(value >= low && value <= high) {
+                return Err(InputError { name, value, low, high });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Inputs {
+    /// Refuses inputs out of range, infinite or not a number; rates only need to be finite.
+    pub fn validate(&self) -> Result<(), InputError> {
+        self.drive.validate()?;
+        for ((name, ..), value) in INPUT_RANGES.into_iter().zip(self.rate.values()) {
+            if !value.is_finite() {
+                return Err(InputError { name, value, low: f64::MIN, high: f64::MAX });
+            }
+        }
+        Ok(())
+    }
+
+    /// The inputs `time` seconds after the start of the communication step.
+    pub fn at(&self, time: f64) -> Drive {
+        let (d, r) = (&self.drive, &self.rate);
+        Drive {
+            omega: d.omega + time * r.omega,
+            moment: d.moment + time * r.moment,
+            velocity: d.velocity + time * r.velocity,
+            force: d.force + time * r.force,
+            load: (d.load + time * r.load).max(0.0),
+            displacement: d.displacement + time * r.displacement,
+            friction: (d.friction + time * r.friction).max(0.0),
+        }
+    }
+}
+
+/// Creepage `2 (V − V_C)/(V + V_C)` of the translational and the peripheral velocity [m/s]; braking positive, ±2 when
+/// one of them vanishes or they oppose each other, 0 at standstill (both below [`STANDSTILL`]).
+pub fn creepage(v: f64, v_c: f64) -> f64 {
+    let scale = v.abs() + v_c.abs();
+    if scale < STANDSTILL {
+        return 0.0;
+    }
+    2.0 * (v - v_c) / scale.copysign(v + v_c)
+}
+
+/// Peripheral velocity that belongs to a velocity and a creepage: `V_C = V (1 − ξ/2)/(1 + ξ/2)`.
+pub fn peripheral_velocity(v: f64, creepage: f64) -> f64 {
+    if creepage <= -2.0 { 0.0 } else { v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage) }
+}
+
+/// Speed below which creepage is reported as zero [m/s].
+pub const STANDSTILL: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn creepage_is_the_thesis_definition_and_bounded() {
+        assert!((creepage(10.0, 9.0) - 2.0 / 19.0).abs() < 1e-15);
+        assert!((creepage(-10.0, -9.0) - 2.0 / 19.0).abs() < 1e-15);
+        assert_eq!(creepage(10.0, 0.0), 2.0);
+        assert_eq!(creepage(0.0, 10.0), -2.0);
+        assert_eq!(creepage(0.0, 0.0), 0.0);
+        assert!((creepage(13.0, peripheral_velocity(13.0, 3e-4)) - 3e-4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_value_that_is_not_a_number_is_refused_by_name() {
+        let drive = Drive { load: f64::NAN, ..Drive::default() };
+        assert_eq!(drive.validate().unwrap_err().name, "drive.load");
+    }
+}

@@ -1,0 +1,146 @@
+//! Rolling: the deformable bodies, the contact between them and the rigid motion of the wheel, advanced in time.
+//!
+//! Everything in this room is per metre of width; [`output`] scales to the whole wheel.
+
+pub mod control;
+pub mod integrator;
+pub mod output;
+pub mod state;
+pub mod stationary;
+pub mod transient;
+
+pub use control::{Drive, Inputs, Rotation, Translation, Vertical};
+pub use output::{Outputs, PROFILE_POINTS};
+pub use state::State;
+
+use crate::config::Config;
+use crate::contact::kernel::KernelCorrection;
+use crate::contact::{ContactError, ContactGrid};
+use crate::mechanics::response::{BodyResponse, StepOperator};
+use crate::mechanics::{self, Bodies, MechanicsError};
+use std::sync::Arc;
+
+/// Why a step or a stationary state could not be computed; the state before it is kept.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StepError {
+    #[error("no contact state found at t = {time:.9e} s with an internal step of {step:.1e} s: {source}")]
+    Contact { time: f64, step: f64, source: ContactError },
+    #[error(
+        "the contact patch needs more than the candidate zone of ±{zone:.3e} m at a wheel load of {load:.6e} N: raise \
+         the parameter model.nominal_load (now {nominal:.6e} N)"
+    )]
+    ZoneExceeded { zone: f64, load: f64, nominal: f64 },
+    #[error("no equilibrium: {0}")]
+    NoEquilibrium(&'static str),
+    #[error(transparent)]
+    Input(#[from] control::InputError),
+    #[error("communication step = {step} is outside its range: above 0 to {longest} s")]
+    StepSize { step: f64, longest: f64 },
+    #[error("body response failed: {0}")]
+    Body(String),
+}
+
+/// Everything that does not change during a run; shared between instances with equal parameters.
+pub struct Model {
+    pub config: Config,
+    pub grid: ContactGrid,
+    wheel: Box<dyn BodyResponse>,
+    rail: Box<dyn BodyResponse>,
+    kernel: KernelCorrection,
+    /// Undeformed gap at the candidates [m].
+    gap: Vec<f64>,
+    /// Inertia per metre of width: in x (with vehicle), in y, about the axle.
+    inertia: [f64; 3],
+}
+
+/// Compliances of both bodies for one step size, kernel correction included.
+pub struct Operators {
+    pub a0: f64,
+    pub wheel: StepOperator,
+    pub rail: StepOperator,
+}
+
+/// Operators of recently used step sizes; never part of a state.
+#[derive(Default)]
+pub struct Workspace {
+    operators: Vec<Arc<Operators>>,
+}
+
+/// Number of step sizes whose operators are kept.
+const KEPT_OPERATORS: usize = 3;
+
+impl Model {
+    /// Builds the model on given bodies.
+    pub fn new(config: Config, bodies: Bodies) -> Result<Self, MechanicsError> {
+        let grid = ContactGrid {
+            x: bodies.candidate_x,
+            spacing: bodies.spacing,
+            guard: bodies.guard,
+            radius: config.wheel.radius,
+        };
+        let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
+        let material = &config.material;
+        let modulus = 0.5 * material.youngs_modulus / (1.0 - material.poissons_ratio.powi(2));
+        let kernel = KernelCorrection::new(&(wheel.surface + rail.surface), modulus);
+        let width = config.model.contact_width;
+        let mass = mechanics::wheel_mass(&config) + config.wheel.hub_mass / width;
+        let moment = mechanics::wheel_inertia(&config) + config.wheel.hub_inertia / width;
+        let inertia = [mass + config.vehicle.mass / width, mass, moment];
+        let gap = (0..grid.len()).map(|i| grid.undeformed_gap(i)).collect();
+        Ok(Self { config, grid, wheel: bodies.wheel, rail: bodies.rail, kernel, gap, inertia })
+    }
+
+    /// Nominal wheel load per metre of width [N/m].
+    pub fn nominal_line_load(&self) -> f64 {
+        self.config.model.nominal_load / self.config.model.contact_width
+    }
+
+    /// Operators for `a0`, from the workspace if they are there.
+    fn operators(&self, a0: f64, workspace: &mut Workspace) -> Result<Arc<Operators>, StepError> {
+        if let Some(at) = workspace.operators.iter().position(|o| o.a0 == a0) {
+            let found = workspace.operators.remove(at);
+            workspace.operators.push(found.clone());
+            return Ok(found);
+        }
+        if workspace.operators.len() >= KEPT_OPERATORS {
+            workspace.operators.remove(0);
+        }
+        let failed = |e: MechanicsError| StepError::Body(e.to_string());
+        let mut wheel = self.wheel.operator(a0).map_err(failed)?;
+        let mut rail = self.rail.operator(a0).map_err(failed)?;
+        self.kernel.add_to(&mut wheel.surface, 0.5);
+        self.kernel.add_to(&mut rail.surface, 0.5);
+        let operators = Arc::new(Operators { a0, wheel, rail });
+        workspace.operators.push(operators.clone());
+        Ok(operators)
+    }
+
+    /// Turns a contact failure into a step failure.
+    fn contact_failure(&self, source: ContactError, time: f64, step: f64) -> StepError {
+        match source {
+            ContactError::ZoneExceeded { zone, load } => {
+                let load = load * self.config.model.contact_width;
+                StepError::ZoneExceeded { zone, load, nominal: self.config.model.nominal_load }
+            }
+            source => StepError::Contact { time, step, source },
+        }
+    }
+}
+
+impl Model {
+    /// Whether a state has the dimensions of this model and only finite numbers in its contact forces.
+    pub fn fits(&self, state: &State) -> bool {
+        let body = |b: &crate::mechanics::response::BodyState, n: usize| {
+            [&b.displacement, &b.velocity, &b.acceleration, &b.displacement_before, &b.velocity_before]
+                .iter()
+                .all(|v| v.len() == n)
+        };
+        let (n, dofs) = (self.grid.len(), self.grid.surface_dofs());
+        let contact = &state.contact;
+        body(&state.wheel, self.wheel.state_len())
+            && body(&state.rail, self.rail.state_len())
+            && [contact.status.len(), contact.slip.len(), contact.gap.len(), state.shift.len()] == [n; 4]
+            && [contact.forces.len(), contact.wheel_surface.len(), contact.rail_surface.len()] == [dofs; 3]
+            && contact.forces.iter().all(|f| f.is_finite())
+    }
+}

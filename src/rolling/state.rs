@@ -1,0 +1,70 @@
+//! All that a restart needs, and nothing else. Per metre of width.
+
+use super::integrator::Sample;
+use crate::contact::ContactSolution;
+use crate::mechanics::response::BodyState;
+use serde::{Deserialize, Serialize};
+
+/// State of a wheel on its rail at a communication point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time since the start [s].
+    pub time: f64,
+    /// Distance travelled [m].
+    pub distance: f64,
+    /// Angle of rotation, forward positive [rad].
+    pub angle: f64,
+    /// Translational velocity V [m/s].
+    pub velocity: Sample,
+    /// Angular velocity Ω, forward positive [rad/s].
+    pub omega: Sample,
+    /// Hub height above just touching U [m].
+    pub height: Sample,
+    /// Its rate of change [m/s].
+    pub climb: Sample,
+    pub wheel: BodyState,
+    pub rail: BodyState,
+    /// Tangential displacement difference `u_c − u_p` at the contact candidates [m].
+    pub shift: Vec<Sample>,
+    /// Contact state, forces and surface displacements: results and warm start.
+    pub contact: ContactSolution,
+    /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
+    pub hub: [f64; 3],
+    /// Friction coefficient of the last step [1].
+    pub friction: f64,
+    /// Inputs of the last step that may have jumped since: force, moment, load per metre, friction.
+    pub last_load: [f64; 4],
+    /// Length of the last internal step [s]; 0 restarts the multistep formula.
+    pub last_step: f64,
+    /// Internal steps and contact iterations of the last communication step.
+    pub internal_steps: u64,
+    pub iterations: u64,
+    pub audit: Audit,
+}
+
+/// Energy balance since the start, per metre of width.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Audit {
+    /// Energy at the start [J/m].
+    pub initial_energy: f64,
+    /// Present kinetic and elastic energy [J/m].
+    pub energy: f64,
+    /// Work of the hub forces [J/m].
+    pub work: f64,
+    /// Frictional dissipation [J/m].
+    pub dissipation: f64,
+    /// Time integral of the absolute power of the hub forces [J/m]: the scale of the round-off.
+    pub throughput: f64,
+    /// Present power of the hub forces and of friction [W/m].
+    pub hub_power: f64,
+    pub friction_power: f64,
+}
+
+impl Audit {
+    /// Imbalance relative to the dissipated energy [1] (to a millionth of the energy moved, where that is more).
+    pub fn residual(&self) -> f64 {
+        let imbalance = self.work - (self.energy - self.initial_energy) - self.dissipation;
+        let scale = self.dissipation.abs().max(1e-6 * self.throughput);
+        if scale > 0.0 { imbalance / scale } else { 0.0 }
+    }
+}

@@ -1,0 +1,160 @@
+//! Stationary rolling: the state in which nothing changes in the moving frame (`d_t = 0`).
+
+use super::control::{Inputs, Rotation, Translation, Vertical, peripheral_velocity};
+use super::integrator::Sample;
+use super::state::{Audit, State};
+use super::{Model, StepError, Workspace};
+use crate::analytic;
+use crate::contact::{ContactError, ContactProblem, ContactSolution, RigidMotion, Status, SurfaceResponse};
+use crate::mechanics::response::{BodyState, Convection, TimeDerivative};
+
+/// Passes that bring in convective terms and the accelerations of unbalanced forces.
+const MAX_PASSES: usize = 30;
+/// Relative change of the contact forces at which they are brought in.
+const TOLERANCE: f64 = 1e-11;
+
+impl Model {
+    /// Stationary state for inputs. Velocities that are not prescribed start from `initial.velocity` and
+    /// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
+    pub fn stationary(&self, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
+        inputs.validate()?;
+        let width = self.config.model.contact_width;
+        let drive = inputs.at(0.0);
+        let initial = &self.config.initial;
+        let prescribed_x = inputs.translation == Translation::Velocity;
+        let prescribed_r = inputs.rotation == Rotation::Velocity;
+        let velocity = if prescribed_x { drive.velocity } else { initial.velocity };
+        let omega = if prescribed_r {
+            drive.omega
+        } else {
+            peripheral_velocity(velocity, initial.creepage) / self.grid.radius
+        };
+        let load = drive.load / width;
+        if inputs.vertical == Vertical::Force && load <= 0.0 {
+            return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
+        }
+
+        // Slip is a direction of motion: at standstill use the limit of slow forward rolling.
+        let radius = self.grid.radius;
+        let moving = velocity.abs() + (radius * omega).abs() > 1e-9;
+        let (slip_v, slip_omega) =
+            if moving { (velocity, omega) } else { (1.0, peripheral_velocity(1.0, initial.creepage) / radius) };
+
+        let td = TimeDerivative::default();
+        let operators = self.operators(0.0, workspace)?;
+        let mut wheel = BodyState::zeros(self.wheel.state_len());
+        let mut rail = BodyState::zeros(self.rail.state_len());
+        let mut contact = self.hertzian_guess(load);
+        let mut acceleration = [0.0; 3];
+        let no_offset = vec![0.0; self.grid.len()];
+        let mut hub = [0.0; 3];
+        for pass in 0..MAX_PASSES {
+            let stream_wheel = Convection { speed: omega, acceleration: acceleration[2] };
+            let stream_rail = Convection { speed: velocity, acceleration: acceleration[0] };
+            let free_wheel = self.wheel.free(&operators.wheel, &wheel, &td, stream_wheel, &wheel);
+            let free_rail = self.rail.free(&operators.rail, &rail, &td, stream_rail, &rail);
+            let vertical = RigidMotion {
+                value: if inputs.vertical == Vertical::Displacement { drive.displacement } else { contact.rigid[1] },
+                prescribed: inputs.vertical == Vertical::Displacement,
+                load: -load,
+                inertia: self.inertia[1],
+                momentum: free_wheel.momentum[1],
+                ..RigidMotion::default()
+            };
+            let fixed = |value, offset| RigidMotion { value, offset, prescribed: true, ..RigidMotion::default() };
+            let problem = ContactProblem {
+                grid: &self.grid,
+                wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
+                rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
+                wheel_loads: &operators.wheel.loads,
+                momentum: &operators.wheel.momentum,
+                momentum_loads: &operators.wheel.momentum_loads,
+                rigid: [fixed(slip_v, acceleration[0]), vertical, fixed(slip_omega, acceleration[2])],
+                slip_gain: 0.0,
+                slip_offset: &no_offset,
+                gap: &self.gap,
+                friction: drive.friction,
+                nominal_load: self.nominal_line_load(),
+                edge_tolerance: 1e-5,
+            };
+            let solved = problem.solve(&contact).map_err(|e| self.contact_failure(e, 0.0, 0.0))?;
+            let change = (&solved.forces - &contact.forces).amax();
+            contact = solved;
+            self.wheel.commit(&operators.wheel, &free_wheel, &contact.forces, acceleration, &td, &mut wheel);
+            self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &mut rail);
+
+            let force = contact.resultant(&self.grid);
+            let scale = force[1].abs().max(1e-9 * self.nominal_line_load());
+            let previous = acceleration;
+            for (k, prescribed, external) in [(0, prescribed_x, drive.force), (2, prescribed_r, drive.moment)] {
+                if prescribed {
+                    hub[k] = -force[k];
+                } else {
+                    hub[k] = external / width;
+                    acceleration[k] = (hub[k] + force[k]) / self.inertia[k];
+                }
+            }
+            hub[1] = -force[1];
+            let unsettled = (0..3).map(|k| (acceleration[k] - previous[k]).abs() * self.inertia[k]).fold(0.0, f64::max);
+            if change <= TOLERANCE * scale && unsettled <= 1e-9 * scale {
+                break;
+            }
+            if pass + 1 == MAX_PASSES {
+                let source = ContactError::NotConverged { iterations: MAX_PASSES };
+                return Err(StepError::Contact { time: 0.0, step: 0.0, source });
+            }
+        }
+        let speed_scale = if moving { 1.0 } else { 0.0 };
+        for slip in &mut contact.slip {
+            *slip *= speed_scale;
+        }
+        contact.rigid = [velocity, contact.rigid[1], omega];
+        let shift = (0..self.grid.len())
+            .map(|i| self.grid.dof(i))
+            .map(|d| Sample::constant(contact.wheel_surface[d] - contact.rail_surface[d]))
+            .collect();
+        let mut state = State {
+            time: 0.0,
+            distance: 0.0,
+            angle: 0.0,
+            velocity: Sample { rate: acceleration[0], ..Sample::constant(velocity) },
+            omega: Sample { rate: acceleration[2], ..Sample::constant(omega) },
+            height: Sample::constant(contact.rigid[1]),
+            climb: Sample::default(),
+            wheel,
+            rail,
+            shift,
+            contact,
+            hub,
+            friction: drive.friction,
+            last_load: [drive.force / width, drive.moment / width, load, drive.friction],
+            last_step: 0.0,
+            internal_steps: 0,
+            iterations: 0,
+            audit: Audit::default(),
+        };
+        state.audit.energy = self.energy(&state);
+        state.audit.initial_energy = state.audit.energy;
+        (state.audit.hub_power, state.audit.friction_power) = self.powers(&state);
+        Ok(state)
+    }
+
+    /// Contact set of the Hertzian patch under a line load (the nominal load where none is given), all stuck.
+    fn hertzian_guess(&self, load: f64) -> ContactSolution {
+        let load = if load > 0.0 { load } else { self.nominal_line_load() };
+        let half_width = analytic::hertz_half_width(load, self.grid.radius, self.contact_modulus());
+        let mut guess = ContactSolution::open(&self.grid);
+        for (status, x) in guess.status.iter_mut().zip(&self.grid.x) {
+            if x.abs() < half_width.max(0.5 * self.grid.spacing) {
+                *status = Status::Stick;
+            }
+        }
+        guess
+    }
+
+    /// Contact modulus `E* = E/(2(1 − ν²))` of two equal bodies [Pa].
+    fn contact_modulus(&self) -> f64 {
+        let material = &self.config.material;
+        analytic::contact_modulus(material.youngs_modulus, material.poissons_ratio)
+    }
+}

@@ -1,0 +1,242 @@
+//! One implicit step and the division of a communication step into such steps.
+
+use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
+use super::integrator::{Sample, formula};
+use super::state::State;
+use super::{Model, StepError, Workspace};
+use crate::config::TimeScheme;
+use crate::contact::{ContactProblem, RigidMotion, SurfaceResponse};
+use crate::mechanics::response::Convection;
+
+/// Longest communication step [s].
+pub const LONGEST_STEP: f64 = 1e3;
+/// How often a step that finds no contact state is halved before it is given up.
+const MAX_HALVINGS: u32 = 12;
+/// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
+/// restarts the multistep formula.
+const JUMP: f64 = 0.02;
+
+impl Model {
+    /// The state after a communication step `h` [s] under `inputs`; `state` is only replaced on success.
+    pub fn advance(
+        &self,
+        state: &State,
+        inputs: &Inputs,
+        h: f64,
+        workspace: &mut Workspace,
+    ) -> Result<State, StepError> {
+        inputs.validate()?;
+        if !(h > 0.0 && h <= LONGEST_STEP) {
+            return Err(StepError::StepSize { step: h, longest: LONGEST_STEP });
+        }
+        let end = inputs.at(h);
+        end.validate()?;
+        let start = Drive {
+            omega: state.omega.now,
+            velocity: state.velocity.now,
+            displacement: state.height.now,
+            ..inputs.at(0.0)
+        };
+        let pieces = (h / self.config.solver.max_step - 1e-9).ceil().max(1.0) as u64;
+        let dt = h / pieces as f64;
+        let mut next = state.clone();
+        (next.internal_steps, next.iterations) = (0, 0);
+        let mut halvings = 0;
+        // Position within the communication step in units of dt / 2^halvings.
+        let mut position = 0u64;
+        let mut total = pieces;
+        while position < total {
+            let fraction = (position + 1) as f64 / total as f64;
+            let at = if position + 1 == total { 1.0 } else { fraction };
+            let target = interpolate(&start, &end, at);
+            match self.step(&next, inputs, &target, h / total as f64, workspace) {
+                Ok(advanced) => {
+                    next = advanced;
+                    position += 1;
+                }
+                Err(StepError::Contact { .. }) if halvings < MAX_HALVINGS => {
+                    halvings += 1;
+                    position *= 2;
+                    total *= 2;
+                    next.last_step = 0.0;
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        debug_assert!(dt > 0.0);
+        next.time = state.time + h;
+        Ok(next)
+    }
+
+    /// One implicit step `dt` to the given targets at its end.
+    fn step(
+        &self,
+        state: &State,
+        inputs: &Inputs,
+        target: &Drive,
+        dt: f64,
+        workspace: &mut Workspace,
+    ) -> Result<State, StepError> {
+        let width = self.config.model.contact_width;
+        let load = [target.force / width, target.moment / width, target.load / width, target.friction];
+        let before = if self.jumped(&state.last_load, &load) { 0.0 } else { state.last_step };
+        let td = formula(&self.config.solver, dt, before);
+        let operators = self.operators(td.a0, workspace)?;
+
+        let (free_v, free_r, free_y) = (
+            inputs.translation == Translation::Force,
+            inputs.rotation == Rotation::Moment,
+            inputs.vertical == Vertical::Force,
+        );
+        let predicted = |sample: &Sample, free: bool, target: f64| {
+            if free { sample.now + dt * sample.rate } else { target }
+        };
+        let v = predicted(&state.velocity, free_v, target.velocity);
+        let omega = predicted(&state.omega, free_r, target.omega);
+        let stream_wheel = Convection { speed: omega, acceleration: state.omega.rate };
+        let stream_rail = Convection { speed: v, acceleration: state.velocity.rate };
+        let free_wheel = self.wheel.free(&operators.wheel, &state.wheel, &td, stream_wheel, &state.wheel);
+        let free_rail = self.rail.free(&operators.rail, &state.rail, &td, stream_rail, &state.rail);
+
+        let speed = |sample: &Sample, value: f64, free: bool, load: f64, k: usize| RigidMotion {
+            value,
+            prescribed: !free,
+            gain: td.a0,
+            offset: sample.offset(&td),
+            inertia: self.inertia[k],
+            load,
+            momentum: free_wheel.momentum[k],
+        };
+        let hub_height = RigidMotion {
+            value: if free_y { state.height.now } else { target.displacement },
+            prescribed: !free_y,
+            gain: td.a0 * td.a0,
+            offset: td.a0 * state.height.offset(&td) + state.climb.offset(&td),
+            inertia: self.inertia[1],
+            load: -load[2],
+            momentum: free_wheel.momentum[1],
+        };
+        let slip_offset: Vec<f64> = state.shift.iter().map(|s| s.offset(&td)).collect();
+        let problem = ContactProblem {
+            grid: &self.grid,
+            wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
+            rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
+            wheel_loads: &operators.wheel.loads,
+            momentum: &operators.wheel.momentum,
+            momentum_loads: &operators.wheel.momentum_loads,
+            rigid: [
+                speed(&state.velocity, v, free_v, load[0], 0),
+                hub_height,
+                speed(&state.omega, omega, free_r, load[1], 2),
+            ],
+            slip_gain: td.a0,
+            slip_offset: &slip_offset,
+            gap: &self.gap,
+            friction: target.friction,
+            nominal_load: self.nominal_line_load(),
+            edge_tolerance: 0.02,
+        };
+        let contact =
+            problem.solve(&state.contact).map_err(|e| self.contact_failure(e, state.time, dt))?;
+
+        let mut next = state.clone();
+        next.velocity.push(&td, contact.rigid[0]);
+        next.height.push(&td, contact.rigid[1]);
+        next.climb.push(&td, next.height.rate);
+        next.omega.push(&td, contact.rigid[2]);
+        let acceleration = [next.velocity.rate, next.climb.rate, next.omega.rate];
+        self.wheel.commit(&operators.wheel, &free_wheel, &contact.forces, acceleration, &td, &mut next.wheel);
+        self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &mut next.rail);
+        for (i, sample) in next.shift.iter_mut().enumerate() {
+            let d = self.grid.dof(i);
+            sample.push(&td, contact.wheel_surface[d] - contact.rail_surface[d]);
+        }
+
+        let force = contact.resultant(&self.grid);
+        for k in 0..3 {
+            let deformation: f64 = free_wheel.momentum[k]
+                + (operators.wheel.momentum.row(k) * &contact.forces)[0]
+                + (0..3).map(|l| operators.wheel.momentum_loads[(k, l)] * acceleration[l]).sum::<f64>();
+            next.hub[k] = self.inertia[k] * acceleration[k] + deformation - force[k];
+        }
+        next.time += dt;
+        next.distance += 0.5 * dt * (state.velocity.now + next.velocity.now);
+        next.angle += 0.5 * dt * (state.omega.now + next.omega.now);
+        next.friction = target.friction;
+        next.last_load = load;
+        next.last_step = dt;
+        next.internal_steps += 1;
+        next.iterations += contact.iterations as u64;
+        next.contact = contact;
+
+        // Work by the quadrature that belongs to the formula: end point for one-step, trapezoid for two-step.
+        let one_step = td.a2 == 0.0 && self.config.solver.time_scheme != TimeScheme::Theta;
+        let (hub_power, friction_power) = self.powers(&next);
+        let mean = |before: f64, now: f64| if one_step { now } else { 0.5 * (before + now) };
+        let work = if one_step {
+            dt * self.hub_power(&next.hub, &midway(state, &next))
+        } else {
+            0.5 * dt * (self.hub_power(&state.hub, &midway(state, &next)) + self.hub_power(&next.hub, &midway(state, &next)))
+        };
+        next.audit.work += work;
+        next.audit.throughput += work.abs();
+        next.audit.dissipation += dt * mean(state.audit.friction_power, friction_power);
+        next.audit.hub_power = hub_power;
+        next.audit.friction_power = friction_power;
+        next.audit.energy = self.energy(&next);
+        Ok(next)
+    }
+
+    /// Whether a driving force or the friction coefficient has jumped between two steps.
+    fn jumped(&self, before: &[f64; 4], now: &[f64; 4]) -> bool {
+        let scale = JUMP * self.nominal_line_load();
+        (now[0] - before[0]).abs() > scale
+            || (now[1] - before[1]).abs() > scale * self.grid.radius
+            || (now[2] - before[2]).abs() > scale
+            || (now[3] - before[3]).abs() > JUMP * before[3].max(now[3])
+    }
+
+    /// Power of the hub forces (x, y, moment) at rigid velocities (V, U̇, Ω) [W/m].
+    fn hub_power(&self, hub: &[f64; 3], velocity: &[f64; 3]) -> f64 {
+        hub.iter().zip(velocity).map(|(f, v)| f * v).sum()
+    }
+
+    /// Power of the hub forces and frictional dissipation [W/m].
+    pub(super) fn powers(&self, state: &State) -> (f64, f64) {
+        let velocity = [state.velocity.now, state.height.rate, state.omega.now];
+        let contact = &state.contact;
+        let friction: f64 = (0..self.grid.len()).map(|i| -contact.tangential(&self.grid, i) * contact.slip[i]).sum();
+        (self.hub_power(&state.hub, &velocity), friction)
+    }
+
+    /// Kinetic and elastic energy [J/m].
+    pub(super) fn energy(&self, state: &State) -> f64 {
+        let velocity = [state.velocity.now, state.height.rate, state.omega.now];
+        let rigid: f64 = (0..3).map(|k| 0.5 * self.inertia[k] * velocity[k] * velocity[k]).sum();
+        let forces = &state.contact.forces;
+        rigid
+            + self.wheel.energy(&state.wheel, forces, velocity)
+            + self.rail.energy(&state.rail, &(-forces), [0.0; 3])
+            + self.kernel.energy(forces)
+    }
+}
+
+/// Mean rigid velocities (V, U̇, Ω) over a step.
+fn midway(state: &State, next: &State) -> [f64; 3] {
+    let mean = |a: &Sample, b: &Sample| 0.5 * (a.now + b.now);
+    [mean(&state.velocity, &next.velocity), 0.5 * (state.height.rate + next.height.rate), mean(&state.omega, &next.omega)]
+}
+
+/// Targets at a fraction of the communication step.
+fn interpolate(start: &Drive, end: &Drive, fraction: f64) -> Drive {
+    let mix = |a: f64, b: f64| if fraction == 1.0 { b } else { a + fraction * (b - a) };
+    Drive {
+        omega: mix(start.omega, end.omega),
+        moment: mix(start.moment, end.moment),
+        velocity: mix(start.velocity, end.velocity),
+        force: mix(start.force, end.force),
+        load: mix(start.load, end.load),
+        displacement: mix(start.displacement, end.displacement),
+        friction: mix(start.friction, end.friction),
+    }
+}
