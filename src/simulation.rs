@@ -26,9 +26,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 pub use crate::rolling::control::{INPUT_RANGES, InputError};
-pub use crate::rolling::{
-    Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical,
-};
+pub use crate::rolling::{Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical};
 
 /// Why a model could not be prepared.
 #[derive(Debug, thiserror::Error)]
@@ -65,7 +63,7 @@ impl Inputs {
 
 /// File name of the stored basis of a configuration, below a resource directory.
 pub fn basis_file_name(config: &Config) -> String {
-    format!("{}.bin", Basis::key(config))
+    format!("{}.bin", mechanics::basis::key(config))
 }
 
 impl Model {
@@ -85,13 +83,14 @@ impl Model {
                 let bytes = path.as_deref().and_then(|p| std::fs::read(p).ok());
                 match bytes {
                     Some(bytes) => {
-                        let basis = Basis::from_bytes(&bytes, &config)
+                        let basis = Basis::from_bytes(&bytes)
                             .map_err(|source| PrepareError::Basis { file: name.clone(), source })?;
                         (Some(basis), Some((name, bytes)))
                     }
                     None => {
                         let basis = Basis::compute(&config, progress)?;
-                        let bytes = basis.to_bytes();
+                        let bytes =
+                            basis.to_bytes().map_err(|source| PrepareError::Basis { file: name.clone(), source })?;
                         (Some(basis), Some((name, bytes)))
                     }
                 }

@@ -36,9 +36,8 @@ impl HalfPlanes {
         for j in 0..n {
             kernel.push(kernel[j] - 2.0 / (std::f64::consts::PI * modulus()) / (j as f64 + 0.5));
         }
-        let compliance = DMatrix::from_fn(n, n, |i, j| {
-            if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 }
-        });
+        let compliance =
+            DMatrix::from_fn(n, n, |i, j| if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 });
         let gap = (0..grid.len()).map(|i| grid.undeformed_gap(i)).collect();
         let none = [DMatrix::zeros(n, 3), DMatrix::zeros(3, n), DMatrix::zeros(3, 3)];
         let offset = vec![0.0; grid.len()];

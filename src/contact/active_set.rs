@@ -240,8 +240,7 @@ impl ContactProblem<'_> {
             let mut largest = 0.0f64;
             for (c, &i) in closed.iter().enumerate() {
                 let d = grid.dof(i);
-                let value = row.forces[d + 1]
-                    + solution.status[i].friction_direction() * self.friction * row.forces[d];
+                let value = row.forces[d + 1] + solution.status[i].friction_direction() * self.friction * row.forces[d];
                 system[(r, c)] = value;
                 largest = largest.max(value.abs());
             }
@@ -316,9 +315,8 @@ impl ContactProblem<'_> {
             let (u_c, u_p) = (&solution.wheel_surface, &solution.rail_surface);
             if solution.status[i].is_active() {
                 let (d_p, d_c) = (self.stretch(u_p, i, rows[i], to_right), self.stretch(u_c, i, rows[i], to_right));
-                solution.slip[i] = v * (1.0 + d_p) - v_c * (1.0 + d_c)
-                    + self.slip_gain * (u_c[d] - u_p[d])
-                    + self.slip_offset[i];
+                solution.slip[i] =
+                    v * (1.0 + d_p) - v_c * (1.0 + d_c) + self.slip_gain * (u_c[d] - u_p[d]) + self.slip_offset[i];
                 solution.gap[i] = 0.0;
             } else {
                 solution.slip[i] = 0.0;
@@ -371,8 +369,7 @@ impl ContactProblem<'_> {
         for (k, load) in loads.iter_mut().enumerate() {
             *load = self.slip_gain * self.wheel_loads[(d, k)];
         }
-        let mut constant =
-            self.slip_gain * (wheel_constant[d] - self.rail.free[d]) + self.slip_offset[i];
+        let mut constant = self.slip_gain * (wheel_constant[d] - self.rail.free[d]) + self.slip_offset[i];
         for (k, c) in row.stencil(to_right).iter().enumerate() {
             let at = (d as isize + k as isize * step) as usize;
             let c = c / grid.spacing;
@@ -480,4 +477,3 @@ impl ContactProblem<'_> {
         Ok(solution)
     }
 }
-

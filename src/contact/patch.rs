@@ -26,10 +26,8 @@ pub fn observe(grid: &ContactGrid, solution: &ContactSolution, friction: f64) ->
     let half_width = 0.5 * (right - left);
 
     let peak = normal.iter().cloned().fold(0.0, f64::max);
-    let samples: Vec<(f64, f64)> = (0..grid.len())
-        .filter(|&i| normal[i] > 0.3 * peak)
-        .map(|i| (grid.x[i] / h, (normal[i] / h).powi(2)))
-        .collect();
+    let samples: Vec<(f64, f64)> =
+        (0..grid.len()).filter(|&i| normal[i] > 0.3 * peak).map(|i| (grid.x[i] / h, (normal[i] / h).powi(2))).collect();
     let pressure_max = parabola_peak(&samples).map_or(peak / h, f64::sqrt);
 
     let length: f64 = runs.iter().map(|r| r.len() as f64).sum();
@@ -42,8 +40,7 @@ pub fn observe(grid: &ContactGrid, solution: &ContactSolution, friction: f64) ->
 fn stick_length(grid: &ContactGrid, solution: &ContactSolution, run: std::ops::Range<usize>, friction: f64) -> f64 {
     let stuck: Vec<usize> = run.clone().filter(|&i| solution.status[i] == Status::Stick).collect();
     let (Some(&low), Some(&high)) = (stuck.first(), stuck.last()) else { return 0.0 };
-    let margin =
-        |i: usize| (friction * solution.normal(grid, i) - solution.tangential(grid, i).abs()).max(0.0).powi(2);
+    let margin = |i: usize| (friction * solution.normal(grid, i) - solution.tangential(grid, i).abs()).max(0.0).powi(2);
     let beyond = |edge: usize, inward: isize| {
         let at_end = if inward < 0 { edge + 1 >= run.end } else { edge <= run.start };
         if at_end || high - low < 2 {

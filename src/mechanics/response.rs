@@ -14,8 +14,50 @@
 //! The rail has the same form with `V` in place of `Ω`, no rigid ports, no centrifugal load and the in/outflow (Robin)
 //! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on a known state (`convected`).
 
+use super::MechanicsError;
+use crate::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+
+/// A deformable body behind the contact; all quantities per metre of width.
+pub trait BodyResponse: Send + Sync {
+    /// Number of coordinates in a [`BodyState`] of this body.
+    fn state_len(&self) -> usize;
+
+    /// Answer to unit port loads when `ÿ = a0² y + …` (0: static).
+    fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError>;
+
+    /// The part of the answer known before the contact is solved.
+    ///
+    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms, evaluated with the
+    /// displacement and velocity of `convected`. `op` must come from this body with `a0 = td.a0`.
+    fn free(
+        &self,
+        op: &StepOperator,
+        state: &BodyState,
+        td: &TimeDerivative,
+        convection: Convection,
+        convected: &BodyState,
+    ) -> FreeResponse;
+
+    /// Accepts a step: solves for the new coordinates and advances `state`.
+    ///
+    /// `forces` are the nodal forces on this body (`2n`) [N/m], `rigid` the accelerations `V̇`, `Ü` [m/s²] and `Ω̇`
+    /// [rad/s²] (ignored by the rail).
+    fn commit(
+        &self,
+        op: &StepOperator,
+        free: &FreeResponse,
+        forces: &DVector<f64>,
+        rigid: [f64; 3],
+        td: &TimeDerivative,
+        state: &mut BodyState,
+    );
+
+    /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
+    /// velocities `w = (V, U̇, Ω)` [J/m]; `forces` feed the static part of a reduced body.
+    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
+}
 
 /// Linear multistep formula `d_t y = a0 y_{n+1} + a1 y_n + a2 y_{n−1} + b1 (d_t y)_n`; all zero: stationary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -30,6 +72,19 @@ impl TimeDerivative {
     /// The part of `d_t y` known before the step.
     pub fn offset(&self, now: f64, before: f64, rate: f64) -> f64 {
         self.a1 * now + self.a2 * before + self.b1 * rate
+    }
+
+    /// [`Self::offset`] of all coordinates.
+    pub fn offsets(&self, now: &DVector<f64>, before: &DVector<f64>, rate: &DVector<f64>) -> DVector<f64> {
+        let mut sum = now * self.a1;
+        sum.axpy(self.a2, before, 1.0);
+        sum.axpy(self.b1, rate, 1.0);
+        sum
+    }
+
+    /// No time derivative at all: every step is an equilibrium.
+    pub fn is_stationary(&self) -> bool {
+        *self == Self::default()
     }
 }
 
@@ -59,7 +114,40 @@ impl BodyState {
     /// The undeformed body at rest with `n` coordinates.
     pub fn zeros(n: usize) -> Self {
         let z = DVector::zeros(n);
-        Self { displacement: z.clone(), velocity: z.clone(), acceleration: z.clone(), displacement_before: z.clone(), velocity_before: z }
+        Self {
+            displacement: z.clone(),
+            velocity: z.clone(),
+            acceleration: z.clone(),
+            displacement_before: z.clone(),
+            velocity_before: z,
+        }
+    }
+
+    /// The part of `d_tt y` known before the step: `a0 h_v + h_a` with the offsets of velocity and acceleration.
+    pub fn acceleration_offsets(&self, td: &TimeDerivative) -> DVector<f64> {
+        let mut sum = td.offsets(&self.velocity, &self.velocity_before, &self.acceleration);
+        sum.axpy(td.a0, &td.offsets(&self.displacement, &self.displacement_before, &self.velocity), 1.0);
+        sum
+    }
+
+    /// Moves on to the displacement `new`; velocity and acceleration follow from `td`, the histories shift.
+    ///
+    /// Stationary: velocity and acceleration vanish and the history is the new displacement.
+    pub fn advance(&mut self, td: &TimeDerivative, new: DVector<f64>) {
+        let mut velocity = td.offsets(&self.displacement, &self.displacement_before, &self.velocity);
+        velocity.axpy(td.a0, &new, 1.0);
+        let mut acceleration = td.offsets(&self.velocity, &self.velocity_before, &self.acceleration);
+        acceleration.axpy(td.a0, &velocity, 1.0);
+        if td.is_stationary() {
+            self.displacement_before = new.clone();
+            self.velocity_before = velocity.clone();
+        } else {
+            self.displacement_before = std::mem::take(&mut self.displacement);
+            self.velocity_before = std::mem::take(&mut self.velocity);
+        }
+        self.displacement = new;
+        self.velocity = velocity;
+        self.acceleration = acceleration;
     }
 }
 
@@ -86,4 +174,22 @@ pub struct FreeResponse {
     pub momentum: [f64; 3],
     /// Right-hand side in the body's own coordinates, for `commit`.
     pub load: DVector<f64>,
+}
+
+/// How a step's equations `(a0² M + K) y = f` are solved.
+pub enum StepSolver {
+    /// `1/(a0² + Ω²)` of each mode.
+    Modal(DVector<f64>),
+    /// Sparse Cholesky factor.
+    Sparse(Cholesky),
+}
+
+impl StepSolver {
+    /// `f ← (a0² M + K)⁻¹ f`.
+    pub fn solve_in_place(&self, f: &mut DVector<f64>) {
+        match self {
+            Self::Modal(flexibility) => f.component_mul_assign(flexibility),
+            Self::Sparse(factor) => factor.solve_in_place(f.as_mut_slice()),
+        }
+    }
 }

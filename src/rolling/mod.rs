@@ -17,7 +17,7 @@ use crate::config::Config;
 use crate::contact::kernel::KernelCorrection;
 use crate::contact::{ContactError, ContactGrid};
 use crate::mechanics::response::{BodyResponse, StepOperator};
-use crate::mechanics::{self, Bodies, MechanicsError};
+use crate::mechanics::{self, MechanicsError, Pair};
 use std::sync::Arc;
 
 /// Why a step or a stationary state could not be computed; the state before it is kept.
@@ -71,11 +71,11 @@ const KEPT_OPERATORS: usize = 3;
 
 impl Model {
     /// Builds the model on given bodies.
-    pub fn new(config: Config, bodies: Bodies) -> Result<Self, MechanicsError> {
+    pub fn new(config: Config, bodies: Pair) -> Result<Self, MechanicsError> {
         let grid = ContactGrid {
-            x: bodies.candidate_x,
+            x: bodies.surface_x[bodies.candidates.clone()].to_vec(),
             spacing: bodies.spacing,
-            guard: bodies.guard,
+            guard: bodies.candidates.start,
             radius: config.wheel.radius,
         };
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);

@@ -11,7 +11,7 @@ use crate::mechanics::response::{BodyState, Convection, TimeDerivative};
 /// Passes that bring in convective terms and the accelerations of unbalanced forces.
 const MAX_PASSES: usize = 30;
 /// Relative change of the contact forces at which they are brought in.
-const TOLERANCE: f64 = 1e-11;
+const TOLERANCE: f64 = 1e-6;
 
 impl Model {
     /// Stationary state for inputs. Velocities that are not prescribed start from `initial.velocity` and
@@ -24,11 +24,8 @@ impl Model {
         let prescribed_x = inputs.translation == Translation::Velocity;
         let prescribed_r = inputs.rotation == Rotation::Velocity;
         let velocity = if prescribed_x { drive.velocity } else { initial.velocity };
-        let omega = if prescribed_r {
-            drive.omega
-        } else {
-            peripheral_velocity(velocity, initial.creepage) / self.grid.radius
-        };
+        let omega =
+            if prescribed_r { drive.omega } else { peripheral_velocity(velocity, initial.creepage) / self.grid.radius };
         let load = drive.load / width;
         if inputs.vertical == Vertical::Force && load <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
@@ -96,7 +93,7 @@ impl Model {
             }
             hub[1] = -force[1];
             let unsettled = (0..3).map(|k| (acceleration[k] - previous[k]).abs() * self.inertia[k]).fold(0.0, f64::max);
-            if change <= TOLERANCE * scale && unsettled <= 1e-9 * scale {
+            if change <= TOLERANCE * scale && unsettled <= TOLERANCE * scale {
                 break;
             }
             if pass + 1 == MAX_PASSES {

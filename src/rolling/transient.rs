@@ -136,8 +136,7 @@ impl Model {
             nominal_load: self.nominal_line_load(),
             edge_tolerance: 0.02,
         };
-        let contact =
-            problem.solve(&state.contact).map_err(|e| self.contact_failure(e, state.time, dt))?;
+        let contact = problem.solve(&state.contact).map_err(|e| self.contact_failure(e, state.time, dt))?;
 
         let mut next = state.clone();
         next.velocity.push(&td, contact.rigid[0]);
@@ -176,7 +175,8 @@ impl Model {
         let work = if one_step {
             dt * self.hub_power(&next.hub, &midway(state, &next))
         } else {
-            0.5 * dt * (self.hub_power(&state.hub, &midway(state, &next)) + self.hub_power(&next.hub, &midway(state, &next)))
+            0.5 * dt
+                * (self.hub_power(&state.hub, &midway(state, &next)) + self.hub_power(&next.hub, &midway(state, &next)))
         };
         next.audit.work += work;
         next.audit.throughput += work.abs();
@@ -224,7 +224,11 @@ impl Model {
 /// Mean rigid velocities (V, U̇, Ω) over a step.
 fn midway(state: &State, next: &State) -> [f64; 3] {
     let mean = |a: &Sample, b: &Sample| 0.5 * (a.now + b.now);
-    [mean(&state.velocity, &next.velocity), 0.5 * (state.height.rate + next.height.rate), mean(&state.omega, &next.omega)]
+    [
+        mean(&state.velocity, &next.velocity),
+        0.5 * (state.height.rate + next.height.rate),
+        mean(&state.omega, &next.omega),
+    ]
 }
 
 /// Targets at a fraction of the communication step.

@@ -1,0 +1,266 @@
+//! Streamline-aligned graded meshes: polar in the wheel, rectangular in the rail, fine at the contact.
+//!
+//! Surface nodes of both bodies lie at `x_i = i h` in and around the contact zone and are paired one to one. Away from
+//! it the cell size grows by a constant factor per cell.
+
+use super::{Face, FemError, Mesh};
+use std::f64::consts::PI;
+
+/// Half of the candidate zone in half-widths.
+const ZONE: f64 = 1.5;
+/// Surface nodes on each side beyond the candidates.
+pub const GUARDS: usize = 3;
+/// Growth of the cell size per cell away from the contact.
+
+/// Largest cell of the wheel along the circumference [rad].
+
+/// Largest cell in wheel radii, across the wheel's streamlines and in the rail.
+
+/// Cell size at the hub in hub radii, and its growth per cell outwards.
+
+/// Depth of the uniform layers below the contact in half-widths.
+
+/// Where the mesh is fine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactZone {
+    /// Half-width of the contact for which the mesh is laid out [m].
+    pub half_width: f64,
+    /// Elements per half-width.
+    pub elements: usize,
+}
+
+impl ContactZone {
+    /// Distance of surface nodes `h` [m].
+    pub fn spacing(&self) -> f64 {
+        self.half_width / self.elements.max(1) as f64
+    }
+
+    /// Number of candidate nodes, odd.
+    pub fn candidates(&self) -> usize {
+        2 * (ZONE * self.elements as f64).ceil() as usize + 1
+    }
+
+    /// x of candidates and guards, ascending, symmetric about zero [m].
+    pub fn surface_x(&self) -> Vec<f64> {
+        let half = (self.candidates() / 2 + GUARDS) as isize;
+        (-half..=half).map(|i| i as f64 * self.spacing()).collect()
+    }
+
+    /// Distance of the outermost surface node from the contact point [m].
+    fn reach(&self) -> f64 {
+        (self.candidates() / 2 + GUARDS) as f64 * self.spacing()
+    }
+
+    /// Depths of the uniform layers and the graded ones below them, 0 to `thickness` [m].
+    fn depths(&self, thickness: f64, mut grading: Grading) -> Vec<f64> {
+        let layers = (envf("UNIFORM_DEPTH", 0.5) * self.elements as f64).ceil() as usize;
+        let uniform = layers as f64 * self.spacing();
+        grading.first = self.spacing();
+        let mut depths: Vec<f64> = (0..layers).map(|i| i as f64 * self.spacing()).collect();
+        depths.extend(grading.positions(thickness - uniform).iter().map(|s| uniform + s));
+        depths
+    }
+
+    fn check(&self, limit: f64, what: &'static str) -> Result<(), FemError> {
+        positive(self.half_width, "contact half-width")?;
+        let zone = self.reach();
+        if zone > limit {
+            Err(FemError::ZoneTooLarge { zone, half_width: self.half_width, limit, what })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+fn positive(value: f64, what: &'static str) -> Result<(), FemError> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(FemError::BadLength { what, value }) }
+}
+
+/// Cell size along a line: `min(first·growth^k, largest, last·growth_last^k from the far end)`.
+#[derive(Clone, Copy, Debug)]
+struct Grading {
+    first: f64,
+    growth: f64,
+    largest: f64,
+    last: f64,
+    growth_last: f64,
+}
+
+impl Grading {
+    /// Growth from the start only.
+    fn one_sided(first: f64, largest: f64) -> Self {
+        Self { first, growth: envf("GROWTH", 1.2), largest, last: largest, growth_last: envf("GROWTH", 1.2) }
+    }
+
+    /// Nodes on `[0, length]`, both ends included.
+    ///
+    /// Equidistributes the cell count `∫ ds / h(s)` with `h` the minimum of `first + α s`, `largest` and
+    /// `last + β (length − s)`, α and β the logarithms of the growth factors; the ends are met exactly.
+    fn positions(&self, length: f64) -> Vec<f64> {
+        let (first, last) = (self.first.min(self.largest), self.last.min(self.largest));
+        let (alpha, beta, top) = (self.growth.ln(), self.growth_last.ln(), self.largest);
+        let crossing = (last + beta * length - first) / (alpha + beta);
+        let rising = ((top - first) / alpha).min(crossing).clamp(0.0, length);
+        let falling = (length - (top - last) / beta).max(crossing).clamp(rising, length);
+        let rise = (alpha * rising / first).ln_1p() / alpha;
+        let flat = (falling - rising) / top;
+        let fall = (beta * (length - falling) / last).ln_1p() / beta;
+        let total = rise + flat + fall;
+        let cells = (total - 1e-9).ceil().max(1.0);
+        let place = |k: f64| {
+            let t = total * k / cells;
+            if t <= rise {
+                first * (alpha * t).exp_m1() / alpha
+            } else if t <= rise + flat {
+                rising + (t - rise) * top
+            } else {
+                length - last * (beta * (total - t)).exp_m1() / beta
+            }
+        };
+        let cells = cells as usize;
+        (0..=cells)
+            .map(|k| {
+                if k == 0 {
+                    0.0
+                } else if k == cells {
+                    length
+                } else {
+                    place(k as f64)
+                }
+            })
+            .collect()
+    }
+}
+
+/// Annulus about the origin, contact point at the bottom `(0, −radius)`, inner circle fixed.
+pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, FemError> {
+    positive(hub_radius, "hub radius")?;
+    positive(radius - hub_radius, "radius − hub radius")?;
+    zone.check(0.25 * radius, "a quarter of the wheel radius")?;
+    let thickness = radius - hub_radius;
+    zone.check(2.0 * thickness, "twice the depth of the wheel's rim")?;
+    let surface_x = zone.surface_x();
+    let mut angles: Vec<f64> = surface_x.iter().map(|x| (x / radius).asin()).collect();
+    let edge = (zone.reach() / radius).asin();
+    let side = Grading::one_sided(zone.spacing() / radius, envf("LARGEST_ANGLE", 0.06)).positions(PI - edge);
+    angles.extend(side.iter().skip(1).map(|s| edge + s));
+    angles.extend(side.iter().rev().skip(1).take(side.len() - 2).map(|s| -edge - s));
+    let largest = (envf("LARGEST", 0.05) * radius).min(0.25 * thickness);
+    let last = (envf("HUB", 0.04) * hub_radius).min(thickness / 12.0);
+    let grading =
+        Grading { last, growth_last: envf("HUB_GROWTH", 1.06), ..Grading::one_sided(zone.spacing(), largest) };
+    let depths = zone.depths(thickness, grading);
+    let (rows, around) = (depths.len(), angles.len());
+    let mut mesh = Mesh::default();
+    for depth in &depths {
+        let r = radius - depth;
+        // The rim's surface nodes get their x exactly.
+        mesh.nodes.extend(angles.iter().enumerate().map(|(j, angle)| match surface_x.get(j) {
+            Some(&x) if *depth == 0.0 => [x, -(radius * radius - x * x).sqrt()],
+            _ => [r * angle.sin(), -r * angle.cos()],
+        }));
+    }
+    for i in 0..rows - 1 {
+        for j in 0..around {
+            let next = (j + 1) % around;
+            mesh.cells.push([i * around + j, i * around + next, (i + 1) * around + next, (i + 1) * around + j]);
+        }
+    }
+    mesh.surface = (0..surface_x.len()).collect();
+    mesh.fixed = ((rows - 1) * around..rows * around).collect();
+    Ok(mesh)
+}
+
+/// Rectangle `|x| ≤ length/2`, `−height ≤ y ≤ 0` with the contact point at the origin, base fixed, free ends.
+///
+/// `largest` bounds the cell size [m].
+pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<Mesh, FemError> {
+    positive(length, "rail length")?;
+    positive(height, "rail height")?;
+    positive(largest, "largest cell")?;
+    zone.check(0.45 * length, "0.45 rail lengths")?;
+    zone.check(2.0 * height, "twice the rail height")?;
+    let surface_x = zone.surface_x();
+    let edge = zone.reach();
+    let side = Grading::one_sided(zone.spacing(), largest.min(0.25 * length)).positions(0.5 * length - edge);
+    let mut xs: Vec<f64> = side.iter().rev().take(side.len() - 1).map(|s| -edge - s).collect();
+    let first = xs.len();
+    xs.extend(&surface_x);
+    xs.extend(side.iter().skip(1).map(|s| edge + s));
+    let depths = zone.depths(height, Grading::one_sided(zone.spacing(), largest.min(0.25 * height)));
+    let (rows, along) = (depths.len(), xs.len());
+    let mut mesh = Mesh::default();
+    for depth in &depths {
+        mesh.nodes.extend(xs.iter().map(|x| [*x, -depth]));
+    }
+    for i in 0..rows - 1 {
+        for j in 0..along - 1 {
+            let cell = mesh.cells.len();
+            // Counter-clockwise from the lower left corner.
+            let (above, below) = (i * along + j, (i + 1) * along + j);
+            mesh.cells.push([below, below + 1, above + 1, above]);
+            if j == 0 {
+                mesh.ends.push(Face { cell, edge: 3 });
+            }
+            if j == along - 2 {
+                mesh.ends.push(Face { cell, edge: 1 });
+            }
+        }
+    }
+    mesh.surface = (first..first + surface_x.len()).collect();
+    mesh.fixed = ((rows - 1) * along..rows * along).collect();
+    Ok(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::element;
+
+    fn area(mesh: &Mesh) -> f64 {
+        (0..mesh.cells.len()).flat_map(|c| element::points(&mesh.corners(c)).unwrap()).map(|p| p.dv).sum()
+    }
+
+    #[test]
+    fn grading_meets_both_ends_and_grows_by_the_given_factor() {
+        let grading = Grading { last: 0.01, growth_last: 1.1, ..Grading::one_sided(1e-4, 0.05) };
+        let s = grading.positions(1.0);
+        let h: Vec<f64> = s.windows(2).map(|w| w[1] - w[0]).collect();
+        assert_eq!((s[0], s[s.len() - 1]), (0.0, 1.0));
+        assert!(h[0] < 1.1e-4 && h[h.len() - 1] < 0.0105 && h.iter().all(|h| *h > 0.0 && *h <= 0.05));
+        assert!(h.windows(2).all(|w| w[1] / w[0] < envf("GROWTH", 1.2) + 1e-6 && w[0] / w[1] < 1.1 + 1e-6));
+        assert_eq!(Grading::one_sided(2.0, 3.0).positions(1.0), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn surface_nodes_of_both_bodies_are_paired() {
+        let zone = ContactZone { half_width: 7.6e-4, elements: 20 };
+        let (w, r) = (wheel(0.5, 0.05, zone).unwrap(), rail(1.0, 0.1, 0.025, zone).unwrap());
+        assert_eq!((zone.candidates(), w.surface.len()), (61, 67));
+        assert_eq!(w.surface_x(), r.surface_x());
+        assert!(w.surface_x().windows(2).all(|x| (x[1] - x[0] - zone.spacing()).abs() < 1e-15));
+        let on_rim = |&n: &usize| (w.nodes[n][0].hypot(w.nodes[n][1]) - 0.5).abs() < 1e-14 && w.nodes[n][1] < 0.0;
+        assert!(w.surface.iter().all(on_rim) && r.surface.iter().all(|&n| r.nodes[n][1] == 0.0));
+        assert!((area(&r) - 0.1).abs() < 1e-14);
+        let ends: f64 = r
+            .ends
+            .iter()
+            .map(|f| element::edge_points(&r.corners(f.cell), f.edge).unwrap())
+            .flatten()
+            .map(|p| p.normal[0].abs())
+            .sum();
+        assert!((ends - 0.2).abs() < 1e-14);
+    }
+
+    #[test]
+    fn oversized_contact_zones_are_refused() {
+        let zone = ContactZone { half_width: 0.2, elements: 8 };
+        assert!(matches!(wheel(0.5, 0.05, zone), Err(FemError::ZoneTooLarge { .. })));
+        assert!(matches!(rail(0.5, 0.05, 0.1, zone), Err(FemError::ZoneTooLarge { .. })));
+        assert!(matches!(wheel(0.5, 0.6, zone), Err(FemError::BadLength { .. })));
+    }
+}
+
+fn envf(n: &str, d: f64) -> f64 {
+    std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d)
+}

@@ -1,0 +1,35 @@
+//! Quadrilateral mesh with named sets.
+
+/// A mesh of quadrilaterals.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Coordinates [m].
+    pub nodes: Vec<[f64; 2]>,
+    /// Corner nodes, counter-clockwise.
+    pub cells: Vec<[usize; 4]>,
+    /// Nodes that can touch the other body (candidates and guards), x ascending.
+    pub surface: Vec<usize>,
+    /// Nodes that do not move relative to the body's rigid frame (hub or base).
+    pub fixed: Vec<usize>,
+    /// Free faces through which material streams in or out.
+    pub ends: Vec<Face>,
+}
+
+/// Edge `edge` of a cell, from corner `edge` to corner `edge + 1`; its outward normal lies to the right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Face {
+    pub cell: usize,
+    pub edge: usize,
+}
+
+impl Mesh {
+    /// Corner coordinates of a cell.
+    pub fn corners(&self, cell: usize) -> [[f64; 2]; 4] {
+        self.cells[cell].map(|node| self.nodes[node])
+    }
+
+    /// x of the surface nodes [m].
+    pub fn surface_x(&self) -> Vec<f64> {
+        self.surface.iter().map(|&node| self.nodes[node][0]).collect()
+    }
+}

@@ -1,0 +1,310 @@
+//! Lowest modes of `K φ = Ω² M φ` by a block Lanczos iteration with shift-invert.
+//!
+//! The operator `T = K⁻¹ M` is self-adjoint in the inner product of `M`; its largest eigenvalues are `1/Ω²`. A Krylov
+//! space of blocks is built with full reorthogonalisation (Golub & Van Loan, *Matrix Computations*, 4th ed., 10.3.6),
+//! followed by one inverse iteration and a Rayleigh–Ritz projection on the pencil itself.
+
+use super::{Cholesky, CsrMatrix, LinalgError};
+use faer::{Mat, MatRef, Side};
+use nalgebra::{DMatrix, DVector};
+
+/// Vectors added to the Krylov space at a time.
+const BLOCK: usize = 8;
+/// Accepted residual `‖T φ − θ φ‖_M / θ` before the final inverse iteration.
+const TOLERANCE: f64 = 1e-9;
+
+/// Modes `Φᵀ M Φ = 1`, `Φᵀ K Φ = diag(Ω²)`, ascending.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// Squared natural frequencies `Ω²` [rad²/s²].
+    pub squared_frequencies: DVector<f64>,
+    /// One mode per column.
+    pub shapes: DMatrix<f64>,
+}
+
+/// The `count` lowest modes; `factor` is the Cholesky factor of `stiffness`.
+///
+/// Start vectors are fixed and every mode has a positive product with a fixed vector, so that the result is
+/// reproducible. `progress` receives the share of the work done, 0 to 1.
+pub fn lowest_modes(
+    stiffness: &CsrMatrix,
+    factor: &Cholesky,
+    mass: &CsrMatrix,
+    count: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Modes, LinalgError> {
+    let n = factor.size();
+    if count > n {
+        return Err(LinalgError::TooManyModes { wanted: count, size: n });
+    }
+    if mass.rows() != n || stiffness.rows() != n {
+        return Err(LinalgError::SizeMismatch { left: n, right: mass.rows() });
+    }
+    let mut ritz = krylov(factor, mass, count, progress)?;
+    // One inverse iteration removes rough error, which K would magnify.
+    apply_mass(mass, &mut ritz);
+    solve(factor, &mut ritz);
+    let (squared_frequencies, mut shapes) = rayleigh_ritz(stiffness, mass, &ritz)?;
+    let mut reference = DMatrix::from_column_slice(n, 1, &noise(n, 0));
+    reference = mass.multiply_columns(&reference);
+    for mut shape in shapes.column_iter_mut() {
+        if shape.dot(&reference.column(0)) < 0.0 {
+            shape.neg_mut();
+        }
+    }
+    progress(1.0);
+    Ok(Modes { squared_frequencies, shapes })
+}
+
+/// `count` Ritz vectors of `T` with residuals below [`TOLERANCE`], largest eigenvalue first.
+fn krylov(
+    factor: &Cholesky,
+    mass: &CsrMatrix,
+    count: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Mat<f64>, LinalgError> {
+    let n = factor.size();
+    let limit = (6 * count + 60).min(n);
+    let mut next_check = (2 * count + 2 * BLOCK).min(limit);
+    let mut basis = Mat::<f64>::zeros(n, limit + BLOCK);
+    let mut projected = DMatrix::<f64>::zeros(limit + BLOCK, limit + BLOCK);
+    let (mut block, _) = orthonormalise(mass, &basis, 0, start_block(factor, mass, 0));
+    let (mut size, mut restarts) = (0, 0);
+    loop {
+        let width = block.ncols().min(limit - size);
+        let columns = size..size + width;
+        basis.subcols_mut(size, width).copy_from(block.subcols(0, width));
+        size += width;
+        let mut image = block.subcols(0, width).to_owned();
+        apply_mass(mass, &mut image);
+        solve(factor, &mut image);
+        let (next, coefficients) = orthonormalise(mass, &basis, size, image);
+        for (j, column) in columns.clone().enumerate() {
+            for i in 0..size + next.ncols() {
+                projected[(i, column)] = coefficients[(i, j)];
+            }
+        }
+        progress(0.9 * (size as f64 / (2.5 * count as f64 + 20.0)).min(1.0));
+        let exhausted = next.ncols() == 0;
+        if size >= next_check || size == limit || (exhausted && size >= count) {
+            next_check = (size + 3 * BLOCK).min(limit);
+            let (vectors, residuals) = ritz_pairs(&projected, size, width, next.ncols())?;
+            let kept = count.min(size);
+            let converged = residuals.iter().take(kept).take_while(|r| **r <= TOLERANCE).count();
+            if converged == count {
+                return Ok(basis.subcols(0, size) * vectors.subcols(0, count));
+            }
+            if size == limit {
+                let residual = residuals.get(converged).copied().unwrap_or(f64::NAN);
+                return Err(LinalgError::ModesNotConverged { wanted: count, converged, space: size, residual });
+            }
+        }
+        block = next;
+        while block.ncols() == 0 && restarts < limit {
+            restarts += 1;
+            block = orthonormalise(mass, &basis, size, start_block(factor, mass, restarts)).0;
+        }
+        if block.ncols() == 0 {
+            let residual = f64::NAN;
+            return Err(LinalgError::ModesNotConverged { wanted: count, converged: 0, space: size, residual });
+        }
+    }
+}
+
+/// Eigenvectors of the projected operator, largest eigenvalue first, and the relative residuals of the Ritz pairs.
+fn ritz_pairs(
+    projected: &DMatrix<f64>,
+    size: usize,
+    last: usize,
+    next: usize,
+) -> Result<(Mat<f64>, Vec<f64>), LinalgError> {
+    let symmetric = Mat::from_fn(size, size, |i, j| if i <= j { projected[(i, j)] } else { projected[(j, i)] });
+    let (values, vectors) = dense_eigen(&symmetric)?;
+    let reversed = Mat::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]);
+    let residuals = (0..size)
+        .map(|k| {
+            let squared: f64 = (0..next)
+                .map(|i| {
+                    let row = size + i;
+                    (size - last..size).map(|j| projected[(row, j)] * reversed[(j, k)]).sum::<f64>().powi(2)
+                })
+                .sum();
+            squared.sqrt() / values[size - 1 - k].abs().max(f64::MIN_POSITIVE)
+        })
+        .collect();
+    Ok((reversed, residuals))
+}
+
+/// Rayleigh–Ritz projection of the pencil `(K, M)` on the columns of `x`: ascending `Ω²` and `M`-orthonormal modes.
+fn rayleigh_ritz(
+    stiffness: &CsrMatrix,
+    mass: &CsrMatrix,
+    x: &Mat<f64>,
+) -> Result<(DVector<f64>, DMatrix<f64>), LinalgError> {
+    let mut mx = x.clone();
+    apply_mass(mass, &mut mx);
+    let mut kx = x.clone();
+    apply_mass(stiffness, &mut kx);
+    let m = x.ncols();
+    let gram = x.transpose() * &mx;
+    // Whitening of the (nearly diagonal) Gram matrix, after scaling by its diagonal.
+    let scale: Vec<f64> = (0..m).map(|i| gram[(i, i)].sqrt().recip()).collect();
+    let (values, vectors) =
+        dense_eigen(&Mat::from_fn(m, m, |i, j| 0.5 * (gram[(i, j)] + gram[(j, i)]) * scale[i] * scale[j]))?;
+    let whitening = Mat::from_fn(m, m, |i, j| scale[i] * vectors[(i, j)] / values[j].sqrt());
+    let h = whitening.transpose() * (x.transpose() * &kx) * &whitening;
+    let (squared, rotation) = dense_eigen(&Mat::from_fn(m, m, |i, j| 0.5 * (h[(i, j)] + h[(j, i)])))?;
+    let shapes = x * (whitening * rotation);
+    let shapes = DMatrix::from_fn(x.nrows(), m, |i, j| shapes[(i, j)]);
+    Ok((DVector::from_vec(squared), shapes))
+}
+
+/// Eigenvalues (ascending) and eigenvectors of a dense symmetric matrix.
+fn dense_eigen(a: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
+    let size = a.nrows();
+    let eigen = a.self_adjoint_eigen(Side::Lower).map_err(|e| LinalgError::Eigen { size, reason: format!("{e:?}") })?;
+    let diagonal = eigen.S();
+    Ok(((0..size).map(|i| diagonal[i]).collect(), eigen.U().to_owned()))
+}
+
+/// Two passes of block Gram–Schmidt against the first `size` columns of `basis`, then within the block.
+///
+/// Returns the new `M`-orthonormal vectors (fewer if dependent) and the coefficients of `w` in old and new vectors.
+fn orthonormalise(mass: &CsrMatrix, basis: &Mat<f64>, size: usize, mut w: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+    let (n, width) = (w.nrows(), w.ncols());
+    let mut coefficients = Mat::<f64>::zeros(size + width, width);
+    let before = column_norms(mass, &w);
+    let old = basis.subcols(0, size);
+    for _ in 0..2 {
+        if size > 0 {
+            let mut mw = w.clone();
+            apply_mass(mass, &mut mw);
+            let h = old.transpose() * &mw;
+            w -= old * &h;
+            for j in 0..width {
+                for i in 0..size {
+                    coefficients[(i, j)] += h[(i, j)];
+                }
+            }
+        }
+    }
+    let mut kept: Vec<Vec<f64>> = Vec::with_capacity(width);
+    let mut kept_mass: Vec<Vec<f64>> = Vec::with_capacity(width);
+    let mut mv = vec![0.0; n];
+    for j in 0..width {
+        let mut v: Vec<f64> = w.col(j).iter().copied().collect();
+        for _ in 0..2 {
+            for (i, (u, mu)) in kept.iter().zip(&kept_mass).enumerate() {
+                let h = dot(mu, &v);
+                v.iter_mut().zip(u).for_each(|(a, b)| *a -= h * b);
+                coefficients[(size + i, j)] += h;
+            }
+        }
+        mass.multiply(&v, &mut mv);
+        let norm = dot(&v, &mv).max(0.0).sqrt();
+        if norm > 1e-12 * before[j] && norm > 0.0 {
+            coefficients[(size + kept.len(), j)] = norm;
+            v.iter_mut().for_each(|a| *a /= norm);
+            kept_mass.push(mv.iter().map(|a| a / norm).collect());
+            kept.push(v);
+        }
+    }
+    let next = Mat::from_fn(n, kept.len(), |i, j| kept[j][i]);
+    (next, coefficients)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn column_norms(mass: &CsrMatrix, w: &Mat<f64>) -> Vec<f64> {
+    let mut mw = w.clone();
+    apply_mass(mass, &mut mw);
+    (0..w.ncols()).map(|j| (w.col(j).transpose() * mw.col(j)).max(0.0).sqrt()).collect()
+}
+
+/// `X ← A X`.
+fn apply_mass(a: &CsrMatrix, x: &mut Mat<f64>) {
+    let mut y = vec![0.0; a.rows()];
+    for j in 0..x.ncols() {
+        let column: Vec<f64> = x.col(j).iter().copied().collect();
+        a.multiply(&column, &mut y);
+        x.col_mut(j).iter_mut().zip(&y).for_each(|(target, value)| *target = *value);
+    }
+}
+
+/// `X ← A⁻¹ X`.
+fn solve(factor: &Cholesky, x: &mut Mat<f64>) {
+    let (n, width) = (x.nrows(), x.ncols());
+    let mut columns: Vec<f64> = Vec::with_capacity(n * width);
+    for j in 0..width {
+        columns.extend(x.col(j).iter());
+    }
+    factor.solve_in_place(&mut columns);
+    x.copy_from(MatRef::from_column_major_slice(&columns, n, width));
+}
+
+/// Smoothed pseudo-random start vectors, the same in every run.
+fn start_block(factor: &Cholesky, mass: &CsrMatrix, seed: usize) -> Mat<f64> {
+    let n = factor.size();
+    let width = BLOCK.min(n);
+    let columns: Vec<Vec<f64>> = (0..width).map(|j| noise(n, seed * BLOCK + j + 1)).collect();
+    let mut block = Mat::from_fn(n, width, |i, j| columns[j][i]);
+    apply_mass(mass, &mut block);
+    solve(factor, &mut block);
+    block
+}
+
+/// Uniform pseudo-random numbers in (−1, 1) (linear congruential generator of Knuth's MMIX).
+fn noise(n: usize, seed: usize) -> Vec<f64> {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(seed as u64 + 1);
+    (0..n)
+        .map(|_| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Fixed string of `n` unit masses and unit springs.
+    fn chain(n: usize) -> (CsrMatrix, CsrMatrix) {
+        let (mut k, mut m) = (Vec::new(), Vec::new());
+        for i in 0..n {
+            k.push((i, i, 2.0));
+            m.push((i, i, 1.0));
+            if i > 0 {
+                k.push((i, i - 1, -1.0));
+                k.push((i - 1, i, -1.0));
+            }
+        }
+        (CsrMatrix::from_triplets(n, n, &k).unwrap(), CsrMatrix::from_triplets(n, n, &m).unwrap())
+    }
+
+    #[test]
+    fn chain_frequencies_are_two_sine_of_half_the_wave_number() {
+        let n = 400;
+        let (k, m) = chain(n);
+        let modes = lowest_modes(&k, &Cholesky::new(&k).unwrap(), &m, 20, &mut |_| {}).unwrap();
+        for (i, value) in modes.squared_frequencies.iter().enumerate() {
+            let exact = 4.0 * ((i + 1) as f64 * PI / (2.0 * (n + 1) as f64)).sin().powi(2);
+            assert!((value / exact - 1.0).abs() < 1e-11, "mode {i}: {value} against {exact}");
+        }
+        let identity = modes.shapes.transpose() * m.multiply_columns(&modes.shapes);
+        assert!((identity - DMatrix::identity(20, 20)).amax() < 1e-12);
+    }
+
+    #[test]
+    fn all_modes_of_a_small_system_and_no_more() {
+        let (k, m) = chain(12);
+        let factor = Cholesky::new(&k).unwrap();
+        let modes = lowest_modes(&k, &factor, &m, 12, &mut |_| {}).unwrap();
+        assert!((modes.squared_frequencies.sum() - 24.0).abs() < 1e-10);
+        let refused = lowest_modes(&k, &factor, &m, 13, &mut |_| {});
+        assert_eq!(refused.err(), Some(LinalgError::TooManyModes { wanted: 13, size: 12 }));
+    }
+}

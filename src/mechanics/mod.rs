@@ -1,0 +1,127 @@
+//! Deformation of wheel and rail: elasticity, inertia and convection in the streaming frame, per metre of width.
+
+pub mod ale;
+pub mod basis;
+pub mod elasticity;
+pub mod full;
+pub mod reduced;
+pub mod response;
+pub mod system;
+#[cfg(test)]
+pub mod testing;
+
+pub use basis::{Basis, BasisError};
+pub use full::FullBody;
+pub use reduced::{ReducedBasis, ReducedBody};
+pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, TimeDerivative};
+pub use system::BodySystem;
+
+use crate::config::{Config, Response};
+use crate::fem::graded::GUARDS;
+use crate::fem::{self, ContactZone, FemError, Mesh};
+use crate::linalg::LinalgError;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// The deformable bodies cannot be set up or factorised.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MechanicsError {
+    #[error(transparent)]
+    Fem(#[from] FemError),
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+}
+
+/// Both bodies behind their common interface, and the contact grid they share.
+pub struct Pair {
+    pub wheel: Box<dyn BodyResponse>,
+    pub rail: Box<dyn BodyResponse>,
+    /// x of the paired surface nodes, ascending [m].
+    pub surface_x: Vec<f64>,
+    /// Their distance [m].
+    pub spacing: f64,
+    /// Surface nodes that can carry contact; the others are guards.
+    pub candidates: Range<usize>,
+}
+
+/// Builds the bodies the configuration asks for.
+///
+/// A `basis` with the right key is used, otherwise one is computed; the full response needs none.
+/// `progress` receives the activity and the share of it done, 0 to 1.
+pub fn bodies(
+    config: &Config,
+    basis: Option<Basis>,
+    progress: &mut dyn FnMut(&str, f64),
+) -> Result<Pair, MechanicsError> {
+    let zone = contact_zone(config);
+    let centrifugal = config.physics.centrifugal;
+    let (wheel, rail): (Box<dyn BodyResponse>, Box<dyn BodyResponse>) = match config.solver.response {
+        Response::Reduced => {
+            let basis = match basis.filter(|b| b.key == basis::key(config)) {
+                Some(basis) => basis,
+                None => Basis::compute(config, progress)?,
+            };
+            (
+                Box::new(ReducedBody { basis: basis.wheel, centrifugal }),
+                Box::new(ReducedBody { basis: basis.rail, centrifugal: false }),
+            )
+        }
+        Response::Full => {
+            progress("assembling the wheel", 0.0);
+            let wheel = FullBody::new(wheel_system(config)?, centrifugal)?;
+            progress("assembling the rail", 0.5);
+            let rail = FullBody::new(rail_system(config)?, false)?;
+            progress("assembling the rail", 1.0);
+            (Box::new(wheel), Box::new(rail))
+        }
+    };
+    let surface_x = zone.surface_x();
+    let candidates = GUARDS..surface_x.len() - GUARDS;
+    Ok(Pair { wheel, rail, surface_x, spacing: zone.spacing(), candidates })
+}
+
+/// Half-width `a = √(4 P R / (π E*))` [m] of the Hertzian line contact of a cylinder on a plane of the same material.
+///
+/// `P` nominal load per metre of width, `1/E* = 2 (1 − ν²)/E`. Source: Johnson, *Contact Mechanics* (1985), eq. 4.43.
+pub fn nominal_half_width(config: &Config) -> f64 {
+    let nu = config.material.poissons_ratio;
+    let contact_modulus = 0.5 * config.material.youngs_modulus / (1.0 - nu * nu);
+    let load = config.model.nominal_load / config.model.contact_width;
+    (4.0 * load * config.wheel.radius / (PI * contact_modulus)).sqrt()
+}
+
+/// Fine zone of the meshes for the nominal load.
+pub fn contact_zone(config: &Config) -> ContactZone {
+    ContactZone { half_width: nominal_half_width(config), elements: config.mesh.elements_per_half_width }
+}
+
+/// Mass of the wheel `ρ π (r_o² − r_i²)` [kg/m], exact for the circle.
+pub fn wheel_mass(config: &Config) -> f64 {
+    let (outer, inner) = (config.wheel.radius, config.wheel.hub_radius);
+    config.material.density * PI * (outer * outer - inner * inner)
+}
+
+/// Polar moment of inertia of the wheel `½ ρ π (r_o⁴ − r_i⁴)` [kg m²/m], exact for the circle.
+pub fn wheel_inertia(config: &Config) -> f64 {
+    0.5 * config.material.density * PI * (config.wheel.radius.powi(4) - config.wheel.hub_radius.powi(4))
+}
+
+/// Mesh of the wheel.
+pub fn wheel_mesh(config: &Config) -> Result<Mesh, FemError> {
+    fem::graded::wheel(config.wheel.radius, config.wheel.hub_radius, contact_zone(config))
+}
+
+/// Mesh of the rail; its largest cells are those of the wheel.
+pub fn rail_mesh(config: &Config) -> Result<Mesh, FemError> {
+    fem::graded::rail(config.rail.length, config.rail.height, 0.05 * config.wheel.radius, contact_zone(config))
+}
+
+/// Finite-element matrices of the wheel.
+pub fn wheel_system(config: &Config) -> Result<BodySystem, FemError> {
+    BodySystem::assemble(&wheel_mesh(config)?, &config.material, ale::Stream::Rotation)
+}
+
+/// Finite-element matrices of the rail.
+pub fn rail_system(config: &Config) -> Result<BodySystem, FemError> {
+    BodySystem::assemble(&rail_mesh(config)?, &config.material, ale::Stream::Translation)
+}

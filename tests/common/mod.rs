@@ -1,0 +1,66 @@
+//! Models for the physics tests; reduced bases are kept under `target/basis`, so that each is computed once.
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use wheelrail::config::Config;
+use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
+
+pub const KMH: f64 = 1.0 / 3.6;
+
+/// A shipped preset with another mesh density.
+pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(format!("{name}.json"));
+    let mut config: Config = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    config.mesh.elements_per_half_width = elements_per_half_width;
+    config
+}
+
+/// The prepared model of a configuration.
+pub fn model(config: Config) -> Arc<Model> {
+    let directory: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("target").join("basis");
+    let model = Model::prepare(config, Some(&directory), &mut |_, _| {}).unwrap();
+    if let Some((name, bytes)) = model.basis_file() {
+        let path = directory.join(name);
+        if !path.exists() {
+            std::fs::create_dir_all(&directory).unwrap();
+            let unique = directory.join(format!("{name}.{}-{:?}", std::process::id(), std::thread::current().id()));
+            std::fs::write(&unique, bytes).unwrap();
+            std::fs::rename(&unique, &path).unwrap();
+        }
+    }
+    model
+}
+
+/// Inputs that prescribe velocity and creepage under the nominal load.
+pub fn prescribed(model: &Model, velocity: f64, creepage: f64) -> Inputs {
+    let mut config = model.config().clone();
+    config.initial.velocity = velocity;
+    config.initial.creepage = creepage;
+    let mut inputs = Inputs::rolling(&config);
+    inputs.rotation = Rotation::Velocity;
+    inputs.translation = Translation::Velocity;
+    inputs
+}
+
+/// Peripheral velocity over radius for a velocity and a creepage [rad/s].
+pub fn omega(model: &Model, velocity: f64, creepage: f64) -> f64 {
+    velocity * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage) / model.config().wheel.radius
+}
+
+/// Tangential force over its limit in stationary rolling.
+pub fn stationary_utilisation(model: &Arc<Model>, inputs: &Inputs) -> f64 {
+    let simulation = Simulation::new(model.clone(), inputs).unwrap();
+    signed_utilisation(&simulation, inputs.drive.friction)
+}
+
+/// `F_x/(μ F_y)`, traction positive.
+pub fn signed_utilisation(simulation: &Simulation, friction: f64) -> f64 {
+    let outputs = simulation.outputs();
+    outputs.contact_force_x / (friction * outputs.contact_force_y)
+}
+
+/// Smallest and largest value.
+pub fn range(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::MAX, f64::MIN), |(low, high), &v| (low.min(v), high.max(v)))
+}

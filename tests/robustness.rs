@@ -1,0 +1,198 @@
+//! Every state a train can bring about is an ordinary state: random starts, lift-off, standstill, reversal, bad input.
+
+mod common;
+use common::*;
+use proptest::prelude::RngCore;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+use wheelrail::simulation::{Inputs, Rotation, Simulation, StepError, Translation, Vertical};
+
+/// Uniform numbers from a fixed seed.
+struct Random(TestRng);
+
+impl Random {
+    fn new() -> Self {
+        Self(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+
+    fn sign(&mut self) -> f64 {
+        if self.0.next_u64() & 1 == 0 { 1.0 } else { -1.0 }
+    }
+}
+
+#[test]
+fn a_thousand_random_starts_converge_without_shortening_a_step() {
+    let model = model(preset("paper_d", 20));
+    let mut random = Random::new();
+    let mut simulation = Simulation::new(model.clone(), &prescribed(&model, 10.0, 0.0)).unwrap();
+    let (mut worst, mut total) = (0, 0);
+    for case in 0..1000 {
+        let draw = |random: &mut Random| {
+            let velocity = random.sign() * random.logarithmic(1e-3, 80.0);
+            let creepage = random.sign() * random.logarithmic(1e-6, 1.9);
+            let mut inputs = prescribed(&model, velocity, creepage);
+            inputs.drive.load *= random.between(0.02, 1.9);
+            inputs.drive.friction = random.between(0.02, 0.8);
+            inputs
+        };
+        // A stationary state as prior state, then one step of any length to something quite different.
+        let prior = draw(&mut random);
+        simulation.restart(&prior).unwrap_or_else(|e| panic!("case {case}: {e}\n{prior:?}"));
+        let next = draw(&mut random);
+        let step = random.logarithmic(1e-6, 0.1);
+        simulation.advance(&next, step).unwrap_or_else(|e| panic!("case {case}: {e}\n{prior:?}\n{next:?}, {step:e} s"));
+        let outputs = simulation.outputs();
+        assert_eq!(outputs.internal_steps, 1, "case {case}: {prior:?}\n{next:?}, {step:e} s");
+        worst = worst.max(outputs.iterations);
+        total += outputs.iterations;
+    }
+    println!("iterations: mean {:.2}, worst {worst}", total as f64 / 1000.0);
+    assert!(worst <= 40);
+}
+
+#[test]
+fn wheel_starts_from_rest_under_a_driving_force() {
+    let mut config = preset("railway", 10);
+    config.initial.velocity = 0.0;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    assert_eq!(simulation.outputs().contact_creepage, 0.0);
+    inputs.drive.force = 5000.0;
+    for _ in 0..500 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let outputs = simulation.outputs();
+    let config = model.config();
+    let wheel_mass = config.material.density
+        * std::f64::consts::PI
+        * (config.wheel.radius.powi(2) - config.wheel.hub_radius.powi(2))
+        * config.model.contact_width;
+    let inertia =
+        config.wheel.hub_inertia + 0.5 * wheel_mass * (config.wheel.radius.powi(2) + config.wheel.hub_radius.powi(2));
+    let mass = wheel_mass + config.wheel.hub_mass + config.vehicle.mass + inertia / config.wheel.radius.powi(2);
+    println!("{} m/s against rigid rolling {}", outputs.wheel_velocity, 5000.0 / mass * 0.5);
+    assert!((outputs.wheel_velocity / (5000.0 / mass * 0.5) - 1.0).abs() < 0.01);
+    assert!(outputs.contact_creepage.abs() < 1e-3);
+}
+
+#[test]
+fn wheel_lifts_off_falls_back_and_carries_the_load_again() {
+    let model = model(preset("railway", 10));
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.vertical = Vertical::Displacement;
+    inputs.drive.displacement = 1e-4;
+    let mut simulation = Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap();
+    for _ in 0..20 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    assert_eq!(simulation.outputs().contact_force_y, 0.0);
+    assert_eq!(simulation.outputs().contact_half_width, 0.0);
+    inputs.vertical = Vertical::Force;
+    let mut largest = 0.0f64;
+    for _ in 0..400 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+        largest = largest.max(simulation.outputs().contact_force_y);
+    }
+    let outputs = simulation.outputs();
+    println!("landing force {largest:.0} N, then {:.0} N", outputs.contact_force_y);
+    assert!(largest > 1.1 * inputs.drive.load);
+    assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-3, "{}", outputs.contact_force_y);
+}
+
+#[test]
+fn reversal_of_the_travel_direction_mirrors_the_contact() {
+    let model = model(preset("paper_d", 10));
+    let mut config = model.config().clone();
+    config.physics.centrifugal = true;
+    let forward = Simulation::new(model.clone(), &prescribed(&model, 10.0, 2e-4)).unwrap();
+    let backward = Simulation::new(model.clone(), &prescribed(&model, -10.0, 2e-4)).unwrap();
+    let (f, b) = (forward.outputs(), backward.outputs());
+    assert!((f.contact_force_x + b.contact_force_x).abs() < 1e-6 * f.contact_force_y);
+    let mut inputs = prescribed(&model, 10.0, 2e-4);
+    let mut simulation = forward;
+    inputs.drive.velocity = -10.0;
+    inputs.drive.omega = omega(&model, -10.0, 2e-4);
+    for _ in 0..60 {
+        // Passes through standstill within the first step and settles to the mirrored state.
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let settled = simulation.outputs().contact_force_x;
+    println!("{settled} {}", b.contact_force_x);
+    assert!((settled - b.contact_force_x).abs() < 5e-3 * f.contact_force_y);
+}
+
+#[test]
+fn locked_wheel_slides_with_the_full_friction_force() {
+    let model = model(preset("railway", 10));
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.rotation = Rotation::Velocity;
+    for k in 1..=50 {
+        inputs.drive.omega = simulation.outputs().wheel_omega.max(0.0) * (1.0 - k as f64 / 50.0);
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    inputs.drive.omega = 0.0;
+    for _ in 0..100 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let outputs = simulation.outputs();
+    assert_eq!(outputs.contact_creepage, 2.0);
+    assert!((outputs.contact_utilisation - 1.0).abs() < 1e-9, "{}", outputs.contact_utilisation);
+    assert!(outputs.contact_force_x < 0.0 && outputs.contact_stick_fraction == 0.0);
+}
+
+#[test]
+fn switching_control_to_the_reaction_continues_the_motion() {
+    let mut config = preset("railway", 10);
+    config.initial.creepage = 5e-4;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    for _ in 0..50 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let before = simulation.outputs().clone();
+    (inputs.rotation, inputs.translation, inputs.vertical) =
+        (Rotation::Moment, Translation::Force, Vertical::Displacement);
+    inputs.drive.moment = before.hub_moment;
+    inputs.drive.force = before.hub_force_x;
+    inputs.drive.displacement = -before.contact_approach;
+    for _ in 0..50 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let now = simulation.outputs();
+        assert!((now.contact_force_x - before.contact_force_x).abs() < 1e-4 * before.contact_force_y);
+        assert!((now.contact_force_y / before.contact_force_y - 1.0).abs() < 1e-4);
+        assert!((now.wheel_velocity / before.wheel_velocity - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_load_beyond_the_candidate_zone_is_refused_and_the_run_goes_on() {
+    let model = model(preset("railway", 10));
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.drive.load = 2.0 * model.config().model.nominal_load;
+    let mut twice = Simulation::new(model.clone(), &inputs).unwrap();
+    assert!((twice.outputs().contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9);
+    inputs.drive.load *= 3.0;
+    let error = twice.restart(&inputs).unwrap_err();
+    assert!(matches!(error, StepError::ZoneExceeded { .. }), "{error}");
+    assert!(error.to_string().contains("model.nominal_load"), "{error}");
+    let before = simulation.state().clone();
+    let mut bad = Inputs::rolling(model.config());
+    bad.drive.load = f64::NAN;
+    let error = simulation.advance(&bad, 1e-3).unwrap_err();
+    assert!(error.to_string().contains("drive.load"), "{error}");
+    assert!(matches!(simulation.advance(&Inputs::rolling(model.config()), -1.0), Err(StepError::StepSize { .. })));
+    assert_eq!(simulation.state(), &before);
+    simulation.advance(&Inputs::rolling(model.config()), 1e-3).unwrap();
+}

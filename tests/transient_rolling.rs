@@ -1,0 +1,152 @@
+//! Transient rolling against independently computed reference values (Paper D parameters).
+
+mod common;
+use common::*;
+use std::sync::Arc;
+use wheelrail::config::TimeScheme;
+use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
+
+/// Creepage ramp from 0 to −8e-4 in 70 % of `duration`, held to its end: `F/μP` at tenths of the duration.
+fn creepage_ramp(model: &Arc<Model>, duration: f64, steps: usize) -> Vec<f64> {
+    let velocity = 50.0 * KMH;
+    let mut inputs = prescribed(model, velocity, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut tenths = Vec::new();
+    for k in 1..=steps {
+        let share = k as f64 / steps as f64;
+        inputs.drive.omega = omega(model, velocity, -8e-4 * (share / 0.7).min(1.0));
+        simulation.advance(&inputs, duration / steps as f64).unwrap();
+        if k % (steps / 10) == 0 {
+            tenths.push(signed_utilisation(&simulation, inputs.drive.friction));
+        }
+    }
+    tenths
+}
+
+#[test]
+fn creepage_ramps_match_the_reference() {
+    let mut config = preset("paper_d", 20);
+    config.physics.centrifugal = false;
+    let model = model(config);
+    let cases = [
+        (1e-3, [-0.0025, -0.0008, 0.0062, 0.0232, 0.0561, 0.1088, 0.1853, 0.2853, 0.4091, 0.5491]),
+        (1e-2, [0.0558, 0.3206, 0.5996, 0.8415, 0.9818, 1.0, 1.0, 1.0, 1.0, 1.0]),
+        (1e-1, [0.3034, 0.5891, 0.7975, 0.9326, 0.9949, 1.0, 1.0, 1.0, 1.0, 1.0]),
+    ];
+    for (duration, reference) in cases {
+        let curve = creepage_ramp(&model, duration, 400);
+        let worst = curve.iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{duration:.0e} s: largest difference {worst:.4}; {curve:.4?}");
+        assert!(worst <= 0.01, "ramp of {duration} s: {curve:.4?} against {reference:?}");
+    }
+}
+
+#[test]
+fn creepage_ramp_converges_with_the_time_step() {
+    let mut config = preset("paper_d", 10);
+    config.physics.centrifugal = false;
+    let model = model(config);
+    let end = |steps: usize| creepage_ramp(&model, 1e-2, steps)[2];
+    let exact = end(3200);
+    let [coarse, fine] = [200, 400].map(|n| (end(n) - exact).abs());
+    println!("error with 200 steps {coarse:.2e}, with 400 steps {fine:.2e}");
+    assert!(fine < 0.65 * coarse, "200 steps {coarse:e}, 400 steps {fine:e}");
+}
+
+/// Paper D's controlled braking from 50 km/h (section 6.2.2) with BDF2; returns end speed [km/h], peak creepage and
+/// peak utilisation.
+fn controlled_braking(model: &Arc<Model>, dt: f64) -> (f64, f64, f64) {
+    let held = Simulation::new(model.clone(), &prescribed(model, 50.0 * KMH, 0.0)).unwrap();
+    let (force, moment) = (held.outputs().hub_force_x, held.outputs().hub_moment);
+    let mut inputs = prescribed(model, 50.0 * KMH, 0.0);
+    (inputs.rotation, inputs.translation) = (Rotation::Moment, Translation::Force);
+    (inputs.drive.force, inputs.drive.moment) = (force, moment);
+    let mut config = model.config().clone();
+    (config.initial.velocity, config.initial.creepage) = (50.0 * KMH, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let steps = (10.0 / dt).round() as usize;
+    let (mut creepage, mut utilisation) = (0.0f64, 0.0f64);
+    for k in 1..=steps {
+        let t = k as f64 * dt;
+        let share = (t / 1.74).min((5.0 - t) / 1.74).clamp(0.0, 1.0);
+        inputs.drive.moment = moment - share * (15950.0 + moment);
+        simulation.advance(&inputs, dt).unwrap();
+        creepage = creepage.max(simulation.outputs().contact_creepage);
+        utilisation = utilisation.max(simulation.outputs().contact_utilisation);
+    }
+    (simulation.outputs().wheel_velocity / KMH, creepage, utilisation)
+}
+
+#[test]
+fn controlled_braking_matches_the_reference() {
+    let mut config = preset("paper_d", 20);
+    config.physics.centrifugal = false;
+    config.initial.velocity = 50.0 * KMH;
+    config.initial.creepage = 0.0;
+    let bdf2 = model(config.clone());
+    let (speed, creepage, utilisation) = controlled_braking(&bdf2, 0.01);
+    println!("BDF2 10 ms: end speed {speed:.4} km/h, peak creepage {creepage:.4e}, peak utilisation {utilisation:.4}");
+    assert!((speed - 10.191).abs() <= 0.02, "end speed {speed} km/h");
+    assert!((creepage / 1.91e-4 - 1.0).abs() <= 0.02, "peak creepage {creepage}");
+    assert!((utilisation / 0.5312 - 1.0).abs() <= 0.005, "peak utilisation {utilisation}");
+
+    config.solver.time_scheme = TimeScheme::BackwardEuler;
+    let (speed, ..) = controlled_braking(&model(config), 0.1);
+    println!("backward Euler 0.1 s: end speed {speed:.4} km/h");
+    assert!((speed - 10.209).abs() <= 0.02, "end speed {speed} km/h");
+}
+
+#[test]
+fn prescribed_braking_needs_the_reference_moments() {
+    let mut config = preset("paper_d", 10);
+    config.physics.centrifugal = false;
+    let model = model(config);
+    let radius = model.config().wheel.radius;
+    let deceleration = 0.4 * 1e5 / (8000.0 * std::f64::consts::PI * (0.25 - 0.0025));
+    let mut inputs = prescribed(&model, 50.0 * KMH, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let dt = 0.01;
+    let mut peak = 0.0f64;
+    for k in 1..=130 {
+        let t = k as f64 * dt;
+        inputs.drive.velocity = 50.0 * KMH - deceleration * t;
+        inputs.drive.omega = (50.0 - 40.0 * (t / 1.1).min(1.0)) * KMH / radius;
+        simulation.advance(&inputs, dt).unwrap();
+        let outputs = simulation.outputs();
+        peak = peak.max(outputs.contact_creepage);
+        if k == 60 {
+            println!("first plateau: moment {:.1}, force {:.1}", outputs.hub_moment, outputs.hub_force_x);
+            assert!((outputs.hub_moment / -35864.0 - 1.0).abs() <= 0.01, "{}", outputs.hub_moment);
+            assert!(outputs.hub_force_x.abs() <= 0.01 * 4e4, "{}", outputs.hub_force_x);
+        }
+        if k == 125 {
+            println!("second plateau: moment {:.1}", outputs.hub_moment);
+            assert!((outputs.hub_moment / -20000.0 - 1.0).abs() <= 0.01, "{}", outputs.hub_moment);
+        }
+    }
+    println!("peak creepage {peak:.4}");
+    assert!((peak / 0.842 - 1.0).abs() <= 0.01, "peak creepage {peak}");
+}
+
+/// A fast moment ramp with rotation and translation free; peak utilisation and creepage.
+#[test]
+fn controlled_fast_ramp_matches_the_reference() {
+    let mut config = preset("paper_d", 20);
+    config.physics.centrifugal = false;
+    config.initial.velocity = 50.0 * KMH;
+    config.solver.time_scheme = TimeScheme::BackwardEuler;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let (mut utilisation, mut creepage) = (0.0f64, 0.0f64);
+    for k in 1..=2000 {
+        let t = k as f64 * 1e-5;
+        inputs.drive.moment = -15950.0 * (t / 2e-3).min((9e-3 - t) / 2e-3).clamp(0.0, 1.0);
+        simulation.advance(&inputs, 1e-5).unwrap();
+        utilisation = utilisation.max(simulation.outputs().contact_utilisation);
+        creepage = creepage.max(simulation.outputs().contact_creepage);
+    }
+    println!("peak utilisation {utilisation:.4}, peak creepage {creepage:.4e}");
+    assert!((utilisation - 0.5477).abs() <= 0.01, "{utilisation}");
+    assert!((creepage / 2.939e-4 - 1.0).abs() <= 0.02, "{creepage}");
+}
