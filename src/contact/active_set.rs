@@ -84,6 +84,9 @@ pub struct ContactSolution {
     pub forces: DVector<f64>,
     /// Slip velocity of the wheel relative to the rail at closed nodes, zero elsewhere [m/s].
     pub slip: Vec<f64>,
+    /// Power dissipated by friction [W/m], with centred slip velocities: the upwind ones of the friction law would count
+    /// their own numerical dissipation.
+    pub friction_power: f64,
     /// Gap at open nodes, zero elsewhere [m].
     pub gap: Vec<f64>,
     /// Values of the rigid motions (V, U, Ω).
@@ -102,6 +105,7 @@ impl ContactSolution {
             status: vec![Status::Open; grid.len()],
             forces: DVector::zeros(n),
             slip: vec![0.0; grid.len()],
+            friction_power: 0.0,
             gap: vec![0.0; grid.len()],
             rigid: [0.0; 3],
             wheel_surface: DVector::zeros(n),
@@ -120,16 +124,29 @@ impl ContactSolution {
         self.forces[grid.dof(i)]
     }
 
-    /// Generalised contact forces on the wheel: force x, force y, forward moment about the centre.
+    /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
     pub fn resultant(&self, grid: &ContactGrid) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for i in 0..grid.len() {
             let (t, n) = (self.tangential(grid, i), self.normal(grid, i));
+            let [arm_t, arm_n] = self.lever_arms(grid, i);
             sum[0] += t;
             sum[1] += n;
-            sum[2] -= grid.radius * t + grid.x[i] * n;
+            sum[2] -= arm_t * t + arm_n * n;
         }
         sum
+    }
+
+    /// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m].
+    ///
+    /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
+    /// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
+    /// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²).
+    fn lever_arms(&self, grid: &ContactGrid, i: usize) -> [f64; 2] {
+        let d = grid.dof(i);
+        let gap = |k: Option<usize>| k.and_then(|k| self.gap.get(k)).copied().unwrap_or(0.0);
+        let slope = (gap(Some(i + 1)) - gap(i.checked_sub(1))) / (2.0 * grid.spacing);
+        [grid.radius - self.wheel_surface[d + 1], grid.x[i] + self.wheel_surface[d] - grid.radius * slope]
     }
 }
 
@@ -271,7 +288,7 @@ impl ContactProblem<'_> {
             put(closed.len() + r, &self.slip_row(i, solution, relative, wheel_constant, rows[i], to_right));
         }
         for (r, &k) in unknown.iter().enumerate() {
-            put(closed.len() + stuck.len() + r, &self.balance_row(k));
+            put(closed.len() + stuck.len() + r, &self.balance_row(k, solution));
         }
         let singular = ContactError::Singular { closed: closed.len() };
         let x = system.lu().solve(&rhs).ok_or(singular.clone())?;
@@ -310,13 +327,17 @@ impl ContactProblem<'_> {
         solution.wheel_surface = wheel;
         solution.rail_surface = rail;
         let (v, v_c) = (solution.rigid[0], grid.radius * solution.rigid[2]);
+        solution.friction_power = 0.0;
         for i in 0..grid.len() {
             let d = grid.dof(i);
             let (u_c, u_p) = (&solution.wheel_surface, &solution.rail_surface);
             if solution.status[i].is_active() {
-                let (d_p, d_c) = (self.stretch(u_p, i, rows[i], to_right), self.stretch(u_c, i, rows[i], to_right));
-                solution.slip[i] =
-                    v * (1.0 + d_p) - v_c * (1.0 + d_c) + self.slip_gain * (u_c[d] - u_p[d]) + self.slip_offset[i];
+                let dynamic = self.slip_gain * (u_c[d] - u_p[d]) + self.slip_offset[i];
+                let slip = |d_p: f64, d_c: f64| v * (1.0 + d_p) - v_c * (1.0 + d_c) + dynamic;
+                let upwind = |u| self.stretch(u, i, rows[i], to_right);
+                let centred = |u: &DVector<f64>| (u[d + 2] - u[d - 2]) / (2.0 * grid.spacing);
+                solution.slip[i] = slip(upwind(u_p), upwind(u_c));
+                solution.friction_power -= solution.forces[d] * slip(centred(u_p), centred(u_c));
                 solution.gap[i] = 0.0;
             } else {
                 solution.slip[i] = 0.0;
@@ -392,8 +413,8 @@ impl ContactProblem<'_> {
         AffineRow { forces, rigid, constant }
     }
 
-    /// Balance of momentum of an unknown rigid motion.
-    fn balance_row(&self, k: usize) -> AffineRow {
+    /// Balance of momentum of an unknown rigid motion; lever arms are those of the present iterate.
+    fn balance_row(&self, k: usize, solution: &ContactSolution) -> AffineRow {
         let grid = self.grid;
         let own = &self.rigid[k];
         let mut forces = self.momentum.row(k).transpose();
@@ -403,8 +424,9 @@ impl ContactProblem<'_> {
                 0 => forces[d] -= 1.0,
                 1 => forces[d + 1] -= 1.0,
                 _ => {
-                    forces[d] += grid.radius;
-                    forces[d + 1] += grid.x[i];
+                    let [arm_t, arm_n] = solution.lever_arms(grid, i);
+                    forces[d] += arm_t;
+                    forces[d + 1] += arm_n;
                 }
             }
         }
@@ -425,20 +447,22 @@ impl ContactProblem<'_> {
     /// New states from forces, gaps and slips; returns whether any changed.
     fn update_states(&self, solution: &mut ContactSolution, c_n: f64, iteration: usize) -> bool {
         let grid = self.grid;
-        let growth = 3f64.powi(iteration.saturating_sub(10) as i32);
+        let growth = 3f64.powi(iteration.saturating_sub(8) as i32);
         let share = self.nominal_load / grid.len() as f64;
         let tolerance = (1e-9 * growth).min(1e-4) * share;
         let speed = solution.rigid[0].abs() + (grid.radius * solution.rigid[2]).abs();
         let slip_tolerance = (1e-12 * growth).min(1e-8) * speed;
+        let before = solution.status.clone();
+        let overloaded = self.overloaded(solution);
         let mut changed = false;
         for i in 0..grid.len() {
-            let old = solution.status[i];
+            let old = before[i];
             let (t, n) = (solution.tangential(grid, i), solution.normal(grid, i));
             let indicator = n - c_n * solution.gap[i];
-            let closed = if indicator.abs() <= tolerance { old.is_active() } else { indicator > 0.0 };
+            let closed = if overloaded || indicator.abs() <= tolerance { old.is_active() } else { indicator > 0.0 };
             let new = match (closed, old) {
                 (false, _) => Status::Open,
-                (true, Status::Open) => Status::Stick,
+                (true, Status::Open) => self.closing_state(&before, i, iteration),
                 (true, Status::Stick) => {
                     if t.abs() <= self.friction * n + tolerance * self.friction.min(1.0) && self.friction > 0.0 {
                         Status::Stick
@@ -465,6 +489,34 @@ impl ContactProblem<'_> {
             }
         }
         changed
+    }
+
+    /// Whether the stuck nodes carry far more than friction allows, as happens when sliding starts from stick: normal
+    /// forces and gaps then mean nothing yet.
+    fn overloaded(&self, solution: &ContactSolution) -> bool {
+        let nodes = 0..self.grid.len();
+        let limit: f64 = nodes.clone().map(|i| solution.normal(self.grid, i).max(0.0)).sum::<f64>() * self.friction;
+        let stuck: f64 = nodes
+            .filter(|&i| solution.status[i] == Status::Stick)
+            .map(|i| solution.tangential(self.grid, i).abs())
+            .sum();
+        stuck > 3.0 * limit && self.friction > 0.0
+    }
+
+    /// State of a node that has just closed: that of the nearest closed node, or stick where it founds a patch. Between
+    /// the two restarts it always sticks.
+    fn closing_state(&self, before: &[Status], i: usize, iteration: usize) -> Status {
+        if (RESTARTS[0]..RESTARTS[1]).contains(&iteration) {
+            return Status::Stick;
+        }
+        let left = before[..i].iter().rev().position(|s| s.is_active());
+        let right = before[i + 1..].iter().position(|s| s.is_active());
+        match (left, right) {
+            (Some(l), Some(r)) if r < l => before[i + 1 + r],
+            (Some(l), _) => before[i - 1 - l],
+            (None, Some(r)) => before[i + 1 + r],
+            (None, None) => Status::Stick,
+        }
     }
 
     fn check_zone(&self, solution: ContactSolution) -> Result<ContactSolution, ContactError> {

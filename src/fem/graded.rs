@@ -10,15 +10,18 @@ use std::f64::consts::PI;
 const ZONE: f64 = 1.5;
 /// Surface nodes on each side beyond the candidates.
 pub const GUARDS: usize = 3;
-/// Growth of the cell size per cell away from the contact.
-
-/// Largest cell of the wheel along the circumference [rad].
-
+/// Growth of the cell size per cell along the surface and into the depth.
+const GROWTH: f64 = 1.2;
+const DEPTH_GROWTH: f64 = 1.15;
+/// Largest cell of the wheel along the circumference [rad]; its chords stiffen the torsion by about `0.4 angle²`.
+const LARGEST_ANGLE: f64 = 0.05;
 /// Largest cell in wheel radii, across the wheel's streamlines and in the rail.
-
+const LARGEST: f64 = 0.05;
 /// Cell size at the hub in hub radii, and its growth per cell outwards.
-
+const HUB: f64 = 0.05;
+const HUB_GROWTH: f64 = 1.1;
 /// Depth of the uniform layers below the contact in half-widths.
+const UNIFORM_DEPTH: f64 = 0.5;
 
 /// Where the mesh is fine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,10 +55,9 @@ impl ContactZone {
     }
 
     /// Depths of the uniform layers and the graded ones below them, 0 to `thickness` [m].
-    fn depths(&self, thickness: f64, mut grading: Grading) -> Vec<f64> {
-        let layers = (envf("UNIFORM_DEPTH", 0.5) * self.elements as f64).ceil() as usize;
+    fn depths(&self, thickness: f64, grading: Grading) -> Vec<f64> {
+        let layers = (UNIFORM_DEPTH * self.elements as f64).ceil() as usize;
         let uniform = layers as f64 * self.spacing();
-        grading.first = self.spacing();
         let mut depths: Vec<f64> = (0..layers).map(|i| i as f64 * self.spacing()).collect();
         depths.extend(grading.positions(thickness - uniform).iter().map(|s| uniform + s));
         depths
@@ -87,9 +89,9 @@ struct Grading {
 }
 
 impl Grading {
-    /// Growth from the start only.
+    /// Growth by [`GROWTH`] from the start only.
     fn one_sided(first: f64, largest: f64) -> Self {
-        Self { first, growth: envf("GROWTH", 1.2), largest, last: largest, growth_last: envf("GROWTH", 1.2) }
+        Self { first, growth: GROWTH, largest, last: largest, growth_last: GROWTH }
     }
 
     /// Nodes on `[0, length]`, both ends included.
@@ -142,13 +144,12 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
     let surface_x = zone.surface_x();
     let mut angles: Vec<f64> = surface_x.iter().map(|x| (x / radius).asin()).collect();
     let edge = (zone.reach() / radius).asin();
-    let side = Grading::one_sided(zone.spacing() / radius, envf("LARGEST_ANGLE", 0.06)).positions(PI - edge);
+    let side = Grading::one_sided(zone.spacing() / radius, LARGEST_ANGLE).positions(PI - edge);
     angles.extend(side.iter().skip(1).map(|s| edge + s));
     angles.extend(side.iter().rev().skip(1).take(side.len() - 2).map(|s| -edge - s));
-    let largest = (envf("LARGEST", 0.05) * radius).min(0.25 * thickness);
-    let last = (envf("HUB", 0.04) * hub_radius).min(thickness / 12.0);
-    let grading =
-        Grading { last, growth_last: envf("HUB_GROWTH", 1.06), ..Grading::one_sided(zone.spacing(), largest) };
+    let largest = (LARGEST * radius).min(0.25 * thickness);
+    let last = (HUB * hub_radius).min(thickness / 12.0);
+    let grading = Grading { first: zone.spacing(), growth: DEPTH_GROWTH, largest, last, growth_last: HUB_GROWTH };
     let depths = zone.depths(thickness, grading);
     let (rows, around) = (depths.len(), angles.len());
     let mut mesh = Mesh::default();
@@ -187,7 +188,8 @@ pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result
     let first = xs.len();
     xs.extend(&surface_x);
     xs.extend(side.iter().skip(1).map(|s| edge + s));
-    let depths = zone.depths(height, Grading::one_sided(zone.spacing(), largest.min(0.25 * height)));
+    let grading = Grading { growth: DEPTH_GROWTH, ..Grading::one_sided(zone.spacing(), largest.min(0.25 * height)) };
+    let depths = zone.depths(height, grading);
     let (rows, along) = (depths.len(), xs.len());
     let mut mesh = Mesh::default();
     for depth in &depths {
@@ -228,7 +230,7 @@ mod tests {
         let h: Vec<f64> = s.windows(2).map(|w| w[1] - w[0]).collect();
         assert_eq!((s[0], s[s.len() - 1]), (0.0, 1.0));
         assert!(h[0] < 1.1e-4 && h[h.len() - 1] < 0.0105 && h.iter().all(|h| *h > 0.0 && *h <= 0.05));
-        assert!(h.windows(2).all(|w| w[1] / w[0] < envf("GROWTH", 1.2) + 1e-6 && w[0] / w[1] < 1.1 + 1e-6));
+        assert!(h.windows(2).all(|w| w[1] / w[0] < GROWTH + 1e-6 && w[0] / w[1] < 1.1 + 1e-6));
         assert_eq!(Grading::one_sided(2.0, 3.0).positions(1.0), [0.0, 1.0]);
     }
 
@@ -259,8 +261,4 @@ mod tests {
         assert!(matches!(rail(0.5, 0.05, 0.1, zone), Err(FemError::ZoneTooLarge { .. })));
         assert!(matches!(wheel(0.5, 0.6, zone), Err(FemError::BadLength { .. })));
     }
-}
-
-fn envf(n: &str, d: f64) -> f64 {
-    std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d)
 }

@@ -22,8 +22,8 @@ pub enum LinalgError {
     #[error("symbolic factorisation of {size} unknowns failed: {reason}")]
     Symbolic { size: usize, reason: String },
     /// A dense symmetric eigenproblem failed.
-    #[error("dense eigenproblem of {size} unknowns failed: {reason}")]
-    Eigen { size: usize, reason: String },
+    #[error("dense eigenproblem of {size} unknowns did not converge")]
+    Eigen { size: usize },
     /// More modes asked for than the matrix has unknowns.
     #[error("{wanted} modes wanted of a system with {size} unknowns")]
     TooManyModes { wanted: usize, size: usize },

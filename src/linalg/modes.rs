@@ -5,8 +5,8 @@
 //! followed by one inverse iteration and a Rayleigh–Ritz projection on the pencil itself.
 
 use super::{Cholesky, CsrMatrix, LinalgError};
-use faer::{Mat, MatRef, Side};
-use nalgebra::{DMatrix, DVector};
+use faer::{Mat, MatRef};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Vectors added to the Krylov space at a time.
 const BLOCK: usize = 8;
@@ -42,7 +42,7 @@ pub fn lowest_modes(
     }
     let mut ritz = krylov(factor, mass, count, progress)?;
     // One inverse iteration removes rough error, which K would magnify.
-    apply_mass(mass, &mut ritz);
+    apply(mass, &mut ritz);
     solve(factor, &mut ritz);
     let (squared_frequencies, mut shapes) = rayleigh_ritz(stiffness, mass, &ritz)?;
     let mut reference = DMatrix::from_column_slice(n, 1, &noise(n, 0));
@@ -65,7 +65,7 @@ fn krylov(
 ) -> Result<Mat<f64>, LinalgError> {
     let n = factor.size();
     let limit = (6 * count + 60).min(n);
-    let mut next_check = (2 * count + 2 * BLOCK).min(limit);
+    let mut next_check = (3 * count + 3 * BLOCK).min(limit);
     let mut basis = Mat::<f64>::zeros(n, limit + BLOCK);
     let mut projected = DMatrix::<f64>::zeros(limit + BLOCK, limit + BLOCK);
     let (mut block, _) = orthonormalise(mass, &basis, 0, start_block(factor, mass, 0));
@@ -76,7 +76,7 @@ fn krylov(
         basis.subcols_mut(size, width).copy_from(block.subcols(0, width));
         size += width;
         let mut image = block.subcols(0, width).to_owned();
-        apply_mass(mass, &mut image);
+        apply(mass, &mut image);
         solve(factor, &mut image);
         let (next, coefficients) = orthonormalise(mass, &basis, size, image);
         for (j, column) in columns.clone().enumerate() {
@@ -84,10 +84,10 @@ fn krylov(
                 projected[(i, column)] = coefficients[(i, j)];
             }
         }
-        progress(0.9 * (size as f64 / (2.5 * count as f64 + 20.0)).min(1.0));
+        progress(0.9 * (size as f64 / (3.2 * count as f64 + 20.0)).min(1.0));
         let exhausted = next.ncols() == 0;
         if size >= next_check || size == limit || (exhausted && size >= count) {
-            next_check = (size + 3 * BLOCK).min(limit);
+            next_check = (size + 4 * BLOCK).min(limit);
             let (vectors, residuals) = ritz_pairs(&projected, size, width, next.ncols())?;
             let kept = count.min(size);
             let converged = residuals.iter().take(kept).take_while(|r| **r <= TOLERANCE).count();
@@ -142,9 +142,9 @@ fn rayleigh_ritz(
     x: &Mat<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), LinalgError> {
     let mut mx = x.clone();
-    apply_mass(mass, &mut mx);
+    apply(mass, &mut mx);
     let mut kx = x.clone();
-    apply_mass(stiffness, &mut kx);
+    apply(stiffness, &mut kx);
     let m = x.ncols();
     let gram = x.transpose() * &mx;
     // Whitening of the (nearly diagonal) Gram matrix, after scaling by its diagonal.
@@ -160,57 +160,78 @@ fn rayleigh_ritz(
 }
 
 /// Eigenvalues (ascending) and eigenvectors of a dense symmetric matrix.
+///
+/// nalgebra's QR iteration: the divide and conquer of faer 0.24.4 was seen to lose up to 9 digits on the projected
+/// operators (see also faer-rs issue 273).
 fn dense_eigen(a: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
     let size = a.nrows();
-    let eigen = a.self_adjoint_eigen(Side::Lower).map_err(|e| LinalgError::Eigen { size, reason: format!("{e:?}") })?;
-    let diagonal = eigen.S();
-    Ok(((0..size).map(|i| diagonal[i]).collect(), eigen.U().to_owned()))
+    let dense = DMatrix::from_fn(size, size, |i, j| a[(i, j)]);
+    let eigen = SymmetricEigen::try_new(dense, f64::EPSILON, 100 * size).ok_or(LinalgError::Eigen { size })?;
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let values = order.iter().map(|&i| eigen.eigenvalues[i]).collect();
+    Ok((values, Mat::from_fn(size, size, |i, j| eigen.eigenvectors[(i, order[j])])))
 }
 
-/// Two passes of block Gram–Schmidt against the first `size` columns of `basis`, then within the block.
+/// Block Gram–Schmidt against the first `size` columns of `basis`, then within the block, all of it twice.
 ///
 /// Returns the new `M`-orthonormal vectors (fewer if dependent) and the coefficients of `w` in old and new vectors.
 fn orthonormalise(mass: &CsrMatrix, basis: &Mat<f64>, size: usize, mut w: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
-    let (n, width) = (w.nrows(), w.ncols());
-    let mut coefficients = Mat::<f64>::zeros(size + width, width);
-    let before = column_norms(mass, &w);
     let old = basis.subcols(0, size);
-    for _ in 0..2 {
-        if size > 0 {
-            let mut mw = w.clone();
-            apply_mass(mass, &mut mw);
-            let h = old.transpose() * &mw;
-            w -= old * &h;
-            for j in 0..width {
-                for i in 0..size {
-                    coefficients[(i, j)] += h[(i, j)];
-                }
-            }
-        }
+    let smallest: Vec<f64> = column_norms(mass, &w).iter().map(|norm| 1e-12 * norm).collect();
+    let mut along_old = remove(mass, old, &mut w);
+    let (mut next, mut within) = orthonormalise_block(mass, &w, &smallest);
+    // Normalising small remainders has magnified their round-off along the old vectors.
+    let again = remove(mass, old, &mut next);
+    along_old += again * &within;
+    let (next, correction) = orthonormalise_block(mass, &next, &vec![0.0; next.ncols()]);
+    within = correction * within;
+    let coefficients =
+        Mat::from_fn(
+            size + next.ncols(),
+            w.ncols(),
+            |i, j| {
+                if i < size { along_old[(i, j)] } else { within[(i - size, j)] }
+            },
+        );
+    (next, coefficients)
+}
+
+/// Subtracts the `M`-orthogonal projection of `w` on the orthonormal columns of `old`; returns its coefficients.
+fn remove(mass: &CsrMatrix, old: MatRef<'_, f64>, w: &mut Mat<f64>) -> Mat<f64> {
+    if old.ncols() == 0 || w.ncols() == 0 {
+        return Mat::zeros(old.ncols(), w.ncols());
     }
-    let mut kept: Vec<Vec<f64>> = Vec::with_capacity(width);
-    let mut kept_mass: Vec<Vec<f64>> = Vec::with_capacity(width);
+    let mut mw = w.clone();
+    apply(mass, &mut mw);
+    let coefficients = old.transpose() * &mw;
+    *w -= old * &coefficients;
+    coefficients
+}
+
+/// Modified Gram–Schmidt within a block, `w = q r`; vectors shorter than `smallest` after projection are dropped.
+fn orthonormalise_block(mass: &CsrMatrix, w: &Mat<f64>, smallest: &[f64]) -> (Mat<f64>, Mat<f64>) {
+    let (n, width) = (w.nrows(), w.ncols());
+    let mut r = Mat::<f64>::zeros(width, width);
+    let mut kept: Vec<(Vec<f64>, Vec<f64>)> = Vec::with_capacity(width);
     let mut mv = vec![0.0; n];
     for j in 0..width {
         let mut v: Vec<f64> = w.col(j).iter().copied().collect();
-        for _ in 0..2 {
-            for (i, (u, mu)) in kept.iter().zip(&kept_mass).enumerate() {
-                let h = dot(mu, &v);
-                v.iter_mut().zip(u).for_each(|(a, b)| *a -= h * b);
-                coefficients[(size + i, j)] += h;
-            }
+        for (i, (u, mu)) in kept.iter().enumerate() {
+            let h = dot(mu, &v);
+            v.iter_mut().zip(u).for_each(|(a, b)| *a -= h * b);
+            r[(i, j)] += h;
         }
         mass.multiply(&v, &mut mv);
         let norm = dot(&v, &mv).max(0.0).sqrt();
-        if norm > 1e-12 * before[j] && norm > 0.0 {
-            coefficients[(size + kept.len(), j)] = norm;
+        if norm > smallest[j] {
+            r[(kept.len(), j)] = norm;
             v.iter_mut().for_each(|a| *a /= norm);
-            kept_mass.push(mv.iter().map(|a| a / norm).collect());
-            kept.push(v);
+            kept.push((v, mv.iter().map(|a| a / norm).collect()));
         }
     }
-    let next = Mat::from_fn(n, kept.len(), |i, j| kept[j][i]);
-    (next, coefficients)
+    let q = Mat::from_fn(n, kept.len(), |i, j| kept[j].0[i]);
+    (q, r.subrows(0, kept.len()).to_owned())
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -219,12 +240,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 fn column_norms(mass: &CsrMatrix, w: &Mat<f64>) -> Vec<f64> {
     let mut mw = w.clone();
-    apply_mass(mass, &mut mw);
+    apply(mass, &mut mw);
     (0..w.ncols()).map(|j| (w.col(j).transpose() * mw.col(j)).max(0.0).sqrt()).collect()
 }
 
 /// `X ← A X`.
-fn apply_mass(a: &CsrMatrix, x: &mut Mat<f64>) {
+fn apply(a: &CsrMatrix, x: &mut Mat<f64>) {
     let mut y = vec![0.0; a.rows()];
     for j in 0..x.ncols() {
         let column: Vec<f64> = x.col(j).iter().copied().collect();
@@ -250,7 +271,7 @@ fn start_block(factor: &Cholesky, mass: &CsrMatrix, seed: usize) -> Mat<f64> {
     let width = BLOCK.min(n);
     let columns: Vec<Vec<f64>> = (0..width).map(|j| noise(n, seed * BLOCK + j + 1)).collect();
     let mut block = Mat::from_fn(n, width, |i, j| columns[j][i]);
-    apply_mass(mass, &mut block);
+    apply(mass, &mut block);
     solve(factor, &mut block);
     block
 }

@@ -77,3 +77,91 @@ impl Stream {
         both_components(&matrix)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::{DofMap, assemble, assemble_faces, assemble_vector};
+    use crate::mechanics::elasticity::mass;
+    use crate::mechanics::testing::{annulus, paper_d};
+    use crate::mechanics::{rail_mesh, wheel_system};
+
+    #[test]
+    fn wheel_convection_is_antisymmetric() {
+        let (outer, around) = (0.5, 48);
+        let mesh = annulus(outer, 0.05, around, 8);
+        let dofs = DofMap::new(&mesh);
+        let c = assemble(&mesh, &dofs, |p| Stream::Rotation.convection(p, 8000.0)).unwrap();
+        let boundary = |i: usize| i / 2 < around || i / 2 >= 8 * around;
+        let (mut largest, mut inside, mut rim) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for i in 0..c.rows() {
+            for (j, value) in c.row(i) {
+                let sum = (value + c.get(j, i)).abs();
+                largest = largest.max(value.abs());
+                if boundary(i) && boundary(j) { rim = rim.max(sum) } else { inside = inside.max(sum) }
+            }
+        }
+        assert!(inside < 1e-14 * largest, "inside {:e}", inside / largest);
+        // Chords let v̄·n ≠ 0 through, with zero mean over each chord.
+        assert!(rim < 0.05 * largest, "rim {:e}", rim / largest);
+    }
+
+    #[test]
+    fn wheel_curvature_is_symmetric_and_not_negative() {
+        let system = wheel_system(&paper_d(4)).unwrap();
+        let s = &system.curvature;
+        let largest = (0..s.rows()).map(|i| s.get(i, i)).fold(0.0, f64::max);
+        for i in 0..s.rows() {
+            for (j, value) in s.row(i) {
+                assert!((value - s.get(j, i)).abs() < 1e-13 * largest);
+            }
+        }
+        let x: Vec<f64> = (0..s.rows()).map(|i| ((i * 37) % 101) as f64 - 50.0).collect();
+        assert!(s.bilinear(&x, &x) > 0.0);
+    }
+
+    #[test]
+    fn streamline_derivative_of_a_linear_field_is_exact() {
+        let wheel = annulus(0.5, 0.1, 20, 4);
+        let rail = rail_mesh(&paper_d(4)).unwrap();
+        let field = |[x, y]: [f64; 2]| [2.0 * x + 3.0 * y, 5.0 * x - y];
+        let in_wheel = |[x, y]: [f64; 2]| [2.0 * y - 3.0 * x, 5.0 * y + x];
+        let in_rail = |_: [f64; 2]| [-2.0, -5.0];
+        for (mesh, stream, derivative) in [
+            (&wheel, Stream::Rotation, &in_wheel as &dyn Fn([f64; 2]) -> [f64; 2]),
+            (&rail, Stream::Translation, &in_rail),
+        ] {
+            let dofs = DofMap::new(mesh);
+            let convected = assemble_vector(mesh, &dofs, |p| stream.convection(p, 8e3), field).unwrap();
+            let exact = assemble_vector(mesh, &dofs, |p| mass(p, 8e3), derivative).unwrap();
+            assert!((convected - &exact).amax() < 1e-13 * exact.amax());
+        }
+    }
+
+    #[test]
+    fn robin_term_makes_the_free_ends_blind_to_uniform_stretch() {
+        let mesh = rail_mesh(&paper_d(4)).unwrap();
+        let dofs = DofMap::new(&mesh);
+        let inner = assemble(&mesh, &dofs, |p| Stream::Translation.curvature(p, 1.0)).unwrap();
+        let ends = assemble_faces(&mesh, &dofs, |p| Stream::Translation.outflow(p, 1.0)).unwrap();
+        // Rows away from the fixed base of (S − B) times u = (x, 0), for which ∂∂u = 0.
+        let mut u = vec![0.0; dofs.len()];
+        for (k, node) in mesh.nodes.iter().enumerate() {
+            if let Some(i) = dofs.unknown(k, 0) {
+                u[i] = node[0];
+            }
+        }
+        let (mut s, mut b) = (vec![0.0; u.len()], vec![0.0; u.len()]);
+        inner.multiply(&u, &mut s);
+        ends.multiply(&u, &mut b);
+        let row_above_base = mesh.nodes[mesh.fixed[0] - mesh.fixed.len()][1];
+        let (mut difference, mut size) = (0.0_f64, 0.0_f64);
+        for (k, node) in mesh.nodes.iter().enumerate() {
+            if let (Some(i), true) = (dofs.unknown(k, 0), node[1] > row_above_base) {
+                difference = difference.max((s[i] - b[i]).abs());
+                size = size.max(b[i].abs());
+            }
+        }
+        assert!(difference < 1e-12 * size, "{difference:e} against {size:e}");
+    }
+}

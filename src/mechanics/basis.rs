@@ -111,59 +111,101 @@ mod tests {
     use nalgebra::DVector;
     use std::time::Instant;
 
+    fn small() -> Config {
+        let mut config = paper_d(4);
+        (config.solver.modes_wheel, config.solver.modes_rail) = (6, 5);
+        config
+    }
+
+    #[test]
+    fn bytes_round_trip_and_corruption_is_refused() {
+        let config = small();
+        let mut seen = Vec::new();
+        let basis = Basis::compute(&config, &mut |what, share| seen.push((what.to_owned(), share))).unwrap();
+        assert!(seen.iter().all(|s| (0.0..=1.0).contains(&s.1)) && seen.last().is_some_and(|s| s.1 == 1.0));
+        assert!(basis.fits(&config));
+        let bytes = basis.to_bytes().unwrap();
+        assert_eq!(Basis::from_bytes(&bytes), Ok(basis));
+        for position in [30, bytes.len() / 2, bytes.len() - 1] {
+            let mut damaged = bytes.clone();
+            damaged[position] ^= 1;
+            assert!(matches!(Basis::from_bytes(&damaged), Err(BasisError::Corrupt { .. })));
+        }
+        assert!(matches!(Basis::from_bytes(&bytes[..bytes.len() - 5]), Err(BasisError::Corrupt { .. })));
+        assert_eq!(Basis::from_bytes(b"PK\x03\x04 something else"), Err(BasisError::Foreign { length: 19 }));
+        assert_eq!(Basis::from_bytes(&bytes[..10]), Err(BasisError::Foreign { length: 10 }));
+    }
+
+    #[test]
+    fn key_depends_on_what_the_basis_depends_on_and_nothing_else() {
+        let base = small();
+        let mut same = base.clone();
+        same.vehicle.mass = 1e4;
+        same.wheel.hub_inertia = 3.0;
+        same.friction.coefficient = 0.1;
+        same.solver.max_step = 1e-5;
+        same.physics.centrifugal = false;
+        (same.model.nominal_load, same.model.contact_width) = (2e5, 2.0);
+        assert_eq!(key(&base), key(&same));
+        let changes: [fn(&mut Config); 5] = [
+            |c| c.wheel.hub_radius = 0.06,
+            |c| c.material.density = 7800.0,
+            |c| c.model.nominal_load = 1.1e5,
+            |c| c.mesh.elements_per_half_width = 5,
+            |c| c.solver.modes_rail = 6,
+        ];
+        for change in changes {
+            let mut other = base.clone();
+            change(&mut other);
+            assert_ne!(key(&base), key(&other));
+        }
+    }
+
+    #[test]
+    fn a_basis_of_another_configuration_is_replaced() {
+        let config = small();
+        let mut other = config.clone();
+        other.solver.modes_wheel = 4;
+        let basis = Basis::compute(&other, &mut |_, _| {}).unwrap();
+        let pair = bodies(&config, Some(basis), &mut |_, _| {}).unwrap();
+        assert_eq!((pair.wheel.state_len(), pair.rail.state_len()), (6, 5));
+        assert_eq!((pair.surface_x.len(), pair.candidates), (19, 3..16));
+    }
+
+    /// Prints sizes and times of the default mesh (a/20, 80 + 40 modes); asserts only the limits of the design.
     #[test]
     fn size_and_time_of_the_production_mesh() {
         let config = paper_d(20);
+        let mut dofs = 0;
         for (name, mesh) in [("wheel", wheel_mesh(&config).unwrap()), ("rail", rail_mesh(&config).unwrap())] {
-            println!("{name}: {} dofs", 2 * (mesh.nodes.len() - mesh.fixed.len()));
+            let unknowns = 2 * (mesh.nodes.len() - mesh.fixed.len());
+            println!("{name}: {unknowns} dofs");
+            dofs += unknowns;
         }
+        assert!(dofs < 70_000);
         let start = Instant::now();
-        let system = wheel_system(&config).unwrap();
-        println!("assembly {:?}", start.elapsed());
-        let start = Instant::now();
-        let factor = crate::linalg::Cholesky::new(&system.stiffness).unwrap();
-        println!("factor {:?}", start.elapsed());
-        let start = Instant::now();
-        let mut x = system.centrifugal.clone();
-        factor.solve_in_place(x.as_mut_slice());
-        println!("solve {:?}", start.elapsed());
-
-        let modes = crate::linalg::lowest_modes(&system.stiffness, &factor, &system.mass, 24, &mut |_| {}).unwrap();
-        let p = modes.shapes.tr_mul(&system.rigid);
-        let k = p.column(2).map(|x| x * x).imax();
-        println!("RES torsion {:.3e}", modes.squared_frequencies[k].sqrt() / 1777.27 - 1.0);
-        println!(
-            "RES freqs {:?}",
-            modes.squared_frequencies.map(f64::sqrt).iter().map(|x| (x * 100.0).round() / 100.0).collect::<Vec<_>>()
-        );
-        for (name, system) in [("wheel", system), ("rail", rail_system(&config).unwrap())] {
-            let factor = crate::linalg::Cholesky::new(&system.stiffness).unwrap();
-            let g = system.surface_compliance(&factor);
-            let n = g.nrows() / 2;
-            let mut x = vec![];
-            let e = 1e11 / 0.91;
-            // hertz-like patch load on 41 nodes (elements fixed)
-            let f = nalgebra::DVector::from_fn(2 * n, |i, _| {
-                let s = (i / 2) as f64 - (n / 2) as f64;
-                let s = s / 20.0;
-                if i % 2 == 1 && s.abs() < 1.0 { (1.0 - s * s).sqrt() } else { 0.0 }
-            });
-            let ft = nalgebra::DVector::from_fn(2 * n, |i, _| {
-                let s = (i / 2) as f64 - (n / 2) as f64;
-                let s = s / 20.0;
-                if i % 2 == 0 && s.abs() < 1.0 { (1.0 - s * s).sqrt() } else { 0.0 }
-            });
-            let (u, ut) = (&g * &f, &g * &ft);
-            let (total,) = (f.sum(),);
-            let c = n / 2;
-            x.push(u[2 * c + 1] / total * e);
-            x.push((u[2 * c + 1] - u[2 * (c + 20) + 1]) / total * e);
-            x.push((u[2 * c + 1] - u[2 * (c + 30) + 1]) / total * e);
-            x.push(ut[2 * c] / total * e);
-            x.push((ut[2 * c] - ut[2 * (c + 20)]) / total * e);
-            x.push((ut[2 * c] - ut[2 * (c + 30)]) / total * e);
-            x.push((ut[2 * (c + 1) + 1] - ut[2 * (c - 1) + 1]) / total * e);
-            println!("RES {name} {:?}", x.iter().map(|v| (v * 1e5).round() / 1e5).collect::<Vec<_>>());
+        let basis = Basis::compute(&config, &mut |_, _| {}).unwrap();
+        let size = basis.to_bytes().unwrap().len();
+        println!("basis {:?}, {size} bytes", start.elapsed());
+        assert!(size < 1_500_000);
+        let mode = basis.wheel.rigid.column(2).iamax();
+        let omega = basis.wheel.squared_frequencies[mode].sqrt();
+        println!("torsion {omega:.3} rad/s, relative error {:.2e}", omega / 1777.27 - 1.0);
+        assert!((omega / 1777.27 - 1.0).abs() < 1e-3);
+        let body = ReducedBody { basis: basis.wheel, centrifugal: true };
+        let full = FullBody::new(wheel_system(&config).unwrap(), true).unwrap();
+        for (name, body) in [("reduced", &body as &dyn BodyResponse), ("full", &full)] {
+            let start = Instant::now();
+            let op = body.operator(1.5e3).unwrap();
+            println!("{name} operator {:?}", start.elapsed());
+            let mut state = BodyState::zeros(body.state_len());
+            let td = TimeDerivative { a0: 1.5e3, a1: -1.5e3, ..Default::default() };
+            let start = Instant::now();
+            let free = body.free(&op, &state, &td, Convection { speed: 30.0, acceleration: 1.0 }, &state);
+            println!("{name} free {:?}", start.elapsed());
+            let start = Instant::now();
+            body.commit(&op, &free, &DVector::from_element(134, 1.0), [0.0; 3], &td, &mut state);
+            println!("{name} commit {:?}", start.elapsed());
         }
     }
 }

@@ -193,3 +193,142 @@ impl BodyResponse for ReducedBody {
         0.5 * (modal + residual + kinetic) + coupling
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::testing::paper_d;
+    use crate::mechanics::{FullBody, rail_system, wheel_system};
+
+    /// Wheel and rail, each reduced to `modes` and full.
+    fn pairs(modes: usize) -> [(ReducedBody, FullBody); 2] {
+        let config = paper_d(5);
+        [(wheel_system(&config).unwrap(), true), (rail_system(&config).unwrap(), false)].map(|(system, centrifugal)| {
+            let basis = ReducedBasis::compute(&system, modes, &mut |_| {}).unwrap();
+            (ReducedBody { basis, centrifugal }, FullBody::new(system, centrifugal).unwrap())
+        })
+    }
+
+    fn difference(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
+        (a - b).amax() / b.amax().max(f64::MIN_POSITIVE)
+    }
+
+    /// Pressure and shear on the middle of the surface [N/m].
+    fn load(ports: usize, normal: f64, shear: f64) -> DVector<f64> {
+        let middle = ports as f64 / 4.0;
+        DVector::from_fn(ports, |i, _| {
+            let s = ((i / 2) as f64 - middle + 0.5) / 5.0;
+            let shape = (1.0 - s * s).max(0.0).sqrt();
+            shape * if i % 2 == 1 { normal } else { shear }
+        })
+    }
+
+    #[test]
+    fn reduced_body_is_exact_in_statics() {
+        for (reduced, full) in pairs(12) {
+            let (r, f) = (reduced.operator(0.0).unwrap(), full.operator(0.0).unwrap());
+            assert!(difference(&r.surface, &f.surface) < 1e-9);
+            assert!(difference(&r.loads, &f.loads) < 1e-9 || f.loads.amax() == 0.0);
+            assert!(r.momentum.amax() == 0.0 && r.momentum_loads.amax() == 0.0);
+            let (td, rest) = (TimeDerivative::default(), Convection { speed: 80.0, acceleration: 0.0 });
+            let (sr, sf) = (BodyState::zeros(reduced.state_len()), BodyState::zeros(full.state_len()));
+            let centrifugal = [reduced.free(&r, &sr, &td, rest, &sr), full.free(&f, &sf, &td, rest, &sf)];
+            let error = (&centrifugal[0].surface - &centrifugal[1].surface).amax();
+            assert!(error <= 1e-9 * centrifugal[1].surface.amax(), "{error:e}");
+        }
+    }
+
+    /// Tolerances: 1e-4 of the largest compliance at 1500/s, 1e-3 of the momentum (truncated modes carry the rest).
+    #[test]
+    fn reduced_and_full_bodies_answer_a_step_alike() {
+        for (reduced, full) in pairs(40) {
+            let (r, f) = (reduced.operator(1.5e3).unwrap(), full.operator(1.5e3).unwrap());
+            let differences = [
+                difference(&r.surface, &f.surface),
+                difference(&r.loads, &f.loads),
+                difference(&r.momentum, &f.momentum),
+                difference(&r.momentum_loads, &f.momentum_loads),
+            ];
+            println!("{differences:?}");
+            if f.loads.amax() == 0.0 {
+                assert!(r.loads.amax() == 0.0 && differences[0] < 1e-4);
+            } else {
+                assert!(differences[0] < 1e-4 && differences[1] < 1e-4);
+                assert!(differences[2] < 1e-3 && differences[3] < 1e-3);
+                // Reciprocity of the ports.
+                assert!((&f.momentum + f.loads.transpose() * 1.5e3_f64.powi(2)).amax() < 1e-12 * f.momentum.amax());
+            }
+        }
+    }
+
+    /// 40 BDF2 steps of 0.5 ms of a rolling body under a ramped load; tolerance 1e-3 of the largest displacement.
+    #[test]
+    fn reduced_and_full_bodies_move_alike() {
+        let dt = 5e-4;
+        let td = TimeDerivative { a0: 1.5 / dt, a1: -2.0 / dt, a2: 0.5 / dt, b1: 0.0 };
+        for (reduced, full) in pairs(40) {
+            let mut histories = Vec::new();
+            for body in [&reduced as &dyn BodyResponse, &full] {
+                let op = body.operator(td.a0).unwrap();
+                let mut state = BodyState::zeros(body.state_len());
+                let mut history = Vec::new();
+                for step in 0..40 {
+                    let t = (step + 1) as f64 * dt;
+                    let forces = load(op.surface.nrows(), -2e4 * (t / 5e-3).min(1.0), 3e3 * (800.0 * t).sin());
+                    let rigid = [2.0 * (t / 5e-3).min(1.0), 0.0, -30.0 * (t / 5e-3).min(1.0)];
+                    let convection = Convection { speed: 30.0 + t, acceleration: 1.0 };
+                    let free = body.free(&op, &state, &td, convection, &state.clone());
+                    let surface = &free.surface + &op.surface * &forces + &op.loads * DVector::from_row_slice(&rigid);
+                    let momentum = DVector::from_row_slice(&free.momentum)
+                        + &op.momentum * &forces
+                        + &op.momentum_loads * DVector::from_row_slice(&rigid);
+                    body.commit(&op, &free, &forces, rigid, &td, &mut state);
+                    history.push((surface, momentum, body.energy(&state, &forces, [10.0, 0.0, 20.0])));
+                }
+                histories.push(history);
+            }
+            let scale =
+                |f: fn(&(DVector<f64>, DVector<f64>, f64)) -> f64| histories[1].iter().map(f).fold(0.0, f64::max);
+            let sizes = [scale(|h| h.0.amax()), scale(|h| h.1.amax()), scale(|h| h.2.abs())];
+            let mut worst = [0.0_f64; 3];
+            for (a, b) in histories[0].iter().zip(&histories[1]) {
+                worst[0] = worst[0].max((&a.0 - &b.0).amax() / sizes[0]);
+                worst[1] = worst[1].max((&a.1 - &b.1).amax() / sizes[1].max(1e-30));
+                worst[2] = worst[2].max((a.2 - b.2).abs() / sizes[2]);
+            }
+            println!("surface {:.1e}, momentum {:.1e}, energy {:.1e}", worst[0], worst[1], worst[2]);
+            assert!(worst[0] < 1e-3 && worst[1] < 2e-3 && worst[2] < 2e-3);
+        }
+    }
+
+    #[test]
+    fn trapezoidal_rule_conserves_the_energy_of_free_vibration() {
+        let dt = 1e-4;
+        let td = TimeDerivative { a0: 2.0 / dt, a1: -2.0 / dt, a2: 0.0, b1: -1.0 };
+        let [wheel, _] = pairs(20);
+        for body in [&wheel.0 as &dyn BodyResponse, &wheel.1] {
+            let still = body.operator(0.0).unwrap();
+            let mut state = BodyState::zeros(body.state_len());
+            let rest = Convection::default();
+            let stationary = TimeDerivative::default();
+            let free = body.free(&still, &state, &stationary, rest, &state);
+            body.commit(&still, &free, &load(still.surface.nrows(), -2e4, 5e3), [0.0; 3], &stationary, &mut state);
+            assert!(state.velocity.amax() == 0.0 && state.displacement == state.displacement_before);
+            // Released: without forces the acceleration is −M⁻¹ K y; one short backward Euler step supplies it.
+            let start = TimeDerivative { a0: 1e9, a1: -1e9, a2: 0.0, b1: 0.0 };
+            let none = DVector::zeros(still.surface.nrows());
+            let op = body.operator(start.a0).unwrap();
+            let free = body.free(&op, &state, &start, rest, &state);
+            body.commit(&op, &free, &none, [0.0; 3], &start, &mut state);
+            let op = body.operator(td.a0).unwrap();
+            let initial = body.energy(&state, &none, [0.0; 3]);
+            for _ in 0..50 {
+                let free = body.free(&op, &state, &td, rest, &state);
+                body.commit(&op, &free, &none, [0.0; 3], &td, &mut state);
+            }
+            let change = body.energy(&state, &none, [0.0; 3]) / initial - 1.0;
+            println!("energy changes by {change:.1e}");
+            assert!(change.abs() < 1e-8 && state.velocity.amax() > 0.0);
+        }
+    }
+}

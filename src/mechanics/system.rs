@@ -96,3 +96,136 @@ pub fn symmetrise(a: &mut DMatrix<f64>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fem::{DofMap, assemble_vector};
+    use crate::linalg::{Cholesky, lowest_modes};
+    use crate::mechanics::elasticity::mass;
+    use crate::mechanics::testing::{annulus, paper_d};
+    use crate::mechanics::*;
+
+    #[test]
+    fn mass_and_inertia_of_the_wheel_converge_to_the_circle_with_order_two() {
+        let config = paper_d(4);
+        let error = |around: usize| -> [f64; 2] {
+            let mesh = annulus(0.5, 0.05, around, 4);
+            let dofs = DofMap::new(&mesh);
+            let product = |field: fn([f64; 2]) -> [f64; 2]| -> f64 {
+                let m = assemble_vector(&mesh, &dofs, |p| mass(p, 8000.0), field).unwrap();
+                mesh.nodes
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(k, x)| [0, 1].map(|c| (dofs.unknown(k, c), field(*x)[c])))
+                    .map(|(unknown, value)| unknown.map_or(0.0, |i| m[i] * value))
+                    .sum()
+            };
+            [
+                product(|_| [1.0, 0.0]) / wheel_mass(&config) - 1.0,
+                product(|[x, y]| [y, -x]) / wheel_inertia(&config) - 1.0,
+            ]
+        };
+        let (coarse, fine) = (error(24), error(48));
+        for k in 0..2 {
+            let order = (coarse[k] / fine[k]).log2();
+            assert!((order - 2.0).abs() < 0.05, "observed order {order:.3}, error {:e}", fine[k]);
+        }
+    }
+
+    #[test]
+    fn torsion_frequency_of_the_wheel_on_its_hub_is_the_bessel_value() {
+        let system = wheel_system(&paper_d(8)).unwrap();
+        let factor = Cholesky::new(&system.stiffness).unwrap();
+        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 6, &mut |_| {}).unwrap();
+        let participation = modes.shapes.tr_mul(&system.rigid.column(2));
+        let omega = modes.squared_frequencies[participation.iamax()].sqrt();
+        assert!((omega / 1777.27 - 1.0).abs() < 1e-3, "{omega} rad/s");
+        // Exact: 0.99941 of the rotary inertia moves with this mode.
+        let share = participation.amax().powi(2) / wheel_inertia(&paper_d(8));
+        assert!((share - 0.99941).abs() < 2e-3, "{share}");
+    }
+
+    #[test]
+    fn modes_are_mass_orthonormal_and_satisfy_the_eigenproblem() {
+        let system = rail_system(&paper_d(6)).unwrap();
+        let factor = Cholesky::new(&system.stiffness).unwrap();
+        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 30, &mut |_| {}).unwrap();
+        let m_phi = system.mass.multiply_columns(&modes.shapes);
+        let gram = modes.shapes.tr_mul(&m_phi);
+        assert!((gram - nalgebra::DMatrix::identity(30, 30)).amax() < 1e-11);
+        let k_phi = system.stiffness.multiply_columns(&modes.shapes);
+        for j in 0..30 {
+            let residual = k_phi.column(j) - m_phi.column(j) * modes.squared_frequencies[j];
+            let relative = residual.norm() / k_phi.column(j).norm();
+            assert!(relative < 1e-8, "mode {j}: {relative:e}");
+        }
+        assert!(modes.squared_frequencies.as_slice().windows(2).all(|w| w[0] <= w[1]));
+        let again = lowest_modes(&system.stiffness, &factor, &system.mass, 30, &mut |_| {}).unwrap();
+        assert_eq!(modes.shapes, again.shapes);
+    }
+
+    #[test]
+    fn static_compliance_of_the_surface_is_symmetric_and_positive_definite() {
+        for system in [wheel_system(&paper_d(6)).unwrap(), rail_system(&paper_d(6)).unwrap()] {
+            let factor = Cholesky::new(&system.stiffness).unwrap();
+            let g = system.surface_compliance(&factor);
+            assert!((&g - g.transpose()).amax() <= 1e-15 * g.amax());
+            assert!(g.cholesky().is_some());
+        }
+    }
+
+    /// Frictionless contact by active set on the paired nodes: half-width and peak pressure of Hertz.
+    #[test]
+    fn pressed_bodies_give_the_hertzian_half_width_and_pressure() {
+        let config = paper_d(10);
+        let (h, a) = (contact_zone(&config).spacing(), nominal_half_width(&config));
+        let mut g = nalgebra::DMatrix::<f64>::zeros(0, 0);
+        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
+            let full = system.surface_compliance(&Cholesky::new(&system.stiffness).unwrap());
+            let n = full.nrows() / 2;
+            let normal = nalgebra::DMatrix::from_fn(n, n, |i, j| full[(2 * i + 1, 2 * j + 1)]);
+            g = if g.is_empty() { normal } else { g + normal };
+        }
+        let x = contact_zone(&config).surface_x();
+        let gap = |i: usize| 0.5 - (0.25 - x[i] * x[i]).sqrt();
+        let mut active: Vec<usize> = (0..x.len()).filter(|&i| x[i].abs() < 1.2 * a).collect();
+        let (mut force, mut approach) = (nalgebra::DVector::zeros(0), 0.0);
+        for _ in 0..20 {
+            let m = active.len();
+            let matrix = nalgebra::DMatrix::from_fn(m + 1, m + 1, |i, j| match (i < m, j < m) {
+                (true, true) => g[(active[i], active[j])],
+                (false, false) => 0.0,
+                (true, false) => -1.0,
+                (false, true) => 1.0,
+            });
+            let rhs = nalgebra::DVector::from_fn(m + 1, |i, _| if i < m { -gap(active[i]) } else { 1e5 });
+            let solution = matrix.lu().solve(&rhs).unwrap();
+            approach = solution[m];
+            force = solution.rows(0, m).into_owned();
+            let kept: Vec<usize> = (0..m).filter(|&i| force[i] > 0.0).map(|i| active[i]).collect();
+            if kept.len() == m {
+                break;
+            }
+            active = kept;
+        }
+        // Parabola p² = p0² (1 − x²/a²) through the middle of the patch.
+        let peak = force.amax();
+        let (mut sums, mut rhs) = ([0.0; 3], [0.0; 2]);
+        for (k, &i) in active.iter().enumerate().filter(|(k, _)| force[*k] > 0.3 * peak) {
+            let (p2, x2) = ((force[k] / h).powi(2), x[i] * x[i]);
+            sums = [sums[0] + 1.0, sums[1] + x2, sums[2] + x2 * x2];
+            rhs = [rhs[0] + p2, rhs[1] + p2 * x2];
+        }
+        let determinant = sums[0] * sums[2] - sums[1] * sums[1];
+        let constant = (rhs[0] * sums[2] - rhs[1] * sums[1]) / determinant;
+        let slope = (rhs[1] * sums[0] - rhs[0] * sums[1]) / determinant;
+        let (half_width, pressure) = ((-constant / slope).sqrt(), constant.sqrt());
+        let hertz = 2e5 / (std::f64::consts::PI * a);
+        println!(
+            "half-width {half_width:.5e} m (Hertz {a:.5e}), pressure {pressure:.5e} Pa (Hertz {hertz:.5e}), approach {approach:.4e} m"
+        );
+        assert!((half_width / a - 1.0).abs() < 4e-3 && (pressure / hertz - 1.0).abs() < 4e-3);
+        // Converged finite-element reference of the same geometry: 3.852e-6 m, error 6e-9 m.
+        assert!((approach - 3.852e-6).abs() < 0.01e-6, "{approach:e} m");
+    }
+}

@@ -101,9 +101,9 @@ impl Model {
                 return Err(StepError::Contact { time: 0.0, step: 0.0, source });
             }
         }
-        let speed_scale = if moving { 1.0 } else { 0.0 };
-        for slip in &mut contact.slip {
-            *slip *= speed_scale;
+        if !moving {
+            contact.slip.fill(0.0);
+            contact.friction_power = 0.0;
         }
         contact.rigid = [velocity, contact.rigid[1], omega];
         let shift = (0..self.grid.len())

@@ -156,7 +156,10 @@ impl Model {
             let deformation: f64 = free_wheel.momentum[k]
                 + (operators.wheel.momentum.row(k) * &contact.forces)[0]
                 + (0..3).map(|l| operators.wheel.momentum_loads[(k, l)] * acceleration[l]).sum::<f64>();
-            next.hub[k] = self.inertia[k] * acceleration[k] + deformation - force[k];
+            let free = [free_v, free_y, free_r][k];
+            let prescribed = [load[0], -load[2], load[1]][k];
+            let reaction = self.inertia[k] * acceleration[k] + deformation - force[k];
+            next.hub[k] = if free { prescribed } else { reaction };
         }
         next.time += dt;
         next.distance += 0.5 * dt * (state.velocity.now + next.velocity.now);
@@ -204,9 +207,7 @@ impl Model {
     /// Power of the hub forces and frictional dissipation [W/m].
     pub(super) fn powers(&self, state: &State) -> (f64, f64) {
         let velocity = [state.velocity.now, state.height.rate, state.omega.now];
-        let contact = &state.contact;
-        let friction: f64 = (0..self.grid.len()).map(|i| -contact.tangential(&self.grid, i) * contact.slip[i]).sum();
-        (self.hub_power(&state.hub, &velocity), friction)
+        (self.hub_power(&state.hub, &velocity), state.contact.friction_power)
     }
 
     /// Kinetic and elastic energy [J/m].

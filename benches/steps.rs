@@ -1,0 +1,69 @@
+//! Cost of a step, of a start and of the reduced basis on the default mesh, one core.
+//!
+//! `cargo bench` prints medians; README quotes them.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::path::Path;
+use std::time::{Duration, Instant};
+use wheelrail::config::{Config, Response};
+use wheelrail::simulation::{Inputs, Model, Simulation};
+
+fn railway() -> Config {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/railway.json");
+    let text = std::fs::read_to_string(path).expect("resources/railway.json");
+    serde_json::from_str(&text).expect("a complete configuration")
+}
+
+/// A rolling wheel under a braking moment of about half the adhesion limit.
+fn braking(model: std::sync::Arc<Model>) -> (Simulation, Inputs) {
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).expect("stationary state");
+    inputs.drive.moment = -7000.0;
+    for _ in 0..20 {
+        simulation.advance(&inputs, 1e-3).expect("step");
+    }
+    (simulation, inputs)
+}
+
+fn steps(c: &mut Criterion) {
+    let mut quiet = |_: &str, _: f64| {};
+    let start = Instant::now();
+    let model = Model::prepare(railway(), None, &mut quiet).expect("model");
+    println!("reduced basis computed in {:.2} s", start.elapsed().as_secs_f64());
+    let directory = std::env::temp_dir().join("wheelrail-bench");
+    std::fs::create_dir_all(&directory).expect("temporary directory");
+    let (name, bytes) = model.basis_file().expect("reduced model");
+    println!("stored basis: {} kB", bytes.len() / 1024);
+    std::fs::write(directory.join(name), bytes).expect("stored basis");
+
+    c.bench_function("instantiate to ready with the stored basis", |b| {
+        b.iter(|| {
+            let model = Model::prepare(railway(), Some(&directory), &mut |_, _| {}).expect("model");
+            let inputs = Inputs::rolling(model.config());
+            Simulation::new(model, &inputs).expect("stationary state")
+        })
+    });
+    let (mut simulation, inputs) = braking(model.clone());
+    c.bench_function("reduced step 1 ms, braking", |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
+    let (mut simulation, inputs) = braking(model);
+    let mut k = 0u32;
+    c.bench_function("reduced step of varying length, braking", |b| {
+        b.iter(|| {
+            k += 1;
+            simulation.advance(&inputs, 1e-3 * (1.0 + 0.01 * f64::from(k % 50))).expect("step")
+        })
+    });
+    println!("state: {} kB", postcard::to_stdvec(simulation.state()).expect("bytes").len() / 1024);
+
+    let mut config = railway();
+    config.solver.response = Response::Full;
+    let (mut simulation, inputs) = braking(Model::prepare(config, None, &mut quiet).expect("model"));
+    c.bench_function("full step 1 ms, braking", |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20).measurement_time(Duration::from_secs(3));
+    targets = steps
+}
+criterion_main!(benches);
