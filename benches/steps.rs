@@ -25,6 +25,13 @@ fn braking(model: std::sync::Arc<Model>) -> (Simulation, Inputs) {
     (simulation, inputs)
 }
 
+/// Resident memory of this process [MB]; zero where it cannot be read.
+fn resident() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|l| l.starts_with("VmRSS:")).and_then(|l| l.split_whitespace().nth(1));
+    line.and_then(|kb| kb.parse::<f64>().ok()).unwrap_or(0.0) / 1024.0
+}
+
 fn steps(c: &mut Criterion) {
     let mut quiet = |_: &str, _: f64| {};
     let start = Instant::now();
@@ -43,7 +50,10 @@ fn steps(c: &mut Criterion) {
             Simulation::new(model, &inputs).expect("stationary state")
         })
     });
-    let (mut simulation, inputs) = braking(model.clone());
+    let before = resident();
+    let prepared = Model::prepare(railway(), Some(&directory), &mut quiet).expect("model");
+    let (mut simulation, inputs) = braking(prepared);
+    println!("memory of a reduced simulation: {:.1} MB", resident() - before);
     c.bench_function("reduced step 1 ms, braking", |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
     let (mut simulation, inputs) = braking(model);
     let mut k = 0u32;
@@ -57,7 +67,9 @@ fn steps(c: &mut Criterion) {
 
     let mut config = railway();
     config.solver.response = Response::Full;
+    let before = resident();
     let (mut simulation, inputs) = braking(Model::prepare(config, None, &mut quiet).expect("model"));
+    println!("memory of a full simulation: {:.0} MB", resident() - before);
     c.bench_function("full step 1 ms, braking", |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
 }
 

@@ -7,7 +7,7 @@ use wheelrail::simulation::Simulation;
 
 #[test]
 fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
-    let mut config = preset("paper_d", 10);
+    let mut config = preset("paper_d", 20);
     let reduced = model(config.clone());
     config.solver.response = Response::Full;
     let full = model(config);

@@ -153,3 +153,42 @@ fn controlled_fast_ramp_matches_the_reference() {
     // The reference was not checked against the mesh.
     assert!((creepage / 2.939e-4 - 1.0).abs() <= 0.04, "{creepage}");
 }
+
+#[test]
+fn time_schemes_agree_on_a_resolved_ramp() {
+    let run = |scheme: TimeScheme, theta: f64| {
+        let mut config = preset("paper_d", 10);
+        config.solver.time_scheme = scheme;
+        config.solver.theta = theta;
+        creepage_ramp(&model(config), 1e-2, 1000)
+    };
+    let reference = run(TimeScheme::Bdf2, 1.0);
+    for (scheme, theta, tolerance) in
+        [(TimeScheme::BackwardEuler, 1.0, 0.01), (TimeScheme::Theta, 1.0, 0.01), (TimeScheme::Theta, 0.55, 0.005)]
+    {
+        let worst = run(scheme, theta).iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{scheme:?} theta = {theta}: largest difference {worst:.2e}");
+        assert!(worst <= tolerance, "{scheme:?} theta = {theta}: {worst}");
+    }
+}
+
+#[test]
+fn input_rates_and_internal_steps_replace_short_communication_steps() {
+    let mut config = preset("railway", 10);
+    config.solver.max_step = 1e-3;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut short = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut long = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.rate.moment = -5e4;
+    long.advance(&inputs, 0.1).unwrap();
+    assert_eq!(long.outputs().internal_steps, 100);
+    for _ in 0..100 {
+        short.advance(&inputs, 1e-3).unwrap();
+        inputs.drive.moment += 1e-3 * inputs.rate.moment;
+    }
+    let (a, b) = (long.outputs(), short.outputs());
+    assert!((a.contact_force_x - b.contact_force_x).abs() < 1e-6 * a.contact_force_y);
+    assert!((a.wheel_velocity / b.wheel_velocity - 1.0).abs() < 1e-9);
+    assert!((a.hub_moment + 5e3).abs() < 1e-6);
+}

@@ -8,10 +8,12 @@ pub mod active_set;
 pub mod geometry;
 pub mod kernel;
 pub mod patch;
+pub mod problem;
 pub mod streamline;
 
-pub use active_set::{ContactError, ContactProblem, ContactSolution, RigidMotion, SurfaceResponse};
+pub use active_set::ContactError;
 pub use geometry::ContactGrid;
+pub use problem::{ContactProblem, ContactSolution, RigidMotion, SurfaceResponse};
 
 use serde::{Deserialize, Serialize};
 

@@ -52,7 +52,7 @@ pub fn point_at(corners: &[[f64; 2]; 4], xi: f64, eta: f64) -> Result<Point, Fem
     }
     let [[a, b], [c, d]] = jacobian;
     let determinant = a * d - b * c;
-    if !(determinant > 0.0) {
+    if determinant <= 0.0 || determinant.is_nan() {
         let [x, y] = position;
         return Err(FemError::InvertedCell { x, y, determinant });
     }

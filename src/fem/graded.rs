@@ -247,8 +247,7 @@ mod tests {
         let ends: f64 = r
             .ends
             .iter()
-            .map(|f| element::edge_points(&r.corners(f.cell), f.edge).unwrap())
-            .flatten()
+            .flat_map(|f| element::edge_points(&r.corners(f.cell), f.edge).unwrap())
             .map(|p| p.normal[0].abs())
             .sum();
         assert!((ends - 0.2).abs() < 1e-14);

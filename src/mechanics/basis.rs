@@ -208,4 +208,28 @@ mod tests {
             println!("{name} commit {:?}", start.elapsed());
         }
     }
+
+    #[test]
+    fn bodies_of_extreme_but_valid_configurations_can_be_meshed() {
+        let changes: [fn(&mut Config); 6] = [
+            |c| c.model.nominal_load = 1e-2,
+            |c| c.mesh.elements_per_half_width = 80,
+            |c| c.wheel.hub_radius = 0.9 * c.wheel.radius,
+            |c| (c.wheel.hub_radius, c.rail.height, c.rail.length) = (0.01, 0.01, 0.1),
+            |c| (c.model.nominal_load, c.wheel.radius) = (4.7e6, 0.46),
+            |c| (c.rail.length, c.rail.height) = (100.0, 10.0),
+        ];
+        for change in changes {
+            let mut config = paper_d(10);
+            change(&mut config);
+            assert_eq!(config.validate(), Ok(()));
+            let mut dofs = Vec::new();
+            for mesh in [wheel_mesh(&config).unwrap(), rail_mesh(&config).unwrap()] {
+                assert!((0..mesh.cells.len()).all(|c| crate::fem::element::points(&mesh.corners(c)).is_ok()));
+                dofs.push(2 * (mesh.nodes.len() - mesh.fixed.len()));
+            }
+            assert!(dofs.iter().all(|n| *n < 200_000));
+            println!("{dofs:?} dofs, a = {:.2e} m", nominal_half_width(&config));
+        }
+    }
 }

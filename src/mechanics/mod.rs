@@ -57,7 +57,7 @@ pub fn bodies(
     let centrifugal = config.physics.centrifugal;
     let (wheel, rail): (Box<dyn BodyResponse>, Box<dyn BodyResponse>) = match config.solver.response {
         Response::Reduced => {
-            let basis = match basis.filter(|b| b.key == basis::key(config)) {
+            let basis = match basis.filter(|b| b.fits(config)) {
                 Some(basis) => basis,
                 None => Basis::compute(config, progress)?,
             };
@@ -111,9 +111,10 @@ pub fn wheel_mesh(config: &Config) -> Result<Mesh, FemError> {
     fem::graded::wheel(config.wheel.radius, config.wheel.hub_radius, contact_zone(config))
 }
 
-/// Mesh of the rail; its largest cells are those of the wheel.
+/// Mesh of the rail; its largest cells are those of the wheel, or 1/150 of a very long rail.
 pub fn rail_mesh(config: &Config) -> Result<Mesh, FemError> {
-    fem::graded::rail(config.rail.length, config.rail.height, 0.05 * config.wheel.radius, contact_zone(config))
+    let largest = (0.05 * config.wheel.radius).max(config.rail.length / 150.0);
+    fem::graded::rail(config.rail.length, config.rail.height, largest, contact_zone(config))
 }
 
 /// Finite-element matrices of the wheel.

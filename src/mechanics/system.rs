@@ -4,7 +4,7 @@ use super::ale::Stream;
 use super::elasticity::{self, Lame};
 use crate::config::Material;
 use crate::fem::{DofMap, FemError, Mesh, assemble, assemble_faces, assemble_vector};
-use crate::linalg::CsrMatrix;
+use crate::linalg::{Cholesky, CsrMatrix};
 use nalgebra::{DMatrix, DVector};
 
 /// Matrices of one body on its free degrees of freedom, per metre of width.
@@ -66,8 +66,8 @@ impl BodySystem {
         fields.select_rows(self.surface.iter())
     }
 
-    /// `A⁻¹ Sᵀ`: answer of the whole body to unit nodal forces on the surface, reduced to the surface.
-    pub fn surface_compliance(&self, factor: &crate::linalg::Cholesky) -> DMatrix<f64> {
+    /// `S A⁻¹ Sᵀ` [m/(N/m)]: answer of the surface to unit nodal forces on it; `factor` is that of `A`.
+    pub fn surface_compliance(&self, factor: &Cholesky) -> DMatrix<f64> {
         /// Right-hand sides solved together.
         const BATCH: usize = 16;
         let (n, ports) = (self.unknowns(), self.surface.len());
@@ -171,6 +171,24 @@ mod tests {
             let g = system.surface_compliance(&factor);
             assert!((&g - g.transpose()).amax() <= 1e-15 * g.amax());
             assert!(g.cholesky().is_some());
+        }
+    }
+
+    /// `s_k = G_{j+k} − G_{j+k+1}` of both bodies against the half-plane's `2/(πE*)/(k + ½)`, `1/E* = 2 (1 − ν²)/E`.
+    #[test]
+    fn surface_kernel_follows_the_half_plane_beyond_the_grid_scale() {
+        let config = paper_d(20);
+        let modulus = 0.5 * config.material.youngs_modulus / (1.0 - config.material.poissons_ratio.powi(2));
+        let mut sum = nalgebra::DMatrix::<f64>::zeros(134, 134);
+        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
+            sum += system.surface_compliance(&Cholesky::new(&system.stiffness).unwrap());
+        }
+        for component in [0, 1] {
+            let g = |i: usize| sum[(2 * i + component, 2 * 33 + component)];
+            let ratio = |k: usize| (g(33 + k) - g(34 + k)) * (k as f64 + 0.5) * std::f64::consts::PI * modulus / 2.0;
+            let ratios: Vec<f64> = (0..20).map(ratio).collect();
+            println!("component {component}: {ratios:.4?}");
+            assert!(ratios[3..].iter().all(|r| (r - 1.0).abs() < 0.05));
         }
     }
 

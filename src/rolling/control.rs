@@ -124,7 +124,7 @@ impl Inputs {
 }
 
 /// Creepage `2 (V − V_C)/(V + V_C)` of the translational and the peripheral velocity [m/s]; braking positive, ±2 when
-/// one of them vanishes or they oppose each other, 0 at standstill (both below [`STANDSTILL`]).
+/// one of them vanishes or they oppose each other, 0 at standstill (their sum below [`STANDSTILL`]).
 pub fn creepage(v: f64, v_c: f64) -> f64 {
     let scale = v.abs() + v_c.abs();
     if scale < STANDSTILL {
@@ -138,8 +138,9 @@ pub fn peripheral_velocity(v: f64, creepage: f64) -> f64 {
     if creepage <= -2.0 { 0.0 } else { v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage) }
 }
 
-/// Speed below which creepage is reported as zero [m/s].
-pub const STANDSTILL: f64 = 1e-6;
+/// Sum of translational and peripheral speed below which creepage is reported as zero [m/s]: a wheel at rest rocks on
+/// its elastic contact with some mm/s.
+pub const STANDSTILL: f64 = 0.02;
 
 #[cfg(test)]
 mod tests {

@@ -38,17 +38,14 @@ impl Model {
             ..inputs.at(0.0)
         };
         let pieces = (h / self.config.solver.max_step - 1e-9).ceil().max(1.0) as u64;
-        let dt = h / pieces as f64;
         let mut next = state.clone();
         (next.internal_steps, next.iterations) = (0, 0);
         let mut halvings = 0;
-        // Position within the communication step in units of dt / 2^halvings.
+        // Position within the communication step in units of h / total.
         let mut position = 0u64;
         let mut total = pieces;
         while position < total {
-            let fraction = (position + 1) as f64 / total as f64;
-            let at = if position + 1 == total { 1.0 } else { fraction };
-            let target = interpolate(&start, &end, at);
+            let target = interpolate(&start, &end, (position + 1) as f64 / total as f64);
             match self.step(&next, inputs, &target, h / total as f64, workspace) {
                 Ok(advanced) => {
                     next = advanced;
@@ -63,7 +60,6 @@ impl Model {
                 Err(error) => return Err(error),
             }
         }
-        debug_assert!(dt > 0.0);
         next.time = state.time + h;
         Ok(next)
     }
