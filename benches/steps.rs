@@ -38,10 +38,10 @@ fn steps(c: &mut Criterion) {
     let model = Model::prepare(railway(), None, &mut quiet).expect("model");
     println!("reduced basis computed in {:.2} s", start.elapsed().as_secs_f64());
     let directory = std::env::temp_dir().join("wheelrail-bench");
-    std::fs::create_dir_all(&directory).expect("temporary directory");
+    std::fs::create_dir_all(directory.join("basis")).expect("temporary directory");
     let (name, bytes) = model.basis_file().expect("reduced model");
     println!("stored basis: {} kB", bytes.len() / 1024);
-    std::fs::write(directory.join(name), bytes).expect("stored basis");
+    std::fs::write(directory.join("basis").join(name), bytes).expect("stored basis");
 
     c.bench_function("instantiate to ready with the stored basis", |b| {
         b.iter(|| {
@@ -51,9 +51,10 @@ fn steps(c: &mut Criterion) {
         })
     });
     let before = resident();
-    let prepared = Model::prepare(railway(), Some(&directory), &mut quiet).expect("model");
-    let (mut simulation, inputs) = braking(prepared);
-    println!("memory of a reduced simulation: {:.1} MB", resident() - before);
+    let prepare = |_| braking(Model::prepare(railway(), Some(&directory), &mut |_, _| {}).expect("model"));
+    let several: Vec<_> = (0..20).map(prepare).collect();
+    println!("memory of a reduced simulation: {:.1} MB", (resident() - before) / several.len() as f64);
+    let (mut simulation, inputs) = braking(model.clone());
     c.bench_function("reduced step 1 ms, braking", |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
     let (mut simulation, inputs) = braking(model);
     let mut k = 0u32;

@@ -48,6 +48,7 @@ pub mod analytic;
 pub mod config;
 pub mod contact;
 pub mod fem;
+pub mod fmi;
 pub mod linalg;
 pub mod mechanics;
 pub mod rolling;

@@ -67,11 +67,11 @@ pub fn basis_file_name(config: &Config) -> String {
 }
 
 impl Model {
-    /// Validates the configuration and makes the model ready. The reduced basis is read from `basis_directory` if it
-    /// is stored there and computed otherwise; `progress` hears what is being computed and its share done.
+    /// Validates the configuration and makes the model ready. The reduced basis is read from
+    /// `<directory>/basis/` if it is stored there and computed otherwise; `progress` hears what is being computed and its share done.
     pub fn prepare(
         config: Config,
-        basis_directory: Option<&Path>,
+        directory: Option<&Path>,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
@@ -79,7 +79,7 @@ impl Model {
             Response::Full => (None, None),
             Response::Reduced => {
                 let name = basis_file_name(&config);
-                let path = basis_directory.map(|d| d.join(&name));
+                let path = directory.map(|d| d.join("basis").join(&name));
                 let bytes = path.as_deref().and_then(|p| std::fs::read(p).ok());
                 match bytes {
                     Some(bytes) => {
@@ -107,8 +107,8 @@ impl Model {
     }
 
     /// File name and content of the reduced basis; `None` for the full response.
-    pub fn basis_file(&self) -> Option<(&str, &[u8])> {
-        self.basis.as_ref().map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+    pub fn basis_file(&self) -> Option<(String, Vec<u8>)> {
+        self.basis.clone()
     }
 }
 

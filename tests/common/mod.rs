@@ -18,10 +18,11 @@ pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
 
 /// The prepared model of a configuration.
 pub fn model(config: Config) -> Arc<Model> {
-    let directory: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("target").join("basis");
-    let model = Model::prepare(config, Some(&directory), &mut |_, _| {}).unwrap();
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
+    let directory: PathBuf = target.join("basis");
+    let model = Model::prepare(config, Some(&target), &mut |_, _| {}).unwrap();
     if let Some((name, bytes)) = model.basis_file() {
-        let path = directory.join(name);
+        let path = directory.join(&name);
         if !path.exists() {
             std::fs::create_dir_all(&directory).unwrap();
             let unique = directory.join(format!("{name}.{}-{:?}", std::process::id(), std::thread::current().id()));

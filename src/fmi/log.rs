@@ -1,0 +1,143 @@
+//! Messages to the master: categories, levels, and refusals of calls.
+
+/// Severity of a message and outcome of a call, in the order of `fmi2Status`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Status {
+    Ok,
+    Warning,
+    /// A step was not completed; the instance stands where it was before.
+    Discard,
+    /// A call was refused; nothing has changed.
+    Error,
+    Fatal,
+}
+
+/// Log categories with their descriptions, in the order of the model description.
+pub const CATEGORIES: [(&str, &str); 7] = [
+    (EVENTS, "Life of the instance: instantiation, initialization, reset, termination"),
+    ("logStatusWarning", "Calls that worked but deserve a look"),
+    ("logStatusDiscard", "Steps that could not be completed"),
+    ("logStatusError", "Calls that were refused"),
+    ("logStatusFatal", "Internal errors"),
+    (PROGRESS, "Progress of long computations during initialization"),
+    (ALL, "All categories"),
+];
+pub const EVENTS: &str = "logEvents";
+pub const PROGRESS: &str = "logProgress";
+/// Stands for all categories in `fmi2SetDebugLogging`; no message carries it.
+pub const ALL: &str = "logAll";
+
+impl Status {
+    /// Category of messages with this status.
+    pub fn category(self) -> &'static str {
+        match self {
+            Status::Ok => EVENTS,
+            Status::Warning => "logStatusWarning",
+            Status::Discard => "logStatusDiscard",
+            Status::Error => "logStatusError",
+            Status::Fatal => "logStatusFatal",
+        }
+    }
+}
+
+/// Why a call was not carried out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    pub status: Status,
+    pub message: String,
+}
+
+impl Refusal {
+    pub fn error(message: impl Into<String>) -> Refusal {
+        Refusal { status: Status::Error, message: message.into() }
+    }
+    pub fn discard(message: impl Into<String>) -> Refusal {
+        Refusal { status: Status::Discard, message: message.into() }
+    }
+}
+
+/// Receiver of messages: status, category, text.
+pub type Sink = Box<dyn Fn(Status, &str, &str)>;
+
+/// Filters messages by category. Discarded steps, errors and worse always pass; everything else must be asked for.
+pub struct Log {
+    sink: Sink,
+    enabled: [bool; CATEGORIES.len()],
+}
+
+impl Log {
+    pub fn new(sink: Sink, on: bool) -> Log {
+        Log { sink, enabled: [on; CATEGORIES.len()] }
+    }
+
+    /// Switches the named categories, or all of them when none is named.
+    pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), Refusal> {
+        let mut enabled = if on && !categories.is_empty() { [false; CATEGORIES.len()] } else { self.enabled };
+        for name in categories {
+            let known = CATEGORIES.iter().position(|(category, _)| category == name);
+            let index = known.ok_or_else(|| {
+                let names = CATEGORIES.map(|(category, _)| category).join(", ");
+                Refusal::error(format!("log category \"{name}\" is unknown; known categories: {names}"))
+            })?;
+            enabled[index] = on;
+        }
+        if categories.is_empty() || categories.iter().any(|name| name == ALL) {
+            enabled = [on; CATEGORIES.len()];
+        }
+        self.enabled = enabled;
+        Ok(())
+    }
+
+    /// Message about the outcome of a call.
+    pub fn report(&self, status: Status, message: &str) {
+        self.send(status, status.category(), message);
+    }
+
+    pub fn progress(&self, message: &str) {
+        self.send(Status::Ok, PROGRESS, message);
+    }
+
+    fn send(&self, status: Status, category: &str, message: &str) {
+        let index = CATEGORIES.iter().position(|(name, _)| *name == category);
+        if status >= Status::Discard || index.is_some_and(|i| self.enabled[i]) {
+            (self.sink)(status, category, message);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    fn recorder(on: bool) -> (Log, Rc<RefCell<Vec<String>>>) {
+        let seen = Rc::new(RefCell::new(Vec::new()));
+        let sink = seen.clone();
+        (Log::new(Box::new(move |_, category, _| sink.borrow_mut().push(category.to_owned())), on), seen)
+    }
+
+    #[test]
+    fn quiet_unless_asked_except_for_failures() {
+        let (log, seen) = recorder(false);
+        log.report(Status::Ok, "");
+        log.report(Status::Warning, "");
+        log.progress("");
+        assert!(seen.borrow().is_empty());
+        log.report(Status::Error, "");
+        assert_eq!(*seen.borrow(), ["logStatusError"]);
+    }
+
+    #[test]
+    fn categories_select_messages_and_unknown_ones_change_nothing() {
+        let (mut log, seen) = recorder(false);
+        log.switch(true, &[PROGRESS.to_owned()]).unwrap();
+        log.report(Status::Ok, "");
+        log.progress("");
+        assert_eq!(*seen.borrow(), [PROGRESS]);
+        let refusal = log.switch(false, &["nonsense".to_owned()]).unwrap_err();
+        assert!(refusal.message.contains("nonsense") && refusal.message.contains(PROGRESS));
+        log.progress("");
+        assert_eq!(seen.borrow().len(), 2);
+    }
+}

@@ -1,0 +1,68 @@
+//! Units of the interface: their SI exponents and what people like to read instead.
+
+/// A unit and the unit in which a master should show the value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Measure {
+    /// Name of the unit in which values cross the interface; always coherent SI.
+    pub unit: &'static str,
+    /// Name of one of the unit's [`Unit::displays`].
+    pub display: Option<&'static str>,
+}
+
+const fn measure(unit: &'static str, display: &'static str) -> Measure {
+    Measure { unit, display: Some(display) }
+}
+
+pub const NUMBER: Measure = Measure { unit: "1", display: None };
+pub const PERCENT: Measure = measure("1", "%");
+pub const METRE: Measure = Measure { unit: "m", display: None };
+pub const MILLIMETRE: Measure = measure("m", "mm");
+pub const SECOND: Measure = Measure { unit: "s", display: None };
+pub const KILOGRAM: Measure = Measure { unit: "kg", display: None };
+pub const TONNE: Measure = measure("kg", "t");
+pub const DEGREE: Measure = measure("rad", "deg");
+pub const SPEED: Measure = measure("m/s", "km/h");
+pub const SLIP: Measure = measure("m/s", "mm/s");
+pub const ROTATION: Measure = measure("rad/s", "rpm");
+pub const ACCELERATION: Measure = Measure { unit: "m/s2", display: None };
+pub const ANGULAR_ACCELERATION: Measure = Measure { unit: "rad/s2", display: None };
+pub const FORCE: Measure = measure("N", "kN");
+pub const NEWTON: Measure = Measure { unit: "N", display: None };
+pub const MOMENT: Measure = measure("N.m", "kN.m");
+pub const PRESSURE: Measure = measure("Pa", "MPa");
+pub const MODULUS: Measure = measure("Pa", "GPa");
+pub const POWER: Measure = measure("W", "kW");
+pub const DENSITY: Measure = Measure { unit: "kg/m3", display: None };
+pub const INERTIA: Measure = Measure { unit: "kg.m2", display: None };
+
+/// A coherent SI unit as a product of powers of base units.
+#[derive(Clone, Copy, Debug)]
+pub struct Unit {
+    pub name: &'static str,
+    /// Exponents of kg, m, s and rad.
+    pub exponents: [i32; 4],
+    /// Display units: name and the factor by which an SI value is multiplied.
+    pub displays: &'static [(&'static str, f64)],
+}
+
+/// Names of the base units to which [`Unit::exponents`] belong, as the FMI schema spells them.
+pub const BASE_UNITS: [&str; 4] = ["kg", "m", "s", "rad"];
+
+/// Every unit of the interface.
+pub const UNITS: &[Unit] = &[
+    Unit { name: "1", exponents: [0, 0, 0, 0], displays: &[("%", 100.0)] },
+    Unit { name: "m", exponents: [0, 1, 0, 0], displays: &[("mm", 1e3)] },
+    Unit { name: "s", exponents: [0, 0, 1, 0], displays: &[] },
+    Unit { name: "kg", exponents: [1, 0, 0, 0], displays: &[("t", 1e-3)] },
+    Unit { name: "rad", exponents: [0, 0, 0, 1], displays: &[("deg", 180.0 / std::f64::consts::PI)] },
+    Unit { name: "m/s", exponents: [0, 1, -1, 0], displays: &[("km/h", 3.6), ("mm/s", 1e3)] },
+    Unit { name: "m/s2", exponents: [0, 1, -2, 0], displays: &[] },
+    Unit { name: "rad/s", exponents: [0, 0, -1, 1], displays: &[("rpm", 30.0 / std::f64::consts::PI)] },
+    Unit { name: "rad/s2", exponents: [0, 0, -2, 1], displays: &[] },
+    Unit { name: "N", exponents: [1, 1, -2, 0], displays: &[("kN", 1e-3)] },
+    Unit { name: "N.m", exponents: [1, 2, -2, 0], displays: &[("kN.m", 1e-3)] },
+    Unit { name: "Pa", exponents: [1, -1, -2, 0], displays: &[("MPa", 1e-6), ("GPa", 1e-9)] },
+    Unit { name: "W", exponents: [1, 2, -3, 0], displays: &[("kW", 1e-3)] },
+    Unit { name: "kg/m3", exponents: [1, -3, 0, 0], displays: &[] },
+    Unit { name: "kg.m2", exponents: [1, 2, 0, 0], displays: &[] },
+];

@@ -1,0 +1,56 @@
+//! Where the resources are: `fmuResourceLocation`.
+
+use std::path::PathBuf;
+
+/// Path of a `file:` URI (RFC 8089: `file:/a`, `file:///a`, `file://localhost/a`, percent-encoded) or of a plain path.
+pub fn path_of(location: &str) -> Result<PathBuf, String> {
+    let unusable = |why: &str| format!("resource location \"{location}\" {why}");
+    let Some(rest) = location.strip_prefix("file:") else {
+        return if location.contains("://") { Err(unusable("is not a file URI")) } else { Ok(location.into()) };
+    };
+    let path = match rest.strip_prefix("//") {
+        Some(authority) => authority.strip_prefix("localhost").unwrap_or(authority),
+        None => rest,
+    };
+    if !path.starts_with('/') {
+        return Err(unusable("is not an absolute path on this machine"));
+    }
+    let decoded = decode(path.as_bytes()).ok_or_else(|| unusable("has a malformed percent code"))?;
+    let path = String::from_utf8(decoded).map_err(|_| unusable("is not UTF-8"))?;
+    let drive = path.as_bytes().get(2) == Some(&b':') && path.as_bytes().get(3) == Some(&b'/');
+    Ok(if drive { path[1..].into() } else { path.into() })
+}
+
+fn decode(text: &[u8]) -> Option<Vec<u8>> {
+    let mut bytes = text.iter();
+    let mut decoded = Vec::with_capacity(text.len());
+    while let Some(&byte) = bytes.next() {
+        decoded.push(if byte == b'%' {
+            let mut digit = || char::from(*bytes.next()?).to_digit(16);
+            (digit()? * 16 + digit()?) as u8
+        } else {
+            byte
+        });
+    }
+    Some(decoded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_spellings_of_a_location_name_the_same_path() {
+        for location in ["file:/a b/c", "file:///a%20b/c", "file://localhost/a%20b/c", "/a b/c"] {
+            assert_eq!(path_of(location).unwrap(), PathBuf::from("/a b/c"), "{location}");
+        }
+        assert_eq!(path_of("file:///C:/a%20b").unwrap(), PathBuf::from("C:/a b"));
+    }
+
+    #[test]
+    fn other_locations_are_refused_by_name() {
+        for location in ["http://example.org/a", "file:a", "file:///a%2", "file:///a%zz", "file:///%ff"] {
+            assert!(path_of(location).unwrap_err().contains(location), "{location}");
+        }
+    }
+}
