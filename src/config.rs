@@ -10,15 +10,25 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Config {
+    /// Map to the whole wheel and size of the contact zone.
     pub model: ModelParameters,
+    /// The wheel.
     pub wheel: Wheel,
+    /// The vehicle.
     pub vehicle: Vehicle,
+    /// The rail.
     pub rail: Rail,
+    /// Material of both bodies.
     pub material: Material,
+    /// Friction.
     pub friction: Friction,
+    /// Parts of the physics.
     pub physics: Physics,
+    /// Meshes.
     pub mesh: MeshParameters,
+    /// Numerical choices.
     pub solver: SolverParameters,
+    /// Start state.
     pub initial: Initial,
 }
 
@@ -161,6 +171,11 @@ pub struct ConfigError {
     pub range: String,
 }
 
+/// Ten significant digits: limits that follow from other parameters carry rounding errors.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
 impl Config {
     /// Refuses values for which the model has no meaning; the message names parameter, value and range.
     pub fn validate(&self) -> Result<(), ConfigError> {
@@ -169,7 +184,7 @@ impl Config {
             if value >= low && value <= high {
                 Ok(())
             } else {
-                let range = format!("{low} to {high}");
+                let range = format!("{} to {}", rounded(low), rounded(high));
                 Err(ConfigError { name, value, range })
             }
         };

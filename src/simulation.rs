@@ -148,6 +148,20 @@ impl Simulation {
         &self.outputs
     }
 
+    /// Present values of all quantities that can be prescribed.
+    pub fn present(&self) -> Drive {
+        let outputs = &self.outputs;
+        Drive {
+            omega: outputs.wheel_omega,
+            moment: outputs.hub_moment,
+            velocity: outputs.wheel_velocity,
+            force: outputs.hub_force_x,
+            load: (-outputs.hub_force_y).max(0.0),
+            displacement: -outputs.contact_approach,
+            friction: self.state.friction,
+        }
+    }
+
     /// The model this simulation runs on.
     pub fn model(&self) -> &Arc<Model> {
         &self.model

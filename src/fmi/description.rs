@@ -141,7 +141,7 @@ pub fn start_value(variable: &Variable) -> Option<Value> {
     static CONFIG: OnceLock<crate::config::Config> = OnceLock::new();
     let mut config = CONFIG.get_or_init(presets::default_config).clone();
     let parameter = variable.parameter(presets::DEFAULT, &mut config);
-    parameter.or_else(|| variable.input(&mut presets::default_inputs(&config)))
+    parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
 }
 
 /// FMI variability of a variable.

@@ -4,7 +4,7 @@
 
 use super::lifecycle::{Call, Phase};
 use super::log::{Log, Refusal, Status};
-use super::presets::{self, default_inputs};
+use super::presets;
 use super::snapshot::{Explicit, Snapshot};
 use super::variable::{Access, Causality, Reference, Value, Variable};
 use super::variables::find;
@@ -219,6 +219,10 @@ impl Instance {
             }
         }
         let config = with_parameters(&base, &parameters);
+        if !early {
+            let now = with_inputs(&self.config, &self.inputs, rates);
+            self.take_over(&now, &with_inputs(&config, &inputs, rates), &mut inputs);
+        }
         with_inputs(&config, &inputs, rates).validate().map_err(|error| Refusal::error(error.to_string()))?;
         (self.preset, self.base, self.config) = (preset, base, config);
         (self.parameters, self.inputs, self.rates) = (parameters, inputs, rates);
@@ -226,6 +230,26 @@ impl Instance {
             self.simulation = None;
         }
         Ok(())
+    }
+
+    /// When control switches during a run, a newly prescribed quantity that the master has never set starts from its
+    /// present value.
+    fn take_over(&self, now: &Inputs, next: &Inputs, inputs: &mut Explicit) {
+        let Some(simulation) = &self.simulation else { return };
+        let present = simulation.present();
+        for (switched, name, value) in [
+            (now.rotation != next.rotation, "drive.omega", present.omega),
+            (now.rotation != next.rotation, "drive.moment", present.moment),
+            (now.translation != next.translation, "drive.velocity", present.velocity),
+            (now.translation != next.translation, "drive.force", present.force),
+            (now.vertical != next.vertical, "drive.load", present.load),
+            (now.vertical != next.vertical, "drive.displacement", present.displacement),
+        ] {
+            let row = super::variables::variables().iter().find(|variable| variable.name == name);
+            if let Some(variable) = row.filter(|_| switched) {
+                inputs.entry(variable.reference).or_insert(Value::Real(value));
+            }
+        }
     }
 
     /// First time derivatives of real inputs, for the next step only; all or none.
@@ -260,7 +284,8 @@ impl Instance {
             return Err(Refusal::error(format!("communicationStepSize = {h} s is outside its range: {range}")));
         }
         let rounding = |t: f64| POINT_TOLERANCE * h + 16.0 * f64::EPSILON * t.abs();
-        if !((start - self.time).abs() <= rounding(self.time)) {
+        let current = (start - self.time).abs() <= rounding(self.time);
+        if !current {
             let expected = self.time;
             let message = format!("currentCommunicationPoint = {start} s is outside its range: {expected} s");
             return Err(Refusal::error(message));
@@ -320,7 +345,7 @@ impl Instance {
             }
             (Some(state), _) => {
                 let model = self.model(config.clone())?;
-                let mut simulation = Simulation::new(model, &default_inputs(&config)).map_err(refused)?;
+                let mut simulation = Simulation::new(model, &Inputs::rolling(&config)).map_err(refused)?;
                 simulation.set_state(state.clone()).map_err(refused)?;
                 self.simulation = Some(simulation);
             }
@@ -413,7 +438,7 @@ fn with_parameters(base: &Config, parameters: &Explicit) -> Config {
 }
 
 fn with_inputs(config: &Config, explicit: &Explicit, rate: Drive) -> Inputs {
-    let mut inputs = default_inputs(config);
+    let mut inputs = Inputs::rolling(config);
     for (reference, value) in explicit {
         if let Some(variable) = find(*reference) {
             variable.set_input(&mut inputs, value);

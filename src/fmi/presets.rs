@@ -1,8 +1,7 @@
-//! Presets: parameter sets by name, and the inputs that follow from parameters until a master sets its own.
+//! Presets: parameter sets by name.
 
 use super::variables::variables;
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, Rotation, Translation, Vertical};
 use std::fs;
 use std::path::Path;
 
@@ -61,44 +60,4 @@ fn parse(name: &str, text: &str) -> Result<Config, String> {
     }
     config.validate().map_err(|error| format!("is invalid ({error})"))?;
     Ok(config)
-}
-
-/// Inputs that follow from the parameters: free rolling under the nominal load with the initial velocity and creepage.
-pub fn default_inputs(config: &Config) -> Inputs {
-    let drive = Drive {
-        omega: rolling_omega(config.initial.velocity, config.initial.creepage, config.wheel.radius),
-        velocity: config.initial.velocity,
-        load: config.model.nominal_load,
-        friction: config.friction.coefficient,
-        ..Drive::default()
-    };
-    Inputs {
-        rotation: Rotation::Moment,
-        translation: Translation::Force,
-        vertical: Vertical::Force,
-        drive,
-        rate: Drive::default(),
-    }
-}
-
-/// Angular velocity [rad/s] at which a wheel of `radius` [m] travelling at `velocity` [m/s] has the given creepage
-/// `ξ = 2 (V − rω)/(V + rω)`, so `rω = V (2 − ξ)/(2 + ξ)`. At the pole ξ = −2 (spinning on the spot, `V = 0`) the
-/// velocity does not determine ω and 0 is returned.
-fn rolling_omega(velocity: f64, creepage: f64, radius: f64) -> f64 {
-    if creepage <= -2.0 { 0.0 } else { velocity * (2.0 - creepage) / (2.0 + creepage) / radius }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rolling_omega_gives_back_the_creepage() {
-        let (v, r): (f64, f64) = (20.0, 0.46);
-        for creepage in [-1.9, -1e-3, 0.0, 1e-3, 1.0, 2.0] {
-            let circumferential = r * rolling_omega(v, creepage, r);
-            let back = 2.0 * (v - circumferential) / (v + circumferential);
-            assert!((back - creepage).abs() < 1e-12, "{back} against {creepage}");
-        }
-    }
 }

@@ -8,7 +8,7 @@
 use super::units::{self, Measure};
 use super::variable::{Access, Enumeration, Kind, Reference, Start, Variable};
 use crate::config::{Config, Response, TimeScheme};
-use crate::simulation::{Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, Translation, Vertical};
+use crate::simulation::{Drive, INPUT_RANGES, Inputs, Outputs, PROFILE_POINTS, Rotation, Translation, Vertical};
 use std::sync::OnceLock;
 
 pub const ROTATION_CONTROL: Enumeration = Enumeration {
@@ -84,10 +84,10 @@ fn inputs() -> Vec<Variable> {
     let choice = |r, name, list, get: fn(&Inputs) -> i32, set: fn(&mut Inputs, i32), text| {
         row(r, name, Kind::Enumeration(list), Access::ChoiceInput(get, set), text)
     };
-    let value = |r, name, measure, range, nominal, field: fn(&mut Drive) -> &mut f64, text| {
+    let value = |r, name: &str, measure, nominal, field: fn(&mut Drive) -> &mut f64, text| {
+        let range = INPUT_RANGES.iter().find(|limits| limits.0 == name).map_or(FREE, |&(_, low, high)| [low, high]);
         row(r, name, real(measure, range, nominal), Access::RealInput(field), text)
     };
-    let force = [-1e9, 1e9];
     vec![
         choice(
             100,
@@ -117,7 +117,6 @@ fn inputs() -> Vec<Variable> {
             200,
             "drive.omega",
             units::ROTATION,
-            [-1e5, 1e5],
             60.0,
             |d| &mut d.omega,
             "Angular velocity, forward rolling positive; unset: from initial.velocity and initial.creepage",
@@ -126,7 +125,6 @@ fn inputs() -> Vec<Variable> {
             201,
             "drive.moment",
             units::MOMENT,
-            force,
             1e4,
             |d| &mut d.moment,
             "Driving moment on the hub, forward positive (braking negative)",
@@ -135,7 +133,6 @@ fn inputs() -> Vec<Variable> {
             202,
             "drive.velocity",
             units::SPEED,
-            [-200.0, 200.0],
             30.0,
             |d| &mut d.velocity,
             "Travel velocity of the wheel centre, positive in x; unset: initial.velocity",
@@ -144,7 +141,6 @@ fn inputs() -> Vec<Variable> {
             203,
             "drive.force",
             units::FORCE,
-            force,
             1e4,
             |d| &mut d.force,
             "Horizontal driving force on the hub, positive in x",
@@ -153,7 +149,6 @@ fn inputs() -> Vec<Variable> {
             204,
             "drive.load",
             units::FORCE,
-            [0.0, 1e9],
             1e5,
             |d| &mut d.load,
             "Vertical load on the hub, pressing down positive; unset: model.nominal_load",
@@ -162,7 +157,6 @@ fn inputs() -> Vec<Variable> {
             205,
             "drive.displacement",
             units::MILLIMETRE,
-            [-1.0, 1.0],
             1e-4,
             |d| &mut d.displacement,
             "Hub height above just touching, up positive (pressed: negative)",
@@ -171,7 +165,6 @@ fn inputs() -> Vec<Variable> {
             250,
             "rail.friction",
             units::NUMBER,
-            [0.0, 10.0],
             0.3,
             |d| &mut d.friction,
             "Friction coefficient available now; unset: friction.coefficient",
@@ -227,11 +220,11 @@ fn parameters() -> Vec<Variable> {
     let count = |r, name, min, max, field: fn(&mut Config) -> &mut usize, text| {
         row(r, name, Kind::Integer { min, max }, Access::CountParameter(field), text)
     };
-    let response: (fn(&Config) -> i32, fn(&mut Config, i32)) = (
+    let response = Access::ChoiceParameter(
         |c| if c.solver.response == Response::Reduced { 1 } else { 2 },
         |c, item| c.solver.response = if item == 1 { Response::Reduced } else { Response::Full },
     );
-    let scheme: (fn(&Config) -> i32, fn(&mut Config, i32)) = (
+    let scheme = Access::ChoiceParameter(
         |c| match c.solver.time_scheme {
             TimeScheme::Bdf2 => 1,
             TimeScheme::BackwardEuler => 2,
@@ -264,10 +257,10 @@ fn parameters() -> Vec<Variable> {
         value(1060, "friction.coefficient", NUMBER, [0.0, 10.0], |c| &mut c.friction.coefficient, "Friction coefficient; default of the input rail.friction"),
         row(1070, "physics.centrifugal", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.centrifugal), "Centrifugal load of the spinning wheel"),
         count(1080, "mesh.elements_per_half_width", 4, 80, |c| &mut c.mesh.elements_per_half_width, "Elements per Hertzian half-width at model.nominal_load"),
-        row(1090, "solver.response", Kind::Enumeration(&RESPONSE), Access::ChoiceParameter(response.0, response.1), "How the bodies answer contact tractions"),
+        row(1090, "solver.response", Kind::Enumeration(&RESPONSE), response, "How the bodies answer contact tractions"),
         count(1091, "solver.modes_wheel", 1, 200, |c| &mut c.solver.modes_wheel, "Vibration modes kept for the wheel (reduced response)"),
         count(1092, "solver.modes_rail", 1, 200, |c| &mut c.solver.modes_rail, "Vibration modes kept for the rail (reduced response)"),
-        row(1093, "solver.time_scheme", Kind::Enumeration(&TIME_SCHEME), Access::ChoiceParameter(scheme.0, scheme.1), "Implicit time discretisation of momentum and slip"),
+        row(1093, "solver.time_scheme", Kind::Enumeration(&TIME_SCHEME), scheme, "Implicit time discretisation of momentum and slip"),
         value(1094, "solver.theta", NUMBER, [0.5, 1.0], |c| &mut c.solver.theta, "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)"),
         value(1095, "solver.max_step", SECOND, [1e-7, 1.0], |c| &mut c.solver.max_step, "Largest internal time step; longer communication steps are divided evenly"),
         value(1100, "initial.velocity", SPEED, [-200.0, 200.0], |c| &mut c.initial.velocity, "Travel velocity of the stationary rolling state at the start"),

@@ -1,0 +1,146 @@
+//! The model description against the table of variables, the committed file and the rules of the model.
+
+use std::collections::HashSet;
+use std::path::Path;
+use wheelrail::config::Config;
+use wheelrail::fmi::description::{model_description, start_value};
+use wheelrail::fmi::presets;
+use wheelrail::fmi::units::UNITS;
+use wheelrail::fmi::variable::{Access, Causality, Kind, Value, Variable};
+use wheelrail::fmi::variables::variables;
+
+fn with_causality(causality: Causality) -> impl Iterator<Item = &'static Variable> {
+    variables().iter().filter(move |v| v.causality() == causality)
+}
+
+#[test]
+fn committed_file_is_the_generated_one() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription.xml");
+    let committed = std::fs::read_to_string(path).unwrap();
+    assert!(committed == model_description(), "run `wheelrail describe > modelDescription.xml`");
+}
+
+#[test]
+fn names_and_references_are_unique() {
+    let names: HashSet<_> = variables().iter().map(|v| &v.name).collect();
+    let references: HashSet<_> = variables().iter().map(|v| v.reference).collect();
+    assert_eq!((names.len(), references.len()), (variables().len(), variables().len()));
+}
+
+#[test]
+fn inputs_and_parameters_start_inside_their_ranges_and_outputs_have_no_start() {
+    for variable in variables() {
+        let start = start_value(variable);
+        assert_eq!(start.is_some(), variable.causality() != Causality::Output, "{}", variable.name);
+        if let Some(start) = start {
+            assert_eq!(variable.check(&start), Ok(()));
+        }
+    }
+}
+
+#[test]
+fn units_and_display_units_are_defined() {
+    for variable in variables() {
+        if let Kind::Real { measure, .. } = variable.kind {
+            let unit = UNITS.iter().find(|unit| unit.name == measure.unit).expect(measure.unit);
+            let known = |display| unit.displays.iter().any(|(name, _)| *name == display);
+            assert!(measure.display.is_none_or(known), "{}: {measure:?}", variable.name);
+        }
+    }
+}
+
+#[test]
+fn descriptions_are_there_and_plain() {
+    for variable in variables() {
+        let text = &variable.description;
+        assert!(text.len() > 10 && !text.ends_with('.') && !text.contains('\n'), "{}: {text}", variable.name);
+    }
+}
+
+#[test]
+fn every_preset_is_valid() {
+    let resources = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources");
+    let names = presets::available(Some(&resources));
+    assert_eq!(names, ["paper_a", "paper_c", "paper_d", "railway"]);
+    for name in names {
+        let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));
+        wheelrail::simulation::Inputs::rolling(&config).validate().unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+    assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(presets::default_config()));
+}
+
+/// Every field of the configuration is a parameter of the interface and has its name there.
+#[test]
+fn parameters_are_the_fields_of_the_configuration() {
+    let json = serde_json::to_value(presets::default_config()).unwrap();
+    let mut fields: Vec<String> = Vec::new();
+    for (group, content) in json.as_object().unwrap() {
+        fields.extend(content.as_object().unwrap().keys().map(|name| format!("{group}.{name}")));
+    }
+    fields.push("preset".to_owned());
+    let mut names: Vec<_> = with_causality(Causality::Parameter).map(|v| v.name.clone()).collect();
+    fields.sort();
+    names.sort();
+    assert_eq!(names, fields);
+    for variable in with_causality(Causality::Parameter).filter(|v| v.name != "preset") {
+        let (group, name) = variable.name.split_once('.').unwrap();
+        let field = |config: &Config| serde_json::to_value(config).unwrap()[group][name].clone();
+        let mut config = presets::default_config();
+        let value = match variable.parameter("", &mut config).unwrap() {
+            Value::Real(v) => Value::Real(v + 1e-3),
+            Value::Integer(v) => Value::Integer(v + 1),
+            Value::Boolean(v) => Value::Boolean(!v),
+            other => other,
+        };
+        variable.set_parameter(&mut config, &value);
+        assert_ne!(field(&config), field(&presets::default_config()), "{} reaches its field", variable.name);
+        assert_eq!(variable.parameter("", &mut config), Some(value));
+    }
+}
+
+/// The smallest numbers outside a range, and the bounds themselves.
+fn around(min: f64, max: f64) -> ([f64; 2], [f64; 2]) {
+    ([min.next_down(), max.next_up()], [min, max])
+}
+
+#[test]
+fn declared_ranges_of_inputs_are_those_of_the_model() {
+    let inputs = wheelrail::simulation::Inputs::rolling(&presets::default_config());
+    for variable in with_causality(Causality::Input) {
+        let Kind::Real { min, max, .. } = variable.kind else {
+            continue;
+        };
+        let (outside, inside) = around(min, max);
+        let validated = |value| {
+            let mut inputs = inputs;
+            variable.set_input(&mut inputs, &Value::Real(value));
+            inputs.validate()
+        };
+        for value in outside.into_iter().chain([f64::NAN]) {
+            let error = validated(value).expect_err(&variable.name);
+            assert!(error.to_string().contains(&variable.name), "{error}");
+        }
+        for value in inside {
+            assert_eq!(validated(value).map_err(|error| error.to_string()), Ok(()));
+        }
+    }
+}
+
+/// Ranges of the interface are at least as wide as those of the model, which may depend on other parameters.
+#[test]
+fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
+    for variable in with_causality(Causality::Parameter) {
+        let values = match (variable.kind, variable.access) {
+            (Kind::Real { min, max, .. }, _) => around(min, max).0.map(Value::Real),
+            (Kind::Integer { min, max }, Access::CountParameter(_)) => [min - 1, max + 1].map(Value::Integer),
+            _ => continue,
+        };
+        for value in values {
+            let mut config = presets::default_config();
+            variable.set_parameter(&mut config, &value);
+            let error = config.validate().expect_err(&variable.name);
+            assert_eq!(error.name, variable.name);
+            assert!(variable.check(&value).is_err());
+        }
+    }
+}
