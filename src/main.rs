@@ -6,7 +6,7 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wheelrail::fmi::package::{self, Contents};
+use wheelrail::fmi::package::{self, Basis, Contents};
 use wheelrail::fmi::{description, presets};
 use wheelrail::simulation::Model;
 
@@ -71,11 +71,8 @@ fn pack(out: &Path, library: PathBuf, resources: PathBuf, cache: &Path) -> Resul
     Ok(())
 }
 
-/// Name and content of a stored basis.
-type BasisFile = (String, Vec<u8>);
-
 /// The basis that a preset needs, from the cache or computed under a progress bar and kept there.
-fn basis(preset: &str, resources: &Path, cache: &Path) -> Result<Option<BasisFile>, Box<dyn Error>> {
+fn basis(preset: &str, resources: &Path, cache: &Path) -> Result<Option<Basis>, Box<dyn Error>> {
     let bar = ProgressBar::new(100);
     bar.set_style(ProgressStyle::with_template("{prefix:>9} {bar:30} {percent:>3} % {msg}")?);
     bar.set_prefix(preset.to_owned());

@@ -115,6 +115,45 @@ fn sink(name: &str, functions: &fmi2CallbackFunctions) -> Sink {
     })
 }
 
+/// Place of the master's `fmi2FMUstate`.
+unsafe fn place<'a>(state: *mut fmi2FMUstate) -> Outcome<&'a mut fmi2FMUstate> {
+    // SAFETY: see the module: NULL or the address of a handle.
+    unsafe { state.as_mut() }.ok_or_else(|| Refusal::error("FMUstate is NULL"))
+}
+
+fn find_state(states: &BTreeMap<usize, Snapshot>, handle: fmi2FMUstate) -> Outcome<&Snapshot> {
+    let unknown = || Refusal::error("FMUstate is not a state of this instance, or has been freed");
+    states.get(&handle.addr()).ok_or_else(unknown)
+}
+
+impl Component {
+    /// Keeps a snapshot under the handle at `place`, a new one unless the place already holds one.
+    fn keep(&mut self, place: &mut fmi2FMUstate, snapshot: Snapshot) -> Outcome {
+        static NEXT: AtomicUsize = AtomicUsize::new(1);
+        if place.is_null() {
+            *place = ptr::without_provenance_mut(NEXT.fetch_add(1, Ordering::Relaxed));
+        } else {
+            find_state(&self.states, *place)?;
+        }
+        self.states.insert(place.addr(), snapshot);
+        Ok(())
+    }
+
+    fn state_bytes(&self, handle: fmi2FMUstate) -> Outcome<Vec<u8>> {
+        self.instance.allow(Call::FmuState)?;
+        find_state(&self.states, handle)?.to_bytes().map_err(Refusal::error)
+    }
+
+    /// Refuses questions about the last step other than the one that a function answers.
+    fn answers(&self, question: fmi2StatusKind, answered: Option<fmi2StatusKind>) -> Outcome {
+        self.instance.allow(Call::GetStatus)?;
+        if answered == Some(question) {
+            return Ok(());
+        }
+        Err(Refusal::discard(format!("{question:?} is not available through this function")))
+    }
+}
+
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
     c"default".as_ptr()
@@ -202,425 +241,196 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
-    c: fmi2Component,
-    loggingOn: fmi2Boolean,
-    nCategories: usize,
-    categories: *const fmi2String,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SetDebugLogging", |component| {
-            let names = slice(categories, nCategories, "categories")?;
-            let names = names.iter().map(|name| text(*name, "category")).collect::<Outcome<Vec<_>>>()?;
-            component.instance.set_debug_logging(loggingOn != 0, &names)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetupExperiment(
-    c: fmi2Component,
-    toleranceDefined: fmi2Boolean,
-    tolerance: fmi2Real,
-    startTime: fmi2Real,
-    stopTimeDefined: fmi2Boolean,
-    stopTime: fmi2Real,
-) -> fmi2Status {
-    let tolerance = (toleranceDefined != 0).then_some(tolerance);
-    let stop = (stopTimeDefined != 0).then_some(stopTime);
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SetupExperiment", |component| component.instance.setup_experiment(tolerance, startTime, stop))
-    }
-}
-
-/// Functions of the form `fmi2Status f(fmi2Component)`.
-macro_rules! plain {
-    ($($name:ident => $method:ident),* $(,)?) => {$(
+/// Exports functions that take a component and return a status, and compares each with the type that the header of the
+/// standard gives it. The body runs behind [`call`].
+macro_rules! export {
+    ($($type:ident = $name:ident(|$component:ident| $(, $argument:ident: $of:ty)*) $body:block)*) => {$(
         #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(c: fmi2Component) -> fmi2Status {
+        pub unsafe extern "C" fn $name(c: fmi2Component $(, $argument: $of)*) -> fmi2Status {
             // SAFETY: see the module.
-            unsafe { call(c, stringify!($name), |component| component.instance.$method()) }
+            unsafe { call(c, stringify!($name), |$component| $body) }
         }
+        const _: $type = Some($name);
     )*};
 }
 
-plain! {
-    fmi2EnterInitializationMode => enter_initialization,
-    fmi2ExitInitializationMode => exit_initialization,
-    fmi2Terminate => terminate,
-    fmi2Reset => reset,
-}
-
-/// Getter and setter of an FMI type that is passed by value.
-macro_rules! access {
-    ($($get:ident, $set:ident, $type:ty, $variant:ident, $name:literal, $into:expr, $from:expr;)*) => {$(
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $get(
-            c: fmi2Component,
-            vr: *const fmi2ValueReference,
-            nvr: usize,
-            value: *mut $type,
-        ) -> fmi2Status {
-            // SAFETY: see the module.
-            unsafe {
-                call(c, stringify!($get), |component| {
-                    let values = component.instance.get(slice(vr, nvr, "vr")?, $name)?;
-                    let plain = |v| if let Value::$variant(v) = v { Some($into(v)) } else { None };
-                    store(value, values.into_iter().filter_map(plain).collect(), "value")
-                })
-            }
-        }
-
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $set(
-            c: fmi2Component,
-            vr: *const fmi2ValueReference,
-            nvr: usize,
-            value: *const $type,
-        ) -> fmi2Status {
-            // SAFETY: see the module.
-            unsafe {
-                call(c, stringify!($set), |component| {
-                    let references = slice(vr, nvr, "vr")?;
-                    let values = slice(value, nvr, "value")?.iter().map(|v| Value::$variant($from(*v)));
-                    component.instance.set(references, values.collect())
-                })
-            }
-        }
-    )*};
-}
-
-access! {
-    fmi2GetReal, fmi2SetReal, fmi2Real, Real, "Real", std::convert::identity, std::convert::identity;
-    fmi2GetInteger, fmi2SetInteger, fmi2Integer, Integer, "Integer", std::convert::identity, std::convert::identity;
-    fmi2GetBoolean, fmi2SetBoolean, fmi2Boolean, Boolean, "Boolean", fmi2Boolean::from, |v: fmi2Boolean| v != 0;
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetString(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2String,
-) -> fmi2Status {
-    // SAFETY: see the module; the strings live until the next call of this function.
-    unsafe {
-        call(c, "fmi2GetString", |component| {
-            let values = component.instance.get(slice(vr, nvr, "vr")?, "String")?;
-            let plain = |v| {
-                if let Value::String(v) = v { Some(c_string(&v)) } else { None }
-            };
-            component.strings = values.into_iter().filter_map(plain).collect();
-            store(value, component.strings.iter().map(|s| s.as_ptr()).collect(), "value")
-        })
+export! {
+    fmi2SetDebugLoggingTYPE = fmi2SetDebugLogging(
+        |component|, loggingOn: fmi2Boolean, nCategories: usize, categories: *const fmi2String
+    ) {
+        let names = slice(categories, nCategories, "categories")?;
+        let names = names.iter().map(|name| text(*name, "category")).collect::<Outcome<Vec<_>>>()?;
+        component.instance.set_debug_logging(loggingOn != 0, &names)
     }
-}
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetString(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2String,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SetString", |component| {
-            let references = slice(vr, nvr, "vr")?;
-            let values = slice(value, nvr, "value")?.iter().map(|v| Ok(Value::String(text(*v, "value")?)));
-            component.instance.set(references, values.collect::<Outcome<_>>()?)
-        })
+    fmi2SetupExperimentTYPE = fmi2SetupExperiment(
+        |component|, toleranceDefined: fmi2Boolean, tolerance: fmi2Real, startTime: fmi2Real,
+        stopTimeDefined: fmi2Boolean, stopTime: fmi2Real
+    ) {
+        let tolerance = (toleranceDefined != 0).then_some(tolerance);
+        let stop = (stopTimeDefined != 0).then_some(stopTime);
+        component.instance.setup_experiment(tolerance, startTime, stop)
     }
-}
 
-/// Place of the master's `fmi2FMUstate`.
-unsafe fn place<'a>(state: *mut fmi2FMUstate) -> Outcome<&'a mut fmi2FMUstate> {
-    // SAFETY: see the module: NULL or the address of a handle.
-    unsafe { state.as_mut() }.ok_or_else(|| Refusal::error("FMUstate is NULL"))
-}
+    fmi2EnterInitializationModeTYPE = fmi2EnterInitializationMode(|component|) {
+        component.instance.enter_initialization()
+    }
+    fmi2ExitInitializationModeTYPE = fmi2ExitInitializationMode(|component|) {
+        component.instance.exit_initialization()
+    }
+    fmi2TerminateTYPE = fmi2Terminate(|component|) { component.instance.terminate() }
+    fmi2ResetTYPE = fmi2Reset(|component|) { component.instance.reset() }
 
-impl Component {
-    /// Keeps a snapshot under the handle at `place`, a new one unless the place already holds one.
-    fn keep(&mut self, place: &mut fmi2FMUstate, snapshot: Snapshot) -> Outcome {
-        static NEXT: AtomicUsize = AtomicUsize::new(1);
-        if place.is_null() {
-            *place = ptr::without_provenance_mut(NEXT.fetch_add(1, Ordering::Relaxed));
-        } else {
-            self.state(*place)?;
+    fmi2GetRealTYPE = fmi2GetReal(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Real
+    ) {
+        let plain = |v| if let Value::Real(v) = v { Some(v) } else { None };
+        let values = component.instance.get(slice(vr, nvr, "vr")?, "Real")?;
+        store(value, values.into_iter().filter_map(plain).collect(), "value")
+    }
+    fmi2GetIntegerTYPE = fmi2GetInteger(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Integer
+    ) {
+        let plain = |v| if let Value::Integer(v) = v { Some(v) } else { None };
+        let values = component.instance.get(slice(vr, nvr, "vr")?, "Integer")?;
+        store(value, values.into_iter().filter_map(plain).collect(), "value")
+    }
+    fmi2GetBooleanTYPE = fmi2GetBoolean(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Boolean
+    ) {
+        let plain = |v| if let Value::Boolean(v) = v { Some(v.into()) } else { None };
+        let values = component.instance.get(slice(vr, nvr, "vr")?, "Boolean")?;
+        store(value, values.into_iter().filter_map(plain).collect(), "value")
+    }
+    fmi2GetStringTYPE = fmi2GetString(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2String
+    ) {
+        let plain = |v| if let Value::String(v) = v { Some(c_string(&v)) } else { None };
+        let values = component.instance.get(slice(vr, nvr, "vr")?, "String")?;
+        component.strings = values.into_iter().filter_map(plain).collect();
+        store(value, component.strings.iter().map(|string| string.as_ptr()).collect(), "value")
+    }
+
+    fmi2SetRealTYPE = fmi2SetReal(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Real
+    ) {
+        let values = slice(value, nvr, "value")?.iter().map(|v| Value::Real(*v)).collect();
+        component.instance.set(slice(vr, nvr, "vr")?, values)
+    }
+    fmi2SetIntegerTYPE = fmi2SetInteger(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Integer
+    ) {
+        let values = slice(value, nvr, "value")?.iter().map(|v| Value::Integer(*v)).collect();
+        component.instance.set(slice(vr, nvr, "vr")?, values)
+    }
+    fmi2SetBooleanTYPE = fmi2SetBoolean(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Boolean
+    ) {
+        let values = slice(value, nvr, "value")?.iter().map(|v| Value::Boolean(*v != 0)).collect();
+        component.instance.set(slice(vr, nvr, "vr")?, values)
+    }
+    fmi2SetStringTYPE = fmi2SetString(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2String
+    ) {
+        let values = slice(value, nvr, "value")?.iter().map(|v| Ok(Value::String(text(*v, "value")?)));
+        component.instance.set(slice(vr, nvr, "vr")?, values.collect::<Outcome<_>>()?)
+    }
+
+    fmi2GetFMUstateTYPE = fmi2GetFMUstate(|component|, FMUstate: *mut fmi2FMUstate) {
+        let snapshot = component.instance.snapshot()?;
+        component.keep(place(FMUstate)?, snapshot)
+    }
+    fmi2SetFMUstateTYPE = fmi2SetFMUstate(|component|, FMUstate: fmi2FMUstate) {
+        let Component { instance, states, .. } = component;
+        instance.restore(find_state(states, FMUstate)?)
+    }
+    fmi2FreeFMUstateTYPE = fmi2FreeFMUstate(|component|, FMUstate: *mut fmi2FMUstate) {
+        component.instance.allow(Call::FmuState)?;
+        if let Some(place) = FMUstate.as_mut().filter(|place| !place.is_null()) {
+            find_state(&component.states, *place)?;
+            component.states.remove(&place.addr());
+            *place = ptr::null_mut();
         }
-        self.states.insert(place.addr(), snapshot);
         Ok(())
     }
-
-    fn state(&self, handle: fmi2FMUstate) -> Outcome<&Snapshot> {
-        let unknown = || Refusal::error("FMUstate is not a state of this instance, or has been freed");
-        self.states.get(&handle.addr()).ok_or_else(unknown)
+    fmi2SerializedFMUstateSizeTYPE = fmi2SerializedFMUstateSize(
+        |component|, FMUstate: fmi2FMUstate, size: *mut usize
+    ) {
+        store(size, vec![component.state_bytes(FMUstate)?.len()], "size")
     }
-
-    fn state_bytes(&self, handle: fmi2FMUstate) -> Outcome<Vec<u8>> {
-        self.instance.allow(Call::FmuState)?;
-        self.state(handle)?.to_bytes().map_err(Refusal::error)
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2GetFMUstate", |component| {
-            let snapshot = component.instance.snapshot()?;
-            component.keep(place(FMUstate)?, snapshot)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SetFMUstate", |component| {
-            let snapshot = component.state(FMUstate)?.clone();
-            component.instance.restore(&snapshot)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2FreeFMUstate", |component| {
-            component.instance.allow(Call::FmuState)?;
-            if let Some(place) = FMUstate.as_mut().filter(|place| !place.is_null()) {
-                component.state(*place)?;
-                component.states.remove(&place.addr());
-                *place = ptr::null_mut();
-            }
-            Ok(())
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    c: fmi2Component,
-    FMUstate: fmi2FMUstate,
-    size: *mut usize,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SerializedFMUstateSize", |component| {
-            store(size, vec![component.state_bytes(FMUstate)?.len()], "size")
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(
-    c: fmi2Component,
-    FMUstate: fmi2FMUstate,
-    serializedState: *mut fmi2Byte,
-    size: usize,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SerializeFMUstate", |component| {
-            let bytes = component.state_bytes(FMUstate)?;
-            if size < bytes.len() {
-                let needed = bytes.len();
-                return Err(Refusal::error(format!("size = {size} is outside its range: at least {needed}")));
-            }
-            store(serializedState, bytes.into_iter().map(|byte| byte as fmi2Byte).collect(), "serializedState")
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    c: fmi2Component,
-    serializedState: *const fmi2Byte,
-    size: usize,
-    FMUstate: *mut fmi2FMUstate,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2DeSerializeFMUstate", |component| {
-            component.instance.allow(Call::FmuState)?;
-            let bytes = slice(serializedState.cast::<u8>(), size, "serializedState")?;
-            let snapshot = Snapshot::from_bytes(bytes).map_err(Refusal::error)?;
-            component.keep(place(FMUstate)?, snapshot)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
-    c: fmi2Component,
-    _vUnknown_ref: *const fmi2ValueReference,
-    _nUnknown: usize,
-    _vKnown_ref: *const fmi2ValueReference,
-    _nKnown: usize,
-    _dvKnown: *const fmi2Real,
-    _dvUnknown: *mut fmi2Real,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2GetDirectionalDerivative", |component| {
-            component.instance.allow(Call::GetDirectionalDerivative)?;
-            Err(Refusal::error("directional derivatives are not provided (providesDirectionalDerivative = false)"))
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    order: *const fmi2Integer,
-    value: *const fmi2Real,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2SetRealInputDerivatives", |component| {
-            let (orders, values) = (slice(order, nvr, "order")?, slice(value, nvr, "value")?);
-            component.instance.set_input_derivatives(slice(vr, nvr, "vr")?, orders, values)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    c: fmi2Component,
-    _vr: *const fmi2ValueReference,
-    nvr: usize,
-    _order: *const fmi2Integer,
-    _value: *mut fmi2Real,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe {
-        call(c, "fmi2GetRealOutputDerivatives", |component| {
-            component.instance.allow(Call::GetRealOutputDerivatives)?;
-            if nvr == 0 {
-                return Ok(());
-            }
-            Err(Refusal::error("output derivatives are not provided (maxOutputDerivativeOrder = 0)"))
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DoStep(
-    c: fmi2Component,
-    currentCommunicationPoint: fmi2Real,
-    communicationStepSize: fmi2Real,
-    _noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
-) -> fmi2Status {
-    // SAFETY: see the module. States stay until the master frees them, whatever it promises about using them.
-    unsafe {
-        call(c, "fmi2DoStep", |component| component.instance.do_step(currentCommunicationPoint, communicationStepSize))
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe { call(c, "fmi2CancelStep", |component| component.instance.allow(Call::CancelStep)) }
-}
-
-/// Queries of the last step: one answer per type, everything else is not available (`fmi2Discard`).
-macro_rules! status {
-    ($($name:ident, $type:ty, $kind:pat, $answer:expr;)*) => {$(
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(c: fmi2Component, s: fmi2StatusKind, value: *mut $type) -> fmi2Status {
-            // SAFETY: see the module.
-            unsafe {
-                call(c, stringify!($name), |component| {
-                    component.instance.allow(Call::GetStatus)?;
-                    if matches!(s, $kind) {
-                        let answer: fn(&mut Component) -> $type = $answer;
-                        return store(value, vec![answer(component)], "value");
-                    }
-                    Err(Refusal::discard(format!("{s:?} is not available through this function")))
-                })
-            }
+    fmi2SerializeFMUstateTYPE = fmi2SerializeFMUstate(
+        |component|, FMUstate: fmi2FMUstate, serializedState: *mut fmi2Byte, size: usize
+    ) {
+        let bytes = component.state_bytes(FMUstate)?;
+        if size < bytes.len() {
+            let needed = bytes.len();
+            return Err(Refusal::error(format!("size = {size} is outside its range: at least {needed}")));
         }
-    )*};
+        store(serializedState, bytes.into_iter().map(|byte| byte as fmi2Byte).collect(), "serializedState")
+    }
+    fmi2DeSerializeFMUstateTYPE = fmi2DeSerializeFMUstate(
+        |component|, serializedState: *const fmi2Byte, size: usize, FMUstate: *mut fmi2FMUstate
+    ) {
+        component.instance.allow(Call::FmuState)?;
+        let bytes = slice(serializedState.cast::<u8>(), size, "serializedState")?;
+        let snapshot = Snapshot::from_bytes(bytes).map_err(Refusal::error)?;
+        component.keep(place(FMUstate)?, snapshot)
+    }
+
+    fmi2GetDirectionalDerivativeTYPE = fmi2GetDirectionalDerivative(
+        |component|, _vUnknown_ref: *const fmi2ValueReference, _nUnknown: usize,
+        _vKnown_ref: *const fmi2ValueReference, _nKnown: usize, _dvKnown: *const fmi2Real, _dvUnknown: *mut fmi2Real
+    ) {
+        component.instance.allow(Call::GetDirectionalDerivative)?;
+        Err(Refusal::error("directional derivatives are not provided (providesDirectionalDerivative = false)"))
+    }
+    fmi2SetRealInputDerivativesTYPE = fmi2SetRealInputDerivatives(
+        |component|, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer, value: *const fmi2Real
+    ) {
+        let (orders, values) = (slice(order, nvr, "order")?, slice(value, nvr, "value")?);
+        component.instance.set_input_derivatives(slice(vr, nvr, "vr")?, orders, values)
+    }
+    fmi2GetRealOutputDerivativesTYPE = fmi2GetRealOutputDerivatives(
+        |component|, _vr: *const fmi2ValueReference, nvr: usize, _order: *const fmi2Integer, _value: *mut fmi2Real
+    ) {
+        component.instance.allow(Call::GetRealOutputDerivatives)?;
+        if nvr == 0 {
+            return Ok(());
+        }
+        Err(Refusal::error("output derivatives are not provided (maxOutputDerivativeOrder = 0)"))
+    }
+
+    // States stay until the master frees them, whatever it promises about using them.
+    fmi2DoStepTYPE = fmi2DoStep(
+        |component|, currentCommunicationPoint: fmi2Real, communicationStepSize: fmi2Real,
+        _noSetFMUStatePriorToCurrentPoint: fmi2Boolean
+    ) {
+        component.instance.do_step(currentCommunicationPoint, communicationStepSize)
+    }
+    fmi2CancelStepTYPE = fmi2CancelStep(|component|) { component.instance.allow(Call::CancelStep) }
+
+    // One answer per type; there is nothing to say about pending steps because steps are never pending.
+    fmi2GetStatusTYPE = fmi2GetStatus(|component|, s: fmi2StatusKind, value: *mut fmi2Status) {
+        component.answers(s, Some(fmi2StatusKind::fmi2DoStepStatus))?;
+        store(value, vec![status_code(component.instance.last_step())], "value")
+    }
+    fmi2GetRealStatusTYPE = fmi2GetRealStatus(|component|, s: fmi2StatusKind, value: *mut fmi2Real) {
+        component.answers(s, Some(fmi2StatusKind::fmi2LastSuccessfulTime))?;
+        store(value, vec![component.instance.last_successful_time()], "value")
+    }
+    fmi2GetBooleanStatusTYPE = fmi2GetBooleanStatus(|component|, s: fmi2StatusKind, value: *mut fmi2Boolean) {
+        component.answers(s, Some(fmi2StatusKind::fmi2Terminated))?;
+        store(value, vec![component.instance.terminated().into()], "value")
+    }
+    fmi2GetIntegerStatusTYPE = fmi2GetIntegerStatus(|component|, s: fmi2StatusKind, _value: *mut fmi2Integer) {
+        component.answers(s, None)
+    }
+    fmi2GetStringStatusTYPE = fmi2GetStringStatus(|component|, s: fmi2StatusKind, _value: *mut fmi2String) {
+        component.answers(s, None)
+    }
 }
 
-status! {
-    fmi2GetStatus, fmi2Status, fmi2StatusKind::fmi2DoStepStatus, |c| status_code(c.instance.last_step());
-    fmi2GetRealStatus, fmi2Real, fmi2StatusKind::fmi2LastSuccessfulTime, |c| c.instance.last_successful_time();
-    fmi2GetBooleanStatus, fmi2Boolean, fmi2StatusKind::fmi2Terminated, |c| c.instance.terminated().into();
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetIntegerStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    _value: *mut fmi2Integer,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe { call(c, "fmi2GetIntegerStatus", |component| not_available(component, s)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStringStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    _value: *mut fmi2String,
-) -> fmi2Status {
-    // SAFETY: see the module.
-    unsafe { call(c, "fmi2GetStringStatus", |component| not_available(component, s)) }
-}
-
-/// Steps are never pending, so there is no text or number about a pending one.
-fn not_available(component: &mut Component, s: fmi2StatusKind) -> Outcome {
-    component.instance.allow(Call::GetStatus)?;
-    Err(Refusal::discard(format!("{s:?} is not available through this function")))
-}
-
-/// Every signature against the headers of the standard, at compile time.
-macro_rules! signatures {
-    ($($function:ident: $type:ident,)*) => {$(const _: $type = Some($function);)*};
-}
-
-signatures! {
-    fmi2SetDebugLogging: fmi2SetDebugLoggingTYPE,
-    fmi2Instantiate: fmi2InstantiateTYPE,
-    fmi2FreeInstance: fmi2FreeInstanceTYPE,
-    fmi2SetupExperiment: fmi2SetupExperimentTYPE,
-    fmi2EnterInitializationMode: fmi2EnterInitializationModeTYPE,
-    fmi2ExitInitializationMode: fmi2ExitInitializationModeTYPE,
-    fmi2Terminate: fmi2TerminateTYPE,
-    fmi2Reset: fmi2ResetTYPE,
-    fmi2GetReal: fmi2GetRealTYPE,
-    fmi2GetInteger: fmi2GetIntegerTYPE,
-    fmi2GetBoolean: fmi2GetBooleanTYPE,
-    fmi2GetString: fmi2GetStringTYPE,
-    fmi2SetReal: fmi2SetRealTYPE,
-    fmi2SetInteger: fmi2SetIntegerTYPE,
-    fmi2SetBoolean: fmi2SetBooleanTYPE,
-    fmi2SetString: fmi2SetStringTYPE,
-    fmi2GetFMUstate: fmi2GetFMUstateTYPE,
-    fmi2SetFMUstate: fmi2SetFMUstateTYPE,
-    fmi2FreeFMUstate: fmi2FreeFMUstateTYPE,
-    fmi2SerializedFMUstateSize: fmi2SerializedFMUstateSizeTYPE,
-    fmi2SerializeFMUstate: fmi2SerializeFMUstateTYPE,
-    fmi2DeSerializeFMUstate: fmi2DeSerializeFMUstateTYPE,
-    fmi2GetDirectionalDerivative: fmi2GetDirectionalDerivativeTYPE,
-    fmi2SetRealInputDerivatives: fmi2SetRealInputDerivativesTYPE,
-    fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE,
-    fmi2DoStep: fmi2DoStepTYPE,
-    fmi2CancelStep: fmi2CancelStepTYPE,
-    fmi2GetStatus: fmi2GetStatusTYPE,
-    fmi2GetRealStatus: fmi2GetRealStatusTYPE,
-    fmi2GetIntegerStatus: fmi2GetIntegerStatusTYPE,
-    fmi2GetBooleanStatus: fmi2GetBooleanStatusTYPE,
-    fmi2GetStringStatus: fmi2GetStringStatusTYPE,
-}
 const _: fmi2GetTypesPlatformTYPE = Some(fmi2GetTypesPlatform);
 const _: fmi2GetVersionTYPE = Some(fmi2GetVersion);
+const _: fmi2InstantiateTYPE = Some(fmi2Instantiate);
+const _: fmi2FreeInstanceTYPE = Some(fmi2FreeInstance);

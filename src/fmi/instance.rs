@@ -5,7 +5,8 @@
 use super::lifecycle::{Call, Phase};
 use super::log::{Log, Refusal, Status};
 use super::presets;
-use super::snapshot::{Explicit, Snapshot};
+use super::settings::{Explicit, ramp_end, with_inputs, with_parameters};
+use super::snapshot::Snapshot;
 use super::variable::{Access, Causality, Reference, Value, Variable};
 use super::variables::find;
 use crate::config::Config;
@@ -425,35 +426,4 @@ fn lookup(references: &[Reference], type_name: &str) -> Outcome<Vec<&'static Var
         Err(Refusal::error(format!("{} (value reference {reference}) is {theirs}, not {type_name}", variable.name)))
     };
     references.iter().map(row).collect()
-}
-
-fn with_parameters(base: &Config, parameters: &Explicit) -> Config {
-    let mut config = base.clone();
-    for (reference, value) in parameters {
-        if let Some(variable) = find(*reference) {
-            variable.set_parameter(&mut config, value);
-        }
-    }
-    config
-}
-
-fn with_inputs(config: &Config, explicit: &Explicit, rate: Drive) -> Inputs {
-    let mut inputs = Inputs::rolling(config);
-    for (reference, value) in explicit {
-        if let Some(variable) = find(*reference) {
-            variable.set_input(&mut inputs, value);
-        }
-    }
-    Inputs { rate, ..inputs }
-}
-
-/// Inputs after a time `h` [s], at rest there.
-fn ramp_end(inputs: &Inputs, h: f64) -> Inputs {
-    let (mut end, mut rate) = (*inputs, inputs.rate);
-    for variable in super::variables::variables() {
-        if let Access::RealInput(field) = variable.access {
-            *field(&mut end.drive) += h * *field(&mut rate);
-        }
-    }
-    Inputs { rate: Drive::default(), ..end }
 }

@@ -13,6 +13,7 @@ pub mod lifecycle;
 pub mod log;
 pub mod package;
 pub mod presets;
+pub mod settings;
 pub mod snapshot;
 pub mod units;
 pub mod uri;

@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+/// File name and contents of a precomputed basis.
+pub type Basis = (String, Vec<u8>);
+
 /// What goes into an FMU besides what is made from the table of variables.
 #[derive(Clone, Debug)]
 pub struct Contents {
@@ -16,8 +19,8 @@ pub struct Contents {
     pub library: PathBuf,
     /// Directory with the presets (`*.json`).
     pub resources: PathBuf,
-    /// Precomputed bases: file name and bytes, for `resources/basis/`.
-    pub bases: Vec<(String, Vec<u8>)>,
+    /// Precomputed bases, for `resources/basis/`.
+    pub bases: Vec<Basis>,
     /// Directory with licence texts (`LICENSE*`) and the picture `model.png`; what is missing is left out.
     pub root: PathBuf,
 }

@@ -2,15 +2,11 @@
 
 use super::description::guid;
 use super::lifecycle::Phase;
-use super::variable::{Reference, Value};
+use super::settings::Explicit;
 use crate::config::Config;
 use crate::simulation::{Drive, State};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use uuid::Uuid;
-
-/// Explicitly set values by value reference.
-pub type Explicit = BTreeMap<Reference, Value>;
 
 /// Memory of an instance without its model, which follows from `config`.
 #[derive(Clone, Serialize, Deserialize)]
