@@ -1,0 +1,63 @@
+# make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
+# make test      every test, Rust and fmpy
+# make fmu       target/wheelrail.fmu
+# make bench     speed of steps, starts and the reduced basis
+# make describe  regenerate modelDescription.xml from the variable table
+# make clean     remove everything that was built
+
+PYTHON ?= python3
+CARGO ?= cargo
+
+# Everything is built in one profile and one target directory, so that dependencies compile once.
+TARGET := $(or $(CARGO_TARGET_DIR),target)
+BINARY := $(TARGET)/release/wheelrail
+LIBRARY := $(TARGET)/release/libwheelrail.so
+FMU := target/wheelrail.fmu
+CACHE := target
+VENV := .venv
+PY := $(VENV)/bin/python
+
+# Stamps: cargo and pip run only when something they read has changed.
+BUILT := $(TARGET)/release/.built
+INSTALLED := $(VENV)/.installed
+SOURCES := Cargo.toml Cargo.lock modelDescription.xml $(shell find src resources -type f)
+
+.PHONY: demo test test-rust test-fmpy fmu bench describe clean
+.NOTPARALLEL:
+
+demo: $(FMU) $(INSTALLED)
+	$(PY) examples/braking_stop.py --fmu $(FMU) --out results
+
+test: test-rust test-fmpy
+
+test-rust:
+	$(CARGO) test --release --locked
+
+test-fmpy: $(FMU) $(INSTALLED)
+	$(PY) -m pytest fmpy_tests
+
+fmu: $(FMU)
+
+bench:
+	$(CARGO) bench --locked
+
+describe:
+	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new
+	mv modelDescription.xml.new modelDescription.xml
+
+clean:
+	$(CARGO) clean
+	rm -rf target $(VENV) results modelDescription.xml.new .pytest_cache
+
+$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE
+	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
+
+$(BUILT): $(SOURCES)
+	$(CARGO) build --release --locked
+	touch $@
+
+$(INSTALLED): requirements.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
+	$(PYTHON) -m venv --clear $(VENV)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
+	touch $@

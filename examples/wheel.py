@@ -1,0 +1,127 @@
+"""One instance of wheelrail.fmu on fmpy's FMU2Slave: variables by name, enumerations by item name, SI units."""
+
+from ctypes import byref
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import fmpy
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi2 import fmi2CallbackAllocateMemoryTYPE, fmi2CallbackFreeMemoryTYPE
+from fmpy.logging import addLoggerProxy
+
+
+class Refused(Exception):
+    """A call that the FMU refused; the text is what it logged."""
+
+
+class Fmu:
+    """An FMU extracted once, for any number of instances. Use as a context manager."""
+
+    def __init__(self, path):
+        if not Path(path).is_file():
+            raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`")
+        self._temporary = TemporaryDirectory(prefix="wheelrail-")
+        self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
+        self.description = fmpy.read_model_description(self.directory)
+        self.variables = {v.name: v for v in self.description.modelVariables}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._temporary.cleanup()
+
+
+class Wheel:
+    """A wheel that is ready to step.
+
+    `parameters` are set before and `inputs` in Initialization Mode. Refused calls raise `Refused` with the FMU's own
+    words. Use as a context manager, or call `close`.
+    """
+
+    def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
+        self.fmu, self.time, self.log = fmu, 0.0, []
+        self._callbacks = fmi2CallbackFunctions()
+        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._receive)
+        self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+        self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
+        addLoggerProxy(byref(self._callbacks))
+        d = fmu.description
+        identifier = d.coSimulation.modelIdentifier
+        self.slave = FMU2Slave(
+            guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name
+        )
+        self.slave.instantiate(callbacks=self._callbacks)
+        try:
+            self._call(self.slave.setupExperiment, startTime=0.0)
+            self.set(parameters or {})
+            self._call(self.slave.enterInitializationMode)
+            self.set(inputs or {})
+            self._call(self.slave.exitInitializationMode)
+        except BaseException:
+            self.slave.freeInstance()
+            raise
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Terminates and frees the instance."""
+        try:
+            self._call(self.slave.terminate)
+        finally:
+            self.slave.freeInstance()
+
+    def set(self, values=None, **scalars):
+        """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
+        for name, value in {**(values or {}), **scalars}.items():
+            variable = self.fmu.variables[name]
+            if variable.type == "Enumeration" and isinstance(value, str):
+                value = 1 + [item.name for item in variable.declaredType.items].index(value)
+            self._call(self._access("set", variable), [variable.valueReference], [value])
+
+    def get(self, *names):
+        """Values of variables; one name gives a scalar, several a list. Several must be of one type."""
+        variables = [self.fmu.variables[name] for name in names]
+        values = self._call(self._access("get", variables[0]), [v.valueReference for v in variables])
+        return values[0] if len(names) == 1 else values
+
+    def profile(self, quantity):
+        """A profile across the contact patch: x [m], pressure [Pa], shear [Pa] or slip [m/s]."""
+        return self.get(*(name for name in self.fmu.variables if name.startswith(f"profile.{quantity}[")))
+
+    def step(self, h):
+        """Advances by `h` seconds."""
+        self._call(self.slave.doStep, self.time, h)
+        self.time += h
+
+    def save(self):
+        """A handle for `restore`; free it with `forget`."""
+        return self._call(self.slave.getFMUstate), self.time
+
+    def restore(self, saved):
+        """Returns to a saved state."""
+        self._call(self.slave.setFMUstate, saved[0])
+        self.time = saved[1]
+
+    def forget(self, saved):
+        """Frees a saved state."""
+        self._call(self.slave.freeFMUstate, saved[0])
+
+    def _access(self, direction, variable):
+        kind = "Integer" if variable.type == "Enumeration" else variable.type
+        return getattr(self.slave, direction + kind)
+
+    def _receive(self, _component, _instance, _status, _category, message):
+        self.log.append(message.decode())
+
+    def _call(self, function, *arguments, **named):
+        seen = len(self.log)
+        try:
+            return function(*arguments, **named)
+        except FMICallException as failure:
+            raise Refused("; ".join(self.log[seen:]) or str(failure)) from failure
