@@ -20,7 +20,7 @@ PY := $(VENV)/bin/python
 # Stamps: cargo and pip run only when something they read has changed.
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
-SOURCES := Cargo.toml Cargo.lock modelDescription.xml $(shell find src resources -type f)
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg
 
 .PHONY: demo test test-rust test-fmpy fmu bench describe clean
 .NOTPARALLEL:

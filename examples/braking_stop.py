@@ -1,9 +1,9 @@
 """A wheel brakes from 100 km/h to standstill: result table, CSV and plot.
 
-The wheel rolls freely under its load and carries its share of the vehicle. A brake moment is ramped up and held; when
-the wheel is about to stop, the brake grips: the control of the rotation switches from moment to angular velocity, which
-goes to zero and stays there, while the vehicle comes to rest on the elasticity of wheel and rail. A moment beyond the
-adhesion limit locks the wheel, and the vehicle slides to rest.
+The wheel rolls freely under its load and carries its share of the vehicle. A brake moment is ramped up, held, and eased
+at walking speed as a driver does. When the wheel is about to stop, the brake grips: the control of the rotation switches
+from moment to angular velocity, which goes to zero and stays there, while the vehicle swings out on the elasticity of
+wheel and rail. A moment beyond the adhesion limit locks the wheel, and the vehicle slides to rest.
 """
 
 import argparse
@@ -26,7 +26,10 @@ COLUMNS = (
     "heat.friction_power", "damage.t_gamma", "solver.energy_residual",
 )  # fmt: skip
 
+ROLL = 0.2  # s of free rolling before the brake is applied
 RAMP = 0.5  # s, in which the brake moment builds up
+EASE_SPEED = 1.0  # m/s, below which the brake is eased in proportion to the speed ...
+EASE_TO = 0.1  # ... down to this share of the moment
 GRIP_SPEED = 0.05  # m/s: peripheral speed at which the brake grips
 HOLD = 0.5  # s, for which the wheel is watched after standstill
 TOO_LONG = 600.0  # s
@@ -53,7 +56,9 @@ def brake_to_standstill(wheel, moment, step, see=lambda wheel, row: None):
 
     row = advance()
     while radius * row["wheel.omega"] > GRIP_SPEED:
-        wheel.set({"drive.moment": -moment * min(1.0, wheel.time / RAMP)})
+        applied = np.clip((wheel.time - ROLL) / RAMP, 0.0, 1.0)
+        eased = np.clip(row["wheel.velocity"] / EASE_SPEED, EASE_TO, 1.0)
+        wheel.set({"drive.moment": -moment * applied * eased})
         row = advance()
 
     # From here the angular velocity is prescribed: on to zero at the deceleration of the last steps, then held.
@@ -75,15 +80,21 @@ def column(table, name):
     return table[:, ("time", *COLUMNS).index(name)]
 
 
+def braking(table):
+    """The part of a table after the brake was applied."""
+    return table[column(table, "time") >= ROLL]
+
+
 def results(table):
     """Key figures of a stop: name, value, unit."""
-    t, v = column(table, "time"), column(table, "wheel.velocity")
+    table = braking(table)
+    t, v, distance = column(table, "time"), column(table, "wheel.velocity"), column(table, "wheel.distance")
     last = np.flatnonzero(np.abs(v) > AT_REST)[-1] + 1
     rolling = v > ROLLING
     power = column(table, "heat.friction_power")
     return [
-        ("stopping distance", column(table, "wheel.distance")[-1], "m"),
-        ("stopping time", t[min(last, len(t) - 1)], "s"),
+        ("stopping distance", distance[-1] - distance[0], "m"),
+        ("stopping time", t[min(last, len(t) - 1)] - t[0], "s"),
         ("peak creepage", np.abs(column(table, "contact.creepage")[rolling]).max() * 100, "%"),
         ("peak adhesion utilisation", column(table, "contact.utilisation").max() * 100, "%"),
         ("energy dissipated in the contact", np.trapezoid(power, t) / 1e3, "kJ"),
@@ -110,7 +121,8 @@ def plot(path, table, snapshot, friction, radius):
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
     plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4})
     figure, axes = plt.subplots(2, 3, figsize=(12, 6.2), layout="constrained")
-    t, v = column(table, "time"), column(table, "wheel.velocity")
+    table = braking(table)
+    t, v = column(table, "time") - ROLL, column(table, "wheel.velocity")
     peripheral = radius * column(table, "wheel.omega")
 
     axis = axes[0, 0]
@@ -134,7 +146,7 @@ def plot(path, table, snapshot, friction, radius):
     axis.set(title="Friction power in the contact", ylabel="kW", xlabel="time [s]")
 
     axis = axes[1, 1]
-    late = t > t[-1] - HOLD - 0.15
+    late = t > t[-1] - HOLD - 0.5
     axis.plot(t[late], 1e3 * v[late], color=blue, label="travel $V$")
     axis.plot(t[late], 1e3 * peripheral[late], "--", color=orange, label=r"peripheral $r\omega$")
     axis.set(title="Standstill: the brake grips, the vehicle swings out", ylabel="mm/s", xlabel="time [s]")
@@ -177,23 +189,24 @@ def run(options):
         friction, load, radius = wheel.get("rail.friction", "drive.load", "wheel.radius")
         moment = options.moment or options.utilisation * friction * load * radius
         snapshot = {}
-        form = "{desc}: {percentage:3.0f}% |{bar}| {postfix} [{elapsed}<{remaining}]"
-        with tqdm(total=speed, desc="braking", bar_format=form, mininterval=0.1) as bar:
+        form = "{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]"
+        with tqdm(total=100, desc="braking", bar_format=form) as bar:
 
             def see(wheel, row):
                 v = row["wheel.velocity"]
                 if not snapshot and v < 0.5 * speed:
                     profiles = [wheel.profile(quantity) for quantity in ("x", "pressure", "shear")]
                     snapshot.update(velocity=v, half_width=row["contact.half_width"], profiles=profiles)
-                if round(wheel.time / options.step) % 50 == 0:
+                share = int(100 * (1.0 - max(v, 0.0) / speed))
+                if share > bar.n:
                     bar.set_postfix_str(f"{3.6 * v:5.1f} km/h, {row['wheel.distance']:5.1f} m", refresh=False)
-                    bar.update(max(0.0, speed - max(v, 0.0) - bar.n))
+                    bar.update(share - bar.n)
 
             began = time.perf_counter()
             table = brake_to_standstill(wheel, moment, options.step, see)
             wall = time.perf_counter() - began
-            bar.set_postfix_str("at rest")
-            bar.update(speed - bar.n)
+            bar.set_postfix_str("at rest", refresh=False)
+            bar.update(100 - bar.n)
 
     figures = results(table)
     figures += [

@@ -1,6 +1,7 @@
 """One instance of wheelrail.fmu on fmpy's FMU2Slave: variables by name, enumerations by item name, SI units."""
 
 from ctypes import byref
+from itertools import count
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -13,6 +14,24 @@ from fmpy.logging import addLoggerProxy
 
 class Refused(Exception):
     """A call that the FMU refused; the text is what it logged."""
+
+
+# fmpy formats messages through one proxy per process, which knows one logger only: the messages of all instances arrive
+# here and are told apart by the unique instance name.
+_messages = {}
+_numbers = count(1)
+
+
+@fmi2CallbackLoggerTYPE
+def _receive(_component, instance, _status, _category, message):
+    _messages.setdefault(instance.decode(), []).append(message.decode())
+
+
+_callbacks = fmi2CallbackFunctions()
+_callbacks.logger = _receive
+_callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+_callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
+addLoggerProxy(byref(_callbacks))
 
 
 class Fmu:
@@ -41,18 +60,15 @@ class Wheel:
     """
 
     def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
-        self.fmu, self.time, self.log = fmu, 0.0, []
-        self._callbacks = fmi2CallbackFunctions()
-        self._callbacks.logger = fmi2CallbackLoggerTYPE(self._receive)
-        self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
-        self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
-        addLoggerProxy(byref(self._callbacks))
+        self.fmu, self.time = fmu, 0.0
+        name = f"{name}-{next(_numbers)}"
+        self.log = _messages[name] = []
         d = fmu.description
         identifier = d.coSimulation.modelIdentifier
         self.slave = FMU2Slave(
             guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name
         )
-        self.slave.instantiate(callbacks=self._callbacks)
+        self.slave.instantiate(callbacks=_callbacks)
         try:
             self._call(self.slave.setupExperiment, startTime=0.0)
             self.set(parameters or {})
@@ -76,9 +92,9 @@ class Wheel:
         finally:
             self.slave.freeInstance()
 
-    def set(self, values=None, **scalars):
+    def set(self, values):
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
-        for name, value in {**(values or {}), **scalars}.items():
+        for name, value in values.items():
             variable = self.fmu.variables[name]
             if variable.type == "Enumeration" and isinstance(value, str):
                 value = 1 + [item.name for item in variable.declaredType.items].index(value)
@@ -115,9 +131,6 @@ class Wheel:
     def _access(self, direction, variable):
         kind = "Integer" if variable.type == "Enumeration" else variable.type
         return getattr(self.slave, direction + kind)
-
-    def _receive(self, _component, _instance, _status, _category, message):
-        self.log.append(message.decode())
 
     def _call(self, function, *arguments, **named):
         seen = len(self.log)

@@ -1,34 +1,46 @@
-"""The packed FMU, extracted once, and instances on a coarse mesh whose start takes a fraction of a second."""
+"""Fixtures: the packed FMU, extracted once, and wheels that are closed after each test."""
 
-import sys
+import os
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "examples"))
+from wheel import Fmu, Wheel
 
-from wheel import Fmu, Wheel  # noqa: E402
-
-COARSE = {"mesh.elements_per_half_width": 8, "solver.modes_wheel": 20, "solver.modes_rail": 10}
+ROOT = Path(__file__).parent.parent
+PACKED = Path(os.environ.get("WHEELRAIL_FMU", ROOT / "target" / "wheelrail.fmu"))
 
 
 @pytest.fixture(scope="session")
-def fmu():
-    """The FMU that `make fmu` packs."""
-    with Fmu(ROOT / "target" / "wheelrail.fmu") as fmu:
-        yield fmu
+def packed():
+    """Path of wheelrail.fmu."""
+    if not PACKED.is_file():
+        pytest.exit(f"{PACKED} does not exist: build it with `make fmu`", returncode=2)
+    return PACKED
+
+
+@pytest.fixture(scope="session")
+def fmu(packed):
+    """The extracted FMU."""
+    with Fmu(packed) as extracted:
+        yield extracted
 
 
 @pytest.fixture
-def wheel(fmu):
-    """Factory of instances; all are freed at the end of the test."""
-    made = []
+def start(fmu):
+    """Makes wheels: start(parameters, inputs)."""
+    wheels = []
 
     def make(parameters=None, inputs=None):
-        made.append(Wheel(fmu, parameters, inputs))
-        return made[-1]
+        wheels.append(Wheel(fmu, parameters, inputs, name=f"wheel{len(wheels)}"))
+        return wheels[-1]
 
     yield make
-    for instance in made:
-        instance.close()
+    for wheel in wheels:
+        wheel.close()
+
+
+@pytest.fixture(scope="session")
+def outputs(fmu):
+    """Names of all real outputs."""
+    return [v.name for v in fmu.description.modelVariables if v.causality == "output" and v.type == "Real"]

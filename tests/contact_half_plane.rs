@@ -1,9 +1,9 @@
 //! Contact algorithm alone, on elastic half-planes whose compliance is known in closed form: the discrete kernel
 //! `G_j − G_{j+1} = 2/(πE*)/(j + ½)` to which the slip rows belong. Hertz and Carter are exact for the continuum.
 
+mod common;
+use common::Random;
 use nalgebra::{DMatrix, DVector};
-use proptest::prelude::Rng;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::{
     ContactError, ContactGrid, ContactProblem, ContactSolution, RigidMotion, Status, SurfaceResponse, patch,
@@ -142,19 +142,17 @@ fn a_patch_wider_than_the_candidate_zone_is_an_error() {
 #[test]
 fn every_random_start_converges_to_the_same_contact_state() {
     let bodies = HalfPlanes::new(20);
-    let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let mut uniform = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let mut random = Random(2);
     let (mut worst, mut total) = (0, 0);
     for case in 0..1000 {
-        let load = NOMINAL * (0.02 + 1.9 * uniform());
-        let sign = if uniform() < 0.5 { -1.0 } else { 1.0 };
-        let xi = sign * (1e-6f64.ln() + uniform() * (1.5f64 / 1e-6).ln()).exp();
+        let load = NOMINAL * random.between(0.02, 1.92);
+        let xi = random.sign() * random.logarithmic(1e-6, 1.5);
         let expected = bodies.roll(load, xi, &bodies.start()).unwrap_or_else(|e| panic!("case {case}: {e}"));
         let mut start = ContactSolution::open(&bodies.grid);
         for (i, status) in start.status.iter_mut().enumerate() {
             *status = [Status::Open, Status::Stick, Status::SlipForward, Status::SlipBackward]
-                [(4.0 * uniform()) as usize % 4];
-            start.forces[bodies.grid.dof(i) + 1] = uniform() * load / 20.0;
+                [random.between(0.0, 4.0) as usize];
+            start.forces[bodies.grid.dof(i) + 1] = random.between(0.0, load / 20.0);
         }
         let solution = bodies.roll(load, xi, &start).unwrap_or_else(|e| panic!("case {case}, xi = {xi}: {e}"));
         let difference = (&solution.forces - &expected.forces).amax() / load;

@@ -6,12 +6,18 @@ use super::variables::{ENUMERATIONS, variables};
 use super::{description, presets};
 use std::fmt::Write;
 
-/// Text before the tables; contains the figure of signs.
+/// Text before the tables.
 const INTRODUCTION: &str = include_str!("documentation.html");
+
+/// Figure of the sign conventions; README shows it too.
+const SIGNS: &str = include_str!("../../docs/signs.svg");
 
 /// The page as it stands in the FMU. Only the first point of every profile is listed.
 pub fn index_html() -> String {
-    let mut html = INTRODUCTION.replace("{version}", env!("CARGO_PKG_VERSION")).replace("{guid}", description::guid());
+    let mut html = INTRODUCTION
+        .replace("{version}", env!("CARGO_PKG_VERSION"))
+        .replace("{guid}", description::guid())
+        .replace("{signs}", SIGNS);
     for (title, causality) in
         [("Inputs", Causality::Input), ("Outputs", Causality::Output), ("Parameters", Causality::Parameter)]
     {

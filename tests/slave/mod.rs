@@ -10,10 +10,10 @@ use std::ptr;
 use wheelrail::fmi::variable::{Causality, Value, Variable};
 use wheelrail::fmi::variables::variables;
 
-/// The shared library next to the test executable.
+/// The shared library that was built with the test executable.
 pub fn library() -> PathBuf {
     let executable = std::env::current_exe().unwrap();
-    let directory = executable.parent().and_then(|deps| deps.parent()).unwrap();
+    let directory = executable.parent().unwrap();
     let name = format!("{}wheelrail{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     directory.join(name)
 }
