@@ -22,6 +22,8 @@ pub struct Config {
     pub material: Material,
     /// Friction.
     pub friction: Friction,
+    /// Heat.
+    pub thermal: Thermal,
     /// Parts of the physics.
     pub physics: Physics,
     /// Meshes.
@@ -84,14 +86,91 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Density [kg/m³].
     pub density: f64,
+    /// Coefficient of linear thermal expansion [1/K].
+    pub expansion: f64,
+    /// Thermal conductivity [W/(m K)].
+    pub conductivity: f64,
+    /// Specific heat capacity [J/(kg K)].
+    pub specific_heat: f64,
 }
 
-/// Coulomb friction.
+/// Coulomb friction. The coefficient of a step is
+///
+/// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|V − rω|}) · max(m, 1 − K (T − T_ref))`
+///
+/// with the nominal slip velocity and the mean contact temperature of the step before (O. Polach, *Wear* 258 (2005), for
+/// the falling part); within a step the friction cone is exact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Friction {
     /// Friction coefficient μ [1]; start value of the input `rail.friction`.
     pub coefficient: f64,
+    /// `A`: share of the coefficient that remains at high slip velocity [1]; 1 for constant friction.
+    pub falling_ratio: f64,
+    /// `B`: decay with the slip velocity [s/m].
+    pub falling_decay: f64,
+    /// `K`: decay with the contact temperature [1/K]; 0 for constant friction.
+    pub softening: f64,
+    /// `m`: share of the coefficient that remains at high temperature [1].
+    pub softening_floor: f64,
+}
+
+/// Heat in wheel, rail and contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Thermal {
+    /// Whether temperatures are computed at all.
+    pub enabled: bool,
+    /// Temperature of hub, air and arriving rail [K].
+    pub reference: f64,
+    /// Excess temperature of the wheel over the reference at the start [K].
+    pub wheel_excess: f64,
+    /// Contact conductance `k_c` [W/(m² K)].
+    pub conductance: f64,
+    /// How the conductance depends on pressure.
+    pub conductance_law: ConductanceLaw,
+    /// Pressure at which the pressure-dependent conductance has the value above [Pa].
+    pub reference_pressure: f64,
+    /// Fraction `γ_f` of the friction power that heats wheel and rail [1].
+    pub heat_ratio: f64,
+    /// Share of that heat first put into the wheel [1]; conduction through the contact decides where it goes.
+    pub wheel_share: f64,
+    /// Hub of the wheel.
+    pub hub: Hub,
+    /// Coefficient of convection from tread and rail head to the air [W/(m² K)].
+    pub convection: f64,
+    /// Largest speed at which the thermal layer is resolved [m/s].
+    pub max_speed: f64,
+    /// Smallest load relative to the nominal one at which the patch is resolved [1].
+    pub smallest_load_ratio: f64,
+    /// Angle of a brake block from the contact point, leading side positive [rad].
+    pub tread_angle: f64,
+    /// Arc covered by a brake block [rad].
+    pub tread_width: f64,
+    /// Number of brake blocks: one, or two mirrored ones that share `drive.tread_heat`.
+    pub tread_blocks: usize,
+    /// Austenitisation temperature Ac1 [K], above which contact time is counted.
+    pub austenitisation: f64,
+}
+
+/// Contact conductance law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ConductanceLaw {
+    /// Independent of pressure.
+    Constant,
+    /// Proportional to `p^0.95`.
+    Pressure,
+}
+
+/// Thermal boundary condition of the hub.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hub {
+    /// Held at the reference temperature.
+    Fixed,
+    /// No heat passes.
+    Insulated,
 }
 
 /// Switches for parts of the physics.
@@ -100,6 +179,8 @@ pub struct Friction {
 pub struct Physics {
     /// Centrifugal load of the spinning wheel.
     pub centrifugal: bool,
+    /// Thermal expansion and stress act back on the contact.
+    pub thermal_expansion: bool,
 }
 
 /// Layout of the graded meshes.
@@ -200,7 +281,31 @@ impl Config {
         within("material.youngs_modulus", c.material.youngs_modulus, 1e5, 1e13)?;
         within("material.poissons_ratio", c.material.poissons_ratio, 0.0, 0.49)?;
         within("material.density", c.material.density, 1.0, 1e5)?;
+        within("material.expansion", c.material.expansion, 0.0, 1e-3)?;
+        within("material.conductivity", c.material.conductivity, 1e-3, 1e5)?;
+        within("material.specific_heat", c.material.specific_heat, 1.0, 1e5)?;
         within("friction.coefficient", c.friction.coefficient, 0.0, 10.0)?;
+        within("friction.falling_ratio", c.friction.falling_ratio, 0.0, 1.0)?;
+        within("friction.falling_decay", c.friction.falling_decay, 0.0, 1e3)?;
+        within("friction.softening", c.friction.softening, 0.0, 1.0)?;
+        within("friction.softening_floor", c.friction.softening_floor, 0.0, 1.0)?;
+        within("thermal.reference", c.thermal.reference, 1.0, 1e4)?;
+        within("thermal.wheel_excess", c.thermal.wheel_excess, -1e3, 5e3)?;
+        within("thermal.conductance", c.thermal.conductance, 0.0, 1e12)?;
+        within("thermal.reference_pressure", c.thermal.reference_pressure, 1.0, 1e12)?;
+        within("thermal.heat_ratio", c.thermal.heat_ratio, 0.0, 1.0)?;
+        within("thermal.wheel_share", c.thermal.wheel_share, 0.0, 1.0)?;
+        within("thermal.convection", c.thermal.convection, 0.0, 1e5)?;
+        within("thermal.max_speed", c.thermal.max_speed, 0.1, 200.0)?;
+        within("thermal.smallest_load_ratio", c.thermal.smallest_load_ratio, 0.05, 1.0)?;
+        within("thermal.tread_angle", c.thermal.tread_angle, -3.2, 3.2)?;
+        within("thermal.tread_width", c.thermal.tread_width, 1e-3, 6.28)?;
+        within("thermal.tread_blocks", c.thermal.tread_blocks as f64, 1.0, 2.0)?;
+        within("thermal.austenitisation", c.thermal.austenitisation, 1.0, 1e4)?;
+        if c.thermal.reference + c.thermal.wheel_excess <= 0.0 {
+            let range = format!("above {} K (absolute zero)", -c.thermal.reference);
+            return Err(ConfigError { name: "thermal.wheel_excess", value: c.thermal.wheel_excess, range });
+        }
         within("mesh.elements_per_half_width", c.mesh.elements_per_half_width as f64, 4.0, 80.0)?;
         within("solver.modes_wheel", c.solver.modes_wheel as f64, 1.0, 200.0)?;
         within("solver.modes_rail", c.solver.modes_rail as f64, 1.0, 200.0)?;

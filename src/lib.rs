@@ -36,10 +36,11 @@
 //! | [`linalg`] | sparse factorisation, vibration modes |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly |
 //! | [`mechanics`] | elasticity and convection; full and reduced bodies behind one interface |
+//! | [`heat`] | temperature of both bodies on boundary-layer meshes, modal direct solver |
 //! | [`contact`] | exact Coulomb contact by an active set, on a grid of paired nodes |
 //! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit |
 //! | [`simulation`] | façade: configuration → model → advance → outputs |
-//! | `fmi` | the FMI 2.0 co-simulation slave around it |
+//! | [`fmi`] | the FMI 2.0 co-simulation slave around it |
 //!
 //! Imports run downward only; a test keeps it so.
 #![deny(unsafe_code)]
@@ -49,6 +50,7 @@ pub mod config;
 pub mod contact;
 pub mod fem;
 pub mod fmi;
+pub mod heat;
 pub mod linalg;
 pub mod mechanics;
 pub mod rolling;

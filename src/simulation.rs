@@ -35,6 +35,8 @@ pub enum PrepareError {
     Config(#[from] ConfigError),
     #[error("finite-element model: {0}")]
     Mechanics(#[from] MechanicsError),
+    #[error(transparent)]
+    Model(#[from] rolling::ModelError),
     #[error("stored basis {file}: {source}")]
     Basis { file: String, source: BasisError },
 }
@@ -159,6 +161,7 @@ impl Simulation {
             load: (-outputs.hub_force_y).max(0.0),
             displacement: -outputs.contact_approach,
             friction: self.state.friction,
+            tread_heat: 0.0,
         }
     }
 

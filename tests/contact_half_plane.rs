@@ -54,6 +54,7 @@ impl HalfPlanes {
         let response = SurfaceResponse { compliance: &self.compliance, free: &self.free };
         ContactProblem {
             grid: &self.grid,
+            radius: RADIUS,
             wheel: response,
             rail: response,
             wheel_loads: &self.none[0],

@@ -32,6 +32,7 @@ impl ContactProblem<'_> {
     /// Solves from the states, forces and rigid values of `start`.
     pub fn solve(&self, start: &ContactSolution) -> Result<ContactSolution, ContactError> {
         let mut solution = start.clone();
+        solution.radius = self.radius;
         for (k, motion) in self.rigid.iter().enumerate() {
             solution.rigid[k] = motion.value;
         }
@@ -57,7 +58,7 @@ impl ContactProblem<'_> {
             let new_rows = self.rows(&solution, to_right);
             let edge_change = rows.iter().zip(&new_rows).map(|(a, b)| (a.w1 - b.w1).abs()).fold(0.0, f64::max);
             rows = new_rows;
-            let scale = solution.rigid[0].abs() + (self.grid.radius * solution.rigid[2]).abs();
+            let scale = solution.rigid[0].abs() + (self.radius * solution.rigid[2]).abs();
             let slip_error = (0..self.grid.len())
                 .filter(|&i| solution.status[i] == Status::Stick)
                 .map(|i| solution.slip[i].abs())
@@ -158,7 +159,7 @@ impl ContactProblem<'_> {
         let growth = 3f64.powi(iteration.saturating_sub(8) as i32);
         let share = self.nominal_load / grid.len() as f64;
         let tolerance = (1e-9 * growth).min(1e-4) * share;
-        let speed = solution.rigid[0].abs() + (grid.radius * solution.rigid[2]).abs();
+        let speed = solution.rigid[0].abs() + (self.radius * solution.rigid[2]).abs();
         let slip_tolerance = (1e-12 * growth).min(1e-8) * speed;
         let before = solution.status.clone();
         let overloaded = self.overloaded(solution);

@@ -42,6 +42,8 @@ impl RigidMotion {
 /// Gap and slip as affine functions of contact forces and rigid motions, for one time step.
 pub struct ContactProblem<'a> {
     pub grid: &'a ContactGrid,
+    /// Rolling radius of the wheel [m], thermal growth included.
+    pub radius: f64,
     pub wheel: SurfaceResponse<'a>,
     pub rail: SurfaceResponse<'a>,
     /// Displacement of the wheel surface per unit rigid acceleration, three columns (x, y, rotation).
@@ -80,6 +82,8 @@ pub struct ContactSolution {
     pub gap: Vec<f64>,
     /// Values of the rigid motions (V, U, Ω).
     pub rigid: [f64; 3],
+    /// Rolling radius of the wheel [m].
+    pub radius: f64,
     /// Surface displacements of wheel and rail [m].
     pub wheel_surface: DVector<f64>,
     pub rail_surface: DVector<f64>,
@@ -97,6 +101,7 @@ impl ContactSolution {
             friction_power: 0.0,
             gap: vec![0.0; grid.len()],
             rigid: [0.0; 3],
+            radius: grid.radius,
             wheel_surface: DVector::zeros(n),
             rail_surface: DVector::zeros(n),
             iterations: 0,
@@ -135,7 +140,7 @@ impl ContactSolution {
         let d = grid.dof(i);
         let gap = |k: Option<usize>| k.and_then(|k| self.gap.get(k)).copied().unwrap_or(0.0);
         let slope = (gap(Some(i + 1)) - gap(i.checked_sub(1))) / (2.0 * grid.spacing);
-        [grid.radius - self.wheel_surface[d + 1], grid.x[i] + self.wheel_surface[d] - grid.radius * slope]
+        [self.radius - self.wheel_surface[d + 1], grid.x[i] + self.wheel_surface[d] - self.radius * slope]
     }
 }
 
@@ -154,7 +159,7 @@ impl ContactProblem<'_> {
 
     /// Whether the material arrives from `+x`.
     pub(super) fn upstream_right(&self, rigid: &[f64; 3]) -> bool {
-        rigid[0] + self.grid.radius * rigid[2] >= 0.0
+        rigid[0] + self.radius * rigid[2] >= 0.0
     }
 
     /// Surface displacements of wheel and rail with zero contact forces and zero unknown rigid values.
@@ -187,7 +192,7 @@ impl ContactProblem<'_> {
         rail.gemv(-1.0, self.rail.compliance, &solution.forces, 1.0);
         solution.wheel_surface = wheel;
         solution.rail_surface = rail;
-        let (v, v_c) = (solution.rigid[0], grid.radius * solution.rigid[2]);
+        let (v, v_c) = (solution.rigid[0], self.radius * solution.rigid[2]);
         solution.friction_power = 0.0;
         for (i, &row) in rows.iter().enumerate() {
             let d = grid.dof(i);
@@ -245,7 +250,7 @@ impl ContactProblem<'_> {
         let grid = self.grid;
         let d = grid.dof(i);
         let step = if to_right { 2isize } else { -2 };
-        let (v, v_c) = (solution.rigid[0], grid.radius * solution.rigid[2]);
+        let (v, v_c) = (solution.rigid[0], self.radius * solution.rigid[2]);
         let mut forces = self.slip_gain * relative.column(d);
         let mut loads = [0.0; 3];
         for (k, load) in loads.iter_mut().enumerate() {
@@ -264,7 +269,7 @@ impl ContactProblem<'_> {
         }
         let stretch_rail = self.stretch(&solution.rail_surface, i, row, to_right);
         let stretch_wheel = self.stretch(&solution.wheel_surface, i, row, to_right);
-        let mut rigid = [1.0 + stretch_rail, 0.0, -grid.radius * (1.0 + stretch_wheel)];
+        let mut rigid = [1.0 + stretch_rail, 0.0, -self.radius * (1.0 + stretch_wheel)];
         constant += -v * stretch_rail + v_c * stretch_wheel;
         for (k, motion) in self.rigid.iter().enumerate() {
             if !motion.prescribed {

@@ -40,6 +40,8 @@ pub struct Drive {
     pub displacement: f64,
     /// Friction coefficient available now [1].
     pub friction: f64,
+    /// Brake block heat into the tread [W].
+    pub tread_heat: f64,
 }
 
 /// Everything the outside prescribes during one communication step.
@@ -69,7 +71,7 @@ pub struct InputError {
 }
 
 /// Name, smallest and largest meaningful value of each real input, in the order of [`Drive::values`].
-pub const INPUT_RANGES: [(&str, f64, f64); 7] = [
+pub const INPUT_RANGES: [(&str, f64, f64); 8] = [
     ("drive.omega", -2e4, 2e4),
     ("drive.moment", -1e9, 1e9),
     ("drive.velocity", -200.0, 200.0),
@@ -77,12 +79,13 @@ pub const INPUT_RANGES: [(&str, f64, f64); 7] = [
     ("drive.load", 0.0, 1e9),
     ("drive.displacement", -0.1, 0.1),
     ("rail.friction", 0.0, 10.0),
+    ("drive.tread_heat", -1e9, 1e9),
 ];
 
 impl Drive {
     /// The values in the order of [`INPUT_RANGES`].
-    pub fn values(&self) -> [f64; 7] {
-        [self.omega, self.moment, self.velocity, self.force, self.load, self.displacement, self.friction]
+    pub fn values(&self) -> [f64; 8] {
+        [self.omega, self.moment, self.velocity, self.force, self.load, self.displacement, self.friction, self.tread_heat]
     }
 
     /// Refuses values out of range, infinite or not a number.
@@ -119,6 +122,7 @@ impl Inputs {
             load: (d.load + time * r.load).max(0.0),
             displacement: d.displacement + time * r.displacement,
             friction: (d.friction + time * r.friction).max(0.0),
+            tread_heat: d.tread_heat + time * r.tread_heat,
         }
     }
 }

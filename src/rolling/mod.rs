@@ -7,6 +7,7 @@ pub mod integrator;
 pub mod output;
 pub mod state;
 pub mod stationary;
+pub mod thermal;
 pub mod transient;
 
 pub use control::{Drive, Inputs, Rotation, Translation, Vertical};
@@ -16,6 +17,7 @@ pub use state::State;
 use crate::config::Config;
 use crate::contact::kernel::KernelCorrection;
 use crate::contact::{ContactError, ContactGrid};
+use crate::heat::{Heat, HeatError, Scratch};
 use crate::mechanics::response::{BodyResponse, StepOperator};
 use crate::mechanics::{self, MechanicsError, Pair};
 use std::sync::Arc;
@@ -36,8 +38,19 @@ pub enum StepError {
     Input(#[from] control::InputError),
     #[error("communication step = {step} is outside its range: above 0 to {longest} s")]
     StepSize { step: f64, longest: f64 },
+    #[error("heat: {0}")]
+    Heat(HeatError),
     #[error("body response failed: {0}")]
     Body(String),
+}
+
+/// Why a model could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum ModelError {
+    #[error("finite-element model: {0}")]
+    Mechanics(#[from] MechanicsError),
+    #[error("heat model: {0}")]
+    Heat(#[from] HeatError),
 }
 
 /// Everything that does not change during a run; shared between instances with equal parameters.
@@ -47,6 +60,7 @@ pub struct Model {
     wheel: Box<dyn BodyResponse>,
     rail: Box<dyn BodyResponse>,
     kernel: KernelCorrection,
+    heat: Option<Heat>,
     /// Undeformed gap at the candidates [m].
     gap: Vec<f64>,
     /// Inertia per metre of width: in x (with vehicle), in y, about the axle.
@@ -64,6 +78,7 @@ pub struct Operators {
 #[derive(Default)]
 pub struct Workspace {
     operators: Vec<Arc<Operators>>,
+    heat: Scratch,
 }
 
 /// Number of step sizes whose operators are kept.
@@ -71,7 +86,7 @@ const KEPT_OPERATORS: usize = 3;
 
 impl Model {
     /// Builds the model on given bodies.
-    pub fn new(config: Config, bodies: Pair) -> Result<Self, MechanicsError> {
+    pub fn new(config: Config, bodies: Pair) -> Result<Self, ModelError> {
         let grid = ContactGrid {
             x: bodies.surface_x[bodies.candidates.clone()].to_vec(),
             spacing: bodies.spacing,
@@ -86,8 +101,14 @@ impl Model {
         let mass = mechanics::wheel_mass(&config) + config.wheel.hub_mass / width;
         let moment = mechanics::wheel_inertia(&config) + config.wheel.hub_inertia / width;
         let inertia = [mass + config.vehicle.mass / width, mass, moment];
+        let half_width = mechanics::nominal_half_width(&config);
+        let zone = grid.x.last().map_or(0.0, |x| x + grid.spacing);
+        let heat = match config.thermal.enabled {
+            true => Some(Heat::new(&thermal::heat_config(&config, half_width, zone))?),
+            false => None,
+        };
         let gap = (0..grid.len()).map(|i| grid.undeformed_gap(i)).collect();
-        Ok(Self { config, grid, wheel: bodies.wheel, rail: bodies.rail, kernel, gap, inertia })
+        Ok(Self { config, grid, wheel: bodies.wheel, rail: bodies.rail, kernel, heat, gap, inertia })
     }
 
     /// Nominal wheel load per metre of width [N/m].
@@ -141,6 +162,7 @@ impl Model {
             && body(&state.rail, self.rail.state_len())
             && [contact.status.len(), contact.slip.len(), contact.gap.len(), state.shift.len()] == [n; 4]
             && [contact.forces.len(), contact.wheel_surface.len(), contact.rail_surface.len()] == [dofs; 3]
+            && state.thermal.is_some() == self.heat.is_some()
             && contact.forces.iter().all(|f| f.is_finite())
     }
 }

@@ -1,6 +1,7 @@
 //! Observables of a state, for the whole wheel in SI units.
 
 use super::control::{STANDSTILL, creepage};
+use super::thermal::ThermalState;
 use super::{Model, State};
 use crate::contact::patch;
 use serde::{Deserialize, Serialize};
@@ -57,6 +58,36 @@ pub struct Outputs {
     pub friction_power: f64,
     /// Wear number `|F_x ξ|` [N].
     pub t_gamma: f64,
+    /// Highest surface temperature of the wheel in the contact zone [K]; temperatures are absolute, zero if not computed.
+    pub temperature_wheel_max: f64,
+    /// The same of the rail [K].
+    pub temperature_rail_max: f64,
+    /// Mean surface temperature of the wheel over the patch [K].
+    pub temperature_wheel_mean: f64,
+    /// The same of the rail [K].
+    pub temperature_rail_mean: f64,
+    /// Surface temperature of the wheel below its centre [K].
+    pub temperature_wheel_nominal: f64,
+    /// The same of the rail [K].
+    pub temperature_rail_nominal: f64,
+    /// Mean temperature of the whole wheel [K].
+    pub temperature_wheel_bulk: f64,
+    /// Net heat into the wheel through the contact, mean over the last internal step [W].
+    pub heat_to_wheel: f64,
+    /// The same into the rail [W].
+    pub heat_to_rail: f64,
+    /// Heat conducted from wheel to rail through the interface [W].
+    pub heat_conduction: f64,
+    /// Heat from the wheel into the hub [W].
+    pub heat_to_hub: f64,
+    /// Heat imbalance since the start relative to the heat supplied [1].
+    pub heat_residual: f64,
+    /// Time during which the hottest contact point was above Ac1 [s].
+    pub austenitised_time: f64,
+    /// Growth of the wheel radius by its bulk temperature [m].
+    pub thermal_growth: f64,
+    /// Friction coefficient that held in the last step [1].
+    pub friction: f64,
     /// Internal steps in the last communication step.
     pub internal_steps: u64,
     /// Contact iterations in the last communication step.
@@ -71,6 +102,10 @@ pub struct Outputs {
     pub profile_shear: Vec<f64>,
     /// Slip velocity of the wheel surface relative to the rail [m/s].
     pub profile_slip: Vec<f64>,
+    /// Surface temperature of the wheel [K].
+    pub profile_temperature_wheel: Vec<f64>,
+    /// Surface temperature of the rail [K].
+    pub profile_temperature_rail: Vec<f64>,
 }
 
 impl Model {
@@ -86,7 +121,30 @@ impl Model {
         let seen = patch::observe(&self.grid, contact, state.friction);
         let profile = |value: &dyn Fn(usize) -> f64| self.profile(value);
         let h = self.grid.spacing;
+        let surfaces = |i: usize| self.surface_temperatures(state, i);
+        let kelvin = self.config.thermal.reference;
+        let thermal = state.thermal.as_ref();
+        let absolute = |of: fn(&ThermalState) -> f64| thermal.map_or(0.0, |t| kelvin + of(t));
+        let flow = |of: fn(&ThermalState) -> f64| thermal.map_or(0.0, |t| width * of(t));
+        let heat_residual = thermal.map_or(0.0, |t| ratio(t.supplied - t.received, t.supplied.abs()));
         Outputs {
+            temperature_wheel_max: absolute(|t| t.temperatures.wheel_max),
+            temperature_rail_max: absolute(|t| t.temperatures.rail_max),
+            temperature_wheel_mean: absolute(|t| t.patch_mean[0]),
+            temperature_rail_mean: absolute(|t| t.patch_mean[1]),
+            temperature_wheel_nominal: absolute(|t| t.temperatures.wheel_centre),
+            temperature_rail_nominal: absolute(|t| t.temperatures.rail_centre),
+            temperature_wheel_bulk: absolute(|t| t.temperatures.wheel_mean),
+            heat_to_wheel: flow(|t| t.flows.to_wheel),
+            heat_to_rail: flow(|t| t.flows.to_rail),
+            heat_conduction: flow(|t| t.flows.conduction),
+            heat_to_hub: flow(|t| t.flows.to_hub),
+            heat_residual,
+            austenitised_time: thermal.map_or(0.0, |t| t.austenitised),
+            thermal_growth: thermal.map_or(0.0, |t| t.growth),
+            friction: state.friction,
+            profile_temperature_wheel: profile(&|i| surfaces(i)[0]),
+            profile_temperature_rail: profile(&|i| surfaces(i)[1]),
             contact_force_x: force_x,
             contact_force_y: force_y,
             contact_moment: moment,
@@ -117,6 +175,14 @@ impl Model {
             profile_pressure: profile(&|i| contact.normal(&self.grid, i) / h),
             profile_shear: profile(&|i| contact.tangential(&self.grid, i) / h),
             profile_slip: profile(&|i| contact.slip[i]),
+        }
+    }
+
+    /// Absolute surface temperatures of wheel and rail at candidate `i` [K]; zero if not computed.
+    fn surface_temperatures(&self, state: &State, i: usize) -> [f64; 2] {
+        match &state.thermal {
+            Some(thermal) => [0, 1].map(|body| self.config.thermal.reference + thermal.surface[body][i]),
+            None => [0.0; 2],
         }
     }
 

@@ -1,6 +1,7 @@
 //! All that a restart needs, and nothing else. Per metre of width.
 
 use super::integrator::Sample;
+use super::thermal::ThermalState;
 use crate::contact::ContactSolution;
 use crate::mechanics::response::BodyState;
 use serde::{Deserialize, Serialize};
@@ -28,6 +29,8 @@ pub struct State {
     pub shift: Vec<Sample>,
     /// Contact state, forces and surface displacements: results and warm start.
     pub contact: ContactSolution,
+    /// Temperatures, unless the thermal part is switched off.
+    pub thermal: Option<ThermalState>,
     /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
     pub hub: [f64; 3],
     /// Friction coefficient of the last step [1].

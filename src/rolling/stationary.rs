@@ -27,6 +27,7 @@ impl Model {
         let omega =
             if prescribed_r { drive.omega } else { peripheral_velocity(velocity, initial.creepage) / self.grid.radius };
         let load = drive.load / width;
+        let friction = self.friction(drive.friction, velocity - self.grid.radius * omega, None);
         if inputs.vertical == Vertical::Force && load <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }
@@ -61,6 +62,7 @@ impl Model {
             let fixed = |value, offset| RigidMotion { value, offset, prescribed: true, ..RigidMotion::default() };
             let problem = ContactProblem {
                 grid: &self.grid,
+                radius: self.grid.radius,
                 wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
                 rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
                 wheel_loads: &operators.wheel.loads,
@@ -70,7 +72,7 @@ impl Model {
                 slip_gain: 0.0,
                 slip_offset: &no_offset,
                 gap: &self.gap,
-                friction: drive.friction,
+                friction,
                 nominal_load: self.nominal_line_load(),
                 edge_tolerance: 1e-5,
             };
@@ -122,14 +124,18 @@ impl Model {
             rail,
             shift,
             contact,
+            thermal: None,
             hub,
-            friction: drive.friction,
+            friction,
             last_load: [drive.force / width, drive.moment / width, load, drive.friction],
             last_step: 0.0,
             internal_steps: 0,
             iterations: 0,
             audit: Audit::default(),
         };
+        if let Some(heat) = &self.heat {
+            state.thermal = Some(self.stationary_heat(heat, &state, drive.tread_heat)?);
+        }
         state.audit.energy = self.energy(&state);
         state.audit.initial_energy = state.audit.energy;
         (state.audit.hub_power, state.audit.friction_power) = self.powers(&state);

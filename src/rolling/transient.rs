@@ -74,6 +74,9 @@ impl Model {
         workspace: &mut Workspace,
     ) -> Result<State, StepError> {
         let width = self.config.model.contact_width;
+        let thermal = state.thermal.as_ref();
+        let slip = state.velocity.now - self.grid.radius * state.omega.now;
+        let friction = self.friction(target.friction, slip, thermal);
         let load = [target.force / width, target.moment / width, target.load / width, target.friction];
         let before = if self.jumped(&state.last_load, &load) { 0.0 } else { state.last_step };
         let td = formula(&self.config.solver, dt, before);
@@ -91,8 +94,8 @@ impl Model {
         let omega = predicted(&state.omega, free_r, target.omega);
         let stream_wheel = Convection { speed: omega, acceleration: state.omega.rate };
         let stream_rail = Convection { speed: v, acceleration: state.velocity.rate };
-        let free_wheel = self.wheel.free(&operators.wheel, &state.wheel, &td, stream_wheel, &state.wheel);
-        let free_rail = self.rail.free(&operators.rail, &state.rail, &td, stream_rail, &state.rail);
+        let mut free_wheel = self.wheel.free(&operators.wheel, &state.wheel, &td, stream_wheel, &state.wheel);
+        let mut free_rail = self.rail.free(&operators.rail, &state.rail, &td, stream_rail, &state.rail);
 
         let speed = |sample: &Sample, value: f64, free: bool, load: f64, k: usize| RigidMotion {
             value,
@@ -112,9 +115,15 @@ impl Model {
             load: -load[2],
             momentum: free_wheel.momentum[1],
         };
+        if let Some(thermal) = thermal {
+            self.add_membrane(&mut free_wheel.surface, &operators.wheel.surface, &thermal.membrane[0]);
+            self.add_membrane(&mut free_rail.surface, &operators.rail.surface, &thermal.membrane[1]);
+        }
+        let gap = self.thermal_gap(thermal);
         let slip_offset: Vec<f64> = state.shift.iter().map(|s| s.offset(&td)).collect();
         let problem = ContactProblem {
             grid: &self.grid,
+            radius: self.grid.radius + thermal.map_or(0.0, |t| t.growth),
             wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
             rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
             wheel_loads: &operators.wheel.loads,
@@ -127,8 +136,8 @@ impl Model {
             ],
             slip_gain: td.a0,
             slip_offset: &slip_offset,
-            gap: &self.gap,
-            friction: target.friction,
+            gap: &gap,
+            friction,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: 0.02,
         };
@@ -160,7 +169,7 @@ impl Model {
         next.time += dt;
         next.distance += 0.5 * dt * (state.velocity.now + next.velocity.now);
         next.angle += 0.5 * dt * (state.omega.now + next.omega.now);
-        next.friction = target.friction;
+        next.friction = friction;
         next.last_load = load;
         next.last_step = dt;
         next.internal_steps += 1;
@@ -183,6 +192,9 @@ impl Model {
         next.audit.hub_power = hub_power;
         next.audit.friction_power = friction_power;
         next.audit.energy = self.energy(&next);
+        if let (Some(heat), Some(before)) = (&self.heat, thermal) {
+            next.thermal = Some(self.step_heat(heat, before, &next, target.tread_heat, dt, workspace)?);
+        }
         Ok(next)
     }
 
@@ -239,5 +251,6 @@ fn interpolate(start: &Drive, end: &Drive, fraction: f64) -> Drive {
         load: mix(start.load, end.load),
         displacement: mix(start.displacement, end.displacement),
         friction: mix(start.friction, end.friction),
+        tread_heat: mix(start.tread_heat, end.tread_heat),
     }
 }
