@@ -299,7 +299,7 @@ impl Config {
         within("thermal.max_speed", c.thermal.max_speed, 0.1, 200.0)?;
         within("thermal.smallest_load_ratio", c.thermal.smallest_load_ratio, 0.05, 1.0)?;
         within("thermal.tread_angle", c.thermal.tread_angle, -3.2, 3.2)?;
-        within("thermal.tread_width", c.thermal.tread_width, 1e-3, 6.28)?;
+        within("thermal.tread_width", c.thermal.tread_width, 1e-3, 6.2)?;
         within("thermal.tread_blocks", c.thermal.tread_blocks as f64, 1.0, 2.0)?;
         within("thermal.austenitisation", c.thermal.austenitisation, 1.0, 1e4)?;
         if c.thermal.reference + c.thermal.wheel_excess <= 0.0 {

@@ -3,7 +3,7 @@
 use super::MODEL_IDENTIFIER;
 use super::log::CATEGORIES;
 use super::presets;
-use super::units::{BASE_UNITS, UNITS};
+use super::units::{BASE_UNITS, UNITS, display_offset};
 use super::variable::{Access, Causality, Kind, Start, Value, Variable};
 use super::variables::{ENUMERATIONS, variables};
 use quick_xml::Writer;
@@ -105,7 +105,13 @@ fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
                     exponents.iter().filter(|(_, e)| e != "0").map(|(name, e)| (*name, e.as_str())).collect();
                 empty(xml, "BaseUnit", &present)?;
                 for (name, factor) in unit.displays {
-                    empty(xml, "DisplayUnit", &[("name", *name), ("factor", &number(*factor))])?;
+                    let (factor, offset) = (number(*factor), display_offset(name));
+                    let shifted = number(offset);
+                    let mut attributes = vec![("name", *name), ("factor", factor.as_str())];
+                    if offset != 0.0 {
+                        attributes.push(("offset", shifted.as_str()));
+                    }
+                    empty(xml, "DisplayUnit", &attributes)?;
                 }
                 Ok(())
             })?;

@@ -7,7 +7,7 @@
 
 use super::units::{self, Measure};
 use super::variable::{Access, Enumeration, Kind, Reference, Start, Variable};
-use crate::config::{Config, Response, TimeScheme};
+use crate::config::{ConductanceLaw, Config, Hub, Response, TimeScheme};
 use crate::simulation::{Drive, INPUT_RANGES, Inputs, Outputs, PROFILE_POINTS, Rotation, Translation, Vertical};
 use std::sync::OnceLock;
 
@@ -41,9 +41,20 @@ pub const TIME_SCHEME: Enumeration = Enumeration {
     ],
 };
 
+pub const CONDUCTANCE_LAW: Enumeration = Enumeration {
+    name: "ConductanceLaw",
+    description: "How the contact conductance depends on pressure",
+    items: &[("constant", "independent of pressure"), ("pressure", "proportional to pressure^0.95")],
+};
+pub const HUB: Enumeration = Enumeration {
+    name: "Hub",
+    description: "Thermal boundary condition of the hub",
+    items: &[("fixed", "held at thermal.reference"), ("insulated", "no heat passes")],
+};
+
 /// Enumerations in the order of the model description.
-pub const ENUMERATIONS: [&Enumeration; 5] =
-    [&ROTATION_CONTROL, &TRANSLATION_CONTROL, &VERTICAL_CONTROL, &RESPONSE, &TIME_SCHEME];
+pub const ENUMERATIONS: [&Enumeration; 7] =
+    [&ROTATION_CONTROL, &TRANSLATION_CONTROL, &VERTICAL_CONTROL, &RESPONSE, &TIME_SCHEME, &CONDUCTANCE_LAW, &HUB];
 
 /// All variables, in the order of the model description.
 pub fn variables() -> &'static [Variable] {
@@ -162,6 +173,14 @@ fn inputs() -> Vec<Variable> {
             "Hub height above just touching, up positive (pressed: negative)",
         ),
         value(
+            206,
+            "drive.tread_heat",
+            units::POWER,
+            1e4,
+            |d| &mut d.tread_heat,
+            "Heat of the brake blocks into the tread",
+        ),
+        value(
             250,
             "rail.friction",
             units::NUMBER,
@@ -205,6 +224,21 @@ fn outputs() -> Vec<Variable> {
         value(501, "hub.force_y", FORCE, FREE, 1e5, |o| o.hub_force_y, "Vertical force on the hub, prescribed or reaction, up positive (-drive.load)"),
         value(502, "hub.moment", MOMENT, FREE, 1e4, |o| o.hub_moment, "Moment that drives the hub, prescribed or reaction, forward positive; conjugate to wheel.omega"),
         value(600, "heat.friction_power", POWER, FREE, 1e4, |o| o.friction_power, "Power dissipated by friction in the contact patch"),
+        value(312, "contact.friction", NUMBER, POSITIVE, 0.3, |o| o.friction, "Friction coefficient that holds now: rail.friction with the dependence on slip and temperature"),
+        value(610, "temperature.wheel_max", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_wheel_max, "Highest surface temperature of the wheel in the contact zone (temperatures are absolute; 0 without thermal.enabled)"),
+        value(611, "temperature.rail_max", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_rail_max, "Highest surface temperature of the rail in the contact zone"),
+        value(612, "temperature.wheel_mean", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_wheel_mean, "Mean surface temperature of the wheel over the contact patch"),
+        value(613, "temperature.rail_mean", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_rail_mean, "Mean surface temperature of the rail over the contact patch"),
+        value(614, "temperature.wheel_nominal", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_wheel_nominal, "Surface temperature of the wheel below its centre"),
+        value(615, "temperature.rail_nominal", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_rail_nominal, "Surface temperature of the rail below the wheel centre"),
+        value(616, "temperature.wheel_bulk", TEMPERATURE, POSITIVE, 300.0, |o| o.temperature_wheel_bulk, "Mean temperature of the whole wheel"),
+        value(601, "heat.to_wheel", POWER, FREE, 1e4, |o| o.heat_to_wheel, "Net heat into the wheel through the contact"),
+        value(602, "heat.to_rail", POWER, FREE, 1e4, |o| o.heat_to_rail, "Net heat into the rail through the contact; with heat.to_wheel it makes thermal.heat_ratio x heat.friction_power"),
+        value(603, "heat.conduction", POWER, FREE, 1e3, |o| o.heat_conduction, "Heat conducted from wheel to rail across the interface"),
+        value(604, "heat.to_hub", POWER, FREE, 1e3, |o| o.heat_to_hub, "Heat from the wheel into the hub"),
+        value(620, "thermal.growth", MILLIMETRE, FREE, 1e-5, |o| o.thermal_growth, "Growth of the wheel radius by its bulk temperature"),
+        zero(value(701, "damage.time_above_ac1", SECOND, POSITIVE, 1e-2, |o| o.austenitised_time, "Time during which the hottest contact point was above thermal.austenitisation")),
+        zero(value(803, "solver.heat_residual", NUMBER, FREE, 1e-9, |o| o.heat_residual, "Heat balance since the start: unaccounted heat over heat supplied")),
         value(700, "damage.t_gamma", NEWTON, POSITIVE, 10.0, |o| o.t_gamma, "Wear number |contact.force_x contact.creepage|: energy dissipated per metre travelled"),
         count(800, "solver.internal_steps", |o| o.internal_steps, "Internal time steps in the last communication step"),
         count(801, "solver.iterations", |o| o.iterations, "Contact iterations in the last communication step"),
@@ -238,6 +272,16 @@ fn parameters() -> Vec<Variable> {
             }
         },
     );
+    let conductance = Access::ChoiceParameter(
+        |c| if c.thermal.conductance_law == ConductanceLaw::Constant { 1 } else { 2 },
+        |c, item| {
+            c.thermal.conductance_law = if item == 1 { ConductanceLaw::Constant } else { ConductanceLaw::Pressure }
+        },
+    );
+    let hub = Access::ChoiceParameter(
+        |c| if c.thermal.hub == Hub::Fixed { 1 } else { 2 },
+        |c, item| c.thermal.hub = if item == 1 { Hub::Fixed } else { Hub::Insulated },
+    );
     use units::*;
     #[rustfmt::skip]
     let rows = vec![
@@ -255,6 +299,30 @@ fn parameters() -> Vec<Variable> {
         value(1051, "material.poissons_ratio", NUMBER, [0.0, 0.49], |c| &mut c.material.poissons_ratio, "Poisson's ratio of both bodies"),
         value(1052, "material.density", DENSITY, [1.0, 1e5], |c| &mut c.material.density, "Density of both bodies"),
         value(1060, "friction.coefficient", NUMBER, [0.0, 10.0], |c| &mut c.friction.coefficient, "Friction coefficient; default of the input rail.friction"),
+        value(1053, "material.expansion", PER_KELVIN, [0.0, 1e-3], |c| &mut c.material.expansion, "Coefficient of linear thermal expansion of both bodies"),
+        value(1054, "material.conductivity", CONDUCTIVITY, [1e-3, 1e5], |c| &mut c.material.conductivity, "Thermal conductivity of both bodies"),
+        value(1055, "material.specific_heat", SPECIFIC_HEAT, [1.0, 1e5], |c| &mut c.material.specific_heat, "Specific heat capacity of both bodies"),
+        value(1061, "friction.falling_ratio", NUMBER, [0.0, 1.0], |c| &mut c.friction.falling_ratio, "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant"),
+        value(1062, "friction.falling_decay", DECAY, [0.0, 1e3], |c| &mut c.friction.falling_decay, "Decay of the rest with the slip velocity V - r omega (Polach's B)"),
+        value(1063, "friction.softening", PER_KELVIN, [0.0, 1.0], |c| &mut c.friction.softening, "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; 0: constant"),
+        value(1064, "friction.softening_floor", NUMBER, [0.0, 1.0], |c| &mut c.friction.softening_floor, "Share of the friction coefficient that remains in a hot contact"),
+        row(1110, "thermal.enabled", Kind::Boolean, Access::FlagParameter(|c| &mut c.thermal.enabled), "Whether temperatures are computed"),
+        value(1111, "thermal.reference", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.reference, "Absolute temperature of hub, air and arriving rail"),
+        value(1112, "thermal.wheel_excess", DIFFERENCE, [-1e3, 5e3], |c| &mut c.thermal.wheel_excess, "Excess temperature of the whole wheel over the reference at the start (a warm wheel)"),
+        value(1113, "thermal.conductance", CONDUCTANCE, [0.0, 1e12], |c| &mut c.thermal.conductance, "Contact conductance between wheel and rail"),
+        row(1114, "thermal.conductance_law", Kind::Enumeration(&CONDUCTANCE_LAW), conductance, "How the contact conductance depends on pressure"),
+        value(1115, "thermal.reference_pressure", PRESSURE, [1.0, 1e12], |c| &mut c.thermal.reference_pressure, "Pressure at which the pressure-dependent conductance is thermal.conductance"),
+        value(1116, "thermal.heat_ratio", NUMBER, [0.0, 1.0], |c| &mut c.thermal.heat_ratio, "Fraction of the friction power that heats wheel and rail"),
+        value(1117, "thermal.wheel_share", NUMBER, [0.0, 1.0], |c| &mut c.thermal.wheel_share, "Share of that heat first put into the wheel; conduction decides where it goes"),
+        row(1118, "thermal.hub", Kind::Enumeration(&HUB), hub, "Thermal boundary condition of the hub"),
+        value(1119, "thermal.convection", CONDUCTANCE, [0.0, 1e5], |c| &mut c.thermal.convection, "Coefficient of convection from tread and rail head to air at the reference temperature"),
+        value(1120, "thermal.max_speed", SPEED, [0.1, 200.0], |c| &mut c.thermal.max_speed, "Largest speed at which the thermal layer is resolved"),
+        value(1121, "thermal.smallest_load_ratio", NUMBER, [0.05, 1.0], |c| &mut c.thermal.smallest_load_ratio, "Smallest load over model.nominal_load at which the patch is thermally resolved"),
+        value(1122, "thermal.tread_angle", DEGREE, [-3.2, 3.2], |c| &mut c.thermal.tread_angle, "Angle of a brake block from the contact point, leading side positive"),
+        value(1123, "thermal.tread_width", DEGREE, [1e-3, 6.2], |c| &mut c.thermal.tread_width, "Arc covered by a brake block"),
+        count(1124, "thermal.tread_blocks", 1, 2, |c| &mut c.thermal.tread_blocks, "Brake blocks: one, or two mirrored ones that share drive.tread_heat"),
+        value(1125, "thermal.austenitisation", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.austenitisation, "Austenitisation temperature Ac1"),
+        row(1071, "physics.thermal_expansion", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermal_expansion), "Thermal expansion and stress act back on the contact"),
         row(1070, "physics.centrifugal", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.centrifugal), "Centrifugal load of the spinning wheel"),
         count(1080, "mesh.elements_per_half_width", 4, 80, |c| &mut c.mesh.elements_per_half_width, "Elements per Hertzian half-width at model.nominal_load"),
         row(1090, "solver.response", Kind::Enumeration(&RESPONSE), response, "How the bodies answer contact tractions"),
@@ -272,11 +340,13 @@ fn parameters() -> Vec<Variable> {
 fn profiles() -> Vec<Variable> {
     type Profile = (Reference, &'static str, Kind, fn(&Outputs) -> &[f64], &'static str);
     #[rustfmt::skip]
-    let profiles: [Profile; 4] = [
+    let profiles: [Profile; 6] = [
         (10000, "x", real(units::MILLIMETRE, FREE, 5e-3), |o| &o.profile_x, "Position across the contact patch, positive ahead of the wheel centre"),
         (11000, "pressure", real(units::PRESSURE, FREE, 1e9), |o| &o.profile_pressure, "Contact pressure"),
         (12000, "shear", real(units::PRESSURE, FREE, 1e8), |o| &o.profile_shear, "Shear traction on the wheel, positive in x"),
         (13000, "slip", real(units::SLIP, FREE, 1e-2), |o| &o.profile_slip, "Local slip velocity"),
+        (14000, "temperature_wheel", real(units::TEMPERATURE, POSITIVE, 300.0), |o| &o.profile_temperature_wheel, "Surface temperature of the wheel"),
+        (15000, "temperature_rail", real(units::TEMPERATURE, POSITIVE, 300.0), |o| &o.profile_temperature_rail, "Surface temperature of the rail"),
     ];
     let point = |(first, name, kind, get, text): Profile, i: usize| {
         let (reference, name) = (first + 1 + i as Reference, format!("profile.{name}[{}]", i + 1));

@@ -106,6 +106,8 @@ pub struct Exchange {
     pub tread: Vec<TreadHeat>,
     /// Excess temperature of the air [K].
     pub ambient: f64,
+    /// Whether speeds and everything above hold over the whole step, instead of varying linearly from the step before.
+    pub held: bool,
 }
 
 /// Moments of everything that acts, on the surface elements; linear in the data.
@@ -174,7 +176,7 @@ impl Heat {
 
     fn add_conductance(&self, exchange: &Exchange, out: &mut [[f64; 3]]) -> Result<(), HeatError> {
         for patch in &exchange.patches {
-            if !(patch.low <= patch.high) {
+            if patch.low.is_nan() || patch.high.is_nan() || patch.low > patch.high {
                 return Err(HeatError::ProfileOrder { name: "contact patch", before: patch.low, after: patch.high });
             }
             match self.config.conductance {
@@ -245,7 +247,7 @@ impl Heat {
         let [low, high] = interval;
         // Edges that coincide with the end of the zone are inside, round-off included.
         let reach = zone * (1.0 + 1e-12);
-        if let Some(&x) = interval.iter().find(|x| !(x.abs() <= reach)) {
+        if let Some(&x) = interval.iter().find(|x| x.is_nan() || x.abs() > reach) {
             return Err(HeatError::OutsideZone { name, x, zone });
         }
         let first = x.partition_point(|&x| x <= low).saturating_sub(1);
@@ -265,11 +267,8 @@ impl Heat {
 
 /// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the part.
 fn add_moments(out: &mut [f64; 3], xi: [f64; 2], length: f64, c: &dyn Fn(f64) -> f64) {
-    const POINTS: [(f64, f64); 3] = [
-        (0.112_701_665_379_258_31, 5.0 / 18.0),
-        (0.5, 8.0 / 18.0),
-        (0.887_298_334_620_741_7, 5.0 / 18.0),
-    ];
+    const POINTS: [(f64, f64); 3] =
+        [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
     for (f, weight) in POINTS {
         let x = xi[0] + f * (xi[1] - xi[0]);
         let value = weight * length * c(f);

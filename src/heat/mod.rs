@@ -23,6 +23,8 @@ mod krylov;
 mod modal;
 mod step;
 mod tensor;
+#[cfg(test)]
+mod tests;
 
 pub use interface::{Conductance, Exchange, Patch, Profile, TreadHeat};
 pub use step::{LARGEST_STEP, SMALLEST_STEP, Scratch};
@@ -123,9 +125,9 @@ pub enum HeatError {
 /// The fields are coefficients of the modes across the streamlines; see [`Heat::wheel_temperature`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
-    pub(self) wheel: Vec<f64>,
-    pub(self) rail: Vec<f64>,
-    pub(self) history: Option<Moment>,
+    wheel: Vec<f64>,
+    rail: Vec<f64>,
+    history: Option<Moment>,
 }
 
 impl HeatState {
@@ -242,6 +244,9 @@ const LARGEST_ALONG_RAIL: f64 = 0.05;
 const CURVED_BELOW: f64 = 1.0;
 const CURVED_STEP: f64 = 0.01;
 
+/// Depth of the layer whose expansion acts on the contact, in half-widths at the nominal load.
+const FLASH_DEPTH: f64 = 0.25;
+
 impl Heat {
     /// Meshes and modes for the given parameters.
     pub fn new(config: &HeatConfig) -> Result<Self, HeatError> {
@@ -257,9 +262,8 @@ impl Heat {
             Modes::new(&layers, curvature, fixed, film)
         };
         let zone = zone_nodes(&c);
-        let line = |half: f64, largest: f64, closed: bool| {
-            Streamline::around_contact(&zone, half, GROWTH, largest, closed)
-        };
+        let line =
+            |half: f64, largest: f64, closed: bool| Streamline::around_contact(&zone, half, GROWTH, largest, closed);
         let body = |line: Streamline, modes: Modes| Body {
             line,
             modes,
@@ -374,21 +378,39 @@ impl Heat {
         Ok([wheel, rail].map(|values| x.iter().map(|&x| interpolate(self.zone_x(), &values, x)).collect()))
     }
 
-    /// Temperature integrated over the depth at the given positions in the contact zone [K m]: of the wheel less its mean
-    /// along the tread, of the rail.
+    /// Temperature integrated over the uppermost [`FLASH_DEPTH`] at the given positions in the contact zone [K m]: of the
+    /// wheel less its mean along the tread, of the rail.
     pub fn layers(&self, state: &HeatState, x: &[f64]) -> Result<[Vec<f64>; 2], HeatError> {
         self.check_state(state)?;
         let layer = |body: &Body, field: &[f64], mean: f64| {
             let nm = body.modes.content.len();
             let nodes = self.zone_nodes(body);
-            let depth = |node: usize| modal::dot(&field[node * nm..(node + 1) * nm], &body.modes.content) - mean;
+            let weights = self.layer_weights(body);
+            let depth = |node: usize| modal::dot(&field[node * nm..(node + 1) * nm], &weights) - mean;
             let values: Vec<f64> = nodes.map(depth).collect();
             x.iter().map(|&x| interpolate(self.zone_x(), &values, x)).collect()
         };
         let mut sums = Vec::new();
         self.wheel.integrate(&state.wheel, &mut sums);
-        let mean = modal::dot(&sums, &self.wheel.modes.content) / self.wheel.line.closed;
+        let mean = modal::dot(&sums, &self.layer_weights(&self.wheel)) / self.wheel.line.closed;
         Ok([layer(&self.wheel, &state.wheel, mean), layer(&self.rail, &state.rail, 0.0)])
+    }
+
+    /// Integrals of the modes over the uppermost layer (Simpson's rule on intervals that grow with depth).
+    fn layer_weights(&self, body: &Body) -> Vec<f64> {
+        let depth = FLASH_DEPTH * self.config.half_width;
+        let mut weights = vec![0.0; body.modes.content.len()];
+        let (mut from, mut step) = (0.0, 1e-3 * depth);
+        while from < depth {
+            let to = (from + step).min(depth);
+            for (z, share) in [(from, 1.0), (0.5 * (from + to), 4.0), (to, 1.0)] {
+                for (w, mode) in weights.iter_mut().zip(body.modes.at(z)) {
+                    *w += share / 6.0 * (to - from) * mode;
+                }
+            }
+            (from, step) = (to, 1.3 * step);
+        }
+        weights
     }
 
     fn area(&self, body: &Body) -> f64 {
@@ -406,7 +428,13 @@ impl Heat {
 
     fn check_state(&self, state: &HeatState) -> Result<(), HeatError> {
         let (expected, found) = (self.wheel.size() + self.rail.size(), state.wheel.len() + state.rail.len());
-        if expected == found && state.wheel.len() == self.wheel.size() {
+        let fits = state.history.as_ref().is_none_or(|moment| {
+            let (supply, zone) = (&moment.supply, self.zone_elements());
+            supply.conductance.len() == zone
+                && supply.friction.len() == zone
+                && (supply.tread.is_empty() || supply.tread.len() == self.wheel.line.lengths.len())
+        });
+        if expected == found && state.wheel.len() == self.wheel.size() && fits {
             Ok(())
         } else {
             Err(HeatError::StateSize { expected, found })
@@ -482,7 +510,12 @@ impl HeatConfig {
         within("thermal.half_width", c.half_width, 1e-6, 0.1 * c.wheel_radius)?;
         within("thermal.smallest_half_width", c.smallest_half_width, 0.02 * c.half_width, c.half_width)?;
         within("thermal.zone", c.zone, c.half_width, 0.2 * c.wheel_radius)?;
-        within("thermal.zone in elements", c.zone / c.smallest_half_width * c.elements_per_half_width as f64, 2.0, 500.0)?;
+        within(
+            "thermal.zone in elements",
+            c.zone / c.smallest_half_width * c.elements_per_half_width as f64,
+            2.0,
+            500.0,
+        )?;
         within("thermal.max_speed", c.max_speed, 1e-3, 300.0)?;
         within("thermal.elements_per_half_width", c.elements_per_half_width as f64, 2.0, 200.0)?;
         match c.conductance {

@@ -183,35 +183,32 @@ impl Factor {
     }
 
     fn set_border(&mut self, transport: &Transport, blend: Blend, n: usize, nm: usize) {
-        for values in [&mut self.column, &mut self.row] {
-            values.clear();
-            values.resize(n * nm, 0.0);
-        }
-        let entry = |mass: f64, flow: f64| -> Vec<f64> {
-            self.alpha.iter().map(|a| a * mass + blend.flow * flow).collect()
-        };
+        self.row.clear();
+        self.row.resize(n * nm, 0.0);
         // Rows 0 and n − 1 of the chain see the bordering node as their outer neighbour, and it sees them.
-        let into_first = entry(transport.mass_lower[0], transport.flow_lower[0]);
-        let into_last = entry(transport.mass_upper[n - 1], transport.flow_upper[n - 1]);
+        let entry =
+            |mass: f64, flow: f64| -> Vec<f64> { self.alpha.iter().map(|a| a * mass + blend.flow * flow).collect() };
         let to_first = entry(transport.mass_upper[n], transport.flow_upper[n]);
         let to_last = entry(transport.mass_lower[n], transport.flow_lower[n]);
-        let sum = |i: usize| transport.mass_lower[i] + transport.mass[i] + transport.mass_upper[i];
         let last = (n - 1) * nm;
         for m in 0..nm {
-            self.column[m] += into_first[m];
-            self.column[last + m] += into_last[m];
             self.row[m] += to_first[m];
             self.row[last + m] += to_last[m];
         }
+        // Row sums again, for the pivot of the bordering node, too: 1 + T⁻¹ b = T⁻¹ s.
         let mut column = std::mem::take(&mut self.column);
-        self.solve_chain(&mut column, n, nm);
-        self.column = column;
-        // The pivot of the bordering node, again from row sums: 1 + T⁻¹ b = T⁻¹ s.
-        let mut around: Vec<f64> = (0..n).flat_map(|i| self.alpha.iter().map(move |a| a * sum(i))).collect();
-        self.solve_chain(&mut around, n, nm);
+        column.clear();
+        let sum = |i: usize| transport.mass_lower[i] + transport.mass[i] + transport.mass_upper[i];
+        for i in 0..n {
+            let sum = sum(i);
+            column.extend(self.alpha.iter().map(|a| a * sum));
+        }
+        self.solve_chain(&mut column, 0, n, nm);
         let pivot: Vec<f64> = (0..nm)
-            .map(|m| 1.0 / (self.alpha[m] * sum(n) - to_first[m] * around[m] - to_last[m] * around[last + m]))
+            .map(|m| 1.0 / (self.alpha[m] * sum(n) - to_first[m] * column[m] - to_last[m] * column[last + m]))
             .collect();
+        column.iter_mut().for_each(|y| *y -= 1.0);
+        self.column = column;
         // Tᵀ = (1 + r)ᵀ (1/inverse) (1 + w)ᵀ.
         for i in 1..n {
             let (done, rest) = self.row.split_at_mut(i * nm);
@@ -229,8 +226,9 @@ impl Factor {
         self.border = [to_first, to_last, pivot];
     }
 
-    fn solve_chain(&self, x: &mut [f64], n: usize, nm: usize) {
-        for i in 1..n {
+    /// `x ← T⁻¹ x`; `x` is zero before node `first`.
+    fn solve_chain(&self, x: &mut [f64], first: usize, n: usize, nm: usize) {
+        for i in first + 1..n {
             let (done, rest) = x.split_at_mut(i * nm);
             let (last, w) = (&done[(i - 1) * nm..], &self.w[i * nm..(i + 1) * nm]);
             rest[..nm].iter_mut().zip(last).zip(w).for_each(|((x, before), w)| *x -= w * before);
@@ -245,15 +243,15 @@ impl Factor {
         }
     }
 
-    /// `x ← S⁻¹ x`.
-    pub fn solve(&self, body: &Body, x: &mut [f64]) {
+    /// `x ← S⁻¹ x`; `x` is zero before node `first`.
+    pub fn solve(&self, body: &Body, x: &mut [f64], first: usize) {
         let nm = body.modes.len();
         if body.line.closed == 0.0 {
-            return self.solve_chain(x, body.line.len(), nm);
+            return self.solve_chain(x, first, body.line.len(), nm);
         }
         let n = body.line.len() - 1;
         let (chain, last) = x.split_at_mut(n * nm);
-        self.solve_chain(chain, n, nm);
+        self.solve_chain(chain, first.min(n - 1), n, nm);
         let [to_first, to_last, pivot] = &self.border;
         for m in 0..nm {
             let sum = to_first[m] * chain[m] + to_last[m] * chain[(n - 1) * nm + m];
@@ -278,15 +276,15 @@ impl Factor {
         let mut diagonal = vec![0.0; count * nm];
         let mut below = vec![0.0; nm];
         for i in (range.start..n).rev() {
-            for m in 0..nm {
-                let next = if i + 1 < n { self.r[i * nm + m] * self.w[(i + 1) * nm + m] * below[m] } else { 0.0 };
-                below[m] = self.inverse[i * nm + m] + next;
+            for (m, below) in below.iter_mut().enumerate() {
+                let next = if i + 1 < n { self.r[i * nm + m] * self.w[(i + 1) * nm + m] * *below } else { 0.0 };
+                *below = self.inverse[i * nm + m] + next;
             }
             if i < range.end {
                 diagonal[(i - range.start) * nm..(i - range.start + 1) * nm].copy_from_slice(&below);
             }
         }
-        for (row, _) in diagonal.chunks_exact_mut(nm).zip(0..) {
+        for row in diagonal.chunks_exact_mut(nm) {
             row.iter_mut().zip(&body.modes.surface).for_each(|(x, s)| *x *= s * s);
         }
         self.moving.resize(nm, 0.0);
@@ -296,17 +294,21 @@ impl Factor {
             self.moving.copy_from_slice(start);
             // The influence dies out within a few nodes against the stream, and along it in short steps.
             let negligible = NEGLIGIBLE * start.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            let mut sign = 1.0;
             for j in (0..k).rev() {
                 let at = (range.start + j + 1) * nm;
-                out[k * count + j] = decay(&mut self.moving, &self.w[at..at + nm]);
+                sign = -sign;
+                out[k * count + j] = sign * decay(&mut self.moving, &self.w[at..at + nm]);
                 if j % 4 == 0 && largest(&self.moving) < negligible {
                     break;
                 }
             }
             self.moving.copy_from_slice(start);
+            sign = 1.0;
             for i in (0..k).rev() {
                 let at = (range.start + i) * nm;
-                out[i * count + k] = decay(&mut self.moving, &self.r[at..at + nm]);
+                sign = -sign;
+                out[i * count + k] = sign * decay(&mut self.moving, &self.r[at..at + nm]);
                 if i % 4 == 0 && largest(&self.moving) < negligible {
                     break;
                 }
@@ -318,9 +320,8 @@ impl Factor {
             let row = largest(&self.row[range.start * nm..range.end * nm]);
             for i in 0..count {
                 let at = (range.start + i) * nm;
-                for m in 0..nm {
-                    let s = body.modes.surface[m];
-                    scaled[m] = self.column[at + m] * self.border[2][m] * s * s;
+                for (m, (scaled, s)) in scaled.iter_mut().zip(&body.modes.surface).enumerate() {
+                    *scaled = self.column[at + m] * self.border[2][m] * s * s;
                 }
                 if largest(&scaled) * row <= NEGLIGIBLE * out[i * count + i] {
                     continue;
@@ -348,16 +349,21 @@ fn largest(x: &[f64]) -> f64 {
     lanes.into_iter().fold(0.0, f64::max)
 }
 
-/// `x ← −f x` entry by entry; the sum of the result.
+/// `x ← f x` entry by entry; the sum of the result.
 fn decay(x: &mut [f64], f: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    for (x, f) in x.chunks_exact_mut(4).zip(f.chunks_exact(4)) {
-        for l in 0..4 {
-            x[l] *= -f[l];
+    let mut sums = [0.0; 8];
+    let (mut x, mut f) = (x.chunks_exact_mut(8), f.chunks_exact(8));
+    for (x, f) in (&mut x).zip(&mut f) {
+        for l in 0..8 {
+            x[l] *= f[l];
             sums[l] += x[l];
         }
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+    for (l, (x, f)) in x.into_remainder().iter_mut().zip(f.remainder()).enumerate() {
+        *x *= f;
+        sums[l] += *x;
+    }
+    ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]))
 }
 
 /// Scalar product of vectors whose length is a multiple of four.

@@ -27,6 +27,9 @@ const REGULARISATION: f64 = 1e-3;
 /// surface temperatures do not notice, the slow ones err by a fraction of this number.
 const SAME_OPERATOR: f64 = 1e-3;
 
+/// Relative change of speeds, conductance or heat over a step that counts as a jump.
+const JUMP: f64 = 0.3;
+
 /// Speeds and boundary data at one time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Moment {
@@ -79,8 +82,9 @@ impl Heat {
     /// exchange at the end of the step; in between everything varies linearly from the end of the step before (speeds and
     /// conductance that change by less than 1e-3 are taken from the end).
     ///
-    /// Without a step before (see [`HeatState::restart`]) the values of the end hold throughout. The flows are means
-    /// over the step. On error `state` is untouched.
+    /// With [`Exchange::held`] the values of the end hold throughout. After a jump of them, and without a step before (see [`HeatState::restart`]), the values of the end hold
+    /// throughout, and the step is one of backward Euler, which does not overshoot. The flows are means over the step. On
+    /// error `state` is untouched.
     ///
     /// SDIRK2, `γ = 1 − 1/√2`, stiffly accurate and L-stable (Alexander, *SIAM J. Numer. Anal.* 14 (1977)):
     /// `ρcM̃ k₁ = f − A(T + γΔt k₁)`, `ρcM̃ k₂ = f − A(T + (1−γ)Δt k₁ + γΔt k₂)`, `T ← T + (1−γ)Δt k₁ + γΔt k₂`.
@@ -98,11 +102,12 @@ impl Heat {
         }
         self.check_state(state)?;
         let end = self.moment(velocity, omega, exchange)?;
-        let start = state.history.as_ref().unwrap_or(&end);
-        let (gamma, stages): (f64, &[f64]) = match self.config.time_scheme {
-            HeatTimeScheme::Sdirk2 => (1.0 - FRAC_1_SQRT_2, &[1.0 - FRAC_1_SQRT_2, 1.0]),
-            HeatTimeScheme::BackwardEuler => (1.0, &[1.0]),
+        let start = if exchange.held { Some(&end) } else { state.history.as_ref().filter(|b| !b.jumps_to(&end)) };
+        let (gamma, stages): (f64, &[f64]) = match (self.config.time_scheme, start) {
+            (HeatTimeScheme::Sdirk2, Some(_)) => (1.0 - FRAC_1_SQRT_2, &[1.0 - FRAC_1_SQRT_2, 1.0]),
+            _ => (1.0, &[1.0]),
         };
+        let start = start.unwrap_or(&end);
         let blend = Blend { storage: 1.0, flow: gamma * dt };
         if scratch.owner.as_ref() != Some(&self.config) {
             *scratch = Scratch { owner: Some(self.config.clone()), ..Scratch::default() };
@@ -115,7 +120,8 @@ impl Heat {
             moment.mix(start, &end, time);
             let curved = moment.omega.abs() < CURVED_BELOW && dt >= CURVED_STEP;
             stage.set(self, moment, blend, 1.0 / (gamma * dt), curved)?;
-            let (weight, next) = if index + 1 == stages.len() { (gamma, 0.0) } else { (1.0 - gamma, 1.0 - 2.0 * gamma) };
+            let (weight, next) =
+                if index + 1 == stages.len() { (gamma, 0.0) } else { (1.0 - gamma, 1.0 - 2.0 * gamma) };
             stage.add_loads(self, load);
             stage.multiply(self, Blend { storage: 0.0, flow: -1.0 }, known, load);
             std::mem::swap(rate, load);
@@ -153,8 +159,8 @@ impl Heat {
         stage.set(self, &end, Blend { storage, flow: 1.0 }, 0.0, true)?;
         let mut field = Vec::new();
         stage.add_loads(self, &mut field);
-        let mut flows = HeatFlows::default();
-        flows.iterations = stage.solve(self, Blend { storage: 0.0, flow: 1.0 }, &mut field)?;
+        let iterations = stage.solve(self, Blend { storage: 0.0, flow: 1.0 }, &mut field)?;
+        let mut flows = HeatFlows { iterations, ..HeatFlows::default() };
         stage.add_flows(self, &field, None, 1.0, &mut flows);
         if !flows.is_finite() {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity, omega });
@@ -185,15 +191,32 @@ impl Moment {
         }
     }
 
+    /// Whether speeds, conductance or heat change too much within a step to be taken as varying linearly.
+    fn jumps_to(&self, other: &Self) -> bool {
+        let jump = |a: f64, b: f64| (a - b).abs() > JUMP * a.abs().max(b.abs());
+        let (a, b) = (&self.supply, &other.supply);
+        let conductance = |s: &Supply| s.conductance.iter().map(|c| c[0]).sum::<f64>();
+        let total = |q: &[[f64; 2]]| q.iter().map(|q| q[0]).sum::<f64>();
+        self.speed_change(other) > JUMP
+            || jump(conductance(a), conductance(b))
+            || jump(total(&a.friction), total(&b.friction))
+            || jump(total(&a.tread), total(&b.tread))
+    }
+
     /// Whether speeds and conductance differ so little that the operator of the end serves for the whole step.
     fn close(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= SAME_OPERATOR * b.abs();
         let (mut change, mut sum) = (0.0, 0.0);
         for (a, b) in self.supply.conductance.iter().zip(&other.supply.conductance) {
             change += (a[0] - b[0]).abs();
             sum += b[0];
         }
-        near(self.velocity, other.velocity) && near(self.omega, other.omega) && change <= SAME_OPERATOR * sum
+        self.speed_change(other) <= SAME_OPERATOR && change <= SAME_OPERATOR * sum
+    }
+
+    /// Largest change of a speed relative to the largest speed of its body and of the other one.
+    fn speed_change(&self, other: &Self) -> f64 {
+        let change = |a: f64, b: f64| if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()) };
+        change(self.velocity, other.velocity).max(change(self.omega, other.omega))
     }
 
     fn same_operator(&self, other: &Self) -> bool {
@@ -245,14 +268,7 @@ impl Side {
 
 impl Stage {
     /// Prepares the operators; does nothing where they have not changed.
-    fn set(
-        &mut self,
-        heat: &Heat,
-        moment: &Moment,
-        blend: Blend,
-        rate: f64,
-        curved: bool,
-    ) -> Result<(), HeatError> {
+    fn set(&mut self, heat: &Heat, moment: &Moment, blend: Blend, rate: f64, curved: bool) -> Result<(), HeatError> {
         let same = self.blend == Some(blend) && self.curved == curved && self.moment.same_operator(moment);
         self.moment.clone_from(moment);
         if same {
@@ -361,8 +377,8 @@ impl Stage {
     fn invert(&mut self, heat: &Heat, x: &mut [f64]) {
         let (Some(blend), size) = (self.blend, heat.wheel.size()) else { return };
         let (wheel, rail) = x.split_at_mut(size);
-        self.wheel.factor.solve(&heat.wheel, wheel);
-        self.rail.factor.solve(&heat.rail, rail);
+        self.wheel.factor.solve(&heat.wheel, wheel, 0);
+        self.rail.factor.solve(&heat.rail, rail, 0);
         if self.coupling.is_none() {
             return;
         }
@@ -371,15 +387,15 @@ impl Stage {
             coupling.solve_mut(&mut jump);
         }
         let (wheel, rail) = x.split_at_mut(size);
-        for (body, side, factor, x) in [
-            (&heat.wheel, &mut self.wheel, -blend.flow, wheel),
-            (&heat.rail, &mut self.rail, blend.flow, rail),
-        ] {
+        for (body, side, factor, x) in
+            [(&heat.wheel, &mut self.wheel, -blend.flow, wheel), (&heat.rail, &mut self.rail, blend.flow, rail)]
+        {
             let load = side.contact_load(factor, jump.as_slice());
             side.work.clear();
             side.work.resize(body.size(), 0.0);
-            body.add_surface_load(body.line.zone + self.nodes.start, &load, &mut side.work);
-            side.factor.solve(body, &mut side.work);
+            let first = body.line.zone + self.nodes.start;
+            body.add_surface_load(first, &load, &mut side.work);
+            side.factor.solve(body, &mut side.work, first);
             x.iter_mut().zip(&side.work).for_each(|(x, dx)| *x += dx);
         }
     }

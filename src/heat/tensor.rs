@@ -161,11 +161,8 @@ impl Transport {
 /// Shakib, Hughes & Johan, *Comput. Methods Appl. Mech. Eng.* 89 (1991), with the exact one-dimensional parameter.
 fn upwind(speed: f64, length: f64, diffusivity: f64, rate: f64) -> f64 {
     let peclet = 0.5 * speed.abs() * length / diffusivity;
-    let magic = if peclet < 0.05 {
-        peclet / 3.0 * (1.0 - peclet * peclet / 15.0)
-    } else {
-        1.0 / peclet.tanh() - 1.0 / peclet
-    };
+    let magic =
+        if peclet < 0.05 { peclet / 3.0 * (1.0 - peclet * peclet / 15.0) } else { 1.0 / peclet.tanh() - 1.0 / peclet };
     let steady = 0.5 * magic;
     if steady == 0.0 {
         return 0.0;
@@ -219,8 +216,8 @@ impl Modes {
                 for j in 0..3 {
                     let at = (2 * e + i) * n + 2 * e + j;
                     mass[at] += half * (middle * wide(MASS[i][j]) + slope * wide(MASS_SLOPE[i][j])) / wide(15.0);
-                    stiffness[at] += (middle * wide(STIFFNESS[i][j]) + slope * wide(STIFFNESS_SLOPE[i][j]))
-                        / (wide(6.0) * half);
+                    stiffness[at] +=
+                        (middle * wide(STIFFNESS[i][j]) + slope * wide(STIFFNESS_SLOPE[i][j])) / (wide(6.0) * half);
                 }
             }
             add_inverse_weight(&mut inverse_weight, 2 * e, ends, curvature);

@@ -85,7 +85,16 @@ pub const INPUT_RANGES: [(&str, f64, f64); 8] = [
 impl Drive {
     /// The values in the order of [`INPUT_RANGES`].
     pub fn values(&self) -> [f64; 8] {
-        [self.omega, self.moment, self.velocity, self.force, self.load, self.displacement, self.friction, self.tread_heat]
+        [
+            self.omega,
+            self.moment,
+            self.velocity,
+            self.force,
+            self.load,
+            self.displacement,
+            self.friction,
+            self.tread_heat,
+        ]
     }
 
     /// Refuses values out of range, infinite or not a number.

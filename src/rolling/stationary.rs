@@ -3,6 +3,7 @@
 use super::control::{Inputs, Rotation, Translation, Vertical, peripheral_velocity};
 use super::integrator::Sample;
 use super::state::{Audit, State};
+use super::thermal::ThermalState;
 use super::{Model, StepError, Workspace};
 use crate::analytic;
 use crate::contact::{ContactError, ContactProblem, ContactSolution, RigidMotion, Status, SurfaceResponse};
@@ -18,6 +19,28 @@ impl Model {
     /// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
     pub fn stationary(&self, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
         inputs.validate()?;
+        let mut state = self.stationary_contact(inputs, None, 0.0, workspace)?;
+        let Some(heat) = &self.heat else { return Ok(state) };
+        for _ in 0..MAX_PASSES {
+            let thermal = self.stationary_heat(heat, &state, inputs.at(0.0).tread_heat)?;
+            let force = state.contact.resultant(&self.grid);
+            state = self.stationary_contact(inputs, Some(thermal), state.friction, workspace)?;
+            let settled = state.contact.resultant(&self.grid);
+            if (0..2).all(|k| (settled[k] - force[k]).abs() <= TOLERANCE * force[1].abs()) {
+                break;
+            }
+        }
+        Ok(state)
+    }
+
+    /// Stationary contact at given temperatures, which belong to the friction coefficient `before`.
+    fn stationary_contact(
+        &self,
+        inputs: &Inputs,
+        thermal: Option<ThermalState>,
+        before: f64,
+        workspace: &mut Workspace,
+    ) -> Result<State, StepError> {
         let width = self.config.model.contact_width;
         let drive = inputs.at(0.0);
         let initial = &self.config.initial;
@@ -27,7 +50,8 @@ impl Model {
         let omega =
             if prescribed_r { drive.omega } else { peripheral_velocity(velocity, initial.creepage) / self.grid.radius };
         let load = drive.load / width;
-        let friction = self.friction(drive.friction, velocity - self.grid.radius * omega, None);
+        let slip = velocity - self.grid.radius * omega;
+        let friction = self.friction(drive.friction, slip, before, thermal.as_ref());
         if inputs.vertical == Vertical::Force && load <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }
@@ -45,12 +69,17 @@ impl Model {
         let mut contact = self.hertzian_guess(load);
         let mut acceleration = [0.0; 3];
         let no_offset = vec![0.0; self.grid.len()];
+        let gap = self.thermal_gap(thermal.as_ref());
         let mut hub = [0.0; 3];
         for pass in 0..MAX_PASSES {
             let stream_wheel = Convection { speed: omega, acceleration: acceleration[2] };
             let stream_rail = Convection { speed: velocity, acceleration: acceleration[0] };
-            let free_wheel = self.wheel.free(&operators.wheel, &wheel, &td, stream_wheel, &wheel);
-            let free_rail = self.rail.free(&operators.rail, &rail, &td, stream_rail, &rail);
+            let mut free_wheel = self.wheel.free(&operators.wheel, &wheel, &td, stream_wheel, &wheel);
+            let mut free_rail = self.rail.free(&operators.rail, &rail, &td, stream_rail, &rail);
+            if let Some(thermal) = &thermal {
+                self.add_membrane(&mut free_wheel.surface, &operators.wheel.surface, &thermal.membrane[0]);
+                self.add_membrane(&mut free_rail.surface, &operators.rail.surface, &thermal.membrane[1]);
+            }
             let vertical = RigidMotion {
                 value: if inputs.vertical == Vertical::Displacement { drive.displacement } else { contact.rigid[1] },
                 prescribed: inputs.vertical == Vertical::Displacement,
@@ -62,7 +91,7 @@ impl Model {
             let fixed = |value, offset| RigidMotion { value, offset, prescribed: true, ..RigidMotion::default() };
             let problem = ContactProblem {
                 grid: &self.grid,
-                radius: self.grid.radius,
+                radius: self.grid.radius + thermal.as_ref().map_or(0.0, |t| t.growth),
                 wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
                 rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
                 wheel_loads: &operators.wheel.loads,
@@ -71,7 +100,7 @@ impl Model {
                 rigid: [fixed(slip_v, acceleration[0]), vertical, fixed(slip_omega, acceleration[2])],
                 slip_gain: 0.0,
                 slip_offset: &no_offset,
-                gap: &self.gap,
+                gap: &gap,
                 friction,
                 nominal_load: self.nominal_line_load(),
                 edge_tolerance: 1e-5,
@@ -124,7 +153,7 @@ impl Model {
             rail,
             shift,
             contact,
-            thermal: None,
+            thermal,
             hub,
             friction,
             last_load: [drive.force / width, drive.moment / width, load, drive.friction],
@@ -133,9 +162,6 @@ impl Model {
             iterations: 0,
             audit: Audit::default(),
         };
-        if let Some(heat) = &self.heat {
-            state.thermal = Some(self.stationary_heat(heat, &state, drive.tread_heat)?);
-        }
         state.audit.energy = self.energy(&state);
         state.audit.initial_energy = state.audit.energy;
         (state.audit.hub_power, state.audit.friction_power) = self.powers(&state);

@@ -13,7 +13,7 @@
 
 use super::state::State;
 use super::{Model, StepError, Workspace};
-use crate::config::{Config, ConductanceLaw, Hub};
+use crate::config::{ConductanceLaw, Config, Hub};
 use crate::contact::streamline::edge_offset;
 use crate::contact::{ContactGrid, ContactSolution, patches};
 use crate::heat::{
@@ -118,7 +118,8 @@ fn over_patches(grid: &ContactGrid, contact: &ContactSolution, value: impl Fn(us
 }
 
 impl Model {
-    /// What the contact does to the temperature fields.
+    /// What the contact does to the temperature fields. Friction power and patch of the new time act over the whole step,
+    /// so that the heat flows reported with it add up to its friction power.
     fn exchange(&self, contact: &ContactSolution, tread_heat: f64) -> Exchange {
         let grid = &self.grid;
         let patches = patches(&contact.status)
@@ -143,7 +144,7 @@ impl Model {
         let heat = tread_heat / self.config.model.contact_width / blocks.len() as f64;
         let block = |side: &f64| TreadHeat { angle: side * thermal.tread_angle, width: thermal.tread_width, heat };
         let tread = if heat == 0.0 { Vec::new() } else { blocks.iter().map(block).collect() };
-        Exchange { patches, pressure, friction_power, tread, ambient: 0.0 }
+        Exchange { patches, pressure, friction_power, tread, ambient: 0.0, held: true }
     }
 
     /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel on top. At
@@ -178,11 +179,7 @@ impl Model {
     ) -> Result<ThermalState, StepError> {
         let exchange = self.exchange(&next.contact, tread_heat);
         let mut fields = before.fields.clone();
-        // Friction power and patch of the new time act over the whole step, so that the heat flows reported with it add
-        // up to its friction power.
-        fields.restart();
-        let flows =
-            heat.step(&mut fields, dt, next.velocity.now, next.omega.now, &exchange, &mut workspace.heat)?;
+        let flows = heat.step(&mut fields, dt, next.velocity.now, next.omega.now, &exchange, &mut workspace.heat)?;
         self.thermal_state(heat, next, fields, flows, Some(before), dt)
     }
 
@@ -255,13 +252,20 @@ impl Model {
         Ok(())
     }
 
-    /// Friction coefficient of the coming step.
-    pub(super) fn friction(&self, available: f64, slip: f64, thermal: Option<&ThermalState>) -> f64 {
+    /// Friction coefficient of the coming step from that available, the nominal slip velocity, and the coefficient and
+    /// temperatures of the step before.
+    pub(super) fn friction(&self, available: f64, slip: f64, before: f64, thermal: Option<&ThermalState>) -> f64 {
         let law = &self.config.friction;
         let falling = law.falling_ratio + (1.0 - law.falling_ratio) * (-law.falling_decay * slip.abs()).exp();
-        let hot = thermal.map_or(0.0, |t| 0.5 * (t.patch_mean[0] + t.patch_mean[1]));
-        let softening = (1.0 - law.softening * hot.max(0.0)).max(law.softening_floor);
-        available * falling * softening
+        let cold = available * falling;
+        let hot = thermal.map_or(0.0, |t| 0.5 * (t.patch_mean[0] + t.patch_mean[1])).max(0.0);
+        if hot == 0.0 || law.softening == 0.0 {
+            return cold;
+        }
+        // The flash temperature follows the friction coefficient within microseconds, T ∝ μ: solving for both at once
+        // keeps the law stable in long steps; the fixed point is μ = cold (1 − K T).
+        let soft = cold * before / (before + cold * law.softening * hot);
+        soft.max(cold * law.softening_floor)
     }
 
     /// Undeformed gap with the thermal growth of wheel and layers.
@@ -273,12 +277,7 @@ impl Model {
     }
 
     /// Adds the displacement by the layers' membrane forces to the free surface displacement of one body.
-    pub(super) fn add_membrane(
-        &self,
-        free: &mut DVector<f64>,
-        compliance: &nalgebra::DMatrix<f64>,
-        membrane: &[f64],
-    ) {
+    pub(super) fn add_membrane(&self, free: &mut DVector<f64>, compliance: &nalgebra::DMatrix<f64>, membrane: &[f64]) {
         if membrane.iter().all(|f| *f == 0.0) {
             return;
         }

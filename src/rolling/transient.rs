@@ -76,7 +76,7 @@ impl Model {
         let width = self.config.model.contact_width;
         let thermal = state.thermal.as_ref();
         let slip = state.velocity.now - self.grid.radius * state.omega.now;
-        let friction = self.friction(target.friction, slip, thermal);
+        let friction = self.friction(target.friction, slip, state.friction, thermal);
         let load = [target.force / width, target.moment / width, target.load / width, target.friction];
         let before = if self.jumped(&state.last_load, &load) { 0.0 } else { state.last_step };
         let td = formula(&self.config.solver, dt, before);

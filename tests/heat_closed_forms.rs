@@ -1,0 +1,114 @@
+//! Moving heat sources on a half-space; what a body without exchange keeps; mirror images.
+
+mod heat_common;
+use heat_common::*;
+use std::f64::consts::PI;
+use wheelrail::heat::*;
+
+const A: f64 = 0.761e-3;
+
+/// Surface temperature of a half-space under the flux `q(ξ)`, ξ = x/a, moving fast towards +x (Abel's integral):
+/// `T(x) = 1/√(π k ρc V) ∫ₓ^a q(x′)/√(x′ − x) dx′` (Carslaw & Jaeger, 2nd ed., 10.7, limit of large Péclet number).
+fn abel(x: f64, v: f64, q: &dyn Fn(f64) -> f64) -> f64 {
+    // x′ = x + t², t from the trailing edge or x to the leading edge; sin substitution smooths the edge of the flux.
+    let low = (-A - x).max(0.0).sqrt();
+    let high = (A - x).max(0.0).sqrt();
+    let n = 2000;
+    let sum: f64 = (0..n)
+        .map(|i| {
+            let angle = PI * (f64::from(i) + 0.5) / f64::from(n);
+            let t = 0.5 * (low + high) - 0.5 * (high - low) * angle.cos();
+            q((x + t * t) / A) * 0.5 * (high - low) * angle.sin() * PI / f64::from(n)
+        })
+        .sum();
+    2.0 * sum / (PI * 45.0 * 460.0 * 8000.0 * v).sqrt()
+}
+
+#[test]
+fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
+    let v = 50.0 * KMH;
+    let elliptic = |xi: f64| (1.0 - xi * xi).max(0.0).sqrt();
+    let parabolic = |xi: f64| (1.0 - xi * xi).max(0.0);
+    let cases = [("elliptic", &elliptic as &dyn Fn(f64) -> f64, 7.101686e-7), ("parabolic", &parabolic, 6.35944e-7)];
+    let config = HeatConfig {
+        half_width: A,
+        smallest_half_width: A,
+        zone: 1.5 * A,
+        friction_fraction: 1.0,
+        wheel_share: 0.0,
+        ..config(1e5, v)
+    };
+    let heat = heat(&config);
+    for (name, q, reference) in cases {
+        let friction_power = Profile::sampled(-A, A, 400, |x| q(x / A));
+        let exchange = Exchange { friction_power, ..Exchange::default() };
+        let (state, _) = heat.stationary(v, 0.0, &exchange).unwrap();
+        let t = heat.temperatures(&state).unwrap();
+        println!("{name}: maximum {:.6e} ({:+.3} %)", t.rail_max, 100.0 * deviation(t.rail_max, reference));
+        assert!(deviation(t.rail_max, reference).abs() < 2e-3);
+        let mut worst = 0.0_f64;
+        for i in 0..=200 {
+            let x = A * (1.0 - 2.5 * f64::from(i) / 200.0);
+            let [_, rail] = heat.surface_temperatures(&state, x).unwrap();
+            worst = worst.max((rail - abel(x, v, q)).abs() / reference);
+        }
+        println!("{name}: largest deviation of the profile {:.3} % of the maximum", 100.0 * worst);
+        assert!(worst < 1e-2);
+    }
+}
+
+#[test]
+fn a_warm_insulated_wheel_without_contact_keeps_its_temperature() {
+    let heat = heat(&HeatConfig { hub: HubCondition::Insulated, ..config(1e5, 50.0) });
+    let mut state = heat.initial(100.0);
+    let mut scratch = Scratch::default();
+    let content = heat.heat_content(&state).unwrap()[0];
+    for (k, dt) in [1e-6, 1e-3, 1.0, 500.0].into_iter().cycle().take(40).enumerate() {
+        let omega = [0.0, 30.0, -100.0][k % 3];
+        let flows = heat.step(&mut state, dt, 10.0, omega, &Exchange::default(), &mut scratch).unwrap();
+        assert!(flows.stored_wheel.abs() < 1e-6, "{flows:?}");
+    }
+    let t = heat.temperatures(&state).unwrap();
+    let [surface, _] = heat.surface_temperatures(&state, 1.0).unwrap();
+    println!(
+        "mean {:+.1e}, contact {:+.1e}, tread {:+.1e} K off",
+        t.wheel_mean - 100.0,
+        t.wheel_centre - 100.0,
+        surface - 100.0
+    );
+    assert!((t.wheel_mean - 100.0).abs() < 1e-9 && (t.wheel_centre - 100.0).abs() < 1e-9);
+    assert!((surface - 100.0).abs() < 1e-9 && (heat.heat_content(&state).unwrap()[0] / content - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn reversal_of_both_speeds_mirrors_the_temperatures() {
+    let (load, v, creepage) = (1e5, 50.0 * KMH, -6e-4);
+    let config = config(load, v);
+    let heat = heat(&config);
+    let forward =
+        Exchange { tread: vec![TreadHeat { angle: 1.0, width: 0.3, heat: 100.0 }], ..carter(load, v, creepage) };
+    let mirrored = |profile: &Profile| Profile {
+        x: profile.x.iter().rev().map(|x| -x).collect(),
+        value: profile.value.iter().rev().copied().collect(),
+    };
+    let backward = Exchange {
+        friction_power: mirrored(&forward.friction_power),
+        tread: vec![TreadHeat { angle: -1.0, width: 0.3, heat: 100.0 }],
+        ..forward.clone()
+    };
+    let omega = omega(v, creepage);
+    let (mut one, mut two) = (heat.initial(5.0), heat.initial(5.0));
+    let mut scratch = Scratch::default();
+    for dt in [1e-4, 1e-2, 1.0] {
+        let f = heat.step(&mut one, dt, v, omega, &forward, &mut scratch).unwrap();
+        let b = heat.step(&mut two, dt, -v, -omega, &backward, &mut scratch).unwrap();
+        let (t, u) = (heat.temperatures(&one).unwrap(), heat.temperatures(&two).unwrap());
+        println!("dt = {dt}: conduction {:.12e} and {:.12e}", f.conduction, b.conduction);
+        assert!((f.conduction / b.conduction - 1.0).abs() < 1e-10);
+        assert!((t.wheel_max / u.wheel_max - 1.0).abs() < 1e-10 && (t.rail_max / u.rail_max - 1.0).abs() < 1e-10);
+        for x in [-1.2e-3, -3e-4, 0.0, 5e-4, 1e-2, 0.3] {
+            let (p, q) = (heat.surface_temperatures(&one, x).unwrap(), heat.surface_temperatures(&two, -x).unwrap());
+            assert!((0..2).all(|i| (p[i] - q[i]).abs() < 1e-10 * t.wheel_max), "x = {x}: {p:?} and {q:?}");
+        }
+    }
+}

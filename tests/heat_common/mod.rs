@@ -1,0 +1,94 @@
+//! The thesis's wheel and rail under given Hertz–Carter contact, and Hertz–Carter friction power.
+#![allow(dead_code)]
+
+use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
+use wheelrail::heat::{
+    Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, Profile, TreadHeat,
+};
+
+pub const KMH: f64 = 1.0 / 3.6;
+pub const RADIUS: f64 = 0.5;
+pub const FRICTION: f64 = 0.4;
+pub const YOUNG: f64 = 200e9;
+pub const POISSON: f64 = 0.3;
+
+pub fn half_width(load: f64) -> f64 {
+    hertz_half_width(load, RADIUS, contact_modulus(YOUNG, POISSON))
+}
+
+/// Set-up of the reference values, laid out for one load [N/m] and up to `max_speed` [m/s].
+pub fn config(load: f64, max_speed: f64) -> HeatConfig {
+    let half_width = half_width(load);
+    HeatConfig {
+        conductivity: 45.0,
+        specific_heat: 460.0,
+        density: 8000.0,
+        wheel_radius: RADIUS,
+        hub_radius: 0.05,
+        rail_length: 1.0,
+        rail_height: 0.1,
+        half_width,
+        smallest_half_width: half_width,
+        zone: 1.5 * half_width,
+        max_speed,
+        elements_per_half_width: 20,
+        hub: HubCondition::Fixed,
+        conductance: Conductance::Constant { value: 1e7 },
+        friction_fraction: 0.1,
+        wheel_share: 0.5,
+        convection: 0.0,
+        time_scheme: HeatTimeScheme::Sdirk2,
+    }
+}
+
+/// Angular velocity that rolls with the given creepage [rad/s].
+pub fn omega(velocity: f64, creepage: f64) -> f64 {
+    velocity * (2.0 - creepage) / (2.0 + creepage) / RADIUS
+}
+
+/// Friction power of Carter's contact; full slip beyond the limit, sliding at creepage 2.
+///
+/// Slip of two equal cylinders `|s| = V_m (μ/r) √((x − d)² − b²)` behind the stick zone of half-width `b` centred at
+/// `d = a − b` (Johnson, *Contact Mechanics*, 8.3).
+pub fn carter(load: f64, velocity: f64, creepage: f64) -> Exchange {
+    let a = half_width(load);
+    let p0 = hertz_peak_pressure(load, a);
+    let circumferential = omega(velocity, creepage) * RADIUS;
+    let mean = 0.5 * (velocity + circumferential);
+    let d = creepage.abs() * RADIUS / FRICTION;
+    let ellipse = |x: f64, half: f64| (1.0 - x * x / (half * half)).max(0.0).sqrt();
+    let patches = vec![Patch { low: -a, high: a }];
+    let friction_power = if circumferential == 0.0 {
+        Profile::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * velocity.abs())
+    } else if d >= a {
+        let slip = |x: f64| mean * (creepage.abs() - FRICTION * x / RADIUS);
+        Profile::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * slip(x))
+    } else {
+        let b = a - d;
+        // x = d − b − t² near the stick zone: dense sampling at the square-root kink.
+        Profile::sampled(-a, d - b, 400, |x| {
+            let slip = mean * FRICTION / RADIUS * ((x - d) * (x - d) - b * b).max(0.0).sqrt();
+            FRICTION * p0 * ellipse(x, a) * slip
+        })
+    };
+    Exchange { patches, friction_power, ..Exchange::default() }
+}
+
+/// Two brake blocks of 45° at ±90° from the contact.
+pub fn brake_blocks(total: f64) -> Vec<TreadHeat> {
+    let block = |sign: f64| TreadHeat {
+        angle: sign * std::f64::consts::FRAC_PI_2,
+        width: std::f64::consts::FRAC_PI_4,
+        heat: 0.5 * total,
+    };
+    vec![block(1.0), block(-1.0)]
+}
+
+pub fn heat(config: &HeatConfig) -> Heat {
+    Heat::new(config).unwrap()
+}
+
+/// Relative deviation from a reference value.
+pub fn deviation(value: f64, reference: f64) -> f64 {
+    value / reference - 1.0
+}

@@ -1,0 +1,222 @@
+//! Steps: order in time, any size, balances, restarts; conservative resampling; refused input.
+
+mod heat_common;
+use heat_common::*;
+use wheelrail::heat::*;
+
+/// Temperatures after one second of smoothly changing speed, load and tread heat, from the stationary state.
+fn manoeuvre(heat: &Heat, steps: usize) -> [f64; 4] {
+    let v = |t: f64| 14.0 - 6.0 * (1.0 - (2.0 * t).cos());
+    let exchange = |t: f64| Exchange {
+        tread: vec![TreadHeat { angle: 1.5, width: 0.8, heat: 1e4 * (1.0 + 0.5 * (3.0 * t).sin()) }],
+        ..carter(1e5, v(t), -8e-4)
+    };
+    let (mut state, _) = heat.stationary(v(0.0), omega(v(0.0), -8e-4), &exchange(0.0)).unwrap();
+    let mut scratch = Scratch::default();
+    for k in 1..=steps {
+        let t = k as f64 / steps as f64;
+        heat.step(&mut state, 1.0 / steps as f64, v(t), omega(v(t), -8e-4), &exchange(t), &mut scratch).unwrap();
+    }
+    let t = heat.temperatures(&state).unwrap();
+    [t.wheel_mean, t.rail_mean, t.wheel_max, t.rail_max]
+}
+
+#[test]
+fn sdirk2_converges_with_order_two_and_backward_euler_with_order_one() {
+    for (scheme, order) in [(HeatTimeScheme::Sdirk2, 2.0), (HeatTimeScheme::BackwardEuler, 1.0)] {
+        let heat = heat(&HeatConfig { time_scheme: scheme, ..config(1e5, 50.0 * KMH) });
+        let [coarse, medium, fine] = [20, 40, 80].map(|n| manoeuvre(&heat, n));
+        for (i, name) in ["wheel mean", "rail mean", "wheel maximum", "rail maximum"].into_iter().enumerate() {
+            let differences = [coarse[i] - medium[i], medium[i] - fine[i]];
+            let observed = (differences[0] / differences[1]).abs().log2();
+            println!(
+                "{scheme:?}, {name}: changes {:+.2e} {:+.2e} of {:.3e}, order {observed:.2}",
+                differences[0], differences[1], fine[i]
+            );
+            let negligible = differences[0].abs() < 2e-5 * fine[i];
+            assert!(negligible || observed > order - 0.4, "{scheme:?} {name}: observed order {observed:.2}");
+        }
+    }
+}
+
+#[test]
+fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
+    let configs = [
+        config(1e5, 50.0 * KMH),
+        HeatConfig { hub: HubCondition::Insulated, convection: 30.0, ..config(1e5, 50.0 * KMH) },
+        HeatConfig { time_scheme: HeatTimeScheme::BackwardEuler, wheel_share: 0.8, ..config(1e4, 80.0) },
+    ];
+    for config in configs {
+        let load = if config.half_width < 5e-4 { 1e4 } else { 1e5 };
+        let heat = heat(&config);
+        let mut state = heat.initial(50.0);
+        let mut scratch = Scratch::default();
+        let mut worst = 0.0_f64;
+        let mut highest = 0.0_f64;
+        let rolling = [(14.0, -8e-4), (14.0, 2.0), (0.0, 0.0), (-5.0, 1e-3), (0.3, 0.05), (40.0, -0.5)];
+        for (k, dt) in
+            [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 500.0].into_iter().cycle().take(60).enumerate()
+        {
+            let (v, creepage) = rolling[(k / 10 + k) % rolling.len()];
+            let mut exchange = carter(load, v, creepage);
+            exchange.tread = brake_blocks(200.0 * (k % 3) as f64);
+            exchange.ambient = 10.0;
+            if k % 5 == 4 {
+                exchange.patches.clear();
+                exchange.friction_power = Profile::default();
+            }
+            if k % 4 == 3 {
+                state.restart();
+            }
+            let before = heat.heat_content(&state).unwrap();
+            let flows = heat.step(&mut state, dt, v, omega(v, creepage), &exchange, &mut scratch).unwrap();
+            let after = heat.heat_content(&state).unwrap();
+            worst = worst.max(flows.relative_imbalance());
+            let stored = [flows.stored_wheel, flows.stored_rail];
+            for i in 0..2 {
+                let error = (after[i] - before[i] - dt * stored[i]).abs();
+                assert!(error < 1e-12 * (after[i].abs() + before[i].abs()) + 1e-10 * dt * stored[i].abs());
+            }
+            let t = heat.temperatures(&state).unwrap();
+            highest = highest.max(t.wheel_max.abs().max(t.rail_max.abs()));
+            assert!(t.wheel_max.is_finite() && t.rail_max.is_finite());
+        }
+        println!("largest imbalance {worst:.1e}, highest temperature {highest:.1} K");
+        assert!(worst < 1e-10 && highest < 1e3);
+    }
+}
+
+#[test]
+fn peak_temperature_of_a_sudden_lock_does_not_depend_on_the_step() {
+    let v = 100.0 * KMH;
+    let heat = heat(&config(1e5, v));
+    let exchange = carter(1e5, v, 2.0);
+    let peak = |dt: f64| {
+        let rolling = carter(1e5, v, -4e-4);
+        let (mut state, _) = heat.stationary(v, omega(v, -4e-4), &rolling).unwrap();
+        let mut scratch = Scratch::default();
+        let mut peak = 0.0_f64;
+        for _ in 0..(0.02 / dt).round() as usize {
+            heat.step(&mut state, dt, v, 0.0, &exchange, &mut scratch).unwrap();
+            peak = peak.max(heat.temperatures(&state).unwrap().wheel_max);
+        }
+        peak
+    };
+    let [fine, coarse] = [1e-5, 1e-3].map(peak);
+    println!("peak {fine:.4} K at 1e-5 s, {coarse:.4} K at 1e-3 s ({:+.3} %)", 100.0 * deviation(coarse, fine));
+    assert!(deviation(coarse, fine).abs() < 0.01);
+}
+
+#[test]
+fn resampled_friction_heat_keeps_its_total() {
+    let heat = heat(&config(1e5, 20.0));
+    let mut scratch = Scratch::default();
+    let mut seed = 12345_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let zone = heat.config().zone;
+    for count in [2, 3, 17, 200] {
+        let mut x: Vec<f64> = (0..count).map(|_| zone * (2.0 * random() - 1.0)).collect();
+        x.sort_by(f64::total_cmp);
+        if count > 3 {
+            x[5] = x[4];
+        }
+        let value = x.iter().map(|_| 1e6 * random()).collect();
+        let friction_power = Profile { x, value };
+        let total = 0.1 * friction_power.integral();
+        let exchange = Exchange { friction_power, ..Exchange::default() };
+        let flows = heat.step(&mut heat.initial(0.0), 1e-3, 10.0, 20.0, &exchange, &mut scratch).unwrap();
+        println!("{count} points: {:.3e} W/m, deviation {:+.1e}", total, deviation(flows.friction, total));
+        assert!(deviation(flows.friction, total).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn conductance_follows_the_pressure_to_the_power_of_0_95() {
+    let a = half_width(1e5);
+    let law = Conductance::Pressure { value: 1e7, reference_pressure: 1e8 };
+    let constant = heat(&config(1e5, 20.0));
+    let pressure = heat(&HeatConfig { conductance: law, ..config(1e5, 20.0) });
+    let flow = |heat: &Heat, p: f64| {
+        let exchange = Exchange {
+            patches: vec![Patch { low: -a, high: a }],
+            pressure: Profile { x: vec![-2.0 * a, 2.0 * a], value: vec![p, p] },
+            ..Exchange::default()
+        };
+        heat.step(&mut heat.initial(1.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).unwrap().conduction
+    };
+    let reference = flow(&constant, 0.0);
+    assert!(deviation(reference, 2.0 * a * 1e7).abs() < 0.1, "{reference}");
+    assert!(deviation(flow(&pressure, 1e8), reference).abs() < 1e-12);
+    // In the first nanosecond the flow is proportional to the conductance, nearly.
+    let half = flow(&pressure, 0.5e8) / reference;
+    println!("half the pressure conducts {half:.4} of the heat; 0.5^0.95 = {:.4}", 0.5_f64.powf(0.95));
+    assert!(deviation(half, 0.5_f64.powf(0.95)).abs() < 0.1);
+}
+
+#[test]
+fn a_restored_state_continues_bit_for_bit() {
+    let heat = heat(&config(1e5, 20.0));
+    let mut state = heat.initial(20.0);
+    let mut scratch = Scratch::default();
+    let advance = |state: &mut HeatState, scratch: &mut Scratch, k: u32| {
+        let v = 14.0 - 0.3 * f64::from(k);
+        heat.step(state, 1e-3 * f64::from(1 + k % 3), v, omega(v, -6e-4), &carter(1e5, v, -6e-4), scratch).unwrap()
+    };
+    (0..10).for_each(|k| _ = advance(&mut state, &mut scratch, k));
+    let bytes = postcard::to_stdvec(&state).unwrap();
+    let mut restored: HeatState = postcard::from_bytes(&bytes).unwrap();
+    println!("state of {} kB", bytes.len() / 1024);
+    let mut fresh = Scratch::default();
+    for k in 10..20 {
+        assert_eq!(advance(&mut state, &mut scratch, k), advance(&mut restored, &mut fresh, k));
+    }
+    assert_eq!(state, restored);
+}
+
+#[test]
+fn bad_input_is_refused_by_name_and_leaves_the_state_alone() {
+    let heat = heat(&config(1e5, 20.0));
+    let good = carter(1e5, 14.0, -4e-4);
+    let mut state = heat.initial(3.0);
+    let before = state.clone();
+    let mut scratch = Scratch::default();
+    let mut refuse = |dt: f64, v: f64, omega: f64, exchange: &Exchange, words: &str| {
+        let message = heat.step(&mut state, dt, v, omega, exchange, &mut scratch).unwrap_err().to_string();
+        println!("{message}");
+        assert!(message.contains(words), "{message}");
+        assert_eq!(state, before);
+    };
+    refuse(0.0, 14.0, 28.0, &good, "step of 0 s");
+    refuse(f64::NAN, 14.0, 28.0, &good, "step of NaN s");
+    refuse(1e-3, f64::NAN, 28.0, &good, "velocity is NaN");
+    refuse(1e-3, 14.0, f64::INFINITY, &good, "angular velocity is inf");
+    let mut bad = good.clone();
+    bad.friction_power.value[3] = f64::NAN;
+    refuse(1e-3, 14.0, 28.0, &bad, "friction power is NaN");
+    let mut bad = good.clone();
+    bad.friction_power.x.swap(3, 4);
+    refuse(1e-3, 14.0, 28.0, &bad, "positions must ascend");
+    let bad = Exchange { patches: vec![Patch { low: -1.0, high: 0.0 }], ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "contact patch reaches x = -1 m");
+    let bad = Exchange { tread: vec![TreadHeat { angle: 1.0, width: 0.1, heat: f64::NAN }], ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "tread heat");
+    let bad = Exchange { ambient: f64::NAN, ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "ambient temperature is NaN");
+    for (config, word) in [
+        (HeatConfig { conductivity: -45.0, ..config(1e5, 20.0) }, "conductivity = -45"),
+        (HeatConfig { conductance: Conductance::Constant { value: -1.0 }, ..config(1e5, 20.0) }, "conductance = -1"),
+        (HeatConfig { density: f64::NAN, ..config(1e5, 20.0) }, "density = NaN"),
+    ] {
+        let message = Heat::new(&config).unwrap_err().to_string();
+        println!("{message}");
+        assert!(message.contains(word), "{message}");
+    }
+    // Heat without an exit has no stationary state.
+    let closed = Heat::new(&HeatConfig { hub: HubCondition::Insulated, ..config(1e5, 20.0) }).unwrap();
+    let heating = Exchange { tread: brake_blocks(60.0), patches: good.patches.clone(), ..Exchange::default() };
+    let refused = closed.stationary(0.0, 0.0, &heating).unwrap_err();
+    println!("{refused}");
+}

@@ -1,0 +1,81 @@
+//! Transient heat: braking, locked wheel, order in time, step sizes, reversal, balances.
+
+mod heat_common;
+use heat_common::*;
+use std::time::Instant;
+use wheelrail::heat::*;
+
+#[test]
+fn locked_wheel_after_a_tenth_of_a_second() {
+    let v = 50.0 * KMH;
+    let exchange = carter(1e5, v, 2.0);
+    let heat = heat(&config(1e5, v));
+    for steps in [20, 40] {
+        let mut state = heat.initial(0.0);
+        let mut scratch = Scratch::default();
+        let (mut worst, mut last, mut iterations) = (0.0_f64, HeatFlows::default(), 0);
+        // Steps that grow with time resolve the start; their sum is 0.1 s.
+        let growth = 1.3_f64.powf(20.0 / f64::from(steps));
+        let first = 0.1 * (growth - 1.0) / (growth.powi(steps) - 1.0);
+        let start = Instant::now();
+        for k in 0..steps {
+            last = heat.step(&mut state, first * growth.powi(k), v, 0.0, &exchange, &mut scratch).unwrap();
+            worst = worst.max(last.relative_imbalance());
+            iterations += last.iterations;
+        }
+        let per_step = start.elapsed() / steps as u32;
+        println!("{steps} steps, {iterations} iterations, {per_step:.2?} each, balance {worst:.1e}");
+        let t = heat.temperatures(&state).unwrap();
+        let pairs = [
+            ("wheel maximum", t.wheel_max, 33.51842, 5e-3),
+            ("rail maximum", t.rail_max, 31.88154, 5e-3),
+            ("wheel centre", t.wheel_centre, 28.10268, 5e-3),
+            ("rail centre", t.rail_centre, 25.92435, 5e-3),
+            ("wheel mean", t.wheel_mean, 8.72562e-5, 5e-3),
+            ("rail mean", t.rail_mean, 0.005252097, 5e-3),
+            ("conduction", last.conduction, 26046.99, 5e-3),
+        ];
+        for (what, value, reference, limit) in pairs {
+            println!("  {what} {value:.6e} ({:+.3} %)", 100.0 * deviation(value, reference));
+            assert!(deviation(value, reference).abs() < limit);
+        }
+        assert!(worst < 1e-10, "heat balance {worst:.1e}");
+    }
+}
+
+/// Braking from 50 km/h at 4 km/h per second with creepage −8e-4, temperatures at 5 s and 10 s.
+fn brake(heat: &Heat, dt: f64) -> [Temperatures; 2] {
+    let mut state = heat.initial(0.0);
+    let mut scratch = Scratch::default();
+    let mut out = [Temperatures::default(); 2];
+    let steps = (10.0 / dt).round() as usize;
+    for k in 1..=steps {
+        let v = (50.0 - 4.0 * k as f64 * dt) * KMH;
+        let flows = heat.step(&mut state, dt, v, omega(v, -8e-4), &carter(1e5, v, -8e-4), &mut scratch).unwrap();
+        assert!(flows.relative_imbalance() < 1e-10, "{:.1e}", flows.relative_imbalance());
+        if 2 * k == steps {
+            out[0] = heat.temperatures(&state).unwrap();
+        }
+    }
+    out[1] = heat.temperatures(&state).unwrap();
+    out
+}
+
+#[test]
+fn braking_transient() {
+    let heat = heat(&config(1e5, 50.0 * KMH));
+    for dt in [0.25, 0.05] {
+        let [t5, t10] = brake(&heat, dt);
+        let pairs = [
+            ("wheel maximum at 5 s", t5.wheel_max, 0.011975),
+            ("wheel mean at 5 s", t5.wheel_mean, 3.02e-5),
+            ("wheel maximum at 10 s", t10.wheel_max, 0.0070706),
+            ("rail maximum at 10 s", t10.rail_max, 0.0070576),
+            ("wheel mean at 10 s", t10.wheel_mean, 4.48e-5),
+        ];
+        for (what, value, reference) in pairs {
+            println!("dt = {dt}: {what} {value:.6e} ({:+.3} %)", 100.0 * deviation(value, reference));
+            assert!(deviation(value, reference).abs() < 0.01);
+        }
+    }
+}

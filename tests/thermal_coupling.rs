@@ -1,0 +1,158 @@
+//! Heat coupled to the rolling contact: balances, time-step independence, extreme slides, feedback.
+
+mod common;
+use common::*;
+use wheelrail::simulation::{Inputs, Rotation, Simulation};
+
+#[test]
+fn friction_power_is_traction_times_slip_and_all_of_it_becomes_heat() {
+    let mut config = preset("railway", 10);
+    config.thermal.heat_ratio = 0.9;
+    config.initial.velocity = 15.0;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let (mut friction, mut heat) = (0.0, 0.0);
+    for k in 0..400 {
+        inputs.drive.moment = -9000.0 * (k as f64 / 100.0).min(1.0);
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let o = simulation.outputs();
+        friction += 1e-3 * o.friction_power;
+        heat += 1e-3 * (o.heat_to_wheel + o.heat_to_rail);
+        assert!(
+            (o.heat_to_wheel + o.heat_to_rail - 0.9 * o.friction_power).abs() <= 1e-9 * o.friction_power.abs() + 1e-9
+        );
+        assert!(o.heat_residual.abs() < 1e-9, "{}", o.heat_residual);
+    }
+    println!("friction work {friction:.3} J, heat {heat:.3} J");
+    assert!(friction > 50.0 && (heat / friction - 0.9).abs() < 1e-6);
+}
+
+#[test]
+fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
+    let mut config = preset("railway", 10);
+    config.physics.thermal_expansion = false;
+    let model = model(config);
+    let peak = |h: f64| {
+        let mut inputs = prescribed(&model, 20.0, 0.0);
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let steps = (0.12 / h).round() as usize;
+        let mut peak = (0.0f64, 0.0f64);
+        for k in 1..=steps {
+            inputs.drive.omega = 20.0 / 0.46 * (1.0 - k as f64 * h / 0.1).max(0.0);
+            simulation.advance(&inputs, h).unwrap();
+            peak.0 = peak.0.max(simulation.outputs().temperature_wheel_max);
+            peak.1 = peak.1.max(simulation.outputs().temperature_rail_max);
+        }
+        (peak.0 - 293.0, peak.1 - 293.0)
+    };
+    let (coarse, fine) = (peak(1e-3), peak(1e-5));
+    println!("peak rise {coarse:?} K with 1 ms, {fine:?} K with 10 us");
+    assert!((coarse.0 / fine.0 - 1.0).abs() < 0.01 && (coarse.1 / fine.1 - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn locked_wheel_slides_to_rest_with_finite_temperatures() {
+    let mut config = preset("railway", 10);
+    config.thermal.max_speed = 30.0;
+    config.physics.thermal_expansion = false;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    // Wet rail, too strong a brake: the wheel locks; the rail dries after three seconds.
+    inputs.drive.friction = 0.08;
+    inputs.drive.moment = -8000.0;
+    let (mut hottest, mut locked) = (0.0f64, false);
+    let mut time = 0.0;
+    while simulation.outputs().wheel_velocity > 0.05 {
+        if !locked && simulation.outputs().wheel_omega < 0.5 {
+            (inputs.rotation, inputs.drive.omega, locked) = (Rotation::Velocity, 0.0, true);
+        }
+        inputs.drive.friction = if time > 3.0 { 0.25 } else { 0.08 };
+        simulation.advance(&inputs, 2e-3).unwrap();
+        time += 2e-3;
+        let o = simulation.outputs();
+        hottest = hottest.max(o.temperature_wheel_max).max(o.temperature_rail_max);
+        assert!(o.temperature_wheel_max.is_finite() && o.temperature_wheel_max > 290.0);
+        assert!(time < 60.0, "still {} m/s", o.wheel_velocity);
+    }
+    let o = simulation.outputs();
+    println!("at rest after {time:.2} s, hottest {hottest:.0} K, above Ac1 {:.2} s", o.austenitised_time);
+    println!("energy residual {:+.2e}, heat residual {:+.1e}", o.energy_residual, o.heat_residual);
+    assert!(locked && hottest > 500.0 && hottest < 5000.0);
+    assert!(o.energy_residual.abs() < 0.01 && o.heat_residual.abs() < 1e-6);
+}
+
+#[test]
+fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
+    let mut config = preset("railway", 10);
+    config.thermal.wheel_excess = 60.0;
+    let model = model(config.clone());
+    let simulation = Simulation::new(model, &Inputs::rolling(&config)).unwrap();
+    let o = simulation.outputs();
+    // Uniform temperature but for the cold hub: u(ro) between free plane-strain growth (1+ν)αTr and the fixed hub's share.
+    let free = 1.3 * config.material.expansion * 60.0 * config.wheel.radius;
+    println!(
+        "growth {:.3e} m, free plane strain {free:.3e} m, bulk {:.2} K",
+        o.thermal_growth, o.temperature_wheel_bulk
+    );
+    assert!(o.thermal_growth > 0.95 * free && o.thermal_growth < free * 1.02);
+    assert!((o.temperature_wheel_bulk - 353.0).abs() < 2.0);
+    // At the same creepage of the nominal radius the larger wheel pulls.
+    let mut cold = config.clone();
+    cold.thermal.wheel_excess = 0.0;
+    let reference = Simulation::new(common::model(cold.clone()), &Inputs::rolling(&cold)).unwrap();
+    assert!(o.contact_force_x > reference.outputs().contact_force_x + 1000.0);
+    assert!(o.contact_approach < reference.outputs().contact_approach);
+}
+
+#[test]
+fn falling_friction_lowers_the_force_of_a_fast_slide_exactly() {
+    let mut config = preset("railway", 10);
+    (config.friction.falling_ratio, config.friction.falling_decay, config.friction.softening) = (0.4, 0.6, 0.0);
+    let model = model(config);
+    let inputs = prescribed(&model, 20.0, 0.2);
+    let simulation = Simulation::new(model, &inputs).unwrap();
+    let o = simulation.outputs();
+    let expected = 0.3 * (0.4 + 0.6 * (-0.6 * o.contact_slip_velocity).exp());
+    assert!((o.friction / expected - 1.0).abs() < 1e-12);
+    assert!((o.contact_force_x.abs() / (expected * o.contact_force_y) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn hot_contact_softens_friction_to_its_floor() {
+    let mut config = preset("railway", 10);
+    (config.friction.softening, config.friction.softening_floor) = (2e-3, 0.3);
+    let model = model(config);
+    let mut inputs = prescribed(&model, 20.0, 0.0);
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    for k in 0..300 {
+        inputs.drive.omega = 20.0 / 0.46 * (1.0 - 0.5 * (k as f64 / 100.0).min(1.0));
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let o = simulation.outputs();
+    println!("friction {:.4} at {:.0} K", o.friction, o.temperature_wheel_mean);
+    assert!(o.friction < 0.27 && o.friction >= 0.3 * 0.3 - 1e-12);
+    assert!((o.contact_utilisation - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn brake_blocks_heat_the_tread_and_the_rail_chills_it() {
+    let mut config = preset("paper_b", 10);
+    config.initial.velocity = 50.0 * KMH;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.tread_heat = 60.0;
+    let simulation = Simulation::new(model, &inputs).unwrap();
+    let o = simulation.outputs();
+    println!(
+        "wheel {:.5} K, rail {:.5} K, conduction {:.4} W",
+        o.temperature_wheel_nominal - 293.0,
+        o.temperature_rail_nominal - 293.0,
+        o.heat_conduction
+    );
+    // Rail chill at 50 km/h: independent reference with a Hertzian patch.
+    assert!(((o.temperature_wheel_nominal - 293.0) / 0.06039787 - 1.0).abs() < 0.01);
+    assert!(((o.temperature_rail_nominal - 293.0) / 0.05080656 - 1.0).abs() < 0.01);
+    assert!((o.heat_conduction / 60.0 - 1.0).abs() < 1e-6);
+}
