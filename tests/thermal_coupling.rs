@@ -30,8 +30,7 @@ fn friction_power_is_traction_times_slip_and_all_of_it_becomes_heat() {
 
 #[test]
 fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
-    let mut config = preset("railway", 10);
-    config.physics.thermal_expansion = false;
+    let config = preset("railway", 10);
     let model = model(config);
     let peak = |h: f64| {
         let mut inputs = prescribed(&model, 20.0, 0.0);
@@ -55,7 +54,6 @@ fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
 fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     let mut config = preset("railway", 10);
     config.thermal.max_speed = 30.0;
-    config.physics.thermal_expansion = false;
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();

@@ -73,11 +73,11 @@ pub struct ContactSolution {
     pub status: Vec<Status>,
     /// Nodal forces on the wheel on all surface displacement components [N/m].
     pub forces: DVector<f64>,
-    /// Slip velocity of the wheel relative to the rail at closed nodes, zero elsewhere [m/s].
+    /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
+    /// differences; zero elsewhere [m/s].
     pub slip: Vec<f64>,
-    /// Power dissipated by friction [W/m], with centred slip velocities: the upwind ones of the friction law would count
-    /// their own numerical dissipation.
-    pub friction_power: f64,
+    /// The same with centred differences: what dissipates. The upwind ones count their own numerical dissipation.
+    pub centred_slip: Vec<f64>,
     /// Gap at open nodes, zero elsewhere [m].
     pub gap: Vec<f64>,
     /// Values of the rigid motions (V, U, Ω).
@@ -98,7 +98,7 @@ impl ContactSolution {
             status: vec![Status::Open; grid.len()],
             forces: DVector::zeros(n),
             slip: vec![0.0; grid.len()],
-            friction_power: 0.0,
+            centred_slip: vec![0.0; grid.len()],
             gap: vec![0.0; grid.len()],
             rigid: [0.0; 3],
             radius: grid.radius,
@@ -116,6 +116,11 @@ impl ContactSolution {
     /// Tangential nodal force on the wheel at candidate `i` [N/m].
     pub fn tangential(&self, grid: &ContactGrid, i: usize) -> f64 {
         self.forces[grid.dof(i)]
+    }
+
+    /// Power dissipated by friction [W/m].
+    pub fn friction_power(&self, grid: &ContactGrid) -> f64 {
+        -self.centred_slip.iter().enumerate().map(|(i, slip)| self.tangential(grid, i) * slip).sum::<f64>()
     }
 
     /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
@@ -193,7 +198,6 @@ impl ContactProblem<'_> {
         solution.wheel_surface = wheel;
         solution.rail_surface = rail;
         let (v, v_c) = (solution.rigid[0], self.radius * solution.rigid[2]);
-        solution.friction_power = 0.0;
         for (i, &row) in rows.iter().enumerate() {
             let d = grid.dof(i);
             let (u_c, u_p) = (&solution.wheel_surface, &solution.rail_surface);
@@ -203,10 +207,10 @@ impl ContactProblem<'_> {
                 let upwind = |u| self.stretch(u, i, row, to_right);
                 let centred = |u: &DVector<f64>| (u[d + 2] - u[d - 2]) / (2.0 * grid.spacing);
                 solution.slip[i] = slip(upwind(u_p), upwind(u_c));
-                solution.friction_power -= solution.forces[d] * slip(centred(u_p), centred(u_c));
+                solution.centred_slip[i] = slip(centred(u_p), centred(u_c));
                 solution.gap[i] = 0.0;
             } else {
-                solution.slip[i] = 0.0;
+                (solution.slip[i], solution.centred_slip[i]) = (0.0, 0.0);
                 solution.gap[i] = self.gap[i] + u_c[d + 1] - u_p[d + 1] + solution.rigid[1];
             }
         }

@@ -29,7 +29,7 @@ pub enum StepError {
     Contact { time: f64, step: f64, source: ContactError },
     #[error(
         "the contact patch needs more than the candidate zone of ±{zone:.3e} m at a wheel load of {load:.6e} N: raise \
-         the parameter model.nominal_load (now {nominal:.6e} N)"
+         the parameter model.nominal_load (now {nominal:.6e} N), or change prescribed velocities more gently"
     )]
     ZoneExceeded { zone: f64, load: f64, nominal: f64 },
     #[error("no equilibrium: {0}")]
@@ -160,7 +160,13 @@ impl Model {
         let contact = &state.contact;
         body(&state.wheel, self.wheel.state_len())
             && body(&state.rail, self.rail.state_len())
-            && [contact.status.len(), contact.slip.len(), contact.gap.len(), state.shift.len()] == [n; 4]
+            && [
+                contact.status.len(),
+                contact.slip.len(),
+                contact.centred_slip.len(),
+                contact.gap.len(),
+                state.shift.len(),
+            ] == [n; 5]
             && [contact.forces.len(), contact.wheel_surface.len(), contact.rail_surface.len()] == [dofs; 3]
             && state.thermal.is_some() == self.heat.is_some()
             && contact.forces.iter().all(|f| f.is_finite())

@@ -100,7 +100,8 @@ pub struct Outputs {
     pub profile_pressure: Vec<f64>,
     /// Friction traction on the wheel, forward positive [Pa].
     pub profile_shear: Vec<f64>,
-    /// Slip velocity of the wheel surface relative to the rail [m/s].
+    /// Slip velocity of the wheel surface relative to the rail; traction times slip integrates to the friction power
+    /// [m/s].
     pub profile_slip: Vec<f64>,
     /// Surface temperature of the wheel [K].
     pub profile_temperature_wheel: Vec<f64>,
@@ -174,7 +175,7 @@ impl Model {
             profile_x: profile(&|i| self.grid.x[i]),
             profile_pressure: profile(&|i| contact.normal(&self.grid, i) / h),
             profile_shear: profile(&|i| contact.tangential(&self.grid, i) / h),
-            profile_slip: profile(&|i| contact.slip[i]),
+            profile_slip: profile(&|i| contact.centred_slip[i]),
         }
     }
 

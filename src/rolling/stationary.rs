@@ -134,7 +134,7 @@ impl Model {
         }
         if !moving {
             contact.slip.fill(0.0);
-            contact.friction_power = 0.0;
+            contact.centred_slip.fill(0.0);
         }
         contact.rigid = [velocity, contact.rigid[1], omega];
         let shift = (0..self.grid.len())

@@ -130,7 +130,7 @@ impl Model {
         // Where friction acts, in proportion to traction times slip; the total is the friction power.
         let dissipation = |i: usize| (-contact.tangential(grid, i) * contact.slip[i] / grid.spacing).max(0.0);
         let friction = over_patches(grid, contact, dissipation);
-        let (total, shape) = (contact.friction_power, friction.integral());
+        let (total, shape) = (contact.friction_power(grid), friction.integral());
         let pressure = over_patches(grid, contact, |i| contact.normal(grid, i) / grid.spacing);
         let friction_power = if shape > 0.0 {
             friction.scaled(total / shape)

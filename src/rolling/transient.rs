@@ -215,7 +215,7 @@ impl Model {
     /// Power of the hub forces and frictional dissipation [W/m].
     pub(super) fn powers(&self, state: &State) -> (f64, f64) {
         let velocity = [state.velocity.now, state.height.rate, state.omega.now];
-        (self.hub_power(&state.hub, &velocity), state.contact.friction_power)
+        (self.hub_power(&state.hub, &velocity), state.contact.friction_power(&self.grid))
     }
 
     /// Kinetic and elastic energy [J/m].

@@ -1,0 +1,93 @@
+"""Temperatures and heat through the FMU: balances, plausible slides, bad input."""
+
+import math
+
+import numpy as np
+import pytest
+
+from wheel import Refused
+
+REFERENCE = 293.0
+
+
+def test_all_friction_power_becomes_heat(start):
+    """Heat flows add up to heat_ratio times friction power; friction power is traction times slip over the patch."""
+    wheel = start({"initial.velocity": 15.0, "thermal.heat_ratio": 0.9})
+    friction = heat = 0.0
+    for k in range(500):
+        wheel.set({"drive.moment": -9000.0 * min(1.0, k / 200)})
+        wheel.step(1e-3)
+        power, to_wheel, to_rail = wheel.get("heat.friction_power", "heat.to_wheel", "heat.to_rail")
+        friction += 1e-3 * power
+        heat += 1e-3 * (to_wheel + to_rail)
+    assert friction > 50.0
+    assert heat == pytest.approx(0.9 * friction, rel=1e-6)
+    assert abs(wheel.get("solver.heat_residual")) < 1e-6
+    x, shear, slip = (np.array(wheel.profile(name)) for name in ("x", "shear", "slip"))
+    width = wheel.get("model.contact_width")
+    power = -np.sum(shear * slip) * (x[1] - x[0]) * width
+    assert power == pytest.approx(wheel.get("heat.friction_power"), rel=1e-6)
+
+
+def test_rolling_contact_is_hardly_warm_and_a_slide_is_hot(start):
+    wheel = start()
+    assert wheel.get("temperature.wheel_max") == pytest.approx(REFERENCE, abs=1.0)
+    wheel.set({"control.rotation": "velocity", "drive.omega": 0.0})
+    wheel.step(0.02)
+    for _ in range(200):
+        wheel.step(1e-3)
+    names = ("wheel_max", "rail_max", "wheel_mean", "rail_mean", "wheel_nominal", "rail_nominal", "wheel_bulk")
+    values = dict(zip(names, wheel.get(*(f"temperature.{name}" for name in names))))
+    assert all(math.isfinite(value) for value in values.values())
+    assert 600.0 < values["wheel_max"] < 3000.0
+    assert 600.0 < values["rail_max"] < 3000.0
+    assert values["wheel_max"] >= values["wheel_mean"] > values["wheel_bulk"] > REFERENCE
+    assert wheel.get("damage.time_above_ac1") > 0.05
+    profile = np.array(wheel.profile("temperature_wheel"))
+    assert profile.max() == pytest.approx(values["wheel_max"], rel=0.02)
+
+
+def test_brake_heat_warms_the_tread_and_the_wheel_grows(start):
+    wheel = start({"initial.velocity": 20.0})
+    cold, bulk = wheel.get("thermal.growth", "temperature.wheel_bulk")
+    wheel.set({"drive.tread_heat": 50e3})
+    for _ in range(50):
+        wheel.step(0.1)
+    # 250 kJ in 72 kg of steel with 470 J/(kg K), less what the rail takes.
+    rise = wheel.get("temperature.wheel_bulk") - bulk
+    assert 5.0 < rise < 250e3 / 72.3 / 470.0
+    growth = wheel.get("thermal.growth") - cold
+    assert growth == pytest.approx(1.3 * 1.2e-5 * rise * 0.46, rel=0.05)
+    assert abs(wheel.get("solver.heat_residual")) < 1e-6
+
+
+def test_without_heat_the_mechanics_are_those_of_cold_bodies(start):
+    wheel = start({"thermal.enabled": False})
+    for _ in range(10):
+        wheel.step(1e-3)
+    assert wheel.get("temperature.wheel_max") == 0.0
+    assert wheel.get("heat.to_wheel") == 0.0
+    assert wheel.get("contact.force_y") == pytest.approx(1e5, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "words"),
+    [
+        ({"thermal.reference": -1.0}, ["thermal.reference", "-1"]),
+        ({"thermal.conductance": -1e7}, ["thermal.conductance", "-10000000"]),
+        ({"thermal.wheel_excess": -400.0}, ["thermal.wheel_excess", "-400"]),
+        ({"material.specific_heat": math.nan}, ["material.specific_heat", "NaN"]),
+    ],
+)
+def test_bad_thermal_parameters_are_refused_by_name(start, parameters, words):
+    with pytest.raises(Refused) as refusal:
+        start(parameters)
+    assert all(word in str(refusal.value) for word in words), refusal.value
+
+
+def test_heat_that_is_not_a_number_is_refused_and_the_run_goes_on(start):
+    wheel = start()
+    with pytest.raises(Refused, match="drive.tread_heat"):
+        wheel.set({"drive.tread_heat": math.nan})
+    wheel.step(1e-3)
+    assert wheel.get("temperature.wheel_max") > 0.0
