@@ -17,13 +17,19 @@ from tqdm import tqdm
 
 from wheel import Fmu, Refused, Wheel
 
+# Recorded once, at half the speed.
+PROFILES = ("x", "pressure", "shear", "temperature_wheel", "temperature_rail")
+
 # Recorded at every communication point.
 COLUMNS = (
     "wheel.velocity", "wheel.omega", "wheel.distance", "wheel.acceleration", "wheel.angular_acceleration",
     "contact.force_x", "contact.force_y", "contact.moment", "contact.creepage", "contact.slip_velocity",
     "contact.adhesion", "contact.utilisation", "contact.stick_fraction", "contact.half_width",
     "contact.pressure_max", "contact.approach", "hub.force_x", "hub.force_y", "hub.moment",
-    "heat.friction_power", "damage.t_gamma", "solver.energy_residual",
+    "temperature.wheel_max", "temperature.rail_max", "temperature.wheel_mean", "temperature.rail_mean",
+    "temperature.wheel_nominal", "temperature.rail_nominal", "temperature.wheel_bulk",
+    "heat.friction_power", "heat.to_wheel", "heat.to_rail", "heat.conduction", "contact.friction",
+    "damage.t_gamma", "damage.time_above_ac1", "solver.energy_residual", "solver.heat_residual",
 )  # fmt: skip
 
 ROLL = 0.2  # s of free rolling before the brake is applied
@@ -34,6 +40,7 @@ GRIP_SPEED = 0.05  # m/s: peripheral speed at which the brake grips
 HOLD = 0.5  # s, for which the wheel is watched after standstill
 TOO_LONG = 600.0  # s
 AT_REST = 0.01  # m/s: slower counts as standstill
+KELVIN = 273.15  # K at 0 °C
 ROLLING = 1.0  # m/s: creepage is a ratio of speeds, its peak is taken above this one
 
 
@@ -98,7 +105,9 @@ def results(table):
         ("peak creepage", np.abs(column(table, "contact.creepage")[rolling]).max() * 100, "%"),
         ("peak adhesion utilisation", column(table, "contact.utilisation").max() * 100, "%"),
         ("energy dissipated in the contact", np.trapezoid(power, t) / 1e3, "kJ"),
+        ("highest contact temperature", column(table, "temperature.wheel_max").max() - KELVIN, "°C"),
         ("energy residual", column(table, "solver.energy_residual")[-1] * 100, "%"),
+        ("heat residual", column(table, "solver.heat_residual")[-1] * 100, "%"),
     ]
 
 
@@ -120,7 +129,7 @@ def plot(path, table, snapshot, friction, radius):
     blue, orange, green, grey = "#0072B2", "#D55E00", "#009E73", "#777777"
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
     plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4})
-    figure, axes = plt.subplots(2, 3, figsize=(12, 6.2), layout="constrained")
+    figure, axes = plt.subplots(2, 4, figsize=(15, 6.2), layout="constrained")
     table = braking(table)
     t, v = column(table, "time") - ROLL, column(table, "wheel.velocity")
     peripheral = radius * column(table, "wheel.omega")
@@ -141,26 +150,42 @@ def plot(path, table, snapshot, friction, radius):
     axis.axhline(100, color=grey, linestyle=":")
     axis.set(title=r"Adhesion utilisation $|F_x|/\mu F_y$", ylabel="%", xlabel="time [s]", ylim=(0, 105))
 
-    axis = axes[1, 0]
-    axis.plot(t, column(table, "heat.friction_power") / 1e3, color=orange)
-    axis.set(title="Friction power in the contact", ylabel="kW", xlabel="time [s]")
+    axis = axes[0, 3]
+    axis.plot(t, column(table, "heat.friction_power"), color=orange, label="friction power")
+    axis.plot(t, column(table, "heat.to_wheel"), color=blue, label="heat to wheel")
+    axis.plot(t, column(table, "heat.to_rail"), "--", color=green, label="heat to rail")
+    axis.set(title="Heat", ylabel="W", xlabel="time [s]")
+    axis.legend()
 
-    axis = axes[1, 1]
+    axis = axes[1, 0]
+    for name, color in (("max", orange), ("mean", blue), ("nominal", green)):
+        axis.plot(t, column(table, f"temperature.wheel_{name}") - KELVIN, color=color, label=f"wheel, {name}")
+    axis.plot(t, column(table, "temperature.wheel_bulk") - KELVIN, ":", color=grey, label="wheel, bulk")
+    axis.set(title="Temperature in the contact", ylabel="°C", xlabel="time [s]")
+    axis.legend()
+
+    axis = axes[1, 3]
     late = t > t[-1] - HOLD - 0.5
     axis.plot(t[late], 1e3 * v[late], color=blue, label="travel $V$")
     axis.plot(t[late], 1e3 * peripheral[late], "--", color=orange, label=r"peripheral $r\omega$")
-    axis.set(title="Standstill: the brake grips, the vehicle swings out", ylabel="mm/s", xlabel="time [s]")
+    axis.set(title="Standstill: the vehicle swings out", ylabel="mm/s", xlabel="time [s]")
     axis.legend()
 
-    axis = axes[1, 2]
-    x, pressure, shear = (np.array(values) for values in snapshot["profiles"])
+    axis = axes[1, 1]
+    x, pressure, shear, wheel, rail = (np.array(values) for values in snapshot["profiles"])
     near = np.abs(x) < 1.3 * snapshot["half_width"]
     axis.fill_between(1e3 * x[near], pressure[near] / 1e6, color=blue, alpha=0.15)
     axis.plot(1e3 * x[near], pressure[near] / 1e6, color=blue, label="pressure $p$")
     axis.plot(1e3 * x[near], -shear[near] / 1e6, color=orange, label="shear against travel")
     axis.plot(1e3 * x[near], friction * pressure[near] / 1e6, ":", color=grey, label=r"limit $\mu p$")
-    title = f"Contact patch at {3.6 * snapshot['velocity']:.0f} km/h (travel to the right)"
+    title = f"Patch at {3.6 * snapshot['velocity']:.0f} km/h (travel to the right)"
     axis.set(title=title, ylabel="MPa", xlabel="x [mm]")
+    axis.legend()
+
+    axis = axes[1, 2]
+    axis.plot(1e3 * x[near], wheel[near] - KELVIN, color=orange, label="wheel")
+    axis.plot(1e3 * x[near], rail[near] - KELVIN, "--", color=blue, label="rail")
+    axis.set(title="Surface temperatures in the patch", ylabel="°C", xlabel="x [mm]")
     axis.legend()
 
     figure.savefig(path, dpi=120)
@@ -195,7 +220,7 @@ def run(options):
             def see(wheel, row):
                 v = row["wheel.velocity"]
                 if not snapshot and v < 0.5 * speed:
-                    profiles = [wheel.profile(quantity) for quantity in ("x", "pressure", "shear")]
+                    profiles = [wheel.profile(quantity) for quantity in PROFILES]
                     snapshot.update(velocity=v, half_width=row["contact.half_width"], profiles=profiles)
                 share = int(100 * (1.0 - max(v, 0.0) / speed))
                 if share > bar.n:

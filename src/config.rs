@@ -181,6 +181,8 @@ pub struct Physics {
     pub centrifugal: bool,
     /// Thermal expansion and stress act back on the contact.
     pub thermal_expansion: bool,
+    /// Reversible (Gough–Joule) heating of compressed material.
+    pub thermoelastic_heating: bool,
 }
 
 /// Layout of the graded meshes.

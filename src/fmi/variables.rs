@@ -323,6 +323,7 @@ fn parameters() -> Vec<Variable> {
         count(1124, "thermal.tread_blocks", 1, 2, |c| &mut c.thermal.tread_blocks, "Brake blocks: one, or two mirrored ones that share drive.tread_heat"),
         value(1125, "thermal.austenitisation", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.austenitisation, "Austenitisation temperature Ac1"),
         row(1071, "physics.thermal_expansion", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermal_expansion), "Thermal expansion and stress act back on the contact"),
+        row(1072, "physics.thermoelastic_heating", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermoelastic_heating), "Reversible (Gough-Joule) heating of compressed material"),
         row(1070, "physics.centrifugal", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.centrifugal), "Centrifugal load of the spinning wheel"),
         count(1080, "mesh.elements_per_half_width", 4, 80, |c| &mut c.mesh.elements_per_half_width, "Elements per Hertzian half-width at model.nominal_load"),
         row(1090, "solver.response", Kind::Enumeration(&RESPONSE), response, "How the bodies answer contact tractions"),

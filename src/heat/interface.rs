@@ -104,6 +104,8 @@ pub struct Exchange {
     /// Friction power per area `|τ s|` [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
     pub friction_power: Profile,
     pub tread: Vec<TreadHeat>,
+    /// Reversible temperatures that conduct besides those of the fields: wheel less rail [K].
+    pub reversible: Profile,
     /// Excess temperature of the air [K].
     pub ambient: f64,
     /// Whether speeds and everything above hold over the whole step, instead of varying linearly from the step before.
@@ -119,6 +121,9 @@ pub(super) struct Supply {
     pub friction: Vec<[f64; 2]>,
     /// `∫ q (1, ξ) ds` on the elements of the tread [W/m]; empty without heat there.
     pub tread: Vec<[f64; 2]>,
+    /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact zone
+    /// [W/m]; empty without.
+    pub reversible: Vec<[f64; 2]>,
     pub ambient: f64,
 }
 
@@ -136,6 +141,7 @@ impl Supply {
         blend(&a.conductance, &b.conductance, f, &mut out.conductance);
         blend(&a.friction, &b.friction, f, &mut out.friction);
         blend(&a.tread, &b.tread, f, &mut out.tread);
+        blend(&a.reversible, &b.reversible, f, &mut out.reversible);
         out.ambient = if a.ambient == b.ambient { a.ambient } else { (1.0 - f) * a.ambient + f * b.ambient };
     }
 
@@ -170,6 +176,16 @@ impl Heat {
         }
         supply.conductance.resize(self.zone_elements(), [0.0; 3]);
         self.add_conductance(exchange, &mut supply.conductance)?;
+        if !exchange.reversible.x.is_empty() {
+            exchange.reversible.check("reversible temperature")?;
+            let Profile { x, value } = &exchange.reversible;
+            let jump: Vec<f64> = self.zone_x().iter().map(|&at| super::interpolate(x, value, at)).collect();
+            let through = |(c, d): (&[f64; 3], &[f64])| {
+                let slope = d[1] - d[0];
+                [c[0] * d[0] + c[1] * slope, c[1] * d[0] + c[2] * slope]
+            };
+            supply.reversible = supply.conductance.iter().zip(jump.windows(2)).map(through).collect();
+        }
         self.add_tread(&exchange.tread, &mut supply.tread)?;
         Ok(supply)
     }

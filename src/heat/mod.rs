@@ -432,6 +432,7 @@ impl Heat {
             let (supply, zone) = (&moment.supply, self.zone_elements());
             supply.conductance.len() == zone
                 && supply.friction.len() == zone
+                && (supply.reversible.is_empty() || supply.reversible.len() == zone)
                 && (supply.tread.is_empty() || supply.tread.len() == self.wheel.line.lengths.len())
         });
         if expected == found && state.wheel.len() == self.wheel.size() && fits {
@@ -443,7 +444,7 @@ impl Heat {
 }
 
 /// Value at x of a piecewise linear function, constant outside its ends.
-fn interpolate(nodes: &[f64], values: &[f64], x: f64) -> f64 {
+pub fn interpolate(nodes: &[f64], values: &[f64], x: f64) -> f64 {
     let after = nodes.partition_point(|&n| n <= x).clamp(1, nodes.len() - 1);
     let share = ((x - nodes[after - 1]) / (nodes[after] - nodes[after - 1])).clamp(0.0, 1.0);
     values[after - 1] + share * (values[after] - values[after - 1])
@@ -478,7 +479,7 @@ fn zone_nodes(c: &HeatConfig) -> Vec<f64> {
 }
 
 /// Maximum of the parabola through the largest sample and its neighbours.
-fn peak(x: &[f64], values: &[f64]) -> f64 {
+pub fn peak(x: &[f64], values: &[f64]) -> f64 {
     let Some((at, &top)) = values.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)) else { return 0.0 };
     if at == 0 || at + 1 >= values.len().min(x.len()) {
         return top;

@@ -321,14 +321,17 @@ impl Stage {
         load.resize(size + heat.rail.size(), 0.0);
         let (wheel, rail) = load.split_at_mut(size);
         let supply = &self.moment.supply;
-        for (body, side, share, out) in [
-            (&heat.wheel, &self.wheel, heat.config.wheel_share, wheel),
-            (&heat.rail, &self.rail, 1.0 - heat.config.wheel_share, rail),
+        for (body, side, share, sign, out) in [
+            (&heat.wheel, &self.wheel, heat.config.wheel_share, -1.0, wheel),
+            (&heat.rail, &self.rail, 1.0 - heat.config.wheel_share, 1.0, rail),
         ] {
             let mut surface = vec![0.0; body.line.len()];
             let first = body.line.zone;
             for (e, q) in supply.friction.iter().enumerate() {
                 side.transport.add_load(&body.line, first + e, q.map(|q| share * q), &mut surface);
+            }
+            for (e, q) in supply.reversible.iter().enumerate() {
+                side.transport.add_load(&body.line, first + e, q.map(|q| sign * q), &mut surface);
             }
             let air = body.film * supply.ambient;
             if air != 0.0 {
@@ -420,7 +423,8 @@ impl Stage {
             let jump = self.jump(heat, x);
             let moments = &self.moment.supply.conductance[self.moment.supply.contact()];
             let through = moments.iter().zip(jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);
-            flows.conduction += weight * through.sum::<f64>();
+            let reversible = self.moment.supply.reversible.iter().map(|q| q[0]);
+            flows.conduction += weight * (through.sum::<f64>() + reversible.sum::<f64>());
         }
         let share = heat.config.wheel_share;
         flows.to_wheel = share * flows.friction - flows.conduction;

@@ -5,6 +5,7 @@
 pub mod control;
 pub mod integrator;
 pub mod output;
+mod reversible;
 pub mod state;
 pub mod stationary;
 pub mod thermal;

@@ -18,7 +18,7 @@ use crate::contact::streamline::edge_offset;
 use crate::contact::{ContactGrid, ContactSolution, patches};
 use crate::heat::{
     Conductance, Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatState, HeatTimeScheme, HubCondition, Patch,
-    Profile, Temperatures, TreadHeat,
+    Profile, Temperatures, TreadHeat, interpolate, peak,
 };
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,7 @@ pub struct ThermalState {
     pub temperatures: Temperatures,
     /// Mean excess temperatures of the surfaces in the patch: wheel, rail [K].
     pub patch_mean: [f64; 2],
-    /// Excess surface temperatures of wheel and rail at the candidates [K].
+    /// Excess surface temperatures of wheel and rail at the candidates, reversible heating included [K].
     pub surface: [Vec<f64>; 2],
     /// Time during which the hottest contact point was above Ac1 [s].
     pub austenitised: f64,
@@ -144,7 +144,13 @@ impl Model {
         let heat = tread_heat / self.config.model.contact_width / blocks.len() as f64;
         let block = |side: &f64| TreadHeat { angle: side * thermal.tread_angle, width: thermal.tread_width, heat };
         let tread = if heat == 0.0 { Vec::new() } else { blocks.iter().map(block).collect() };
-        Exchange { patches, pressure, friction_power, tread, ambient: 0.0, held: true }
+        let reversible = if self.config.physics.thermoelastic_heating {
+            let [wheel, rail] = self.reversible_temperatures(contact);
+            Profile { x: grid.x.clone(), value: wheel.iter().zip(&rail).map(|(w, r)| w - r).collect() }
+        } else {
+            Profile::default()
+        };
+        Exchange { patches, pressure, friction_power, tread, reversible, ambient: 0.0, held: true }
     }
 
     /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel on top. At
@@ -192,7 +198,20 @@ impl Model {
         before: Option<&ThermalState>,
         dt: f64,
     ) -> Result<ThermalState, StepError> {
-        let temperatures = heat.temperatures(&fields)?;
+        let mut temperatures = heat.temperatures(&fields)?;
+        let (mut wheel, mut rail) = heat.zone_temperatures(&fields)?;
+        let mut surface = heat.at_zone(&fields, &self.grid.x)?;
+        if self.config.physics.thermoelastic_heating {
+            let reversible = self.reversible_temperatures(&state.contact);
+            let zone = heat.zone_x();
+            for (body, field) in [&mut wheel, &mut rail].into_iter().enumerate() {
+                let here = |x: f64| interpolate(&self.grid.x, &reversible[body], x);
+                field.iter_mut().zip(zone).for_each(|(t, &x)| *t += here(x));
+                surface[body].iter_mut().zip(&reversible[body]).for_each(|(t, r)| *t += r);
+            }
+            (temperatures.wheel_max, temperatures.rail_max) = (peak(zone, &wheel), peak(zone, &rail));
+            (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
+        }
         let hottest = self.config.thermal.reference + temperatures.wheel_max.max(temperatures.rail_max);
         let above = if hottest > self.config.thermal.austenitisation { dt } else { 0.0 };
         let supplied = dt * (flows.friction + flows.tread);
@@ -203,7 +222,6 @@ impl Model {
                 + flows.outflow
                 + flows.wheel_to_air
                 + flows.rail_to_air);
-        let (wheel, rail) = heat.zone_temperatures(&fields)?;
         let mut patch_mean = [0.0; 2];
         let runs = patches(&state.contact.status);
         if let (Some(first), Some(last)) = (runs.first(), runs.last()) {
@@ -211,7 +229,6 @@ impl Model {
             let [_, high] = edges(&self.grid, &state.contact, last);
             patch_mean = [&wheel, &rail].map(|t| mean(heat.zone_x(), t, low, high));
         }
-        let surface = heat.at_zone(&fields, &self.grid.x)?;
         let mut result = ThermalState {
             surface,
             patch_mean,
