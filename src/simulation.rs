@@ -22,11 +22,14 @@ use crate::config::{Config, ConfigError, Response};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::control::peripheral_velocity;
 use crate::rolling::{self, Workspace};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
 
 pub use crate::rolling::control::{INPUT_RANGES, InputError};
-pub use crate::rolling::{Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical};
+pub use crate::rolling::{
+    Difference, Drive, Inputs, Origin, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical,
+};
 
 /// Why a model could not be prepared.
 #[derive(Debug, thiserror::Error)]
@@ -114,10 +117,38 @@ impl Model {
     }
 }
 
-/// One wheel on one rail: model, state, scratch space and outputs.
+/// All that a simulation needs to continue bit for bit, besides its model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    pub state: State,
+    /// What the state came from, for derivatives by inputs.
+    pub origin: Origin,
+    /// Times [s] and outputs of the communication points before, latest first, for derivatives in time.
+    pub before: Vec<(f64, Outputs)>,
+}
+
+/// Communication points kept for derivatives in time.
+const KEPT_POINTS: usize = 2;
+/// How far a stationary motion is followed back from the start for them [s].
+const LEAD: f64 = 1e-3;
+
+impl Memory {
+    /// Memory of a stationary start.
+    fn stationary(model: &Model, inputs: &Inputs, workspace: &mut Workspace) -> Result<Self, StepError> {
+        let state = model.rolling.stationary(inputs, workspace)?;
+        let mut earlier = model.rolling.outputs(&state);
+        earlier.wheel_distance -= LEAD * earlier.wheel_velocity;
+        earlier.wheel_angle -= LEAD * earlier.wheel_omega;
+        earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
+        earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
+        Ok(Self { before: vec![(state.time - LEAD, earlier)], origin: Origin::Stationary(*inputs), state })
+    }
+}
+
+/// One wheel on one rail: model, memory, scratch space and outputs.
 pub struct Simulation {
     model: Arc<Model>,
-    state: State,
+    memory: Memory,
     outputs: Outputs,
     workspace: Workspace,
 }
@@ -126,23 +157,50 @@ impl Simulation {
     /// Starts from the stationary state for the inputs.
     pub fn new(model: Arc<Model>, inputs: &Inputs) -> Result<Self, StepError> {
         let mut workspace = Workspace::default();
-        let state = model.rolling.stationary(inputs, &mut workspace)?;
-        let outputs = model.rolling.outputs(&state);
-        Ok(Self { model, state, outputs, workspace })
+        let memory = Memory::stationary(&model, inputs, &mut workspace)?;
+        let outputs = model.rolling.outputs(&memory.state);
+        Ok(Self { model, memory, outputs, workspace })
     }
 
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
-        self.state = self.model.rolling.advance(&self.state, inputs, h, &mut self.workspace)?;
-        self.outputs = self.model.rolling.outputs(&self.state);
+        let next = self.model.rolling.advance(&self.memory.state, inputs, h, &mut self.workspace)?;
+        let outputs = std::mem::replace(&mut self.outputs, self.model.rolling.outputs(&next));
+        let state = std::mem::replace(&mut self.memory.state, next);
+        self.memory.before.insert(0, (state.time, outputs));
+        self.memory.before.truncate(KEPT_POINTS);
+        self.memory.origin = Origin::Step { state: Box::new(state), inputs: *inputs, length: h };
         Ok(())
     }
 
-    /// Replaces the state by the stationary one for the inputs.
+    /// Replaces everything by the stationary state for the inputs.
     pub fn restart(&mut self, inputs: &Inputs) -> Result<(), StepError> {
-        self.state = self.model.rolling.stationary(inputs, &mut self.workspace)?;
-        self.outputs = self.model.rolling.outputs(&self.state);
+        self.memory = Memory::stationary(&self.model, inputs, &mut self.workspace)?;
+        self.outputs = self.model.rolling.outputs(&self.memory.state);
         Ok(())
+    }
+
+    /// Outputs a little before and behind the present ones along a direction of the inputs that led to them: those of
+    /// the last communication step, or of the stationary start. See [`crate::rolling::sensitivity`].
+    pub fn difference(&mut self, direction: &Drive) -> Result<Difference, StepError> {
+        let Memory { state, origin, .. } = &self.memory;
+        self.model.rolling.difference(state, origin, direction, &mut self.workspace)
+    }
+
+    /// Time derivative of an output: second-order backward difference of the last communication points (first order
+    /// after one step; at the start that of the stationary motion).
+    pub fn rate(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
+        let now = output(&self.outputs);
+        let slope = |(time, before): &(f64, Outputs)| (now - output(before)) / (self.memory.state.time - time);
+        let points = &self.memory.before;
+        match (points.first(), points.get(1)) {
+            (Some(a), Some(b)) if points.len() == KEPT_POINTS => {
+                let (h, total) = (self.memory.state.time - a.0, self.memory.state.time - b.0);
+                slope(a) + (slope(a) - slope(b)) * h / (total - h)
+            }
+            (Some(a), _) => slope(a),
+            (None, _) => 0.0,
+        }
     }
 
     /// Outputs of the present state.
@@ -160,7 +218,7 @@ impl Simulation {
             force: outputs.hub_force_x,
             load: (-outputs.hub_force_y).max(0.0),
             displacement: -outputs.contact_approach,
-            friction: self.state.friction,
+            friction: self.memory.state.friction,
             tread_heat: 0.0,
         }
     }
@@ -171,22 +229,31 @@ impl Simulation {
     }
 
     /// All that a restart needs.
-    pub fn state(&self) -> &State {
-        &self.state
+    pub fn memory(&self) -> &Memory {
+        &self.memory
     }
 
-    /// Continues from a state of a simulation with the same model.
-    pub fn set_state(&mut self, state: State) -> Result<(), StepError> {
-        if !self.model.rolling.fits(&state) {
+    /// The physical state.
+    pub fn state(&self) -> &State {
+        &self.memory.state
+    }
+
+    /// Continues from the memory of a simulation with the same model.
+    pub fn recall(&mut self, memory: Memory) -> Result<(), StepError> {
+        let origin = match &memory.origin {
+            Origin::Stationary(_) => None,
+            Origin::Step { state, .. } => Some(&**state),
+        };
+        if !origin.into_iter().chain([&memory.state]).all(|state| self.model.rolling.fits(state)) {
             return Err(StepError::Body("the state belongs to a model with other dimensions".into()));
         }
-        self.outputs = self.model.rolling.outputs(&state);
-        self.state = state;
+        self.outputs = self.model.rolling.outputs(&memory.state);
+        self.memory = memory;
         Ok(())
     }
 
     /// Time since the start [s].
     pub fn time(&self) -> f64 {
-        self.state.time
+        self.memory.state.time
     }
 }

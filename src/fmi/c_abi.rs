@@ -378,11 +378,12 @@ export! {
     }
 
     fmi2GetDirectionalDerivativeTYPE = fmi2GetDirectionalDerivative(
-        |component|, _vUnknown_ref: *const fmi2ValueReference, _nUnknown: usize,
-        _vKnown_ref: *const fmi2ValueReference, _nKnown: usize, _dvKnown: *const fmi2Real, _dvUnknown: *mut fmi2Real
+        |component|, vUnknown_ref: *const fmi2ValueReference, nUnknown: usize,
+        vKnown_ref: *const fmi2ValueReference, nKnown: usize, dvKnown: *const fmi2Real, dvUnknown: *mut fmi2Real
     ) {
-        component.instance.allow(Call::GetDirectionalDerivative)?;
-        Err(Refusal::error("directional derivatives are not provided (providesDirectionalDerivative = false)"))
+        let unknown = slice(vUnknown_ref, nUnknown, "vUnknown_ref")?;
+        let (known, seed) = (slice(vKnown_ref, nKnown, "vKnown_ref")?, slice(dvKnown, nKnown, "dvKnown")?);
+        store(dvUnknown, component.instance.directional_derivative(unknown, known, seed)?, "dvUnknown")
     }
     fmi2SetRealInputDerivativesTYPE = fmi2SetRealInputDerivatives(
         |component|, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer, value: *const fmi2Real
@@ -391,13 +392,10 @@ export! {
         component.instance.set_input_derivatives(slice(vr, nvr, "vr")?, orders, values)
     }
     fmi2GetRealOutputDerivativesTYPE = fmi2GetRealOutputDerivatives(
-        |component|, _vr: *const fmi2ValueReference, nvr: usize, _order: *const fmi2Integer, _value: *mut fmi2Real
+        |component|, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer, value: *mut fmi2Real
     ) {
-        component.instance.allow(Call::GetRealOutputDerivatives)?;
-        if nvr == 0 {
-            return Ok(());
-        }
-        Err(Refusal::error("output derivatives are not provided (maxOutputDerivativeOrder = 0)"))
+        let (references, orders) = (slice(vr, nvr, "vr")?, slice(order, nvr, "order")?);
+        store(value, component.instance.output_derivatives(references, orders)?, "value")
     }
 
     // States stay until the master frees them, whatever it promises about using them.

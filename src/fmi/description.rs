@@ -15,6 +15,9 @@ use uuid::Uuid;
 /// Highest order of input derivatives that masters may set, so that inputs are ramps within a step.
 pub const INPUT_DERIVATIVE_ORDER: i32 = 1;
 
+/// Highest order of output derivatives that masters may get.
+pub const OUTPUT_DERIVATIVE_ORDER: i32 = 1;
+
 const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an elastic rail: plane finite elements in \
     a moving frame, exact Coulomb friction. x in travel direction, y up, omega > 0 rolls forward; contact forces act \
     on the wheel. Plane model: no lateral force, no spin.";
@@ -79,19 +82,19 @@ fn number(value: f64) -> String {
 }
 
 fn capabilities(xml: &mut Xml) -> io::Result<()> {
-    let order = INPUT_DERIVATIVE_ORDER;
+    let output_order = OUTPUT_DERIVATIVE_ORDER.to_string();
     let attributes = [
         ("modelIdentifier", MODEL_IDENTIFIER),
         ("needsExecutionTool", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
-        ("canInterpolateInputs", if order > 0 { "true" } else { "false" }),
-        ("maxOutputDerivativeOrder", "0"),
+        ("canInterpolateInputs", if INPUT_DERIVATIVE_ORDER > 0 { "true" } else { "false" }),
+        ("maxOutputDerivativeOrder", output_order.as_str()),
         ("canRunAsynchronuously", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ];
     empty(xml, "CoSimulation", &attributes)
 }

@@ -276,6 +276,45 @@ impl Instance {
         Ok(())
     }
 
+    /// Derivative of the unknown outputs along a direction of the known inputs (see [`Simulation::difference`]).
+    pub fn directional_derivative(
+        &mut self,
+        unknown: &[Reference],
+        known: &[Reference],
+        seed: &[f64],
+    ) -> Outcome<Vec<f64>> {
+        self.allow(Call::GetDirectionalDerivative)?;
+        let mut direction = Drive::default();
+        for (variable, seed) in lookup(known, "Real")?.into_iter().zip(seed) {
+            let name = &variable.name;
+            let Access::RealInput(field) = variable.access else {
+                return Err(Refusal::error(format!("{name} is not an input: derivatives are by real inputs")));
+            };
+            if !seed.is_finite() {
+                return Err(Refusal::error(format!("seed of {name} = {seed} is outside its range: finite numbers")));
+            }
+            *field(&mut direction) += seed;
+        }
+        let outputs = real_outputs(unknown)?;
+        let failed = |error| Refusal::error(format!("directional derivative: {error}"));
+        let difference = self.simulation()?.difference(&direction).map_err(failed)?;
+        Ok(outputs.into_iter().map(|variable| difference.quotient(|o| variable.real_output(o))).collect())
+    }
+
+    /// Time derivatives of outputs (see [`Simulation::rate`]).
+    pub fn output_derivatives(&mut self, references: &[Reference], orders: &[i32]) -> Outcome<Vec<f64>> {
+        self.allow(Call::GetRealOutputDerivatives)?;
+        let outputs = real_outputs(references)?;
+        for (variable, order) in outputs.iter().zip(orders) {
+            if *order != super::description::OUTPUT_DERIVATIVE_ORDER {
+                let name = &variable.name;
+                return Err(Refusal::error(format!("derivative of {name} of order {order}: only order 1 is possible")));
+            }
+        }
+        let simulation = self.simulation()?;
+        Ok(outputs.into_iter().map(|variable| simulation.rate(|o| variable.real_output(o))).collect())
+    }
+
     /// Simulates from the communication point `start` over `h` [s]; inputs are those set now, ramped by their
     /// derivatives, and hold their final values afterwards.
     pub fn do_step(&mut self, start: f64, h: f64) -> Outcome {
@@ -330,7 +369,7 @@ impl Instance {
             rates: self.rates,
             time: self.time,
             stop: self.stop,
-            state: self.simulation.as_ref().map(|simulation| simulation.state().clone()),
+            memory: self.simulation.as_ref().map(|simulation| simulation.memory().clone()),
         })
     }
 
@@ -339,15 +378,15 @@ impl Instance {
         self.allow(Call::FmuState)?;
         let config = with_parameters(&snapshot.base, &snapshot.parameters);
         let refused = |error| Refusal::error(format!("state cannot be set: {error}"));
-        match (&snapshot.state, &mut self.simulation) {
+        match (&snapshot.memory, &mut self.simulation) {
             (None, _) => self.simulation = None,
-            (Some(state), Some(simulation)) if config == self.config => {
-                simulation.set_state(state.clone()).map_err(refused)?;
+            (Some(memory), Some(simulation)) if config == self.config => {
+                simulation.recall(memory.clone()).map_err(refused)?;
             }
-            (Some(state), _) => {
+            (Some(memory), _) => {
                 let model = self.model(config.clone())?;
                 let mut simulation = Simulation::new(model, &Inputs::rolling(&config)).map_err(refused)?;
-                simulation.set_state(state.clone()).map_err(refused)?;
+                simulation.recall(memory.clone()).map_err(refused)?;
                 self.simulation = Some(simulation);
             }
         }
@@ -411,6 +450,15 @@ impl Instance {
             }
         }
         self.rates = Drive::default();
+    }
+}
+
+/// Rows of real outputs, refusing everything else.
+fn real_outputs(references: &[Reference]) -> Outcome<Vec<&'static Variable>> {
+    let rows = lookup(references, "Real")?;
+    match rows.iter().find(|variable| variable.causality() != Causality::Output) {
+        Some(variable) => Err(Refusal::error(format!("{} is not an output", variable.name))),
+        None => Ok(rows),
     }
 }
 

@@ -4,7 +4,7 @@ use super::description::guid;
 use super::lifecycle::Phase;
 use super::settings::Explicit;
 use crate::config::Config;
-use crate::simulation::{Drive, State};
+use crate::simulation::{Drive, Memory};
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
@@ -23,7 +23,7 @@ pub struct Snapshot {
     /// Stop time [s] if the master defined one.
     pub stop: Option<f64>,
     /// `None` before the stationary state has been computed.
-    pub state: Option<State>,
+    pub memory: Option<Memory>,
 }
 
 const MAGIC: &[u8; 8] = b"WRSTATE\x01";

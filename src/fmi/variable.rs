@@ -169,6 +169,14 @@ impl Variable {
         }
     }
 
+    /// Value of a real output, 0 for other variables.
+    pub fn real_output(&self, outputs: &Outputs) -> f64 {
+        match self.output(outputs) {
+            Some(Value::Real(value)) => value,
+            _ => 0.0,
+        }
+    }
+
     /// Refuses a value of the wrong type, not finite or outside the declared range; the text names all three.
     pub fn check(&self, value: &Value) -> Result<(), String> {
         let name = &self.name;

@@ -478,16 +478,29 @@ fn zone_nodes(c: &HeatConfig) -> Vec<f64> {
     nodes
 }
 
-/// Maximum of the parabola through the largest sample and its neighbours.
+/// Maximum of the cubic Hermite interpolant whose slopes at the nodes are those of the parabolas through three
+/// neighbours: continuous in the values, wherever the maximum moves.
 pub fn peak(x: &[f64], values: &[f64]) -> f64 {
-    let Some((at, &top)) = values.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)) else { return 0.0 };
-    if at == 0 || at + 1 >= values.len().min(x.len()) {
-        return top;
-    }
-    let (left, right) = (x[at] - x[at - 1], x[at + 1] - x[at]);
-    let (fall, rise) = ((top - values[at - 1]) / left, (values[at + 1] - top) / right);
-    let (slope, bend) = ((fall * right + rise * left) / (left + right), 2.0 * (rise - fall) / (left + right));
-    if bend < 0.0 { top - 0.5 * slope * slope / bend } else { top }
+    let n = x.len().min(values.len());
+    let top = values[..n].iter().fold(f64::NEG_INFINITY, |top, v| top.max(*v));
+    let chord = |i: usize| (values[i + 1] - values[i]) / (x[i + 1] - x[i]);
+    let slope = |i: usize| {
+        let (left, right) = (x[i] - x[i - 1], x[i + 1] - x[i]);
+        (chord(i - 1) * right + chord(i) * left) / (left + right)
+    };
+    // Maxima inside the cells; the outermost cells have only a chord.
+    let inside = (1..n.saturating_sub(2)).filter_map(|i| {
+        let h = x[i + 1] - x[i];
+        let (from, to, rise) = (h * slope(i), h * slope(i + 1), values[i + 1] - values[i]);
+        // v(ξ) = v₀ + from ξ + b ξ² + c ξ³.
+        let (b, c) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+        let root = b * b - 3.0 * c * from;
+        // The zero of v′ where v″ < 0, in the form that survives c = 0.
+        let xi = from / (root.max(0.0).sqrt() - b);
+        let value = values[i] + xi * (from + xi * (b + xi * c));
+        (root >= 0.0 && xi > 0.0 && xi < 1.0).then_some(value)
+    });
+    inside.fold(top, f64::max)
 }
 
 impl HeatConfig {

@@ -6,6 +6,7 @@ pub mod control;
 pub mod integrator;
 pub mod output;
 mod reversible;
+pub mod sensitivity;
 pub mod state;
 pub mod stationary;
 pub mod thermal;
@@ -13,6 +14,7 @@ pub mod transient;
 
 pub use control::{Drive, Inputs, Rotation, Translation, Vertical};
 pub use output::{Outputs, PROFILE_POINTS};
+pub use sensitivity::{Difference, Origin};
 pub use state::State;
 
 use crate::config::Config;
@@ -39,6 +41,8 @@ pub enum StepError {
     Input(#[from] control::InputError),
     #[error("communication step = {step} is outside its range: above 0 to {longest} s")]
     StepSize { step: f64, longest: f64 },
+    #[error("no derivative at t = {time:.9e} s: contact states change at once to both sides")]
+    NoDerivative { time: f64 },
     #[error("heat: {0}")]
     Heat(HeatError),
     #[error("body response failed: {0}")]

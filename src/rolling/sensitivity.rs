@@ -1,0 +1,114 @@
+//! Derivatives of the outputs by the inputs that led to them.
+//!
+//! The state at a communication point is a function of the inputs of the step that led to it (at the start: of the
+//! inputs of the stationary state). That function is differentiated as it is computed, through all its internal steps,
+//! contact, heat and histories, by central differences *within its branch*: both perturbed steps must end with the
+//! contact states of the present one and have taken as many contact iterations and internal steps, otherwise the
+//! perturbation is reduced. Between changes of state the function is analytic, and the difference quotient has about
+//! eight correct digits; at a kink it falls back to the derivative of one side.
+
+use super::control::{Drive, Inputs};
+use super::output::Outputs;
+use super::state::State;
+use super::{Model, StepError, Workspace};
+use serde::{Deserialize, Serialize};
+
+/// What a state came from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Origin {
+    /// The stationary state of these inputs.
+    Stationary(Inputs),
+    /// A communication step from `state` over `length` [s].
+    Step { state: Box<State>, inputs: Inputs, length: f64 },
+}
+
+/// Outputs at both ends of a difference quotient.
+pub struct Difference {
+    pub low: Outputs,
+    pub high: Outputs,
+    /// Distance of the ends in units of the direction.
+    pub width: f64,
+}
+
+impl Difference {
+    /// Derivative of one output along the direction.
+    pub fn quotient(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
+        (output(&self.high) - output(&self.low)) / self.width
+    }
+}
+
+/// Sizes that inputs typically have, in the order of [`Drive::values`]; speeds at least that of walking.
+fn scales(model: &Model, inputs: &Inputs, state: &State) -> [f64; 8] {
+    let config = &model.config;
+    let load = config.model.nominal_load;
+    let (speed, radius) = (state.velocity.now.abs().max(1.0), config.wheel.radius);
+    let approach = state.height.now.abs().max(1e-5);
+    let heat = inputs.drive.tread_heat.abs().max(1e4);
+    [speed / radius, load * radius, speed, load, load, approach, 1.0, heat]
+}
+
+/// Perturbation relative to the scales, of a step and of a stationary state (which is only found to about 1e-6), and the
+/// factor by which it is reduced where the branch is left.
+const PERTURBATION: f64 = 3e-5;
+const STATIONARY_PERTURBATION: f64 = 3e-4;
+const REDUCTION: f64 = 0.1;
+const TRIES: usize = 4;
+
+impl Model {
+    /// Outputs a little before and behind `state` along a direction of its inputs.
+    pub fn difference(
+        &self,
+        state: &State,
+        origin: &Origin,
+        direction: &Drive,
+        workspace: &mut Workspace,
+    ) -> Result<Difference, StepError> {
+        let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
+        let scales = scales(self, inputs, state);
+        let size = direction.values().iter().zip(scales).map(|(d, s)| (d / s).abs()).fold(0.0, f64::max);
+        let present = self.outputs(state);
+        if size == 0.0 {
+            return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
+        }
+        let stationary = matches!(origin, Origin::Stationary(_));
+        let mut width = if stationary { STATIONARY_PERTURBATION } else { PERTURBATION } / size;
+        let mut one_sided = None;
+        for _ in 0..TRIES {
+            let mut ends = [-1.0, 1.0].map(|sign| {
+                let inputs = Inputs { drive: moved(&inputs.drive, direction, sign * width), ..*inputs };
+                let end = match origin {
+                    Origin::Stationary(_) => self.stationary(&inputs, workspace),
+                    Origin::Step { state, length, .. } => self.advance(state, &inputs, *length, workspace),
+                };
+                end.ok().filter(|end| same_branch(end, state)).map(|end| self.outputs(&end))
+            });
+            match (ends[0].take(), ends[1].take()) {
+                (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),
+                (Some(low), None) => one_sided = Some(Difference { low, high: present.clone(), width }),
+                (None, Some(high)) => one_sided = Some(Difference { low: present.clone(), high, width }),
+                (None, None) => {}
+            }
+            width *= REDUCTION;
+        }
+        one_sided.ok_or(StepError::NoDerivative { time: state.time })
+    }
+}
+
+/// Inputs moved along a direction.
+fn moved(drive: &Drive, direction: &Drive, by: f64) -> Drive {
+    Drive {
+        omega: drive.omega + by * direction.omega,
+        moment: drive.moment + by * direction.moment,
+        velocity: drive.velocity + by * direction.velocity,
+        force: drive.force + by * direction.force,
+        load: drive.load + by * direction.load,
+        displacement: drive.displacement + by * direction.displacement,
+        friction: drive.friction + by * direction.friction,
+        tread_heat: drive.tread_heat + by * direction.tread_heat,
+    }
+}
+
+/// Whether two states were computed by the same sequence of decisions.
+fn same_branch(a: &State, b: &State) -> bool {
+    a.contact.status == b.contact.status && a.internal_steps == b.internal_steps && a.iterations == b.iterations
+}

@@ -1,0 +1,183 @@
+//! Derivatives of outputs by inputs and by time.
+
+mod common;
+
+use common::{model, prescribed, preset};
+use std::sync::Arc;
+use wheelrail::simulation::{Drive, Inputs, Memory, Model, Outputs, Simulation, Vertical};
+
+type Field = fn(&mut Drive) -> &mut f64;
+type Output = fn(&Outputs) -> f64;
+
+/// Inputs with typical sizes.
+const INPUTS: [(&str, Field, f64); 8] = [
+    ("omega", |d| &mut d.omega, 50.0),
+    ("moment", |d| &mut d.moment, 4e4),
+    ("velocity", |d| &mut d.velocity, 20.0),
+    ("force", |d| &mut d.force, 1e5),
+    ("load", |d| &mut d.load, 1e5),
+    ("displacement", |d| &mut d.displacement, 1e-4),
+    ("friction", |d| &mut d.friction, 0.3),
+    ("tread_heat", |d| &mut d.tread_heat, 1e4),
+];
+
+/// Outputs with typical sizes.
+const OUTPUTS: [(&str, Output, f64); 11] = [
+    ("contact.force_x", |o| o.contact_force_x, 3e4),
+    ("contact.force_y", |o| o.contact_force_y, 1e5),
+    ("contact.moment", |o| o.contact_moment, 1e4),
+    ("contact.approach", |o| o.contact_approach, 1e-4),
+    ("wheel.velocity", |o| o.wheel_velocity, 20.0),
+    ("wheel.omega", |o| o.wheel_omega, 50.0),
+    ("hub.moment", |o| o.hub_moment, 1e4),
+    ("hub.force_x", |o| o.hub_force_x, 3e4),
+    ("heat.friction_power", |o| o.friction_power, 1e3),
+    ("temperature.wheel_max", |o| o.temperature_wheel_max, 100.0),
+    ("heat.to_rail", |o| o.heat_to_rail, 1e3),
+];
+
+/// Thirty steps of 1 ms; returns the simulation, and memory and inputs before the last step.
+fn driven(model: &Arc<Model>, mut inputs: Inputs) -> (Simulation, Memory, Inputs) {
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut before = simulation.memory().clone();
+    for k in 0..30 {
+        inputs.drive.moment = -7000.0 * (f64::from(k) / 20.0).min(1.0);
+        inputs.drive.omega *= 1.0 - 1e-5;
+        inputs.drive.displacement *= 1.0 + 1e-4;
+        before = simulation.memory().clone();
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    (simulation, before, inputs)
+}
+
+/// Compares with central differences of `again(inputs)`; errors are relative to the derivative or, where that is
+/// small, to the typical sizes. Speeds are moved by their size times `speeds`.
+fn agree(
+    simulation: &mut Simulation,
+    inputs: &Inputs,
+    relative: f64,
+    speeds: f64,
+    again: &mut dyn FnMut(&Inputs) -> Outputs,
+) {
+    let mut largest = 0.0f64;
+    for (input, field, size) in INPUTS {
+        let mut direction = Drive::default();
+        *field(&mut direction) = 1.0;
+        let difference = simulation.difference(&direction).unwrap();
+        // Small enough to stay between changes of state, which prescribed speeds cross first.
+        let step = if matches!(input, "omega" | "velocity") { speeds } else { 1e-4 } * size;
+        let [low, high] = [-step, step].map(|by| {
+            let mut inputs = *inputs;
+            *field(&mut inputs.drive) += by;
+            again(&inputs)
+        });
+        for (output, get, unit) in OUTPUTS {
+            let (found, expected) = (difference.quotient(get), (get(&high) - get(&low)) / (2.0 * step));
+            let scale = expected.abs().max(unit / size);
+            let error = (found - expected).abs() / scale;
+            largest = largest.max(error);
+            assert!(error < relative, "d {output} / d {input}: {found:e}, differences {expected:e}, error {error:.1e}");
+        }
+    }
+    println!("largest error {largest:.1e}");
+}
+
+fn derivatives_of_a_step(inputs: impl Fn(&Model) -> Inputs) {
+    let model = model(preset("railway", 20));
+    let (mut simulation, before, inputs) = driven(&model, inputs(&model));
+    let mut again = Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap();
+    agree(&mut simulation, &inputs, 1e-5, 1e-6, &mut |inputs| {
+        again.recall(before.clone()).unwrap();
+        again.advance(inputs, 1e-3).unwrap();
+        again.outputs().clone()
+    });
+}
+
+#[test]
+fn derivatives_under_moment_and_force_are_those_of_the_repeated_step() {
+    derivatives_of_a_step(|model| Inputs::rolling(model.config()));
+}
+
+#[test]
+fn derivatives_under_prescribed_motion_are_those_of_the_repeated_step() {
+    derivatives_of_a_step(|model| {
+        let start = Simulation::new(model_of(model), &Inputs::rolling(model.config())).unwrap();
+        let mut inputs = prescribed(model, 20.0, 5e-4);
+        inputs.vertical = Vertical::Displacement;
+        inputs.drive.displacement = -start.outputs().contact_approach;
+        inputs
+    });
+}
+
+/// The same model as a shared one.
+fn model_of(model: &Model) -> Arc<Model> {
+    common::model(model.config().clone())
+}
+
+#[test]
+fn derivatives_at_the_start_are_those_of_the_stationary_state() {
+    let model = model(preset("railway", 20));
+    let inputs = prescribed(&model, 20.0, 5e-4);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    agree(&mut simulation, &inputs, 5e-3, 2e-6, &mut |inputs| {
+        Simulation::new(model.clone(), inputs).unwrap().outputs().clone()
+    });
+}
+
+#[test]
+fn a_derivative_leaves_no_trace() {
+    let model = model(preset("railway", 10));
+    let (mut simulation, ..) = driven(&model, Inputs::rolling(model.config()));
+    let before = simulation.memory().clone();
+    let direction = Drive { moment: 1.0, load: 0.5, ..Drive::default() };
+    let difference = simulation.difference(&direction).unwrap();
+    assert!(difference.quotient(|o| o.contact_force_y) > 0.0);
+    assert_eq!(simulation.memory(), &before);
+}
+
+#[test]
+fn time_derivatives_converge_with_second_order() {
+    let mut config = preset("railway", 10);
+    config.solver.max_step = 1e-3;
+    let model = model(config);
+    // A force that grows steadily: the distance is a cubic of time, its derivative the velocity.
+    let error = |h: f64| {
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.rate.force = -2e4;
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        for _ in 0..(0.64 / h).round() as usize {
+            simulation.advance(&inputs, h).unwrap();
+            inputs.drive.force += h * inputs.rate.force;
+        }
+        let travelled = simulation.rate(|o| o.wheel_distance);
+        (travelled - simulation.outputs().wheel_velocity).abs()
+    };
+    let errors = [0.08, 0.04, 0.02].map(error);
+    println!("errors {:.2e}, {:.2e}, {:.2e} m/s with 80, 40, 20 ms", errors[0], errors[1], errors[2]);
+    assert!(errors[0] < 1e-2);
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 2.0).abs() < 0.2, "order {order:.2}");
+    }
+}
+
+#[test]
+fn at_the_start_time_derivatives_are_those_of_the_stationary_motion() {
+    let mut config = preset("railway", 10);
+    config.initial.velocity = 15.0;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.force = 1e4;
+    let simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let o = simulation.outputs();
+    assert!(o.wheel_acceleration > 0.1);
+    for (found, expected) in [
+        (simulation.rate(|o| o.wheel_distance), o.wheel_velocity),
+        (simulation.rate(|o| o.wheel_angle), o.wheel_omega),
+        (simulation.rate(|o| o.wheel_velocity), o.wheel_acceleration),
+        (simulation.rate(|o| o.wheel_omega), o.wheel_angular_acceleration),
+        (simulation.rate(|o| o.contact_force_y), 0.0),
+    ] {
+        assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{found} {expected}");
+    }
+}
