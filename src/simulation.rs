@@ -20,13 +20,13 @@
 
 use crate::config::{Config, ConfigError, Response};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
-use crate::rolling::control::peripheral_velocity;
 use crate::rolling::{self, Workspace};
 use std::path::Path;
 use std::sync::Arc;
 
-pub use crate::rolling::control::{INPUT_RANGES, InputError};
-pub use crate::rolling::{Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical};
+pub use crate::rolling::control::{INPUT_RANGES, InputError, creepage, peripheral_velocity};
+pub use crate::rolling::fields::Stress;
+pub use crate::rolling::{FieldError, Fields, Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical};
 
 /// Why a model could not be prepared.
 #[derive(Debug, thiserror::Error)]
@@ -163,6 +163,11 @@ impl Simulation {
             friction: self.state.friction,
             tread_heat: 0.0,
         }
+    }
+
+    /// Displacement, velocity, stress and temperature in the whole bodies.
+    pub fn fields(&self) -> Result<Fields, FieldError> {
+        self.model.rolling.fields(&self.state)
     }
 
     /// The model this simulation runs on.

@@ -3,6 +3,7 @@
 //! Everything in this room is per metre of width; [`output`] scales to the whole wheel.
 
 pub mod control;
+pub mod fields;
 pub mod integrator;
 pub mod output;
 pub mod state;
@@ -11,6 +12,7 @@ pub mod thermal;
 pub mod transient;
 
 pub use control::{Drive, Inputs, Rotation, Translation, Vertical};
+pub use fields::{FieldError, Fields};
 pub use output::{Outputs, PROFILE_POINTS};
 pub use state::State;
 
