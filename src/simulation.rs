@@ -24,9 +24,9 @@ use crate::rolling::{self, Workspace};
 use std::path::Path;
 use std::sync::Arc;
 
-pub use crate::rolling::control::{INPUT_RANGES, InputError, creepage, peripheral_velocity};
-pub use crate::rolling::fields::Stress;
-pub use crate::rolling::{FieldError, Fields, Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical};
+pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
+pub use crate::rolling::{Drive, Inputs, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical};
 
 /// Why a model could not be prepared.
 #[derive(Debug, thiserror::Error)]

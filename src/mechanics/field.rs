@@ -111,8 +111,8 @@ fn nodal_gradient(mesh: &Mesh, displacement: &[[f64; 2]]) -> Result<Vec<[[f64; 2
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::graded;
     use crate::fem::ContactZone;
+    use crate::fem::graded;
 
     #[test]
     fn gradients_of_quadratic_displacements_are_exact_at_inner_nodes_of_a_graded_mesh() {

@@ -1,11 +1,12 @@
 //! Fields of a state in the whole bodies, for pictures: in the frame of the rail's contact point, wheel above rail.
 
 use super::{Model, State};
-use crate::heat::{HeatError, TemperatureField};
+use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
-use crate::mechanics::field::{BodyField, rail_field, wheel_field};
+use crate::mechanics::field::{rail_field, wheel_field};
 
-pub use crate::mechanics::field::Stress;
+pub use crate::heat::TemperatureField;
+pub use crate::mechanics::field::{BodyField, Stress};
 
 /// Why fields could not be given.
 #[derive(Debug, thiserror::Error)]

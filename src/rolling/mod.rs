@@ -12,7 +12,6 @@ pub mod thermal;
 pub mod transient;
 
 pub use control::{Drive, Inputs, Rotation, Translation, Vertical};
-pub use fields::{FieldError, Fields};
 pub use output::{Outputs, PROFILE_POINTS};
 pub use state::State;
 
