@@ -10,6 +10,9 @@ use wheelrail::fmi::variable::{Kind, Value};
 /// End of a run without scenario [s], as in modelDescription.xml.
 const DEFAULT_STOP: f64 = 1.0;
 
+/// Difference of times, in steps, that is rounding only.
+const ROUNDING: f64 = 1e-6;
+
 #[derive(clap::Args)]
 pub struct Course {
     /// Inputs over time: CSV with a column `time` [s] and columns named after inputs; numbers are linear between rows,
@@ -49,8 +52,7 @@ impl Run {
             return Err(Failure::Usage(format!("--stop = {stop} is outside its range: finite, at least 0 s")));
         }
         let instance = setup.initialize(fixed, Some(stop))?;
-        // A last step of rounding size only is none.
-        let steps = (stop / step - 1e-6).ceil().max(0.0) as usize;
+        let steps = (stop / step - ROUNDING).ceil().max(0.0) as usize;
         let mut run = Run { instance, scenario, step, stop, done: 0, steps };
         run.prescribe(0.0)?;
         run.instance.exit_initialization().map_err(failed)?;
@@ -68,7 +70,9 @@ impl Run {
             return Ok(false);
         }
         let time = self.time();
-        let h = if self.done + 1 == self.steps { self.stop - time } else { self.step };
+        let rest = self.stop - time;
+        // Only a last step that is really shorter differs from the others.
+        let h = if rest < (1.0 - ROUNDING) * self.step { rest } else { self.step };
         self.prescribe(h)?;
         self.instance.do_step(time, h).map_err(failed)?;
         self.done += 1;

@@ -125,7 +125,8 @@ impl Summary {
                 None => table::read(&mut run.instance, &[variable])?,
             };
             let value = value.first().map_or_else(String::new, |value| table::shown(variable, value));
-            eprintln!("  {what:<28}{value:>11} {}", table::unit(variable));
+            let unit = Some(table::unit(variable)).filter(|unit| *unit != "1").unwrap_or_default();
+            eprintln!("  {what:<28}{value:>11} {unit}");
             Ok(())
         };
         line("speed at the end", "wheel.velocity", None)?;

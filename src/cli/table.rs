@@ -83,14 +83,12 @@ pub fn shown(variable: &Variable, value: &Value) -> String {
 
 /// A number with four significant digits.
 pub fn significant(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e6).contains(&magnitude) {
-        let decimals = (3 - magnitude.log10().floor() as i32).max(0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.3e}")
+    let text = format!("{value:.3e}");
+    let exponent = text.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    match exponent {
+        0 if value == 0.0 => "0".to_owned(),
+        -3..6 => format!("{value:.*}", usize::try_from(3 - exponent).unwrap_or(0)),
+        _ => text,
     }
 }
 
@@ -101,8 +99,9 @@ mod tests {
 
     #[test]
     fn numbers_for_people_have_four_digits() {
-        let shown: Vec<_> = [0.0, 1.0, -27.77777, 12345.6, 0.00123456, 1.5e-4, 7.25e6].map(significant).into();
-        assert_eq!(shown, ["0", "1.000", "-27.78", "12346", "0.001235", "1.500e-4", "7.250e6"]);
+        let shown: Vec<_> =
+            [0.0, 1.0, 99.99999, -27.77777, 12345.6, 0.00123456, 1.5e-4, 7.25e6].map(significant).into();
+        assert_eq!(shown, ["0", "1.000", "100.0", "-27.78", "12346", "0.001235", "1.500e-4", "7.250e6"]);
     }
 
     #[test]

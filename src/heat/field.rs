@@ -41,8 +41,10 @@ fn field(body: &Body, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> Te
     }
     for element in 0..line.lengths.len() {
         let (from, to) = (element * depths, line.after(element) * depths);
-        // Counter-clockwise: s to the right, z downwards.
-        mesh.cells.extend((0..depths - 1).map(|i| [from + i + 1, to + i + 1, to + i, from + i]));
+        // Counter-clockwise: below the contact point depth points down in the rail, up in the wheel.
+        let wheel = line.closed > 0.0;
+        let cell = |(upper, lower): (usize, usize)| [from + lower, to + lower, to + upper, from + upper];
+        mesh.cells.extend((1..depths).map(|i| cell(if wheel { (i, i - 1) } else { (i - 1, i) })));
     }
     TemperatureField { mesh, temperature }
 }
