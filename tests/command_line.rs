@@ -201,7 +201,7 @@ fn settings_take_the_place_of_the_preset_and_of_start_values_of_inputs() {
 #[test]
 fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
     let scenario = file("wrong", "time,drive.load\n0,1e5\n1,-5\n");
-    let cases: [(&[&str], &[&str]); 18] = [
+    let cases: [(&[&str], &[&str]); 19] = [
         (&["simulate", "--set", "drive.laod=1"], &["drive.laod", "drive.load"]),
         (&["simulate", "--set", "drive.load"], &["drive.load", "NAME=VALUE"]),
         (&["simulate", "--set", "drive.load=-1"], &["drive.load = -1", "0 to 1000000000"]),
@@ -218,6 +218,10 @@ fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
         (&["simulate", "--scenario", "absent.csv"], &["absent.csv", "No such file"]),
         (&["steady", "--creepage", "0:1"], &["0:1", "FROM:TO:COUNT"]),
         (&["steady", "--velocity", "300"], &["--velocity = 300", "-200 to 200"]),
+        (
+            &["steady", "--set", "rail.friction=0", "--set", "mesh.elements_per_half_width=4"],
+            &["friction", "--creepage"],
+        ),
         (&["steady", "--set", "drive.omega=1"], &["drive.omega", "--creepage"]),
         (&["export", "--creepage", "0", "--stop", "1"], &["--creepage", "--stop", "exclude"]),
     ];

@@ -16,7 +16,8 @@ const ROUNDING: f64 = 1e-6;
 #[derive(clap::Args)]
 pub struct Course {
     /// Inputs over time: CSV with a column `time` [s] and columns named after inputs; numbers are linear between rows,
-    /// choices (by name or number) hold until the next row, and the last row holds to the end.
+    /// choices (by name or number) hold until the next row, and the last row holds to the end. Two rows at the same time
+    /// make a jump; lines that begin with # are skipped.
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
     /// End of the run [s]; that of the scenario, or 1, if not given.
@@ -131,7 +132,7 @@ mod tests {
     fn ramps_to_the_end_of_a_range_stay_within_it() {
         let mut rounded_out = 0;
         for k in 1..2000 {
-            let (now, h) = (1e5 * (k as f64 * 0.7071).fract(), 1e-3 * (1.0 + (k as f64 * 0.57735).fract()));
+            let (now, h) = (1e5 * (k as f64 * 0.618).fract(), 1e-3 * (1.0 + (k as f64 * 0.57735).fract()));
             rounded_out += usize::from(now + h * ((0.0 - now) / h) < 0.0);
             let end = now + h * slope(now, 0.0, h, 0.0, 1e9);
             assert!((0.0..1e-9).contains(&end), "{now} over {h}: {end:e}");

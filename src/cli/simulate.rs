@@ -5,6 +5,8 @@ use super::setting::find;
 use super::setup::Setup;
 use super::table::{self, Csv, significant};
 use super::{Failure, model};
+use indicatif::ProgressBar;
+use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -29,7 +31,8 @@ pub struct Simulate {
     /// File for the results instead of standard output.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Variables to write, by FMI name; `profile.pressure` stands for all its points.
+    /// Variables to write, by FMI name; `profile.pressure` stands for all its points. If not given: speeds, forces,
+    /// creepage, patch, temperatures, friction power, energy residual.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = OUTPUTS, hide_default_value = true)]
     outputs: Vec<String>,
     /// Write every Nth communication point only (first and last always).
@@ -43,7 +46,9 @@ impl Simulate {
         let mut run = Run::start(&self.setup, &self.course, &[])?;
         let mut csv = Csv::create(self.out.as_deref())?;
         csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name.as_str())))?;
-        let bar = model::bar("simulate", run.steps as u64);
+        // A bar and results on the same terminal would overwrite each other.
+        let shared = self.out.is_none() && io::stdout().is_terminal();
+        let bar = if shared { ProgressBar::hidden() } else { model::bar("simulate", run.steps as u64) };
         let mut summary = Summary::new()?;
         loop {
             summary.see(&mut run)?;

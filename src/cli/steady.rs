@@ -156,7 +156,10 @@ impl OperatingPoint {
         self.set(0.0)?;
         let (friction, half_width) = (self.real("contact.friction")?, self.real("contact.half_width")?);
         let full_slip = analytic::carter_full_slip(friction, half_width, self.instance.config().wheel.radius);
-        Ok(Range { from: 0.0, to: RANGE * full_slip, count: COUNT })
+        if full_slip > 0.0 {
+            return Ok(Range { from: 0.0, to: RANGE * full_slip, count: COUNT });
+        }
+        Err(Failure::Usage("no full slip without friction and load to range up to: name a --creepage".to_owned()))
     }
 }
 
