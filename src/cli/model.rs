@@ -20,7 +20,7 @@ pub fn bar(title: &str, length: u64) -> ProgressBar {
 }
 
 /// The model of a configuration; its basis comes from `<resources>/basis` or `<cache>/basis`, or is computed and kept in
-/// the latter.
+/// the latter if that directory exists.
 pub fn prepare(config: Config, resources: &Path, cache: &Path, bar: &ProgressBar) -> Result<Arc<Model>, Failure> {
     let name = basis_file_name(&config);
     let stored = resources.join("basis").join(&name).exists();
@@ -33,7 +33,7 @@ pub fn prepare(config: Config, resources: &Path, cache: &Path, bar: &ProgressBar
         PrepareError::Config(error) => Failure::Usage(error.to_string()),
         error => Failure::Run(error.to_string()),
     })?;
-    if let Some((name, bytes)) = model.basis_file().filter(|_| !stored) {
+    if let Some((name, bytes)) = model.basis_file().filter(|_| !stored && cache.is_dir()) {
         keep(&cache.join("basis"), &name, &bytes)
             .map_err(|error| Failure::Run(format!("basis cannot be kept in {}: {error}", cache.display())))?;
     }

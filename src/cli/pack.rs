@@ -25,6 +25,7 @@ pub struct Pack {
 
 impl Pack {
     pub fn run(self) -> Result<(), Failure> {
+        fs::create_dir_all(&self.cache)?;
         let mut bases = Vec::new();
         for name in presets::available(Some(&self.resources)) {
             bases.extend(self.basis(&name)?);

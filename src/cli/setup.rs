@@ -15,7 +15,7 @@ pub struct Setup {
     /// Directory with the presets.
     #[arg(long, default_value = "resources", value_name = "DIR")]
     resources: PathBuf,
-    /// Directory that keeps computed bases for the next time, in its subdirectory `basis`.
+    /// Directory that keeps computed bases for the next time, in its subdirectory `basis`; unused if it does not exist.
     #[arg(long, default_value = "target", value_name = "DIR")]
     cache: PathBuf,
     /// Any parameter, or the start value of an input, by its FMI name in SI units; enumeration items by name or number.
