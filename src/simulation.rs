@@ -20,13 +20,13 @@
 
 use crate::config::{Config, ConfigError, Response};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
-use crate::rolling::control::peripheral_velocity;
 use crate::rolling::{self, Workspace};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
 
-pub use crate::rolling::control::{INPUT_RANGES, InputError};
+pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::{
     Difference, Drive, Inputs, Origin, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical,
 };
@@ -221,6 +221,11 @@ impl Simulation {
             friction: self.memory.state.friction,
             tread_heat: 0.0,
         }
+    }
+
+    /// Displacement, velocity, stress and temperature in the whole bodies.
+    pub fn fields(&self) -> Result<Fields, FieldError> {
+        self.model.rolling.fields(&self.memory.state)
     }
 
     /// The model this simulation runs on.

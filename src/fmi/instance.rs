@@ -92,6 +92,16 @@ impl Instance {
         self.hopeless
     }
 
+    /// Parameters that hold now.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Offers a prepared model, which is used while the parameters are its own.
+    pub fn offer_model(&mut self, model: Arc<Model>) {
+        self.model = Some(model);
+    }
+
     /// Marks the instance as beyond repair, after a panic.
     pub fn give_up(&mut self) {
         self.phase = Phase::Fatal;
@@ -403,7 +413,7 @@ impl Instance {
     }
 
     /// The simulation, brought up to date with parameters and inputs if it is not running yet.
-    fn simulation(&mut self) -> Outcome<&mut Simulation> {
+    pub fn simulation(&mut self) -> Outcome<&mut Simulation> {
         if self.simulation.is_none() {
             let model = self.model(self.config.clone())?;
             let inputs = self.effective_inputs();

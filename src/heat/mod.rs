@@ -18,6 +18,7 @@
 //! coarse; distances along the surface stand for x in the contact zone (they differ by `x²/6r²`); convection to the air
 //! acts under the contact, too.
 
+mod field;
 mod interface;
 mod krylov;
 mod modal;
@@ -26,6 +27,7 @@ mod tensor;
 #[cfg(test)]
 mod tests;
 
+pub use field::TemperatureField;
 pub use interface::{Conductance, Exchange, Patch, Profile, TreadHeat};
 pub use step::{LARGEST_STEP, SMALLEST_STEP, Scratch};
 

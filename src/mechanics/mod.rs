@@ -3,6 +3,7 @@
 pub mod ale;
 pub mod basis;
 pub mod elasticity;
+pub mod field;
 pub mod full;
 pub mod reduced;
 pub mod response;

@@ -3,6 +3,7 @@
 //! Everything in this room is per metre of width; [`output`] scales to the whole wheel.
 
 pub mod control;
+pub mod fields;
 pub mod integrator;
 pub mod output;
 mod reversible;

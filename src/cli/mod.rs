@@ -1,0 +1,90 @@
+//! Commands of the binary: packing and describing the FMU, and a master of its own around the slave inside it.
+//!
+//! `setting` (variables by name, values as text) → `setup` (preset and settings → slave) → `run` (scenario, steps) →
+//! `simulate`, `steady`, `export`; `model` prepares models under a progress bar, `vtu` writes files for ParaView.
+
+mod export;
+mod model;
+mod pack;
+mod run;
+mod scenario;
+mod setting;
+mod setup;
+mod simulate;
+mod steady;
+mod table;
+mod vtu;
+
+use clap::{Parser, Subcommand};
+use std::io;
+use wheelrail::fmi::description;
+
+/// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
+///
+/// Values are in SI units. Exit codes: 0 done, 1 run failed, 2 wrong arguments.
+#[derive(Parser)]
+#[command(version)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Pack(pack::Pack),
+    /// Print modelDescription.xml.
+    Describe,
+    Simulate(simulate::Simulate),
+    Steady(steady::Steady),
+    Export(export::Export),
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<(), Failure> {
+        match self.command {
+            Command::Pack(pack) => pack.run(),
+            Command::Describe => {
+                print!("{}", description::model_description());
+                Ok(())
+            }
+            Command::Simulate(simulate) => simulate.run(),
+            Command::Steady(steady) => steady.run(),
+            Command::Export(export) => export.run(),
+        }
+    }
+}
+
+/// Why a command stopped.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// Something the user can say differently.
+    #[error("{0}")]
+    Usage(String),
+    /// The model or the machine did not do it.
+    #[error("{0}")]
+    Run(String),
+    #[error("output: {0}")]
+    Output(#[from] io::Error),
+    #[error("output: {0}")]
+    Csv(#[from] csv::Error),
+}
+
+impl Failure {
+    /// Exit code of the process.
+    pub fn exit_code(&self) -> u8 {
+        if matches!(self, Failure::Usage(_)) { 2 } else { 1 }
+    }
+
+    /// Whether nobody reads the output any more.
+    pub fn is_closed_pipe(&self) -> bool {
+        let kind = match self {
+            Failure::Output(error) => Some(error.kind()),
+            Failure::Csv(error) => match error.kind() {
+                csv::ErrorKind::Io(error) => Some(error.kind()),
+                _ => None,
+            },
+            _ => None,
+        };
+        kind == Some(io::ErrorKind::BrokenPipe)
+    }
+}

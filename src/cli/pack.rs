@@ -1,0 +1,53 @@
+//! `pack`: the FMU with everything its presets need.
+
+use super::{Failure, model};
+use std::fs;
+use std::path::PathBuf;
+use wheelrail::fmi::package::{self, Basis, Contents};
+use wheelrail::fmi::presets;
+
+/// Compute what every preset needs and write the FMU.
+#[derive(clap::Args)]
+pub struct Pack {
+    /// The FMU to write.
+    #[arg(long, default_value = "target/wheelrail.fmu")]
+    out: PathBuf,
+    /// Compiled shared library.
+    #[arg(long, default_value = "target/release/libwheelrail.so")]
+    library: PathBuf,
+    /// Directory with the presets.
+    #[arg(long, default_value = "resources")]
+    resources: PathBuf,
+    /// Directory that keeps computed bases for the next time, in its subdirectory `basis`.
+    #[arg(long, default_value = "target")]
+    cache: PathBuf,
+}
+
+impl Pack {
+    pub fn run(self) -> Result<(), Failure> {
+        fs::create_dir_all(&self.cache)?;
+        let mut bases = Vec::new();
+        for name in presets::available(Some(&self.resources)) {
+            bases.extend(self.basis(&name)?);
+        }
+        if let Some(parent) = self.out.parent() {
+            fs::create_dir_all(parent)?;
+        }
+        let Pack { out, library, resources, .. } = self;
+        package::write(&out, &Contents { library, resources, bases, root: PathBuf::from(".") })
+            .map_err(|error| Failure::Run(error.to_string()))?;
+        println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
+        Ok(())
+    }
+
+    /// The basis that a preset needs.
+    fn basis(&self, preset: &str) -> Result<Option<Basis>, Failure> {
+        let bar = model::bar(preset, 100);
+        let config = presets::load(Some(&self.resources), preset).map_err(Failure::Run)?;
+        let model = model::prepare(config, &self.resources, &self.cache, &bar)?;
+        bar.set_message("ready");
+        bar.set_position(100);
+        bar.abandon();
+        Ok(model.basis_file())
+    }
+}

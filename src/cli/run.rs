@@ -1,0 +1,142 @@
+//! A run over time: the slave, its scenario and its communication steps.
+
+use super::Failure;
+use super::scenario::{Scenario, Values};
+use super::setup::{Setup, failed, wrong};
+use std::path::PathBuf;
+use wheelrail::fmi::instance::{Instance, LONGEST_STEP};
+use wheelrail::fmi::variable::{Kind, Value};
+
+/// End of a run without scenario [s], as in modelDescription.xml.
+const DEFAULT_STOP: f64 = 1.0;
+
+/// Difference of times, in steps, that is rounding only.
+const ROUNDING: f64 = 1e-6;
+
+#[derive(clap::Args)]
+pub struct Course {
+    /// Inputs over time: CSV with a column `time` [s] and columns named after inputs; numbers are linear between rows,
+    /// choices (by name or number) hold until the next row, and the last row holds to the end. Two rows at the same time
+    /// make a jump; lines that begin with # are skipped.
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+    /// End of the run [s]; that of the scenario, or 1, if not given.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    pub stop: Option<f64>,
+    /// Communication step [s].
+    #[arg(long, value_name = "SECONDS", default_value_t = 1e-3, allow_negative_numbers = true)]
+    pub step: f64,
+}
+
+/// A slave that is ready for its next communication step.
+pub struct Run {
+    pub instance: Instance,
+    scenario: Option<Scenario>,
+    step: f64,
+    stop: f64,
+    /// Completed steps and their number at the end.
+    pub done: usize,
+    pub steps: usize,
+}
+
+impl Run {
+    /// The slave in its stationary start state; `fixed` are names and values that the command decides.
+    pub fn start(setup: &Setup, course: &Course, fixed: &[(&str, Value)]) -> Result<Run, Failure> {
+        let scenario = course.scenario.as_deref().map(Scenario::read).transpose()?;
+        let step = course.step;
+        if !(step > 0.0 && step <= LONGEST_STEP) {
+            let range = format!("more than 0, at most {LONGEST_STEP} s");
+            return Err(Failure::Usage(format!("--step = {step} is outside its range: {range}")));
+        }
+        let stop = course.stop.or_else(|| scenario.as_ref().map(Scenario::end)).unwrap_or(DEFAULT_STOP);
+        if !(stop >= 0.0 && stop.is_finite()) {
+            return Err(Failure::Usage(format!("--stop = {stop} is outside its range: finite, at least 0 s")));
+        }
+        let instance = setup.initialize(fixed, Some(stop))?;
+        let steps = (stop / step - ROUNDING).ceil().max(0.0) as usize;
+        let mut run = Run { instance, scenario, step, stop, done: 0, steps };
+        run.prescribe(0.0)?;
+        run.instance.exit_initialization().map_err(failed)?;
+        Ok(run)
+    }
+
+    /// Present time [s].
+    pub fn time(&self) -> f64 {
+        if self.done == self.steps { self.stop } else { self.done as f64 * self.step }
+    }
+
+    /// One communication step; the last one is shorter if need be. `false` at the end of the run.
+    pub fn advance(&mut self) -> Result<bool, Failure> {
+        if self.done == self.steps {
+            return Ok(false);
+        }
+        let time = self.time();
+        let rest = self.stop - time;
+        // Only a last step that is really shorter differs from the others.
+        let h = if rest < (1.0 - ROUNDING) * self.step { rest } else { self.step };
+        self.prescribe(h)?;
+        self.instance.do_step(time, h).map_err(failed)?;
+        self.done += 1;
+        Ok(true)
+    }
+
+    /// Sets the inputs of the scenario for a step `h` [s] from now on, as ramps; for none yet if `h` is zero.
+    fn prescribe(&mut self, h: f64) -> Result<(), Failure> {
+        let time = self.time();
+        let Some(scenario) = &self.scenario else { return Ok(()) };
+        let (mut choices, mut reals, mut rates) = ((vec![], vec![]), (vec![], vec![]), (vec![], vec![]));
+        for column in scenario.columns() {
+            let reference = column.variable.reference;
+            match (&column.values, column.variable.kind) {
+                (Values::Real(values), Kind::Real { min, max, .. }) => {
+                    let now = scenario.after(values, time);
+                    reals.0.push(reference);
+                    reals.1.push(Value::Real(now));
+                    let rate = if h > 0.0 { slope(now, scenario.before(values, time + h), h, min, max) } else { 0.0 };
+                    if rate != 0.0 {
+                        rates.0.push(reference);
+                        rates.1.push(rate);
+                    }
+                }
+                (Values::Choice(values), _) => {
+                    choices.0.push(reference);
+                    choices.1.push(Value::Integer(scenario.choice(values, time)));
+                }
+                _ => return Err(Failure::Usage(format!("{} is no input", column.variable.name))),
+            }
+        }
+        self.instance.set(&choices.0, choices.1).map_err(wrong)?;
+        self.instance.set(&reals.0, reals.1).map_err(wrong)?;
+        let first_order = vec![1; rates.0.len()];
+        self.instance.set_input_derivatives(&rates.0, &first_order, &rates.1).map_err(wrong)
+    }
+}
+
+/// Rate from `now` to `end` within `h`, such that rounding does not carry `now + h·rate` out of the range.
+fn slope(now: f64, end: f64, h: f64, min: f64, max: f64) -> f64 {
+    let mut rate = (end - now) / h;
+    for _ in 0..8 {
+        if (min..=max).contains(&(now + h * rate)) {
+            break;
+        }
+        rate *= 1.0 - f64::EPSILON;
+    }
+    rate
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slope;
+
+    #[test]
+    fn ramps_to_the_end_of_a_range_stay_within_it() {
+        let mut rounded_out = 0;
+        for k in 1..2000 {
+            let (now, h) = (1e5 * (k as f64 * 0.618).fract(), 1e-3 * (1.0 + (k as f64 * 0.57735).fract()));
+            rounded_out += usize::from(now + h * ((0.0 - now) / h) < 0.0);
+            let end = now + h * slope(now, 0.0, h, 0.0, 1e9);
+            assert!((0.0..1e-9).contains(&end), "{now} over {h}: {end:e}");
+        }
+        assert!(rounded_out > 0, "without the correction some ramps end below zero");
+    }
+}

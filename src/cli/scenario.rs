@@ -1,0 +1,169 @@
+//! Inputs over time from a CSV file.
+
+use super::Failure;
+use super::setting::{find, parse};
+use std::path::Path;
+use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
+
+/// Shorter times than this are rounding [s].
+const ROUNDING: f64 = 1e-10;
+
+/// Values of inputs at given times. Real inputs are linear between rows, choices hold until the next row; before the
+/// first and after the last row everything is held. Two rows at the same time make a jump.
+pub struct Scenario {
+    /// Ascending [s].
+    times: Vec<f64>,
+    columns: Vec<Column>,
+}
+
+/// One input.
+pub struct Column {
+    pub variable: &'static Variable,
+    pub values: Values,
+}
+
+/// One value per row.
+pub enum Values {
+    Real(Vec<f64>),
+    Choice(Vec<i32>),
+}
+
+impl Scenario {
+    /// Reads a file with the column `time` [s] and columns named after inputs.
+    pub fn read(path: &Path) -> Result<Scenario, Failure> {
+        let wrong = |why: String| Failure::Usage(format!("scenario {}: {why}", path.display()));
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .comment(Some(b'#'))
+            .from_path(path)
+            .map_err(|error| wrong(error.to_string()))?;
+        let header = reader.headers().map_err(|error| wrong(error.to_string()))?.clone();
+        let time = header.iter().position(|name| name == "time");
+        let time = time.ok_or_else(|| wrong("has no column time".to_owned()))?;
+        let mut columns = Vec::new();
+        for (index, name) in header.iter().enumerate().filter(|(index, _)| *index != time) {
+            let input = |v: &Variable| v.causality() == Causality::Input;
+            let variable = find(name, input)
+                .map_err(|why| wrong(format!("column {}: {why} (columns are time and inputs)", index + 1)))?;
+            if columns.iter().any(|(_, column): &(usize, Column)| column.variable.name == name) {
+                return Err(wrong(format!("has two columns {name}")));
+            }
+            let real = matches!(variable.kind, Kind::Real { .. });
+            let values = if real { Values::Real(Vec::new()) } else { Values::Choice(Vec::new()) };
+            columns.push((index, Column { variable, values }));
+        }
+        let mut times: Vec<f64> = Vec::new();
+        for row in reader.records() {
+            let row = row.map_err(|error| wrong(error.to_string()))?;
+            let line = row.position().map_or(0, csv::Position::line);
+            let at_line = |why: String| wrong(format!("line {line}: {why}"));
+            let now: f64 = row[time].parse().unwrap_or(f64::NAN);
+            let before = times.last().copied();
+            if !now.is_finite() || before.is_some_and(|before| now < before) {
+                let range = before.map_or_else(|| "finite numbers".to_owned(), |t| format!("at least {t} s"));
+                return Err(at_line(format!("time = \"{}\" is outside its range: {range}", &row[time])));
+            }
+            times.push(now);
+            for (index, column) in &mut columns {
+                match (&mut column.values, parse(column.variable, &row[*index]).map_err(at_line)?) {
+                    (Values::Real(values), Value::Real(value)) => values.push(value),
+                    (Values::Choice(values), Value::Integer(value)) => values.push(value),
+                    _ => return Err(at_line(format!("{} is no input", column.variable.name))),
+                }
+            }
+        }
+        if times.is_empty() {
+            return Err(wrong("has no rows".to_owned()));
+        }
+        Ok(Scenario { times, columns: columns.into_iter().map(|(_, column)| column).collect() })
+    }
+
+    /// Time of the last row [s].
+    pub fn end(&self) -> f64 {
+        self.times.last().copied().unwrap_or(0.0)
+    }
+
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Value at a time; at a jump that after it.
+    pub fn after(&self, values: &[f64], time: f64) -> f64 {
+        self.interpolate(values, time, self.times.partition_point(|&t| t <= time + ROUNDING))
+    }
+
+    /// Value at a time; at a jump that before it.
+    pub fn before(&self, values: &[f64], time: f64) -> f64 {
+        self.interpolate(values, time, self.times.partition_point(|&t| t < time - ROUNDING))
+    }
+
+    /// Choice that holds from a time on.
+    pub fn choice(&self, values: &[i32], time: f64) -> i32 {
+        values[self.times.partition_point(|&t| t <= time + ROUNDING).max(1) - 1]
+    }
+
+    /// Between row `next − 1` and row `next`.
+    fn interpolate(&self, values: &[f64], time: f64, next: usize) -> f64 {
+        if next == 0 || next == values.len() {
+            return values[next.max(1) - 1];
+        }
+        let (from, to) = (self.times[next - 1], self.times[next]);
+        let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
+        if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Reads a scenario from text; the message of the refusal without the path.
+    fn scenario(name: &str, text: &str) -> Result<Scenario, String> {
+        let path = std::env::temp_dir().join(format!("wheelrail-{}-{name}.csv", std::process::id()));
+        fs::write(&path, text).unwrap();
+        let read = Scenario::read(&path).map_err(|failure| failure.to_string());
+        fs::remove_file(path).unwrap();
+        read
+    }
+
+    #[test]
+    fn reals_are_linear_between_rows_held_outside_and_jump_at_double_rows() {
+        let s = scenario("linear", "time, drive.moment\n1,0\n2,100\n2,50\n3,50\n").unwrap();
+        let Values::Real(m) = &s.columns()[0].values else { panic!("a real input") };
+        let after: Vec<f64> = [0.0, 1.0, 1.25, 2.0, 2.5, 9.0].iter().map(|&t| s.after(m, t)).collect();
+        assert_eq!(after, [0.0, 0.0, 25.0, 50.0, 50.0, 50.0]);
+        let before: Vec<f64> = [0.0, 1.25, 2.0, 3.0].iter().map(|&t| s.before(m, t)).collect();
+        assert_eq!(before, [0.0, 25.0, 100.0, 50.0]);
+        // A communication point that rounding has moved past or before the row is that of the row.
+        assert_eq!((s.after(m, 2.0 - 1e-13), s.before(m, 2.0 + 1e-13)), (50.0, 100.0));
+        assert_eq!(s.end(), 3.0);
+    }
+
+    #[test]
+    fn choices_hold_until_the_next_row() {
+        let s = scenario("choice", "control.rotation,time\n2,0\nvelocity,0.3\nmoment,0.5\n").unwrap();
+        let Values::Choice(c) = &s.columns()[0].values else { panic!("a choice") };
+        let held: Vec<i32> = [-1.0, 0.29, 3.0 * 0.1, 0.3 - 1e-13, 0.49, 7.0].iter().map(|&t| s.choice(c, t)).collect();
+        assert_eq!(held, [2, 2, 1, 1, 1, 2]);
+    }
+
+    #[test]
+    fn refusals_name_line_column_value_and_range() {
+        for (name, text, words) in [
+            ("time", "t,drive.load\n0,1\n", &["no column time"][..]),
+            ("column", "time,drive.lod\n0,1\n", &["column 2", "drive.lod", "drive.load"]),
+            ("output", "time,contact.force_x\n0,1\n", &["column 2", "contact.force_x", "output"]),
+            ("order", "time,drive.load\n0,1\n2,1\n1,1\n", &["line 4", "time = \"1\"", "at least 2 s"]),
+            ("value", "time,drive.load\n0,1\n2,-1\n", &["line 3", "drive.load = -1", "0 to"]),
+            ("text", "time,drive.load\n0,\n", &["line 2", "drive.load", "a number [N]"]),
+            ("item", "time,control.vertical\n0,up\n", &["line 2", "force (1) or displacement (2)"]),
+            ("cells", "time,drive.load\n0\n", &["line: 2"]),
+            ("empty", "time,drive.load\n", &["no rows"]),
+            ("double", "time,drive.load,drive.load\n0,1,1\n", &["two columns drive.load"]),
+        ] {
+            let message = scenario(name, text).err().unwrap();
+            assert!(words.iter().all(|word| message.contains(word)), "{message}");
+        }
+    }
+}

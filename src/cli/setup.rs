@@ -1,0 +1,66 @@
+//! From preset and settings to a slave: the arguments that all runs share.
+
+use super::setting::{Setting, find};
+use super::{Failure, model};
+use std::path::PathBuf;
+use wheelrail::fmi::instance::Instance;
+use wheelrail::fmi::log::{Log, Refusal};
+use wheelrail::fmi::variable::Value;
+
+#[derive(clap::Args)]
+pub struct Setup {
+    /// Parameter set <RESOURCES>/<NAME>.json; `railway` if none is named.
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// Directory with the presets.
+    #[arg(long, default_value = "resources", value_name = "DIR")]
+    resources: PathBuf,
+    /// Directory that keeps computed bases for the next time, in its subdirectory `basis`; unused if it does not exist.
+    #[arg(long, default_value = "target", value_name = "DIR")]
+    cache: PathBuf,
+    /// Any parameter, or the start value of an input, by its FMI name in SI units; enumeration items by name or number.
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    settings: Vec<String>,
+}
+
+/// A refusal of what the user has set.
+pub fn wrong(refusal: Refusal) -> Failure {
+    Failure::Usage(refusal.message)
+}
+
+/// A refusal because the model could not do it.
+pub fn failed(refusal: Refusal) -> Failure {
+    Failure::Run(refusal.message)
+}
+
+impl Setup {
+    /// Settings in their order, the preset first.
+    pub fn settings(&self) -> Result<Vec<Setting>, Failure> {
+        let preset = self.preset.iter().map(|name| Setting::new("preset", name));
+        preset.chain(self.settings.iter().map(|text| Setting::parse(text))).collect()
+    }
+
+    /// A slave in Initialization Mode with the settings, then `fixed` ones, and its model prepared.
+    ///
+    /// `fixed` are names and values that the command itself decides. `stop` is the end of the run [s].
+    pub fn initialize(&self, fixed: &[(&str, Value)], stop: Option<f64>) -> Result<Instance, Failure> {
+        let resources = Some(self.resources.clone());
+        let mut instance = Instance::new(resources, Log::new(Box::new(|_, _, _| {}), false)).map_err(wrong)?;
+        instance.setup_experiment(None, 0.0, stop).map_err(wrong)?;
+        for Setting { variable, value } in self.settings()? {
+            if fixed.iter().any(|(name, decided)| *name == variable.name && *decided != value) {
+                return Err(Failure::Usage(format!("{} is decided by the command and cannot be set", variable.name)));
+            }
+            instance.set(&[variable.reference], vec![value]).map_err(wrong)?;
+        }
+        for (name, value) in fixed {
+            instance.set(&[find(name, |_| true)?.reference], vec![value.clone()]).map_err(wrong)?;
+        }
+        let bar = model::bar("preparing", 100);
+        let model = model::prepare(instance.config().clone(), &self.resources, &self.cache, &bar)?;
+        bar.finish_and_clear();
+        instance.offer_model(model);
+        instance.enter_initialization().map_err(failed)?;
+        Ok(instance)
+    }
+}

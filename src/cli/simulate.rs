@@ -1,0 +1,149 @@
+//! `simulate`: a run over time to a CSV file.
+
+use super::run::{Course, Run};
+use super::setting::find;
+use super::setup::Setup;
+use super::table::{self, Csv, significant};
+use super::{Failure, model};
+use indicatif::ProgressBar;
+use std::io::{self, IsTerminal};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use wheelrail::fmi::variable::{Value, Variable};
+use wheelrail::fmi::variables::variables;
+
+/// Variables in the file unless others are named.
+const OUTPUTS: &str = "wheel.velocity,wheel.omega,wheel.distance,contact.force_x,contact.force_y,contact.moment,\
+    contact.creepage,contact.utilisation,contact.stick_fraction,contact.half_width,contact.pressure_max,\
+    temperature.wheel_max,temperature.rail_max,heat.friction_power,hub.force_x,hub.moment,solver.energy_residual";
+
+/// Speed [m/s] below which the peak of the creepage is not of interest: it is a ratio of speeds.
+const ROLLING: f64 = 1.0;
+
+/// Simulate over time: the slave inside the FMU, driven from here. CSV on standard output or to a file.
+#[derive(clap::Args)]
+pub struct Simulate {
+    #[command(flatten)]
+    setup: Setup,
+    #[command(flatten)]
+    course: Course,
+    /// File for the results instead of standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Variables to write, by FMI name; `profile.pressure` stands for all its points. If not given: speeds, forces,
+    /// creepage, patch, temperatures, friction power, energy residual.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = OUTPUTS, hide_default_value = true)]
+    outputs: Vec<String>,
+    /// Write every Nth communication point only (first and last always).
+    #[arg(long, value_name = "N", default_value = "1")]
+    every: NonZeroUsize,
+}
+
+impl Simulate {
+    pub fn run(self) -> Result<(), Failure> {
+        let columns = columns(&self.outputs)?;
+        let mut run = Run::start(&self.setup, &self.course, &[])?;
+        let mut csv = Csv::create(self.out.as_deref())?;
+        csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name.as_str())))?;
+        // A bar and results on the same terminal would overwrite each other.
+        let shared = self.out.is_none() && io::stdout().is_terminal();
+        let bar = if shared { ProgressBar::hidden() } else { model::bar("simulate", run.steps as u64) };
+        let mut summary = Summary::new()?;
+        loop {
+            summary.see(&mut run)?;
+            if run.done.is_multiple_of(self.every.get()) || run.done == run.steps {
+                csv.row(Some(run.time()), &columns, &table::read(&mut run.instance, &columns)?)?;
+            }
+            bar.set_position(run.done as u64);
+            let began = Instant::now();
+            match run.advance() {
+                Ok(true) => summary.wall += began.elapsed(),
+                Ok(false) => break,
+                Err(failure) => {
+                    // What has been computed is kept.
+                    bar.abandon();
+                    csv.finish()?;
+                    return Err(failure);
+                }
+            }
+        }
+        bar.finish_and_clear();
+        csv.finish()?;
+        summary.print(&mut run)
+    }
+}
+
+/// Variables by name; the name of a profile stands for its points.
+fn columns(names: &[String]) -> Result<Vec<&'static Variable>, Failure> {
+    let mut columns = Vec::new();
+    for name in names.iter().map(|name| name.trim()) {
+        let points: Vec<_> = variables().iter().filter(|v| v.name.split('[').next() == Some(name)).collect();
+        if points.is_empty() { columns.push(find(name, |_| true)?) } else { columns.extend(points) }
+    }
+    Ok(columns)
+}
+
+/// What one wants to know at the end of a run.
+struct Summary {
+    /// Velocity, creepage, maximum temperatures of wheel and rail.
+    watched: [&'static Variable; 4],
+    peak_creepage: f64,
+    peak_temperature: f64,
+    /// Spent in communication steps.
+    wall: Duration,
+}
+
+impl Summary {
+    fn new() -> Result<Summary, Failure> {
+        let named = |name| find(name, |_| true);
+        Ok(Summary {
+            watched: [
+                named("wheel.velocity")?,
+                named("contact.creepage")?,
+                named("temperature.wheel_max")?,
+                named("temperature.rail_max")?,
+            ],
+            peak_creepage: 0.0,
+            peak_temperature: 0.0,
+            wall: Duration::ZERO,
+        })
+    }
+
+    fn see(&mut self, run: &mut Run) -> Result<(), Failure> {
+        let values = table::read(&mut run.instance, &self.watched)?;
+        let real = |i: usize| if let Some(Value::Real(v)) = values.get(i) { *v } else { 0.0 };
+        if real(0).abs() > ROLLING && real(1).abs() > self.peak_creepage.abs() {
+            self.peak_creepage = real(1);
+        }
+        self.peak_temperature = self.peak_temperature.max(real(2)).max(real(3));
+        Ok(())
+    }
+
+    /// The table on standard error.
+    fn print(&self, run: &mut Run) -> Result<(), Failure> {
+        let (simulated, wall) = (run.time(), self.wall.as_secs_f64());
+        let mut line = |what: &str, name: &str, value: Option<f64>| -> Result<(), Failure> {
+            let variable = find(name, |_| true)?;
+            let value = match value {
+                Some(value) => vec![Value::Real(value)],
+                None => table::read(&mut run.instance, &[variable])?,
+            };
+            let value = value.first().map_or_else(String::new, |value| table::shown(variable, value));
+            let unit = Some(table::unit(variable)).filter(|unit| *unit != "1").unwrap_or_default();
+            eprintln!("  {what:<28}{value:>11} {unit}");
+            Ok(())
+        };
+        line("speed at the end", "wheel.velocity", None)?;
+        line("distance", "wheel.distance", None)?;
+        line("peak creepage (above 1 m/s)", "contact.creepage", Some(self.peak_creepage))?;
+        if self.peak_temperature > 0.0 {
+            line("peak temperature", "temperature.wheel_max", Some(self.peak_temperature))?;
+            line("heat residual", "solver.heat_residual", None)?;
+        }
+        line("energy residual", "solver.energy_residual", None)?;
+        let factor = if wall > 0.0 { significant(simulated / wall) } else { "-".to_owned() };
+        eprintln!("  {:<28}{factor:>11} x ({simulated} s in {} s)", "real-time factor", significant(wall));
+        Ok(())
+    }
+}

@@ -1,0 +1,116 @@
+//! Values of variables as CSV and as text for people.
+
+use super::Failure;
+use super::setting::print;
+use super::setup::failed;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+use wheelrail::fmi::instance::Instance;
+use wheelrail::fmi::units::{UNITS, display_offset};
+use wheelrail::fmi::variable::{Kind, Value, Variable};
+
+/// Values of variables, in their order.
+pub fn read(instance: &mut Instance, variables: &[&Variable]) -> Result<Vec<Value>, Failure> {
+    let mut values = vec![None; variables.len()];
+    for type_name in ["Real", "Integer", "Boolean", "String"] {
+        let of_type: Vec<usize> =
+            (0..variables.len()).filter(|&i| variables[i].kind.type_name() == type_name).collect();
+        let references: Vec<_> = of_type.iter().map(|&i| variables[i].reference).collect();
+        for (i, value) in of_type.into_iter().zip(instance.get(&references, type_name).map_err(failed)?) {
+            values[i] = Some(value);
+        }
+    }
+    Ok(values.into_iter().flatten().collect())
+}
+
+/// A CSV file, or standard output, with a header of names. Numbers read back exactly.
+pub struct Csv(csv::Writer<Box<dyn Write>>);
+
+impl Csv {
+    pub fn create(out: Option<&Path>) -> Result<Csv, Failure> {
+        let sink: Box<dyn Write> = match out {
+            Some(path) => Box::new(create(path)?),
+            None => Box::new(io::stdout().lock()),
+        };
+        Ok(Csv(csv::Writer::from_writer(sink)))
+    }
+
+    pub fn header<'a>(&mut self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
+        Ok(self.0.write_record(names)?)
+    }
+
+    /// One row, behind a first cell if there is one.
+    pub fn row(&mut self, first: Option<f64>, variables: &[&Variable], values: &[Value]) -> Result<(), Failure> {
+        let first = first.map(|number| format!("{number:?}"));
+        let cells = variables.iter().zip(values).map(|(variable, value)| print(variable, value));
+        Ok(self.0.write_record(first.into_iter().chain(cells))?)
+    }
+
+    pub fn finish(mut self) -> Result<(), Failure> {
+        Ok(self.0.flush()?)
+    }
+}
+
+/// A new file; its directory is made if it is missing.
+pub fn create(path: &Path) -> Result<File, Failure> {
+    let failed = |error: io::Error| Failure::Run(format!("{} cannot be written: {error}", path.display()));
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent).map_err(failed)?;
+    }
+    File::create(path).map_err(failed)
+}
+
+/// Unit for people.
+pub fn unit(variable: &Variable) -> &'static str {
+    match variable.kind {
+        Kind::Real { measure, .. } => measure.display.unwrap_or(measure.unit),
+        _ => "",
+    }
+}
+
+/// Value in the unit for people.
+pub fn shown(variable: &Variable, value: &Value) -> String {
+    match (variable.kind, value) {
+        (Kind::Real { measure, .. }, Value::Real(v)) => {
+            let displays = UNITS.iter().find(|unit| unit.name == measure.unit).map_or(&[][..], |unit| unit.displays);
+            let display = displays.iter().find(|(name, _)| Some(*name) == measure.display);
+            significant(display.map_or(*v, |(name, factor)| factor * v + display_offset(name)))
+        }
+        _ => print(variable, value),
+    }
+}
+
+/// A number with four significant digits.
+pub fn significant(value: f64) -> String {
+    let text = format!("{value:.3e}");
+    let exponent = text.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    match exponent {
+        0 if value == 0.0 => "0".to_owned(),
+        -3..6 => format!("{value:.*}", usize::try_from(3 - exponent).unwrap_or(0)),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::setting::find;
+    use super::*;
+
+    #[test]
+    fn numbers_for_people_have_four_digits() {
+        let shown: Vec<_> =
+            [0.0, 1.0, 99.99999, -27.77777, 12345.6, 0.00123456, 1.5e-4, 7.25e6].map(significant).into();
+        assert_eq!(shown, ["0", "1.000", "100.0", "-27.78", "12346", "0.001235", "1.500e-4", "7.250e6"]);
+    }
+
+    #[test]
+    fn values_for_people_are_in_display_units() {
+        for (name, value, text) in
+            [("temperature.wheel_max", 373.15, "100.0 degC"), ("contact.half_width", 7.5e-3, "7.500 mm")]
+        {
+            let variable = find(name, |_| true).unwrap();
+            assert_eq!(format!("{} {}", shown(variable, &Value::Real(value)), unit(variable)), text);
+        }
+    }
+}

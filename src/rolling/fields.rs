@@ -1,0 +1,54 @@
+//! Fields of a state in the whole bodies, for pictures: in the frame of the rail's contact point, wheel above rail.
+
+use super::{Model, State};
+use crate::heat::HeatError;
+use crate::mechanics::MechanicsError;
+use crate::mechanics::field::{rail_field, wheel_field};
+
+pub use crate::heat::TemperatureField;
+pub use crate::mechanics::field::{BodyField, Stress};
+
+/// Why fields could not be given.
+#[derive(Debug, thiserror::Error)]
+pub enum FieldError {
+    #[error("displacement and stress of the whole bodies need solver.response = full: the reduced one has none")]
+    Reduced,
+    #[error("finite-element model: {0}")]
+    Mechanics(#[from] MechanicsError),
+    #[error("heat: {0}")]
+    Heat(#[from] HeatError),
+}
+
+/// Fields of wheel and rail, undeformed wheel and rail just touching at the origin.
+#[derive(Clone, Debug)]
+pub struct Fields {
+    /// The displacement of the wheel includes the height of its hub.
+    pub wheel: BodyField,
+    pub rail: BodyField,
+    /// Absolute temperatures of wheel and rail on meshes of their own; `None` if they are not computed.
+    pub temperature: Option<[TemperatureField; 2]>,
+}
+
+impl Model {
+    /// Fields of a state of the full response.
+    pub fn fields(&self, state: &State) -> Result<Fields, FieldError> {
+        let config = &self.config;
+        let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
+        let mut wheel = wheel_field(config, &state.wheel, state.omega.now)?.ok_or(FieldError::Reduced)?;
+        let rail = rail_field(config, &state.rail, state.velocity.now)?.ok_or(FieldError::Reduced)?;
+        lift(&mut wheel.mesh.nodes);
+        wheel.displacement.iter_mut().for_each(|[_, y]| *y += state.height.now);
+        wheel.velocity.iter_mut().for_each(|[_, y]| *y += state.height.rate);
+        let temperature = match (&self.heat, &state.thermal) {
+            (Some(heat), Some(thermal)) => {
+                let mut fields = heat.fields(&thermal.fields)?;
+                lift(&mut fields[0].mesh.nodes);
+                let kelvin = |t: &mut f64| *t += config.thermal.reference;
+                fields.iter_mut().for_each(|field| field.temperature.iter_mut().for_each(kelvin));
+                Some(fields)
+            }
+            _ => None,
+        };
+        Ok(Fields { wheel, rail, temperature })
+    }
+}
