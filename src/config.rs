@@ -209,6 +209,9 @@ pub struct SolverParameters {
     pub theta: f64,
     /// Largest internal step [s]; longer communication steps are divided evenly.
     pub max_step: f64,
+    /// Local error of an internal step that halves it: contact force relative to the nominal load, contact temperature
+    /// relative to its rise or 100 K [1]; 0: no error control.
+    pub tolerance: f64,
 }
 
 /// Body response behind the contact.
@@ -313,6 +316,7 @@ impl Config {
         within("solver.modes_rail", c.solver.modes_rail as f64, 1.0, 200.0)?;
         within("solver.theta", c.solver.theta, 0.5, 1.0)?;
         within("solver.max_step", c.solver.max_step, 1e-7, 1.0)?;
+        within("solver.tolerance", c.solver.tolerance, 0.0, 1.0)?;
         within("initial.velocity", c.initial.velocity, -200.0, 200.0)?;
         within("initial.creepage", c.initial.creepage, -2.0, 2.0)
     }

@@ -143,3 +143,15 @@ fn output_derivatives_of_first_order_are_rates() {
     assert_eq!(output_derivatives(&slave, &["wheel.distance"], 0).unwrap_err(), fmi2Error);
     assert_eq!(output_derivatives(&slave, &[], 1).unwrap(), [] as [f64; 0]);
 }
+
+#[test]
+fn a_ramp_to_the_end_of_a_range_is_not_refused_for_rounding() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    let (friction, h) = (0.007, 0.003);
+    assert!(friction + h * (-friction / h) < 0.0, "the case rounds below zero");
+    assert_eq!(slave.set_real("rail.friction", friction), fmi2OK);
+    assert_eq!(slave.set_rate("rail.friction", 1, -friction / h), fmi2OK);
+    assert_eq!(slave.step(0.0, h), fmi2OK, "{:?}", slave.messages());
+    assert_eq!(slave.real("rail.friction"), 0.0);
+}

@@ -192,3 +192,29 @@ fn input_rates_and_internal_steps_replace_short_communication_steps() {
     assert!((a.wheel_velocity / b.wheel_velocity - 1.0).abs() < 1e-9);
     assert!((a.hub_moment + 5e3).abs() < 1e-6);
 }
+
+#[test]
+fn suggested_step_follows_the_creep_damping_where_velocities_are_prescribed() {
+    let model = model(preset("railway", 10));
+    let suggested = |inputs: &Inputs| {
+        let mut simulation = Simulation::new(model.clone(), inputs).unwrap();
+        simulation.advance(inputs, 1e-3).unwrap();
+        (simulation.outputs().suggested_step, simulation.outputs().contact_half_width)
+    };
+    let config = model.config();
+    assert_eq!(suggested(&Inputs::rolling(config)).0, config.solver.max_step);
+    let (at_10, half_width) = suggested(&prescribed(&model, 10.0, 0.0));
+    // 2m/c with c = 2 F r/(a V) on Carter's slope and the inertia against slip; a share of 0.15 is suggested.
+    let width = config.model.contact_width;
+    let annulus = std::f64::consts::PI * (0.46f64.powi(2) - 0.046f64.powi(2)) * 7850.0 * width;
+    let mass = annulus + config.wheel.hub_mass + config.vehicle.mass;
+    let moment = 0.5 * annulus * (0.46f64.powi(2) + 0.046f64.powi(2)) + config.wheel.hub_inertia;
+    let effective = 1.0 / (1.0 / mass + 0.46f64.powi(2) / moment);
+    let damping = 2.0 * 1e5 * 0.46 / (half_width * 10.0);
+    let expected = 0.15 * 2.0 * effective / damping;
+    assert!((at_10 / expected - 1.0).abs() < 0.01, "{at_10:e} s, {expected:e} s");
+    let (at_2, _) = suggested(&prescribed(&model, 2.0, 0.0));
+    assert!((at_10 / at_2 - 5.0).abs() < 0.05);
+    let (at_rest, _) = suggested(&prescribed(&model, 0.0, 0.0));
+    assert!(at_rest > 0.0 && at_rest <= 1e-6);
+}

@@ -123,6 +123,11 @@ impl ContactSolution {
         -self.centred_slip.iter().enumerate().map(|(i, slip)| self.tangential(grid, i) * slip).sum::<f64>()
     }
 
+    /// Contact forces on the wheel, x and y [N/m].
+    pub fn force(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.forces.iter().skip(k).step_by(2).sum())
+    }
+
     /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
     pub fn resultant(&self, grid: &ContactGrid) -> [f64; 3] {
         let mut sum = [0.0; 3];

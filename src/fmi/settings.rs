@@ -1,6 +1,6 @@
 //! What a master has set, laid over what follows without it.
 
-use super::variable::{Access, Reference, Value};
+use super::variable::{Access, Kind, Reference, Value};
 use super::variables::{find, variables};
 use crate::config::Config;
 use crate::simulation::{Drive, Inputs};
@@ -36,7 +36,16 @@ pub fn ramp_end(inputs: &Inputs, h: f64) -> Inputs {
     let (mut end, mut rate) = (*inputs, inputs.rate);
     for variable in variables() {
         if let Access::RealInput(field) = variable.access {
-            *field(&mut end.drive) += h * *field(&mut rate);
+            let by = h * *field(&mut rate);
+            let value = field(&mut end.drive);
+            let rounding = 4.0 * f64::EPSILON * (value.abs() + by.abs());
+            *value += by;
+            // A ramp to the end of the range must not be refused for rounding.
+            if let Kind::Real { min, max, .. } = variable.kind
+                && (*value - value.clamp(min, max)).abs() <= rounding
+            {
+                *value = value.clamp(min, max);
+            }
         }
     }
     Inputs { rate: Drive::default(), ..end }

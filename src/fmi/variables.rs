@@ -242,6 +242,7 @@ fn outputs() -> Vec<Variable> {
         value(700, "damage.t_gamma", NEWTON, POSITIVE, 10.0, |o| o.t_gamma, "Wear number |contact.force_x contact.creepage|: energy dissipated per metre travelled"),
         count(800, "solver.internal_steps", |o| o.internal_steps, "Internal time steps in the last communication step"),
         count(801, "solver.iterations", |o| o.iterations, "Contact iterations in the last communication step"),
+        value(804, "solver.suggested_step", SECOND, POSITIVE, 1e-3, |o| o.suggested_step, "Largest communication step for explicit coupling: from creep damping and contact stiffness where velocities or the hub height are prescribed, solver.max_step otherwise"),
         zero(value(802, "solver.energy_residual", NUMBER, FREE, 1e-2, |o| o.energy_residual, "Energy balance since the start: unaccounted energy over dissipated energy")),
     ];
     rows
@@ -332,6 +333,7 @@ fn parameters() -> Vec<Variable> {
         row(1093, "solver.time_scheme", Kind::Enumeration(&TIME_SCHEME), scheme, "Implicit time discretisation of momentum and slip"),
         value(1094, "solver.theta", NUMBER, [0.5, 1.0], |c| &mut c.solver.theta, "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)"),
         value(1095, "solver.max_step", SECOND, [1e-7, 1.0], |c| &mut c.solver.max_step, "Largest internal time step; longer communication steps are divided evenly"),
+        value(1096, "solver.tolerance", NUMBER, [0.0, 1.0], |c| &mut c.solver.tolerance, "Error that halves an internal step: contact force over model.nominal_load, contact temperature over its rise or 100 K; 0: no error control"),
         value(1100, "initial.velocity", SPEED, [-200.0, 200.0], |c| &mut c.initial.velocity, "Travel velocity of the stationary rolling state at the start"),
         value(1101, "initial.creepage", PERCENT, [-2.0, 2.0], |c| &mut c.initial.creepage, "Its creepage 2 (V - r omega)/(V + r omega)"),
     ];

@@ -3,6 +3,7 @@
 //! Everything in this room is per metre of width; [`output`] scales to the whole wheel.
 
 pub mod control;
+mod coupling;
 pub mod fields;
 pub mod integrator;
 pub mod output;
@@ -10,6 +11,7 @@ mod reversible;
 pub mod sensitivity;
 pub mod state;
 pub mod stationary;
+pub mod stepping;
 pub mod thermal;
 pub mod transient;
 

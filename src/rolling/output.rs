@@ -92,6 +92,8 @@ pub struct Outputs {
     pub internal_steps: u64,
     /// Contact iterations in the last communication step.
     pub iterations: u64,
+    /// Largest communication step for explicit coupling in this state [s].
+    pub suggested_step: f64,
     /// Energy imbalance since the start relative to the frictional dissipation [1].
     pub energy_residual: f64,
     /// Positions of the profile points, x forward from below the wheel centre [m].
@@ -128,7 +130,7 @@ impl Model {
         let absolute = |of: fn(&ThermalState) -> f64| thermal.map_or(0.0, |t| kelvin + of(t));
         let flow = |of: fn(&ThermalState) -> f64| thermal.map_or(0.0, |t| width * of(t));
         let heat_residual = thermal.map_or(0.0, |t| ratio(t.supplied - t.received, t.supplied.abs()));
-        Outputs {
+        let mut outputs = Outputs {
             temperature_wheel_max: absolute(|t| t.temperatures.wheel_max),
             temperature_rail_max: absolute(|t| t.temperatures.rail_max),
             temperature_wheel_mean: absolute(|t| t.patch_mean[0]),
@@ -176,7 +178,10 @@ impl Model {
             profile_pressure: profile(&|i| contact.normal(&self.grid, i) / h),
             profile_shear: profile(&|i| contact.tangential(&self.grid, i) / h),
             profile_slip: profile(&|i| contact.centred_slip[i]),
-        }
+            suggested_step: 0.0,
+        };
+        outputs.suggested_step = self.suggested_step(state, &outputs);
+        outputs
     }
 
     /// Absolute surface temperatures of wheel and rail at candidate `i` [K]; zero if not computed.

@@ -1,6 +1,7 @@
 //! All that a restart needs, and nothing else. Per metre of width.
 
 use super::integrator::Sample;
+use super::stepping::StepControl;
 use super::thermal::ThermalState;
 use crate::contact::ContactSolution;
 use crate::mechanics::response::BodyState;
@@ -33,12 +34,17 @@ pub struct State {
     pub thermal: Option<ThermalState>,
     /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
     pub hub: [f64; 3],
+    /// Which motions (V, U, Ω) were prescribed in the last step.
+    pub prescribed: [bool; 3],
     /// Friction coefficient of the last step [1].
     pub friction: f64,
     /// Inputs of the last step that may have jumped since: force, moment, load per metre, friction.
     pub last_load: [f64; 4],
     /// Length of the last internal step [s]; 0 restarts the multistep formula.
     pub last_step: f64,
+    /// Whether that step restarted the formula.
+    pub restarted: bool,
+    pub control: StepControl,
     /// Internal steps and contact iterations of the last communication step.
     pub internal_steps: u64,
     pub iterations: u64,

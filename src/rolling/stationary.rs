@@ -3,6 +3,7 @@
 use super::control::{Inputs, Rotation, Translation, Vertical, peripheral_velocity};
 use super::integrator::Sample;
 use super::state::{Audit, State};
+use super::stepping::StepControl;
 use super::thermal::ThermalState;
 use super::{Model, StepError, Workspace};
 use crate::analytic;
@@ -155,13 +156,17 @@ impl Model {
             contact,
             thermal,
             hub,
+            prescribed: [prescribed_x, inputs.vertical == Vertical::Displacement, prescribed_r],
             friction,
             last_load: [drive.force / width, drive.moment / width, load, drive.friction],
             last_step: 0.0,
+            restarted: true,
+            control: StepControl { step: f64::INFINITY, before: [0.0; 3] },
             internal_steps: 0,
             iterations: 0,
             audit: Audit::default(),
         };
+        state.control = StepControl::stationary(&state);
         state.audit.energy = self.energy(&state);
         state.audit.initial_energy = state.audit.energy;
         (state.audit.hub_power, state.audit.friction_power) = self.powers(&state);

@@ -1,4 +1,4 @@
-//! One implicit step and the division of a communication step into such steps.
+//! One implicit step.
 
 use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
 use super::integrator::{Sample, formula};
@@ -8,64 +8,13 @@ use crate::config::TimeScheme;
 use crate::contact::{ContactProblem, RigidMotion, SurfaceResponse};
 use crate::mechanics::response::Convection;
 
-/// Longest communication step [s].
-pub const LONGEST_STEP: f64 = 1e3;
-/// How often a step that finds no contact state is halved before it is given up.
-const MAX_HALVINGS: u32 = 12;
 /// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
 /// restarts the multistep formula.
 const JUMP: f64 = 0.02;
 
 impl Model {
-    /// The state after a communication step `h` [s] under `inputs`; `state` is only replaced on success.
-    pub fn advance(
-        &self,
-        state: &State,
-        inputs: &Inputs,
-        h: f64,
-        workspace: &mut Workspace,
-    ) -> Result<State, StepError> {
-        inputs.validate()?;
-        if !(h > 0.0 && h <= LONGEST_STEP) {
-            return Err(StepError::StepSize { step: h, longest: LONGEST_STEP });
-        }
-        let end = inputs.at(h);
-        end.validate()?;
-        let start = Drive {
-            omega: state.omega.now,
-            velocity: state.velocity.now,
-            displacement: state.height.now,
-            ..inputs.at(0.0)
-        };
-        let pieces = (h / self.config.solver.max_step - 1e-9).ceil().max(1.0) as u64;
-        let mut next = state.clone();
-        (next.internal_steps, next.iterations) = (0, 0);
-        let mut halvings = 0;
-        // Position within the communication step in units of h / total.
-        let mut position = 0u64;
-        let mut total = pieces;
-        while position < total {
-            let target = interpolate(&start, &end, (position + 1) as f64 / total as f64);
-            match self.step(&next, inputs, &target, h / total as f64, workspace) {
-                Ok(advanced) => {
-                    next = advanced;
-                    position += 1;
-                }
-                Err(StepError::Contact { .. }) if halvings < MAX_HALVINGS => {
-                    halvings += 1;
-                    position *= 2;
-                    total *= 2;
-                    next.last_step = 0.0;
-                }
-                Err(error) => return Err(error),
-            }
-        }
-        next.time = state.time + h;
-        Ok(next)
-    }
-
     /// One implicit step `dt` to the given targets at its end.
-    fn step(
+    pub(super) fn step(
         &self,
         state: &State,
         inputs: &Inputs,
@@ -170,8 +119,10 @@ impl Model {
         next.distance += 0.5 * dt * (state.velocity.now + next.velocity.now);
         next.angle += 0.5 * dt * (state.omega.now + next.omega.now);
         next.friction = friction;
+        next.prescribed = [!free_v, !free_y, !free_r];
         next.last_load = load;
         next.last_step = dt;
+        next.restarted = before == 0.0;
         next.internal_steps += 1;
         next.iterations += contact.iterations as u64;
         next.contact = contact;
@@ -238,19 +189,4 @@ fn midway(state: &State, next: &State) -> [f64; 3] {
         0.5 * (state.height.rate + next.height.rate),
         mean(&state.omega, &next.omega),
     ]
-}
-
-/// Targets at a fraction of the communication step.
-fn interpolate(start: &Drive, end: &Drive, fraction: f64) -> Drive {
-    let mix = |a: f64, b: f64| if fraction == 1.0 { b } else { a + fraction * (b - a) };
-    Drive {
-        omega: mix(start.omega, end.omega),
-        moment: mix(start.moment, end.moment),
-        velocity: mix(start.velocity, end.velocity),
-        force: mix(start.force, end.force),
-        load: mix(start.load, end.load),
-        displacement: mix(start.displacement, end.displacement),
-        friction: mix(start.friction, end.friction),
-        tread_heat: mix(start.tread_heat, end.tread_heat),
-    }
 }

@@ -1,0 +1,93 @@
+//! Error-controlled internal steps.
+
+mod common;
+
+use common::{model, preset};
+use wheelrail::simulation::{Inputs, Outputs, Simulation, Vertical};
+
+/// Outputs after each communication step `h` under `drive(inputs, time)`, with the number of internal steps.
+fn run(tolerance: f64, max_step: f64, h: f64, end: f64, drive: impl Fn(&mut Inputs, f64)) -> (Vec<Outputs>, u64) {
+    let mut config = preset("railway", 10);
+    (config.solver.tolerance, config.solver.max_step) = (tolerance, max_step);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let mut steps = 0;
+    let seen = (1..=(end / h).round() as usize)
+        .map(|k| {
+            drive(&mut inputs, k as f64 * h);
+            simulation.advance(&inputs, h).unwrap();
+            assert!((simulation.time() - k as f64 * h).abs() < 1e-12);
+            steps += simulation.outputs().internal_steps;
+            simulation.outputs().clone()
+        })
+        .collect();
+    (seen, steps)
+}
+
+/// Largest difference of an output between two runs.
+fn difference(a: &[Outputs], b: &[Outputs], of: impl Fn(&Outputs) -> f64) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn force_error_after_a_moment_step_falls_with_the_tolerance() {
+    // The brake grips at once; the master steps far too coarsely for what follows.
+    let brake = |inputs: &mut Inputs, t: f64| inputs.drive.moment = if t > 0.015 { -7000.0 } else { 0.0 };
+    let (exact, _) = run(0.0, 2e-5, 5e-3, 0.1, brake);
+    let error = |tolerance: f64| {
+        let (seen, steps) = run(tolerance, 0.1, 5e-3, 0.1, brake);
+        let force = difference(&seen, &exact, |o| o.contact_force_x) / 1e5;
+        let speed = difference(&seen, &exact, |o| o.wheel_velocity);
+        println!("tolerance {tolerance}: {steps} steps, force error {force:.1e} P, speed error {speed:.1e} m/s");
+        (force, speed, steps)
+    };
+    let results = [0.0, 0.03, 0.01, 0.003].map(error);
+    assert_eq!(results[0].2, 20, "without control one internal step each");
+    assert!(results.windows(2).all(|r| r[1].0 < 0.8 * r[0].0 && r[1].2 > r[0].2));
+    assert!(results[3].0 < 0.01 && results[3].1 < 0.1 * results[0].1);
+    assert!(results[3].2 < 1000, "a fifth of the reference: {}", results[3].2);
+}
+
+#[test]
+fn quiet_driving_takes_one_internal_step_each() {
+    let brake = |inputs: &mut Inputs, t: f64| inputs.drive.moment = -7000.0 * (t / 0.2).min(1.0);
+    let (_, steps) = run(0.03, 0.1, 1e-3, 0.3, brake);
+    assert!(steps <= 305, "{steps}");
+}
+
+#[test]
+fn take_off_and_landing_are_refined() {
+    // The hub swings up by 0.4 mm and back within 50 ms, off the rail and onto it again.
+    let lift = |inputs: &mut Inputs, t: f64| {
+        inputs.vertical = Vertical::Displacement;
+        let turn = (t / 0.05).min(1.0) * std::f64::consts::TAU;
+        inputs.drive.displacement = -1.7e-4 + 2e-4 * (1.0 - turn.cos());
+    };
+    let (seen, _) = run(0.005, 0.1, 1e-3, 0.06, lift);
+    let open = |o: &Outputs| o.contact_force_y == 0.0;
+    let take_off = seen.iter().position(open).unwrap();
+    let landing = seen.iter().rposition(open).unwrap() + 1;
+    assert!(seen[take_off].internal_steps >= 4 && seen[landing].internal_steps >= 4);
+    let flight = take_off + (landing - take_off) / 2;
+    assert_eq!(seen[flight].internal_steps, 1);
+}
+
+#[test]
+fn impact_force_of_a_dropped_wheel_needs_control() {
+    // Raised until it just hangs free, then released under 40 % of the nominal load.
+    let drop = |inputs: &mut Inputs, t: f64| {
+        inputs.drive.load = 4e4;
+        inputs.drive.displacement = -1.78e-4 + 9e-5 * (1.0 - (std::f64::consts::PI * (t / 0.02).min(1.0)).cos());
+        inputs.vertical = if t < 0.03 { Vertical::Displacement } else { Vertical::Force };
+    };
+    let peak = |(seen, steps): (Vec<Outputs>, u64)| {
+        (seen[seen.len() * 3 / 5..].iter().map(|o| o.contact_force_y).fold(0.0, f64::max), steps)
+    };
+    let (exact, _) = peak(run(0.0, 1e-5, 5e-4, 0.05, drop));
+    let (plain, _) = peak(run(0.0, 0.1, 5e-4, 0.05, drop));
+    let (controlled, steps) = peak(run(0.005, 0.1, 5e-4, 0.05, drop));
+    println!("largest force {exact:.0} N, {controlled:.0} N in {steps} steps, without control {plain:.0} N");
+    assert!((controlled / exact - 1.0).abs() < 0.03);
+    assert!((plain / exact - 1.0).abs() > 3.0 * (controlled / exact - 1.0).abs());
+}
