@@ -263,6 +263,20 @@ fn rounded(value: f64) -> f64 {
 }
 
 impl Config {
+    /// This configuration with those values of another one that may change during a run: nothing that has been
+    /// computed in advance depends on them.
+    pub fn tuned_like(&self, other: &Config) -> Config {
+        let mut config = self.clone();
+        config.friction.falling_ratio = other.friction.falling_ratio;
+        config.friction.falling_decay = other.friction.falling_decay;
+        config.friction.softening = other.friction.softening;
+        config.friction.softening_floor = other.friction.softening_floor;
+        config.thermal.austenitisation = other.thermal.austenitisation;
+        config.solver.max_step = other.solver.max_step;
+        config.solver.tolerance = other.solver.tolerance;
+        config
+    }
+
     /// Refuses values for which the model has no meaning; the message names parameter, value and range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let c = self;

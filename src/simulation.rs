@@ -47,7 +47,7 @@ pub enum PrepareError {
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
     rolling: rolling::Model,
-    basis: Option<(String, Vec<u8>)>,
+    basis: Option<Arc<(String, Vec<u8>)>>,
 }
 
 impl Inputs {
@@ -103,7 +103,14 @@ impl Model {
         };
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::Model::new(config, bodies)?;
-        Ok(Arc::new(Self { rolling, basis: stored }))
+        Ok(Arc::new(Self { rolling, basis: stored.map(Arc::new) }))
+    }
+
+    /// The same model with other tunable parameters (see [`Config::tuned_like`]); `None` if the configurations differ in
+    /// anything else.
+    pub fn retuned(&self, config: &Config) -> Option<Arc<Self>> {
+        let rolling = self.rolling.retuned(config)?;
+        Some(Arc::new(Self { rolling, basis: self.basis.clone() }))
     }
 
     /// Parameters of the model.
@@ -113,7 +120,7 @@ impl Model {
 
     /// File name and content of the reduced basis; `None` for the full response.
     pub fn basis_file(&self) -> Option<(String, Vec<u8>)> {
-        self.basis.clone()
+        self.basis.as_deref().cloned()
     }
 }
 
@@ -170,6 +177,13 @@ impl Simulation {
         self.memory.before.insert(0, (state.time, outputs));
         self.memory.before.truncate(KEPT_POINTS);
         self.memory.origin = Origin::Step { state: Box::new(state), inputs: *inputs, length: h };
+        Ok(())
+    }
+
+    /// Goes on with other tunable parameters; refuses a model that differs in anything else.
+    pub fn retune(&mut self, config: &Config) -> Result<(), StepError> {
+        let other = || StepError::Body("only tunable parameters may change during a run".into());
+        self.model = self.model.retuned(config).ok_or_else(other)?;
         Ok(())
     }
 

@@ -470,3 +470,30 @@ fn strings_stay_readable_until_the_next_call() {
     assert_eq!(slave.real("drive.load"), 10e3);
     assert_eq!(unsafe { CStr::from_ptr(value) }, c"paper_c");
 }
+
+#[test]
+fn tunable_parameters_change_between_steps_and_survive_save_and_restore() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    slave.brake(0);
+    let mut state = ptr::null_mut();
+    assert_eq!(slave.save(&mut state), fmi2OK);
+    let plain = slave.brake(10);
+    assert_eq!(slave.restore(state), fmi2OK);
+    assert_eq!(slave.set_real("friction.falling_ratio", 0.5), fmi2OK);
+    assert_eq!(slave.set_real("friction.falling_decay", 100.0), fmi2OK);
+    assert_eq!(slave.real("friction.falling_ratio"), 0.5);
+    let mut tuned_state = ptr::null_mut();
+    assert_eq!(slave.save(&mut tuned_state), fmi2OK);
+    let tuned = slave.brake(10);
+    assert_ne!(plain, tuned);
+    // Back to each of the two, in both orders.
+    assert_eq!(slave.restore(state), fmi2OK);
+    assert_eq!(slave.brake(10), plain);
+    assert_eq!(slave.restore(tuned_state), fmi2OK);
+    assert_eq!(slave.brake(10), tuned);
+    slave.refused(slave.set_real("friction.falling_ratio", 1.5), &["friction.falling_ratio", "1.5", "0 to 1"]);
+    slave.refused(slave.set_real("wheel.radius", 0.5), &["wheel.radius", "fixed"]);
+    assert_eq!(slave.free_state(&mut state), fmi2OK);
+    assert_eq!(slave.free_state(&mut tuned_state), fmi2OK);
+}

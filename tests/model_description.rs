@@ -144,3 +144,22 @@ fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
         }
     }
 }
+
+#[test]
+fn tunable_parameters_are_those_that_nothing_computed_in_advance_depends_on() {
+    let start = presets::default_config();
+    for variable in variables().iter().filter(|v| v.causality() == Causality::Parameter) {
+        let mut changed = start.clone();
+        match variable.parameter("", &mut changed) {
+            Some(Value::Real(v)) => variable.set_parameter(&mut changed, &Value::Real(0.9 * v + 0.011)),
+            Some(Value::Integer(v)) => {
+                let other = if matches!(variable.kind, Kind::Enumeration(_)) { 3 - v.min(2) } else { v + 1 };
+                variable.set_parameter(&mut changed, &Value::Integer(other));
+            }
+            Some(Value::Boolean(v)) => variable.set_parameter(&mut changed, &Value::Boolean(!v)),
+            _ => continue,
+        }
+        assert!(changed != start, "{}", variable.name);
+        assert_eq!(start.tuned_like(&changed) == changed, variable.tunable, "{}", variable.name);
+    }
+}

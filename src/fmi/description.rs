@@ -158,6 +158,7 @@ pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
         Access::RealInput(_) | Access::RealOutput(_) | Access::ProfileOutput(..) => "continuous",
         Access::ChoiceInput(..) | Access::CountOutput(_) => "discrete",
+        _ if variable.tunable => "tunable",
         _ => "fixed",
     }
 }

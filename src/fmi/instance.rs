@@ -210,7 +210,7 @@ impl Instance {
                 Causality::Output => {
                     return Err(Refusal::error(format!("{} is an output and cannot be set", variable.name)));
                 }
-                Causality::Parameter if !early => {
+                Causality::Parameter if !early && !variable.tunable => {
                     let why = "is a fixed parameter and can only be set before the end of initialization";
                     return Err(Refusal::error(format!("{} {why}", variable.name)));
                 }
@@ -235,6 +235,13 @@ impl Instance {
             self.take_over(&now, &with_inputs(&config, &inputs, rates), &mut inputs);
         }
         with_inputs(&config, &inputs, rates).validate().map_err(|error| Refusal::error(error.to_string()))?;
+        if !early && config != self.config {
+            config.validate().map_err(|error| Refusal::error(error.to_string()))?;
+            if let Some(simulation) = &mut self.simulation {
+                simulation.retune(&config).map_err(|error| Refusal::error(error.to_string()))?;
+                self.model = Some(simulation.model().clone());
+            }
+        }
         (self.preset, self.base, self.config) = (preset, base, config);
         (self.parameters, self.inputs, self.rates) = (parameters, inputs, rates);
         if early {
@@ -427,6 +434,10 @@ impl Instance {
     fn model(&mut self, config: Config) -> Outcome<Arc<Model>> {
         if let Some(model) = self.model.as_ref().filter(|model| *model.config() == config) {
             return Ok(model.clone());
+        }
+        if let Some(model) = self.model.as_ref().and_then(|model| model.retuned(&config)) {
+            self.model = Some(model.clone());
+            return Ok(model);
         }
         let log = &self.log;
         let mut last = (String::new(), 0.0);

@@ -106,6 +106,8 @@ pub struct Variable {
     pub access: Access,
     /// For outputs; ignored otherwise.
     pub start: Start,
+    /// Whether a parameter may change between steps.
+    pub tunable: bool,
     pub description: String,
 }
 

@@ -84,7 +84,15 @@ const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
 
 fn row(reference: Reference, name: &str, kind: Kind, access: Access, text: &str) -> Variable {
-    Variable { reference, name: name.into(), kind, access, start: Start::Stationary, description: text.into() }
+    Variable {
+        reference,
+        name: name.into(),
+        kind,
+        access,
+        start: Start::Stationary,
+        tunable: false,
+        description: text.into(),
+    }
 }
 
 fn real(measure: Measure, [min, max]: [f64; 2], nominal: f64) -> Kind {
@@ -252,6 +260,7 @@ fn parameters() -> Vec<Variable> {
     let value = |r, name, measure, range, field: fn(&mut Config) -> &mut f64, text| {
         row(r, name, real(measure, range, 1.0), Access::RealParameter(field), text)
     };
+    let tunable = |variable: Variable| Variable { tunable: true, ..variable };
     let count = |r, name, min, max, field: fn(&mut Config) -> &mut usize, text| {
         row(r, name, Kind::Integer { min, max }, Access::CountParameter(field), text)
     };
@@ -303,10 +312,10 @@ fn parameters() -> Vec<Variable> {
         value(1053, "material.expansion", PER_KELVIN, [0.0, 1e-3], |c| &mut c.material.expansion, "Coefficient of linear thermal expansion of both bodies"),
         value(1054, "material.conductivity", CONDUCTIVITY, [1e-3, 1e5], |c| &mut c.material.conductivity, "Thermal conductivity of both bodies"),
         value(1055, "material.specific_heat", SPECIFIC_HEAT, [1.0, 1e5], |c| &mut c.material.specific_heat, "Specific heat capacity of both bodies"),
-        value(1061, "friction.falling_ratio", NUMBER, [0.0, 1.0], |c| &mut c.friction.falling_ratio, "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant"),
-        value(1062, "friction.falling_decay", DECAY, [0.0, 1e3], |c| &mut c.friction.falling_decay, "Decay of the rest with the slip velocity V - r omega (Polach's B)"),
-        value(1063, "friction.softening", PER_KELVIN, [0.0, 1.0], |c| &mut c.friction.softening, "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; 0: constant"),
-        value(1064, "friction.softening_floor", NUMBER, [0.0, 1.0], |c| &mut c.friction.softening_floor, "Share of the friction coefficient that remains in a hot contact"),
+        tunable(value(1061, "friction.falling_ratio", NUMBER, [0.0, 1.0], |c| &mut c.friction.falling_ratio, "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant")),
+        tunable(value(1062, "friction.falling_decay", DECAY, [0.0, 1e3], |c| &mut c.friction.falling_decay, "Decay of the rest with the slip velocity V - r omega (Polach's B)")),
+        tunable(value(1063, "friction.softening", PER_KELVIN, [0.0, 1.0], |c| &mut c.friction.softening, "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; 0: constant")),
+        tunable(value(1064, "friction.softening_floor", NUMBER, [0.0, 1.0], |c| &mut c.friction.softening_floor, "Share of the friction coefficient that remains in a hot contact")),
         row(1110, "thermal.enabled", Kind::Boolean, Access::FlagParameter(|c| &mut c.thermal.enabled), "Whether temperatures are computed"),
         value(1111, "thermal.reference", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.reference, "Absolute temperature of hub, air and arriving rail"),
         value(1112, "thermal.wheel_excess", DIFFERENCE, [-1e3, 5e3], |c| &mut c.thermal.wheel_excess, "Excess temperature of the whole wheel over the reference at the start (a warm wheel)"),
@@ -322,7 +331,7 @@ fn parameters() -> Vec<Variable> {
         value(1122, "thermal.tread_angle", DEGREE, [-3.2, 3.2], |c| &mut c.thermal.tread_angle, "Angle of a brake block from the contact point, leading side positive"),
         value(1123, "thermal.tread_width", DEGREE, [1e-3, 6.2], |c| &mut c.thermal.tread_width, "Arc covered by a brake block"),
         count(1124, "thermal.tread_blocks", 1, 2, |c| &mut c.thermal.tread_blocks, "Brake blocks: one, or two mirrored ones that share drive.tread_heat"),
-        value(1125, "thermal.austenitisation", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.austenitisation, "Austenitisation temperature Ac1"),
+        tunable(value(1125, "thermal.austenitisation", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.austenitisation, "Austenitisation temperature Ac1")),
         row(1071, "physics.thermal_expansion", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermal_expansion), "Thermal expansion and stress act back on the contact"),
         row(1072, "physics.thermoelastic_heating", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermoelastic_heating), "Reversible (Gough-Joule) heating of compressed material"),
         row(1070, "physics.centrifugal", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.centrifugal), "Centrifugal load of the spinning wheel"),
@@ -332,8 +341,8 @@ fn parameters() -> Vec<Variable> {
         count(1092, "solver.modes_rail", 1, 200, |c| &mut c.solver.modes_rail, "Vibration modes kept for the rail (reduced response)"),
         row(1093, "solver.time_scheme", Kind::Enumeration(&TIME_SCHEME), scheme, "Implicit time discretisation of momentum and slip"),
         value(1094, "solver.theta", NUMBER, [0.5, 1.0], |c| &mut c.solver.theta, "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)"),
-        value(1095, "solver.max_step", SECOND, [1e-7, 1.0], |c| &mut c.solver.max_step, "Largest internal time step; longer communication steps are divided evenly"),
-        value(1096, "solver.tolerance", NUMBER, [0.0, 1.0], |c| &mut c.solver.tolerance, "Error that halves an internal step: contact force over model.nominal_load, contact temperature over its rise or 100 K; 0: no error control"),
+        tunable(value(1095, "solver.max_step", SECOND, [1e-7, 1.0], |c| &mut c.solver.max_step, "Largest internal time step; longer communication steps are divided evenly")),
+        tunable(value(1096, "solver.tolerance", NUMBER, [0.0, 1.0], |c| &mut c.solver.tolerance, "Error that halves an internal step: contact force over model.nominal_load, contact temperature over its rise or 100 K; 0: no error control")),
         value(1100, "initial.velocity", SPEED, [-200.0, 200.0], |c| &mut c.initial.velocity, "Travel velocity of the stationary rolling state at the start"),
         value(1101, "initial.creepage", PERCENT, [-2.0, 2.0], |c| &mut c.initial.creepage, "Its creepage 2 (V - r omega)/(V + r omega)"),
     ];

@@ -61,14 +61,15 @@ pub enum ModelError {
     Heat(#[from] HeatError),
 }
 
-/// Everything that does not change during a run; shared between instances with equal parameters.
+/// Everything that does not change during a run but for tunable parameters; shared between instances.
+#[derive(Clone)]
 pub struct Model {
     pub config: Config,
     pub grid: ContactGrid,
-    wheel: Box<dyn BodyResponse>,
-    rail: Box<dyn BodyResponse>,
+    wheel: Arc<dyn BodyResponse>,
+    rail: Arc<dyn BodyResponse>,
     kernel: KernelCorrection,
-    heat: Option<Heat>,
+    heat: Option<Arc<Heat>>,
     /// Undeformed gap at the candidates [m].
     gap: Vec<f64>,
     /// Inertia per metre of width: in x (with vehicle), in y, about the axle.
@@ -112,11 +113,17 @@ impl Model {
         let half_width = mechanics::nominal_half_width(&config);
         let zone = grid.x.last().map_or(0.0, |x| x + grid.spacing);
         let heat = match config.thermal.enabled {
-            true => Some(Heat::new(&thermal::heat_config(&config, half_width, zone))?),
+            true => Some(Arc::new(Heat::new(&thermal::heat_config(&config, half_width, zone))?)),
             false => None,
         };
         let gap = (0..grid.len()).map(|i| grid.undeformed_gap(i)).collect();
-        Ok(Self { config, grid, wheel: bodies.wheel, rail: bodies.rail, kernel, heat, gap, inertia })
+        let (wheel, rail) = (Arc::from(bodies.wheel), Arc::from(bodies.rail));
+        Ok(Self { config, grid, wheel, rail, kernel, heat, gap, inertia })
+    }
+
+    /// The same model with other tunable parameters; `None` if the configurations differ in anything else.
+    pub fn retuned(&self, config: &Config) -> Option<Self> {
+        (self.config.tuned_like(config) == *config).then(|| Self { config: config.clone(), ..self.clone() })
     }
 
     /// Nominal wheel load per metre of width [N/m].
