@@ -20,6 +20,7 @@ PY := $(VENV)/bin/python
 # Stamps: cargo and pip run only when something they read has changed.
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
+MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg
 
 .PHONY: demo test test-rust test-fmpy fmu bench describe clean
@@ -33,7 +34,7 @@ test: test-rust test-fmpy
 test-rust:
 	$(CARGO) test --release --locked
 
-test-fmpy: $(FMU) $(INSTALLED)
+test-fmpy: $(FMU) $(MASTERS)
 	$(PY) -m pytest fmpy_tests
 
 fmu: $(FMU)
@@ -60,4 +61,8 @@ $(INSTALLED): requirements.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
+	touch $@
+
+$(MASTERS): requirements-masters.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@

@@ -7,6 +7,15 @@ use serde::{Deserialize, Serialize};
 /// Step ratio up to which two-step backward differences are used (they lose zero-stability at 1 + √2).
 const LARGEST_RATIO: f64 = 2.0;
 
+/// Largest relative difference of steps that are meant to be equal: masters step over differences of rounded times.
+const ROUNDING: f64 = 1e-11;
+
+/// The step before, if `dt` differs from it by rounding only; otherwise `dt`. Second differences would amplify the
+/// rounding, and every new step size costs new operators.
+pub fn settled(dt: f64, before: f64) -> f64 {
+    if (dt - before).abs() <= ROUNDING * dt { before } else { dt }
+}
+
 /// Formula for a step `dt` after a step `before` (0: none, e.g. at the start or after a discontinuity).
 pub fn formula(solver: &SolverParameters, dt: f64, before: f64) -> TimeDerivative {
     match solver.time_scheme {

@@ -1,7 +1,7 @@
 //! One implicit step and the division of a communication step into such steps.
 
 use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
-use super::integrator::{Sample, formula};
+use super::integrator::{Sample, formula, settled};
 use super::state::State;
 use super::{Model, StepError, Workspace};
 use crate::config::TimeScheme;
@@ -79,6 +79,7 @@ impl Model {
         let friction = self.friction(target.friction, slip, state.friction, thermal);
         let load = [target.force / width, target.moment / width, target.load / width, target.friction];
         let before = if self.jumped(&state.last_load, &load) { 0.0 } else { state.last_step };
+        let dt = settled(dt, before);
         let td = formula(&self.config.solver, dt, before);
         let operators = self.operators(td.a0, workspace)?;
 
