@@ -50,7 +50,7 @@ clean:
 	$(CARGO) clean
 	rm -rf target $(VENV) results modelDescription.xml.new .pytest_cache
 
-$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE
+$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE model.png
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
 
 $(BUILT): $(SOURCES)

@@ -6,7 +6,7 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wheelrail::fmi::package::{self, Basis, Contents};
+use wheelrail::fmi::package::{self, Basis, Binary, Contents};
 use wheelrail::fmi::{description, presets};
 use wheelrail::simulation::Model;
 
@@ -28,6 +28,9 @@ enum Command {
         /// Compiled shared library.
         #[arg(long, default_value = "target/release/libwheelrail.so")]
         library: PathBuf,
+        /// Library compiled for a further platform, e.g. win64=path/to/wheelrail.dll; may be repeated.
+        #[arg(long = "binary", value_name = "PLATFORM=FILE")]
+        binaries: Vec<Binary>,
         /// Directory with the presets.
         #[arg(long, default_value = "resources")]
         resources: PathBuf,
@@ -41,7 +44,10 @@ enum Command {
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
-        Command::Pack { out, library, resources, cache } => pack(&out, library, resources, &cache),
+        Command::Pack { out, library, binaries, resources, cache } => {
+            let own = Binary::new(package::platform(), library);
+            own.map_err(Into::into).and_then(|own| pack(&out, [vec![own], binaries].concat(), resources, &cache))
+        }
         Command::Describe => {
             print!("{}", description::model_description());
             Ok(())
@@ -56,7 +62,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn pack(out: &Path, library: PathBuf, resources: PathBuf, cache: &Path) -> Result<(), Box<dyn Error>> {
+fn pack(out: &Path, binaries: Vec<Binary>, resources: PathBuf, cache: &Path) -> Result<(), Box<dyn Error>> {
     let mut bases = Vec::new();
     for name in presets::available(Some(&resources)) {
         if let Some(basis) = basis(&name, &resources, cache)? {
@@ -66,7 +72,7 @@ fn pack(out: &Path, library: PathBuf, resources: PathBuf, cache: &Path) -> Resul
     if let Some(parent) = out.parent() {
         fs::create_dir_all(parent)?;
     }
-    package::write(out, &Contents { library, resources, bases, root: PathBuf::from(".") })?;
+    package::write(out, &Contents { binaries, resources, bases, root: PathBuf::from(".") })?;
     println!("{} ({:.1} MB)", out.display(), fs::metadata(out)?.len() as f64 / 1e6);
     Ok(())
 }
