@@ -64,6 +64,17 @@ def test_package_is_complete(packed):
     assert packed.stat().st_size < LARGEST
 
 
+def test_documentation_has_figure_theory_references_and_every_variable(fmu, packed):
+    with zipfile.ZipFile(packed) as archive:
+        page = archive.read("documentation/index.html").decode()
+    assert etree.HTML(page) is not None and not re.search(r"\{[a-z]+\}", page)
+    for section in ("signs", "model", "theory", "use", "masters", "limits", "references", "licence", "variables"):
+        assert f'<h2 id="{section}">' in page and f'href="#{section}"' in page, section
+    assert "<svg" in page and "Chalmers" in page and "Permission is hereby granted" in page and "Apache License" in page
+    for variable in fmu.description.modelVariables:
+        assert f"<code>{re.sub(r'[[]1[]]$', '[1 … 61]', variable.name)}</code>" in page or "[" in variable.name
+
+
 def test_generation_tool_has_a_semantic_version(fmu):
     assert re.fullmatch(r"wheelrail \d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?", fmu.description.generationTool)
 
