@@ -1,6 +1,7 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
 # make test      every test, Rust and fmpy
 # make fmu       target/wheelrail.fmu
+# make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make bench     speed of steps, starts and the reduced basis
 # make describe  regenerate modelDescription.xml from the variable table
 # make clean     remove everything that was built
@@ -23,7 +24,7 @@ INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg
 
-.PHONY: demo test test-rust test-fmpy fmu bench describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters bench describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -38,6 +39,9 @@ test-fmpy: $(FMU) $(MASTERS)
 	$(PY) -m pytest fmpy_tests
 
 fmu: $(FMU)
+
+masters: $(FMU) $(INSTALLED)
+	$(PY) examples/masters.py --fmu $(FMU) --out results
 
 bench:
 	$(CARGO) bench --locked

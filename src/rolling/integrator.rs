@@ -73,6 +73,16 @@ mod tests {
         SolverParameters { response, modes_wheel: 1, modes_rail: 1, time_scheme, theta: 0.5, max_step: 1.0 }
     }
 
+    #[test]
+    fn steps_that_differ_by_rounding_are_one_step() {
+        let differences = (1..500).map(|k| f64::from(k + 1) * 1e-3 - f64::from(k) * 1e-3);
+        assert!(differences.clone().any(|dt| dt != 1e-3));
+        assert!(differences.map(|dt| settled(dt, 1e-3)).all(|dt| dt == 1e-3));
+        for (dt, before) in [(1e-3, 0.0), (1e-3, 1.000001e-3), (5e-4, 1e-3)] {
+            assert_eq!(settled(dt, before), dt);
+        }
+    }
+
     /// Error of `ẏ = −y` at `t = 1` with `n` steps of alternating length.
     fn decay_error(scheme: TimeScheme, n: usize) -> f64 {
         let solver = solver(scheme);
