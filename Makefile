@@ -1,6 +1,7 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
 # make test      every test, Rust and fmpy
 # make fmu       target/wheelrail.fmu
+# make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make bench     speed of steps, starts and the reduced basis
 # make describe  regenerate modelDescription.xml from the variable table
 # make clean     remove everything that was built
@@ -20,9 +21,10 @@ PY := $(VENV)/bin/python
 # Stamps: cargo and pip run only when something they read has changed.
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
+MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg
 
-.PHONY: demo test test-rust test-fmpy fmu bench describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters bench describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -33,10 +35,13 @@ test: test-rust test-fmpy
 test-rust:
 	$(CARGO) test --release --locked
 
-test-fmpy: $(FMU) $(INSTALLED)
+test-fmpy: $(FMU) $(MASTERS)
 	$(PY) -m pytest fmpy_tests
 
 fmu: $(FMU)
+
+masters: $(FMU) $(INSTALLED)
+	$(PY) examples/masters.py --fmu $(FMU) --out results
 
 bench:
 	$(CARGO) bench --locked
@@ -49,7 +54,7 @@ clean:
 	$(CARGO) clean
 	rm -rf target $(VENV) results modelDescription.xml.new .pytest_cache
 
-$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE
+$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE model.png
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
 
 $(BUILT): $(SOURCES)
@@ -60,4 +65,8 @@ $(INSTALLED): requirements.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
+	touch $@
+
+$(MASTERS): requirements-masters.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@

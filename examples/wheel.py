@@ -100,6 +100,11 @@ class Wheel:
                 value = 1 + [item.name for item in variable.declaredType.items].index(value)
             self._call(self._access("set", variable), [variable.valueReference], [value])
 
+    def set_rates(self, values):
+        """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
+        references = [self.fmu.variables[name].valueReference for name in values]
+        self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), list(values.values()))
+
     def get(self, *names):
         """Values of variables; one name gives a scalar, several a list. Several must be of one type."""
         variables = [self.fmu.variables[name] for name in names]

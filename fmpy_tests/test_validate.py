@@ -1,14 +1,55 @@
 """The packed FMU is well-formed and complete."""
 
+import re
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
+import fmpy
 from conftest import ROOT
 from fmpy import simulate_fmu
 from fmpy.validation import validate_fmu
+from lxml import etree
+
+LARGEST = 30e6  # bytes
 
 
 def test_fmpy_finds_no_problem(packed):
     assert validate_fmu(str(packed)) == []
+
+
+def schema_errors(description):
+    """What the schema of the standard has against a model description."""
+    schema = etree.XMLSchema(file=str(Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"))
+    schema.validate(etree.fromstring(description))
+    return [str(error) for error in schema.error_log]
+
+
+def test_description_follows_the_schema_of_the_standard(packed):
+    with zipfile.ZipFile(packed) as archive:
+        description = archive.read("modelDescription.xml")
+    assert schema_errors(description) == []
+    assert schema_errors(description.replace(b'causality="output"', b'causality="outcome"', 1))
+
+
+def fmutool_check(path):
+    """Exit code and words of `fmutool -input path -check`."""
+    command = "from fmu_manipulation_toolbox.cli.fmutool import fmutool; fmutool()"
+    arguments = [sys.executable, "-c", command, "-input", str(path), "-check"]
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_fmutool_finds_no_problem(packed, tmp_path):
+    code, words = fmutool_check(packed)
+    assert code == 0 and "compliant with FMI-2.0" in words and "ERROR" not in words, words
+    broken = tmp_path / "broken.fmu"
+    with zipfile.ZipFile(packed) as source, zipfile.ZipFile(broken, "w") as target:
+        description = source.read("modelDescription.xml")
+        target.writestr("modelDescription.xml", description.replace(b'initial="calculated"', b'initial="exact"', 1))
+    code, words = fmutool_check(broken)
+    assert code != 0 and "ERROR" in words, words
 
 
 def test_package_is_complete(packed):
@@ -16,9 +57,27 @@ def test_package_is_complete(packed):
         names = set(archive.namelist())
         description = archive.read("modelDescription.xml")
     presets = {f"resources/{path.name}" for path in (ROOT / "resources").glob("*.json")}
-    expected = {"binaries/linux64/wheelrail.so", "documentation/index.html"} | presets
-    assert expected <= names
+    licences = {f"documentation/licenses/{path.name}" for path in ROOT.glob("LICENSE*")}
+    expected = {"binaries/linux64/wheelrail.so", "documentation/index.html", "model.png"} | presets | licences
+    assert len(licences) == 2 and expected <= names
     assert description == (ROOT / "modelDescription.xml").read_bytes()
+    assert packed.stat().st_size < LARGEST
+
+
+def test_documentation_has_figure_theory_references_and_every_variable(fmu, packed):
+    with zipfile.ZipFile(packed) as archive:
+        page = archive.read("documentation/index.html").decode()
+    assert etree.HTML(page) is not None and not re.search(r"\{[a-z]+\}", page)
+    for section in ("signs", "model", "theory", "use", "masters", "limits", "references", "licence", "variables"):
+        assert f'<h2 id="{section}">' in page and f'href="#{section}"' in page, section
+    assert "<svg" in page and "Chalmers" in page and "Permission is hereby granted" in page and "Apache License" in page
+    for variable in fmu.description.modelVariables:
+        name = variable.name.replace("[1]", "[1 … 61]")
+        assert f"<code>{name}</code>" in page or "[" in name, name
+
+
+def test_generation_tool_has_a_semantic_version(fmu):
+    assert re.fullmatch(r"wheelrail \d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?", fmu.description.generationTool)
 
 
 def test_every_variable_is_described_and_every_real_has_a_unit(fmu):

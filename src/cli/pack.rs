@@ -3,7 +3,7 @@
 use super::{Failure, model};
 use std::fs;
 use std::path::PathBuf;
-use wheelrail::fmi::package::{self, Basis, Contents};
+use wheelrail::fmi::package::{self, Basis, Binary, Contents};
 use wheelrail::fmi::presets;
 
 /// Compute what every preset needs and write the FMU.
@@ -15,6 +15,9 @@ pub struct Pack {
     /// Compiled shared library.
     #[arg(long, default_value = "target/release/libwheelrail.so")]
     library: PathBuf,
+    /// Library compiled for a further platform, e.g. win64=path/to/wheelrail.dll; may be repeated.
+    #[arg(long = "binary", value_name = "PLATFORM=FILE")]
+    binaries: Vec<Binary>,
     /// Directory with the presets.
     #[arg(long, default_value = "resources")]
     resources: PathBuf,
@@ -33,9 +36,11 @@ impl Pack {
         if let Some(parent) = self.out.parent() {
             fs::create_dir_all(parent)?;
         }
-        let Pack { out, library, resources, .. } = self;
-        package::write(&out, &Contents { library, resources, bases, root: PathBuf::from(".") })
-            .map_err(|error| Failure::Run(error.to_string()))?;
+        let failed = |error: package::PackageError| Failure::Run(error.to_string());
+        let Pack { out, library, binaries, resources, .. } = self;
+        let own = Binary::new(package::platform(), library).map_err(failed)?;
+        let binaries = [vec![own], binaries].concat();
+        package::write(&out, &Contents { binaries, resources, bases, root: PathBuf::from(".") }).map_err(failed)?;
         println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
         Ok(())
     }

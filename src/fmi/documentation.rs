@@ -1,4 +1,4 @@
-//! `documentation/index.html` of the FMU: conventions with a figure, and the table of variables.
+//! `documentation/index.html` of the FMU: conventions with a figure, theory, use, and the table of variables.
 
 use super::units::Measure;
 use super::variable::{Causality, Kind, Value, Variable};
@@ -17,18 +17,21 @@ pub fn index_html() -> String {
     let mut html = INTRODUCTION
         .replace("{version}", env!("CARGO_PKG_VERSION"))
         .replace("{guid}", description::guid())
-        .replace("{signs}", SIGNS);
+        .replace("{signs}", SIGNS)
+        .replace("{preset}", presets::DEFAULT)
+        .replace("{mit}", &escaped(include_str!("../../LICENSE-MIT")))
+        .replace("{apache}", &escaped(include_str!("../../LICENSE-APACHE")));
     for (title, causality) in
         [("Inputs", Causality::Input), ("Outputs", Causality::Output), ("Parameters", Causality::Parameter)]
     {
-        let _ = write!(html, "<h2>{title}</h2>\n<table>\n<tr><th>name</th><th>reference</th><th>unit</th>");
+        let _ = write!(html, "<h3>{title}</h3>\n<table>\n<tr><th>name</th><th>reference</th><th>unit</th>");
         let _ = writeln!(html, "<th>range</th><th>default</th><th>meaning</th></tr>");
         let listed = |v: &&Variable| v.causality() == causality && (!v.name.contains('[') || v.name.ends_with("[1]"));
         variables().iter().filter(listed).for_each(|variable| row(&mut html, variable));
         html.push_str("</table>\n");
     }
     html.push_str(
-        "<h2>Enumerations</h2>\n<table>\n<tr><th>type</th><th>value</th><th>item</th><th>meaning</th></tr>\n",
+        "<h3>Enumerations</h3>\n<table>\n<tr><th>type</th><th>value</th><th>item</th><th>meaning</th></tr>\n",
     );
     for list in ENUMERATIONS {
         for (value, (item, text)) in (1..).zip(list.items) {
@@ -36,9 +39,7 @@ pub fn index_html() -> String {
             let _ = writeln!(html, "<tr><td>{}</td><td>{value}</td><td>{item}</td><td>{text}</td></tr>", list.name);
         }
     }
-    let _ =
-        writeln!(html, "</table>\n<p>Default values are those of the preset <code>{}</code>.</p>", presets::DEFAULT);
-    html.push_str("</body>\n</html>\n");
+    html.push_str("</table>\n</body>\n</html>\n");
     html
 }
 
@@ -76,10 +77,15 @@ fn row(html: &mut String, variable: &Variable) {
         ),
         None => (variable.name.clone(), variable.description.clone()),
     };
-    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let text = escaped(&text);
     let reference = variable.reference;
     let _ = writeln!(
         html,
         "<tr><td><code>{name}</code></td><td>{reference}</td><td>{unit}</td><td>{range}</td><td>{start}</td><td>{text}</td></tr>"
     );
+}
+
+/// Plain text for HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

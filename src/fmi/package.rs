@@ -6,6 +6,7 @@ use super::documentation::index_html;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
@@ -15,8 +16,8 @@ pub type Basis = (String, Vec<u8>);
 /// What goes into an FMU besides what is made from the table of variables.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// The shared library, for [`platform`].
-    pub library: PathBuf,
+    /// Shared libraries, one for each platform.
+    pub binaries: Vec<Binary>,
     /// Directory with the presets (`*.json`).
     pub resources: PathBuf,
     /// Precomputed bases, for `resources/basis/`.
@@ -25,9 +26,62 @@ pub struct Contents {
     pub root: PathBuf,
 }
 
-/// A file that cannot be read or written.
+/// Platforms of FMI 2.0 and the extension of their shared libraries.
+pub const PLATFORMS: [(&str, &str); 6] = [
+    ("win32", "dll"),
+    ("win64", "dll"),
+    ("linux32", "so"),
+    ("linux64", "so"),
+    ("darwin32", "dylib"),
+    ("darwin64", "dylib"),
+];
+
+/// A shared library and the platform it was compiled for; as text `PLATFORM=FILE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binary {
+    platform: &'static str,
+    extension: &'static str,
+    file: PathBuf,
+}
+
+impl Binary {
+    /// A library for one of [`PLATFORMS`].
+    pub fn new(platform: &str, file: impl Into<PathBuf>) -> Result<Self, PackageError> {
+        let known = PLATFORMS.into_iter().find(|(name, _)| *name == platform);
+        let (platform, extension) = known.ok_or_else(|| PackageError::Platform(platform.to_owned()))?;
+        Ok(Self { platform, extension, file: file.into() })
+    }
+
+    /// Path inside the FMU.
+    fn entry(&self) -> String {
+        format!("binaries/{}/{MODEL_IDENTIFIER}.{}", self.platform, self.extension)
+    }
+}
+
+impl FromStr for Binary {
+    type Err = PackageError;
+
+    fn from_str(text: &str) -> Result<Self, PackageError> {
+        match text.split_once('=') {
+            Some((platform, file)) if !file.is_empty() => Self::new(platform, file),
+            _ => Err(PackageError::Pair(text.to_owned())),
+        }
+    }
+}
+
+fn platform_names() -> String {
+    PLATFORMS.map(|(name, _)| name).join(", ")
+}
+
+/// An FMU that cannot be written as asked for.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
+    #[error("platform {0:?} is unknown: {list}", list = platform_names())]
+    Platform(String),
+    #[error("{0:?} is not of the form PLATFORM=FILE")]
+    Pair(String),
+    #[error("two binaries for {0}")]
+    Twice(&'static str),
     #[error("{}: {source}", path.display())]
     File { path: PathBuf, source: io::Error },
     #[error(transparent)]
@@ -66,12 +120,16 @@ fn files(directory: &Path, wanted: impl Fn(&str) -> bool) -> Result<Vec<(String,
 
 /// Writes the FMU to `out`. Equal contents give equal bytes: entries are in a fixed order and carry a fixed date.
 pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
-    let extension = std::env::consts::DLL_EXTENSION;
     let mut entries = vec![
         ("modelDescription.xml".to_owned(), model_description().into_bytes()),
-        (format!("binaries/{}/{MODEL_IDENTIFIER}.{extension}", platform()), read(&contents.library)?),
         ("documentation/index.html".to_owned(), index_html().into_bytes()),
     ];
+    for (i, binary) in contents.binaries.iter().enumerate() {
+        if contents.binaries[..i].iter().any(|other| other.platform == binary.platform) {
+            return Err(PackageError::Twice(binary.platform));
+        }
+        entries.push((binary.entry(), read(&binary.file)?));
+    }
     for (name, path) in files(&contents.root, |name| name.starts_with("LICENSE"))? {
         entries.push((format!("documentation/licenses/{name}"), read(&path)?));
     }
@@ -99,4 +157,27 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     }
     archive.finish()?.flush()?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn binaries_go_to_the_directory_and_name_of_their_platform() {
+        let entry = |text: &str| text.parse::<Binary>().unwrap().entry();
+        assert_eq!(entry("win64=a/wheelrail.dll"), "binaries/win64/wheelrail.dll");
+        assert_eq!(entry("darwin64=b=c"), "binaries/darwin64/wheelrail.dylib");
+        assert!(PLATFORMS.iter().any(|(name, _)| *name == platform()));
+    }
+
+    #[test]
+    fn unknown_platforms_are_refused_with_the_list_of_known_ones() {
+        let refusal = |text: &str| text.parse::<Binary>().unwrap_err().to_string();
+        let expected = "platform \"amiga\" is unknown: win32, win64, linux32, linux64, darwin32, darwin64";
+        assert_eq!(refusal("amiga=wheelrail.so"), expected);
+        for text in ["win64", "win64=", "wheelrail.dll"] {
+            assert!(refusal(text).contains("PLATFORM=FILE"), "{text}");
+        }
+    }
 }

@@ -7,6 +7,15 @@ use serde::{Deserialize, Serialize};
 /// Step ratio up to which two-step backward differences are used (they lose zero-stability at 1 + √2).
 const LARGEST_RATIO: f64 = 2.0;
 
+/// Largest relative difference of steps that are meant to be equal: masters step over differences of rounded times.
+const ROUNDING: f64 = 1e-9;
+
+/// The step before, if `dt` differs from it by rounding only; otherwise `dt`. Second differences would amplify the
+/// rounding, and every new step size costs new operators.
+pub fn settled(dt: f64, before: f64) -> f64 {
+    if (dt - before).abs() <= ROUNDING * dt { before } else { dt }
+}
+
 /// Formula for a step `dt` after a step `before` (0: none, e.g. at the start or after a discontinuity).
 pub fn formula(solver: &SolverParameters, dt: f64, before: f64) -> TimeDerivative {
     match solver.time_scheme {
@@ -69,6 +78,16 @@ mod tests {
             theta: 0.5,
             max_step: 1.0,
             tolerance: 0.0,
+        }
+    }
+
+    #[test]
+    fn steps_that_differ_by_rounding_are_one_step() {
+        let differences = (1..500).map(|k| f64::from(k + 1) * 1e-3 - f64::from(k) * 1e-3);
+        assert!(differences.clone().any(|dt| dt != 1e-3));
+        assert!(differences.map(|dt| settled(dt, 1e-3)).all(|dt| dt == 1e-3));
+        for (dt, before) in [(1e-3, 0.0), (1e-3, 1.000001e-3), (5e-4, 1e-3)] {
+            assert_eq!(settled(dt, before), dt);
         }
     }
 

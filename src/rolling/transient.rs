@@ -1,7 +1,7 @@
 //! One implicit step.
 
 use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
-use super::integrator::{Sample, formula};
+use super::integrator::{Sample, formula, settled};
 use super::state::State;
 use super::{Model, StepError, Workspace};
 use crate::config::TimeScheme;
@@ -27,15 +27,17 @@ impl Model {
         let slip = state.velocity.now - self.grid.radius * state.omega.now;
         let friction = self.friction(target.friction, slip, state.friction, thermal);
         let load = [target.force / width, target.moment / width, target.load / width, target.friction];
-        let before = if self.jumped(&state.last_load, &load) { 0.0 } else { state.last_step };
-        let td = formula(&self.config.solver, dt, before);
-        let operators = self.operators(td.a0, workspace)?;
-
         let (free_v, free_r, free_y) = (
             inputs.translation == Translation::Force,
             inputs.rotation == Rotation::Moment,
             inputs.vertical == Vertical::Force,
         );
+        let acts = [free_v, free_r, free_y, true];
+        let before = if self.jumped(&state.last_load, &load, acts) { 0.0 } else { state.last_step };
+        let dt = settled(dt, before);
+        let td = formula(&self.config.solver, dt, before);
+        let operators = self.operators(td.a0, workspace)?;
+
         let predicted = |sample: &Sample, free: bool, target: f64| {
             if free { sample.now + dt * sample.rate } else { target }
         };
@@ -149,13 +151,11 @@ impl Model {
         Ok(next)
     }
 
-    /// Whether a driving force or the friction coefficient has jumped between two steps.
-    fn jumped(&self, before: &[f64; 4], now: &[f64; 4]) -> bool {
+    /// Whether a driving force that acts, or the friction coefficient, has jumped between two steps.
+    fn jumped(&self, before: &[f64; 4], now: &[f64; 4], acts: [bool; 4]) -> bool {
         let scale = JUMP * self.nominal_line_load();
-        (now[0] - before[0]).abs() > scale
-            || (now[1] - before[1]).abs() > scale * self.grid.radius
-            || (now[2] - before[2]).abs() > scale
-            || (now[3] - before[3]).abs() > JUMP * before[3].max(now[3])
+        let limits = [scale, scale * self.grid.radius, scale, JUMP * before[3].max(now[3])];
+        (0..4).any(|k| acts[k] && (now[k] - before[k]).abs() > limits[k])
     }
 
     /// Power of the hub forces (x, y, moment) at rigid velocities (V, U̇, Ω) [W/m].

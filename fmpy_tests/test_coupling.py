@@ -1,0 +1,54 @@
+"""Masters that own inertia: the iterative one converges to the monolithic run, explicit ones have a stability limit."""
+
+import numpy as np
+import pytest
+
+from masters import SPEED, Split, coupled, errors, monolithic, slip_growth
+
+DURATION = 0.4  # s of the braking
+STEPS = (2e-3, 1e-3, 5e-4)  # s
+
+
+@pytest.fixture(scope="module")
+def reference(fmu):
+    """The FMU that owns everything, with a small step."""
+    table = monolithic(fmu, 1.25e-4, DURATION)
+    assert table[-1, 0] < SPEED - 0.05 and table[-1, 1] < -5e3
+    return table
+
+
+@pytest.mark.parametrize("owns", ["vehicle", "wheel"])
+def test_iterative_master_converges_to_the_monolithic_run(fmu, reference, owns):
+    coarse, middle, fine = (errors(coupled(fmu, owns, "iterative", h, DURATION), reference)[0] for h in STEPS)
+    assert fine < middle < coarse < 2e-5
+    assert np.log2(coarse / fine) / 2.0 > 1.2, f"errors {coarse:.2e}, {middle:.2e}, {fine:.2e} m/s"
+
+
+def test_iterative_master_of_the_vehicle_repeats_the_monolithic_run(fmu):
+    """With the same formula and step on both sides the split leaves no error but the tolerance of the iteration."""
+    split, whole = coupled(fmu, "vehicle", "iterative", 1e-3, DURATION), monolithic(fmu, 1e-3, DURATION)
+    assert errors(split, whole)[0] < 1e-7
+
+
+@pytest.mark.parametrize("master", ["Jacobi", "Gauss-Seidel"])
+def test_explicit_master_of_the_vehicle_converges_with_order_one(fmu, reference, master):
+    coarse, fine = (errors(coupled(fmu, "vehicle", master, h, DURATION), reference)[0] for h in STEPS[:2])
+    assert np.log2(coarse / fine) == pytest.approx(1.0, abs=0.2)
+
+
+@pytest.mark.parametrize("speed", [10.0, 2.0])
+@pytest.mark.parametrize(("master", "stable", "unstable"), [("Gauss-Seidel", 0.3, 1.5), ("Jacobi", 0.1, 0.75)])
+def test_explicit_master_of_the_wheel_is_stable_only_below_carters_limit(fmu, speed, master, stable, unstable):
+    """Steps in units of 2 m/c on Carter's slope: the limit falls with the speed, and is 1/3 as large for Jacobi."""
+    split = Split(fmu, "wheel", speed)
+    limit = split.rolling.carter_limit(speed)
+    split.close()
+    assert slip_growth(fmu, master, speed, stable * limit) < 0.99
+    assert slip_growth(fmu, master, speed, unstable * limit) > 1.1
+
+
+def test_iterative_master_of_the_wheel_is_stable_far_beyond_carters_limit(fmu):
+    split = Split(fmu, "wheel", 2.0)
+    limit = split.rolling.carter_limit(2.0)
+    split.close()
+    assert slip_growth(fmu, "iterative", 2.0, 20.0 * limit) < 0.99

@@ -1,0 +1,107 @@
+"""The dependencies that the description declares are true: what is not declared has no effect, by perturbation."""
+
+import pytest
+
+DEFAULT = {"control.rotation": "moment", "control.translation": "force", "control.vertical": "force"}
+SWITCHED = {"control.rotation": "velocity", "control.translation": "velocity", "control.vertical": "displacement"}
+V = 20.0  # m/s
+START = {"initial.velocity": V}
+# A value of every real input, and another one.
+VALUES = {
+    "drive.omega": (V / 0.46, 0.9995 * V / 0.46),
+    "drive.moment": (0.0, -3000.0),
+    "drive.velocity": (V, 1.0005 * V),
+    "drive.force": (0.0, 2000.0),
+    "drive.load": (1e5, 1.1e5),
+    "drive.displacement": (-1.78e-4, -1.80e-4),
+    "drive.tread_heat": (0.0, 1e3),
+    "rail.friction": (0.3, 0.05),
+}
+# Parameters that need no new basis.
+PARAMETERS = {"initial.velocity": 15.0, "initial.creepage": 2e-4, "vehicle.mass": 5e3, "thermal.wheel_excess": 5.0}
+
+
+@pytest.fixture(scope="module")
+def unknowns(fmu):
+    """Declared knowns of every output: at communication points and in Initialization Mode; None stands for all."""
+
+    def declared(entries):
+        return {
+            entry.variable.name: None if entry.dependencies is None else {known.name for known in entry.dependencies}
+            for entry in entries
+        }
+
+    return declared(fmu.description.outputs), declared(fmu.description.initialUnknowns)
+
+
+def values(wheel):
+    """All outputs, by name."""
+    found = {}
+    for kind in ("Real", "Integer"):
+        of_kind = [v for v in wheel.fmu.description.modelVariables if v.causality == "output" and v.type == kind]
+        names = [variable.name for variable in of_kind]
+        found |= dict(zip(names, wheel.get(*names)))
+    return found
+
+
+def changed(before, after):
+    return {name for name in before if before[name] != after[name]}
+
+
+def undeclared(known, names, declared):
+    """Outputs that a known has changed although they do not declare it."""
+    return {name for name in names if declared[name] is not None and known not in declared[name]}
+
+
+def test_every_input_and_output_is_covered(fmu, unknowns):
+    inputs = {v.name for v in fmu.description.modelVariables if v.causality == "input"}
+    outputs = {v.name for v in fmu.description.modelVariables if v.causality == "output"}
+    assert inputs == set(VALUES) | set(DEFAULT)
+    assert outputs == set(unknowns[0]) == set(unknowns[1])
+
+
+@pytest.mark.parametrize("control", [DEFAULT, SWITCHED], ids=["forces", "motion"])
+def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_step(start, unknowns, control):
+    inputs = control | {name: pair[0] for name, pair in VALUES.items()}
+    perturbations = [{name: pair[1]} for name, pair in VALUES.items()]
+    perturbations += [{name: (SWITCHED if control is DEFAULT else DEFAULT)[name]} for name in control]
+    wheel = start(START, inputs)
+    for _ in range(5):
+        wheel.step(1e-3)
+    here = wheel.save()
+    before = values(wheel)
+    wheel.step(1e-3)
+    unperturbed = values(wheel)
+    acted = set()
+    for perturbation in perturbations:
+        (name,) = perturbation
+        wheel.restore(here)
+        wheel.set(perturbation)
+        assert not undeclared(name, changed(before, values(wheel)), unknowns[0]), name
+        wheel.step(1e-3)
+        if changed(unperturbed, values(wheel)):
+            acted.add(name)
+    wheel.forget(here)
+    prescribed = {
+        "forces": {"drive.moment", "drive.force", "drive.load"},
+        "motion": {"drive.omega", "drive.velocity", "drive.displacement"},
+    }["forces" if control is DEFAULT else "motion"]
+    assert acted >= prescribed | set(DEFAULT) | {"rail.friction", "drive.tread_heat"}
+    partners = set(VALUES) - prescribed - {"rail.friction", "drive.tread_heat"}
+    assert not acted & partners, "the partner that is not prescribed has no effect"
+
+
+@pytest.mark.parametrize("control", [DEFAULT, SWITCHED], ids=["forces", "motion"])
+def test_initial_outputs_change_only_with_declared_knowns(start, unknowns, control):
+    inputs = control | {name: pair[0] for name, pair in VALUES.items()}
+    before = values(start(START, inputs))
+    moved = set()
+    for name, (_, other) in VALUES.items():
+        names = changed(before, values(start(START, inputs | {name: other})))
+        assert not undeclared(name, names, unknowns[1]), name
+        moved |= names
+    for name, other in PARAMETERS.items():
+        names = changed(before, values(start(START | {name: other}, inputs)))
+        assert not undeclared(name, names, unknowns[1]), name
+        moved |= names
+    assert {"contact.force_x", "contact.force_y", "wheel.velocity", "hub.moment", "temperature.wheel_bulk"} <= moved

@@ -1,0 +1,85 @@
+//! The archive: binaries of several platforms, refusals, reproducible bytes.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use wheelrail::fmi::package::{self, Binary, Contents};
+use zip::ZipArchive;
+
+/// An empty directory for one test.
+fn workplace(name: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&directory);
+    fs::create_dir_all(&directory).unwrap();
+    directory
+}
+
+/// Contents with the given libraries, without precomputed bases.
+fn contents(binaries: Vec<Binary>) -> Contents {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    Contents { binaries, resources: root.join("resources"), bases: Vec::new(), root }
+}
+
+/// A file that stands for the library of a platform, and its text.
+fn library(directory: &Path, platform: &str) -> (Binary, String) {
+    let (file, text) = (directory.join(platform), format!("library for {platform}"));
+    fs::write(&file, &text).unwrap();
+    (Binary::new(platform, file).unwrap(), text)
+}
+
+#[test]
+fn an_archive_holds_the_binaries_of_all_its_platforms() {
+    let directory = workplace("platforms");
+    let (linux, windows) = (library(&directory, "linux64"), library(&directory, "win64"));
+    let fmu = directory.join("both.fmu");
+    package::write(&fmu, &contents(vec![linux.0, windows.0])).unwrap();
+    let mut archive = ZipArchive::new(File::open(&fmu).unwrap()).unwrap();
+    for (name, expected) in [("binaries/linux64/wheelrail.so", linux.1), ("binaries/win64/wheelrail.dll", windows.1)] {
+        let mut text = String::new();
+        archive.by_name(name).unwrap().read_to_string(&mut text).unwrap();
+        assert_eq!(text, expected, "{name}");
+    }
+    for name in ["modelDescription.xml", "model.png", "documentation/index.html", "resources/railway.json"] {
+        assert!(archive.by_name(name).is_ok(), "{name}");
+    }
+}
+
+#[test]
+fn equal_contents_give_equal_bytes() {
+    let directory = workplace("reproducible");
+    let (binary, _) = library(&directory, "linux64");
+    let [one, two] = ["one.fmu", "two.fmu"].map(|name| {
+        package::write(&directory.join(name), &contents(vec![binary.clone()])).unwrap();
+        fs::read(directory.join(name)).unwrap()
+    });
+    assert!(one == two);
+}
+
+#[test]
+fn a_platform_has_one_binary() {
+    let directory = workplace("twice");
+    let binaries = vec![library(&directory, "win64").0, library(&directory, "win64").0];
+    let error = package::write(&directory.join("twice.fmu"), &contents(binaries)).unwrap_err();
+    assert_eq!(error.to_string(), "two binaries for win64");
+}
+
+#[test]
+fn a_missing_library_is_named() {
+    let directory = workplace("missing");
+    let binary = Binary::new("win64", directory.join("nowhere.dll")).unwrap();
+    let error = package::write(&directory.join("missing.fmu"), &contents(vec![binary])).unwrap_err();
+    assert!(error.to_string().contains("nowhere.dll"), "{error}");
+}
+
+#[test]
+fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
+    let pack = |binary: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_wheelrail")).args(["pack", "--binary", binary]).output().unwrap();
+        assert!(!output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let refusal = pack("amiga=wheelrail.so");
+    assert!(refusal.contains("\"amiga\" is unknown: win32, win64, linux32, linux64, darwin32, darwin64"), "{refusal}");
+    assert!(pack("wheelrail.dll").contains("PLATFORM=FILE"));
+}
