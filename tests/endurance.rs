@@ -11,7 +11,7 @@ use scenario::{Drive, PHASES};
 fn thirty_thousand_steps_of_mixed_driving_keep_energy_and_memory() {
     let mut config = common::preset("railway", 20);
     config.initial.velocity = 0.0;
-    let mut drive = Drive::new(common::model(config)).unwrap();
+    let mut drive = Drive::new(common::model(config), 1e-3).unwrap();
     let (mut worst, mut start) = (0.0f64, None);
     for k in 0..30_000 {
         drive.step().unwrap_or_else(|error| panic!("step {k}, {:?}: {error}", drive.phase));

@@ -9,7 +9,7 @@ mod scenario;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use scenario::{Drive, PHASES, STEP};
+use scenario::{Drive, PHASES};
 use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
@@ -23,21 +23,24 @@ const WARM_UP: u64 = 5000;
 /// Largest energy residual, from the end of the first cycle on [1].
 const RESIDUAL: f64 = 0.01;
 
-/// Mixed driving with 1 ms steps: failures, memory, energy audit.
+/// Mixed driving: failures, memory, energy audit.
 #[derive(Parser)]
 struct Arguments {
-    /// Number of communication steps of 1 ms.
+    /// Number of communication steps.
     #[arg(long, default_value_t = 1_000_000)]
     steps: u64,
+    /// Communication step [s].
+    #[arg(long, default_value_t = 1e-3)]
+    step: f64,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let steps = Arguments::parse().steps;
+    let Arguments { steps, step } = Arguments::parse();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/railway.json");
     let mut config: Config = serde_json::from_str(&std::fs::read_to_string(path)?)?;
     config.initial.velocity = 0.0;
     let model = Model::prepare(config, None, &mut |_, _| {})?;
-    let mut drive = Drive::new(model)?;
+    let mut drive = Drive::new(model, step)?;
 
     let style = "{wide_bar} {pos}/{len} steps, {msg}, {eta} left";
     let bar = ProgressBar::new(steps).with_style(ProgressStyle::with_template(style)?);
@@ -62,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let (wall, outputs) = (start.elapsed().as_secs_f64(), drive.simulation.outputs());
     let growth = memory::resident().zip(memory).map(|(end, start)| end - start);
-    println!("steps            {steps} of {STEP} s, {} cycles, {:.0} m", drive.cycles, outputs.wheel_distance);
+    println!("steps            {steps} of {step} s, {} cycles, {:.0} m", drive.cycles, outputs.wheel_distance);
     println!("wall time        {wall:.0} s, {:.3} ms per step", 1e3 * wall / steps as f64);
     println!("failures         {failures}");
     println!("memory growth    {}", growth.map_or("unknown".into(), |kb| format!("{kb} kB")));

@@ -3,8 +3,6 @@
 
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, StepError};
 
-/// Communication step [s].
-pub const STEP: f64 = 1e-3;
 const DRY: f64 = 0.3;
 
 /// What the driver does at present.
@@ -77,6 +75,8 @@ pub struct Balance {
 /// A wheel with its driver.
 pub struct Drive {
     pub simulation: Simulation,
+    /// Communication step [s].
+    step: f64,
     inputs: Inputs,
     pub phase: Phase,
     /// Steps since the start of the phase.
@@ -89,19 +89,19 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// At rest, or rolling if the model starts so, under the nominal load.
-    pub fn new(model: std::sync::Arc<Model>) -> Result<Drive, StepError> {
+    /// At rest, or rolling if the model starts so, under the nominal load; `step` [s] is the communication step.
+    pub fn new(model: std::sync::Arc<Model>, step: f64) -> Result<Drive, StepError> {
         let inputs = Inputs::rolling(model.config());
         let simulation = Simulation::new(model, &inputs)?;
         let (phase, cycle) = (Phase::Rest, Cycle::new(0));
-        Ok(Drive { simulation, inputs, phase, age: 0, cycles: 0, cycle, balances: Default::default() })
+        Ok(Drive { simulation, step, inputs, phase, age: 0, cycles: 0, cycle, balances: Default::default() })
     }
 
     /// One communication step; on failure the run goes on in the next phase.
     pub fn step(&mut self) -> Result<(), StepError> {
         self.steer();
         let (before, phase) = (self.imbalance(), self.phase);
-        let result = self.simulation.advance(&self.inputs, STEP);
+        let result = self.simulation.advance(&self.inputs, self.step);
         let (after, balance) = (self.imbalance(), &mut self.balances[phase as usize]);
         balance.steps += 1;
         balance.imbalance += after.0 - before.0;
@@ -124,7 +124,7 @@ impl Drive {
     fn steer(&mut self) {
         let config = self.simulation.model().config();
         let (load, radius) = (config.model.nominal_load, config.wheel.radius);
-        let time = self.age as f64 * STEP;
+        let time = self.age as f64 * self.step;
         let effort = self.cycle.effort * DRY * load * radius * (time / 0.2).min(1.0);
         let (drive, cycle) = (&mut self.inputs.drive, &self.cycle);
         drive.omega = 0.0;
@@ -154,7 +154,7 @@ impl Drive {
 
     /// Whether the phase has reached its goal.
     fn complete(&self) -> bool {
-        let (outputs, time) = (self.simulation.outputs(), self.age as f64 * STEP);
+        let (outputs, time) = (self.simulation.outputs(), self.age as f64 * self.step);
         let (speed, top) = (outputs.wheel_velocity, self.cycle.top_speed);
         match self.phase {
             Phase::Rest => time > 0.2,
