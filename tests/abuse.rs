@@ -196,8 +196,11 @@ impl<'a> Master<'a> {
         self.outputs = Some(bits);
     }
 
-    /// One random call.
+    /// One random call; a run that does not step is often taken further.
     fn call(&mut self) {
+        if !Call::DoStep.legal(self.phase) && self.chance(0.3) {
+            return if self.phase == Phase::Terminated { self.reset() } else { self.lifecycle() };
+        }
         match self.random.below(100) {
             0..30 => self.step(),
             30..52 => self.set_input(),
@@ -539,7 +542,7 @@ fn abuse(seed: u64, calls: usize) {
     }
     let Master { calls, steps, discarded, resets, .. } = master;
     println!("seed {seed}: {calls} calls, {steps} steps, {discarded} discarded, {resets} resets");
-    assert!(steps > calls / 20 && discarded > 0 && resets > 3, "a master that does nothing proves nothing");
+    assert!(steps > calls / 10 && discarded > 0 && resets > 3, "a master that does nothing proves nothing");
 }
 
 #[test]
