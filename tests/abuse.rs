@@ -39,8 +39,8 @@ const UNKNOWN: u32 = 987_654;
 
 /// An instance that finds the basis of the coarse model.
 fn new_slave(dll: &libfmi::Fmi2Dll) -> Slave<'_> {
-    let resources = Some(concat!("file://", env!("CARGO_MANIFEST_DIR"), "/target"));
-    Slave::try_new(dll, &Arguments { resources, ..Default::default() }).unwrap_or_else(|m| panic!("{m:?}"))
+    let arguments = Arguments { resources: Some(STORED_BASES), ..Default::default() };
+    Slave::try_new(dll, &arguments).unwrap_or_else(|m| panic!("{m:?}"))
 }
 
 /// Outputs of the first steps of a new instance.

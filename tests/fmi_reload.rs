@@ -18,10 +18,10 @@ fn mapped() -> bool {
 }
 
 /// Bits of a short run in a library that is loaded for it.
-fn load_run_unload(resources: &str) -> Vec<Vec<u64>> {
+fn load_run_unload() -> Vec<Vec<u64>> {
     let dll = load();
     assert!(mapped());
-    let arguments = Arguments { resources: Some(resources), ..Default::default() };
+    let arguments = Arguments { resources: Some(STORED_BASES), ..Default::default() };
     let slave = Slave::try_new(&dll, &arguments).unwrap_or_else(|messages| panic!("{messages:?}"));
     slave.coarsen();
     slave.initialize();
@@ -33,11 +33,10 @@ fn the_library_comes_and_goes_a_hundred_times() {
     let mut config = common::preset("railway", 4);
     (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     common::model(config);
-    let resources = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/target");
-    let expected = load_run_unload(resources);
+    let expected = load_run_unload();
     let mut memory = Vec::new();
     for round in 0..=100 {
-        assert_eq!(load_run_unload(resources), expected, "round {round}");
+        assert_eq!(load_run_unload(), expected, "round {round}");
         assert!(!mapped(), "round {round}");
         memory.extend(memory::resident().filter(|_| round % 10 == 0));
     }

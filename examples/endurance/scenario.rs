@@ -52,7 +52,7 @@ impl Cycle {
     /// Cycle `number`: additive recurrence `½ + n φ⁻ᵏ mod 1` with `φ⁷ = φ + 1` (Roberts 2018), so that few cycles
     /// already cover all ranges and every run is the same.
     fn new(number: u64) -> Cycle {
-        let share = |k: i32| (0.5 + (number + 1) as f64 * 1.112_775_684_278_7055f64.powi(-k)).fract();
+        let share = |k: i32| (0.5 + (number + 1) as f64 * 1.112_775_684_278_705_5_f64.powi(-k)).fract();
         let between = |k, low: f64, high: f64| low + (high - low) * share(k);
         Cycle {
             top_speed: between(1, 4.0, 10.0),
