@@ -3,6 +3,8 @@
 # make fmu       target/wheelrail.fmu
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make bench     speed of steps, starts and the reduced basis
+# make endurance a million steps of mixed driving: failures, memory, energy audit
+# make leak-check memory leaks of the FMU's C interface, with valgrind
 # make describe  regenerate modelDescription.xml from the variable table
 # make clean     remove everything that was built
 
@@ -24,7 +26,7 @@ INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg
 
-.PHONY: demo test test-rust test-fmpy fmu masters bench describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters bench endurance leak-check describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -45,6 +47,18 @@ masters: $(FMU) $(INSTALLED)
 
 bench:
 	$(CARGO) bench --locked
+
+endurance:
+	$(CARGO) run --release --locked --example endurance
+
+# One master through the C functions: instantiate, steps, states saved, serialized and freed.
+LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=1
+
+leak-check:
+	@if command -v valgrind > /dev/null; then \
+		$(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
+			-- --exact a_serialized_state_continues_in_another_instance; \
+	else echo "leak-check skipped: valgrind is not installed"; fi
 
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new

@@ -85,6 +85,21 @@ fn wheel_lifts_off_falls_back_and_carries_the_load_again() {
 }
 
 #[test]
+fn wheel_with_all_motions_prescribed_lifts_off() {
+    let model = model(preset("railway", 10));
+    let mut inputs = prescribed(&model, 10.0, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.vertical = Vertical::Displacement;
+    inputs.drive.displacement = 1e-4;
+    for _ in 0..20 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let outputs = simulation.outputs();
+    assert_eq!((outputs.contact_force_y, outputs.friction_power), (0.0, 0.0));
+    assert!((outputs.wheel_velocity - 10.0).abs() < 1e-12 && (outputs.contact_approach + 1e-4).abs() < 1e-15);
+}
+
+#[test]
 fn reversal_of_the_travel_direction_mirrors_the_contact() {
     let model = model(preset("paper_d", 10));
     let forward = Simulation::new(model.clone(), &prescribed(&model, 10.0, 2e-4)).unwrap();

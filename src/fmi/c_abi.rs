@@ -432,3 +432,44 @@ const _: fmi2GetTypesPlatformTYPE = Some(fmi2GetTypesPlatform);
 const _: fmi2GetVersionTYPE = Some(fmi2GetVersion);
 const _: fmi2InstantiateTYPE = Some(fmi2Instantiate);
 const _: fmi2FreeInstanceTYPE = Some(fmi2FreeInstance);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    #[test]
+    fn a_panic_becomes_fatal_and_leaves_only_freeing() {
+        let messages = Rc::new(RefCell::new(Vec::new()));
+        let heard = messages.clone();
+        let sink: Sink = Box::new(move |status, _, message| heard.borrow_mut().push((status, message.to_owned())));
+        let instance = Instance::new(None, Log::new(sink, false)).unwrap();
+        let component = Component { instance, strings: Vec::new(), states: BTreeMap::new() };
+        let c: fmi2Component = Box::into_raw(Box::new(component)).cast();
+        // SAFETY: a component as `fmi2Instantiate` makes it, freed once at the end.
+        unsafe {
+            assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::fmi2OK);
+            assert_eq!(call(c, "fmi2DoStep", |_| panic!("wheel {} lost", 7)), fmi2Status::fmi2Fatal);
+            assert_eq!(messages.take(), [(Status::Fatal, "fmi2DoStep: internal error: wheel 7 lost".to_owned())]);
+
+            let (reference, mut state) = (1000, ptr::null_mut());
+            for status in [
+                fmi2Reset(c),
+                fmi2Terminate(c),
+                fmi2ExitInitializationMode(c),
+                fmi2DoStep(c, 0.0, 1e-3, 1),
+                fmi2GetReal(c, &reference, 1, &mut 0.0),
+                fmi2SetReal(c, &reference, 1, &0.0),
+                fmi2GetFMUstate(c, &mut state),
+                fmi2SetDebugLogging(c, 1, 0, ptr::null()),
+                fmi2GetBooleanStatus(c, fmi2StatusKind::fmi2Terminated, &mut 0),
+            ] {
+                assert_eq!(status, fmi2Status::fmi2Fatal);
+            }
+            assert!(messages.take().iter().all(|(_, message)| message.contains("Fatal")));
+            fmi2FreeInstance(c);
+        }
+        assert_eq!(Rc::strong_count(&messages), 1, "the instance and its logger are gone");
+    }
+}

@@ -415,7 +415,8 @@ impl Instance {
         self.inputs.clone_from(&snapshot.inputs);
         self.rates = snapshot.rates;
         (self.time, self.stop) = (snapshot.time, snapshot.stop);
-        self.last_step = Status::Ok;
+        // A master may restore and repeat a discarded step for ever: the failure is remembered.
+        (self.last_step, self.hopeless) = (Status::Ok, false);
         Ok(())
     }
 

@@ -24,9 +24,9 @@ pub fn load() -> Fmi2Dll {
     unsafe { Fmi2Dll::new(&path) }.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-pub fn resources() -> String {
-    format!("file://{}/resources", env!("CARGO_MANIFEST_DIR"))
-}
+pub const RESOURCES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/resources");
+/// Where the physics tests keep reduced bases; beside them only the compiled-in preset is known.
+pub const STORED_BASES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/target");
 
 pub fn guid() -> &'static str {
     wheelrail::fmi::description::guid()
@@ -83,12 +83,11 @@ pub struct Arguments<'a> {
 
 impl Default for Arguments<'static> {
     fn default() -> Self {
-        let resources = Some(&*resources().leak());
         Arguments {
             name: Some("wheel"),
             kind: fmi2Type::fmi2CoSimulation,
             guid: Some(guid()),
-            resources,
+            resources: Some(RESOURCES),
             callbacks: true,
             logging: false,
         }

@@ -1,0 +1,88 @@
+//! Endurance: a million steps of mixed driving with the shipped `railway` wheel, starting from rest.
+//!
+//! `cargo run --release --example endurance -- --steps 1000000` prints failures, growth of memory and the energy audit,
+//! by phase of driving, and fails if a limit is exceeded.
+
+#[path = "../../tests/memory/mod.rs"]
+mod memory;
+mod scenario;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use scenario::{Drive, PHASES};
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+use wheelrail::config::Config;
+use wheelrail::simulation::Model;
+
+/// Largest growth of the resident memory after [`WARM_UP`] steps [kB].
+const MEMORY: i64 = 1024;
+/// Steps until every buffer has its size.
+const WARM_UP: u64 = 5000;
+/// Largest energy residual, from the end of the first cycle on [1].
+const RESIDUAL: f64 = 0.01;
+
+/// Mixed driving: failures, memory, energy audit.
+#[derive(Parser)]
+struct Arguments {
+    /// Number of communication steps.
+    #[arg(long, default_value_t = 1_000_000)]
+    steps: u64,
+    /// Communication step [s].
+    #[arg(long, default_value_t = 1e-3)]
+    step: f64,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let Arguments { steps, step } = Arguments::parse();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/railway.json");
+    let mut config: Config = serde_json::from_str(&std::fs::read_to_string(path)?)?;
+    config.initial.velocity = 0.0;
+    let model = Model::prepare(config, None, &mut |_, _| {})?;
+    let mut drive = Drive::new(model, step)?;
+
+    let style = "{wide_bar} {pos}/{len} steps, {msg}, {eta} left";
+    let bar = ProgressBar::new(steps).with_style(ProgressStyle::with_template(style)?);
+    let (start, mut memory, mut failures, mut worst) = (Instant::now(), None, 0u64, 0.0f64);
+    for k in 0..steps {
+        if let Err(error) = drive.step() {
+            failures += 1;
+            bar.println(format!("step {k}, {:?}: {error}", drive.phase));
+        }
+        if drive.cycles > 0 {
+            worst = worst.max(drive.simulation.outputs().energy_residual.abs());
+        }
+        if k == WARM_UP.min(steps.saturating_sub(1)) {
+            memory = memory::resident();
+        }
+        if k % 500 == 0 {
+            bar.set_message(format!("{} cycles, {failures} failures", drive.cycles));
+            bar.set_position(k);
+        }
+    }
+    bar.finish_and_clear();
+
+    let (wall, outputs) = (start.elapsed().as_secs_f64(), drive.simulation.outputs());
+    let growth = memory::resident().zip(memory).map(|(end, start)| end - start);
+    println!("steps            {steps} of {step} s, {} cycles, {:.0} m", drive.cycles, outputs.wheel_distance);
+    println!("wall time        {wall:.0} s, {:.3} ms per step", 1e3 * wall / steps as f64);
+    println!("failures         {failures}");
+    println!("memory growth    {}", growth.map_or("unknown".into(), |kb| format!("{kb} kB")));
+    println!("energy residual  {:+.2e} at the end, {worst:.2e} at worst after one cycle", outputs.energy_residual);
+    println!("heat residual    {:+.2e}", outputs.heat_residual);
+    println!("\nphase            steps   dissipated [J]   unaccounted [J]   share of all dissipation");
+    let all: f64 = drive.balances.iter().map(|balance| balance.dissipation).sum();
+    for (phase, b) in PHASES.iter().zip(&drive.balances) {
+        let share = b.imbalance / all;
+        println!(
+            "{:<12} {:>9} {:>16.1} {:>17.2} {share:>+26.1e}",
+            format!("{phase:?}"),
+            b.steps,
+            b.dissipation,
+            b.imbalance
+        );
+    }
+    let passed = failures == 0 && worst < RESIDUAL && growth.is_none_or(|kb| kb < MEMORY);
+    if passed { Ok(()) } else { Err("a limit is exceeded".into()) }
+}

@@ -1,0 +1,78 @@
+//! What the compiled library tells its master, and how long texts live.
+#![allow(unsafe_code)]
+
+mod slave;
+
+use slave::*;
+use std::ffi::CStr;
+use std::ptr;
+
+#[test]
+fn messages_are_arguments_and_come_only_when_wanted() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    assert_eq!(slave.messages(), [], "quiet unless asked");
+    let text = "100%s%n%d";
+    assert_eq!(slave.set_string("preset", text), fmi2Error);
+    let messages = slave.messages();
+    assert_eq!((messages.len(), messages[0].format.as_str()), (1, "%s"));
+    assert_eq!((messages[0].instance.as_str(), messages[0].category.as_str()), ("wheel", "logStatusError"));
+    assert_eq!(slave.reset(), fmi2OK);
+    assert_eq!(slave.messages(), []);
+
+    slave.refused(slave.set_logging(true, &["nonsense"]), &["nonsense", "logEvents"]);
+    assert_eq!(slave.set_logging(true, &["logEvents"]), fmi2OK);
+    slave.refused(slave.set_string("preset", text), &[text]);
+    assert_eq!(slave.reset(), fmi2OK);
+    let messages = slave.messages();
+    assert_eq!((messages[0].status, messages[0].category.as_str()), (fmi2OK, "logEvents"));
+    assert_eq!(slave.set_logging(false, &[]), fmi2OK);
+    assert_eq!(slave.reset(), fmi2OK);
+    assert_eq!(slave.messages(), []);
+
+    let slave = Slave::try_new(&dll, &Arguments { logging: true, ..Default::default() }).ok().unwrap();
+    slave.coarsen();
+    assert_eq!(slave.set_real("wheel.radius", 0.47), fmi2OK);
+    slave.initialize();
+    let messages = slave.messages();
+    assert!(messages.iter().any(|m| m.category == "logProgress"), "{messages:?}");
+}
+
+#[test]
+fn strings_stay_readable_until_the_next_call() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    assert_eq!(slave.set_string("preset", "paper_c"), fmi2OK);
+    assert_eq!(slave.enter(), fmi2OK);
+    let (reference, mut value) = (variable("preset").reference, ptr::null());
+    assert_eq!(unsafe { dll.fmi2GetString(slave.component, &reference, 1, &mut value) }, fmi2OK);
+    assert_eq!(slave.real("drive.load"), 10e3);
+    assert_eq!(unsafe { CStr::from_ptr(value) }, c"paper_c");
+}
+
+#[test]
+fn every_message_carries_a_declared_category() {
+    let dll = load();
+    let declared = wheelrail::fmi::log::CATEGORIES.map(|(name, _)| name);
+    let description = wheelrail::fmi::description::model_description();
+    for name in declared {
+        assert!(description.contains(&format!("<Category name=\"{name}\"")), "{name}");
+    }
+    let slave = Slave::try_new(&dll, &Arguments { logging: true, ..Default::default() }).ok().unwrap();
+    slave.coarsen();
+    slave.initialize();
+    assert_eq!(slave.set_real("drive.load", 1e9), fmi2OK);
+    assert_eq!(slave.step(0.0, 1e-3), fmi2Discard);
+    assert_eq!(slave.set_real("drive.load", -1.0), fmi2Error);
+    assert_eq!((slave.terminate(), slave.reset()), (fmi2OK, fmi2OK));
+    let messages = slave.messages();
+    for message in &messages {
+        assert!(declared.contains(&message.category.as_str()) && message.format == "%s", "{message:?}");
+    }
+    for category in ["logEvents", "logProgress", "logStatusDiscard", "logStatusError"] {
+        assert!(messages.iter().any(|message| message.category == category), "{category}: {messages:?}");
+    }
+    for category in declared {
+        assert_eq!(slave.set_logging(true, &[category]), fmi2OK);
+    }
+}
