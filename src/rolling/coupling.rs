@@ -6,6 +6,8 @@ use super::{Model, State};
 /// Share of the limit that is suggested: Jacobi exchange was measured to be stable below 0.19 to 0.33 of `2m/c`
 /// (braking from 10 to 1 m/s), Gauss–Seidel below 0.5 to 0.9.
 const SAFETY: f64 = 0.15;
+/// Suggestion where nothing sets a limit [s].
+const LARGEST: f64 = 1.0;
 /// Smallest suggestion [s]: near standstill no explicit step is stable.
 const SMALLEST: f64 = 1e-6;
 
@@ -16,12 +18,12 @@ impl Model {
     /// theory is a damper between V and rΩ: `c = 2 F_n r/(a V)`. With the effective mass m of the prescribed motions
     /// (the inertias that the parameters give to the wheel; vehicle included in x) explicit exchange needs `h < 2m/c`
     /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and moments as
-    /// inputs leave the stiff motion to this model and set no limit but `solver.max_step`.
+    /// inputs leave the stiff motion to this model and set no limit (1 s).
     pub(super) fn suggested_step(&self, state: &State, outputs: &Outputs) -> f64 {
         let [x, y, rotation] = state.prescribed;
         let radius = self.grid.radius;
         let [mass, wheel, moment] = self.inertia.map(|i| i * self.config.model.contact_width);
-        let mut suggestion = self.config.solver.max_step;
+        let mut suggestion = LARGEST;
         let compliance = |prescribed: bool, inverse: f64| if prescribed { inverse } else { 0.0 };
         let inverse_mass = compliance(x, 1.0 / mass) + compliance(rotation, radius * radius / moment);
         let load = outputs.contact_force_y;
