@@ -154,3 +154,35 @@ fn brake_blocks_heat_the_tread_and_the_rail_chills_it() {
     assert!(((o.temperature_rail_nominal - 293.0) / 0.05080656 - 1.0).abs() < 0.01);
     assert!((o.heat_conduction / 60.0 - 1.0).abs() < 1e-6);
 }
+
+#[test]
+fn long_steps_neither_overshoot_nor_undershoot() {
+    let model = model(preset("railway", 10));
+    // A wheel that spins too fast while the vehicle is stopped under it, in steps h; then friction vanishes.
+    let extremes = |h: f64| {
+        let mut inputs = prescribed(&model, 20.0, 0.0);
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        for k in 0..100 {
+            inputs.drive.omega = 20.0 / 0.46 + 23.5 * (k as f64 / 50.0).min(1.0);
+            simulation.advance(&inputs, 1e-3).unwrap();
+        }
+        let (mut lowest, mut highest) = (f64::INFINITY, 0.0f64);
+        let steps = (0.2 / h).round() as usize;
+        for k in 1..=steps + 1 {
+            inputs.drive.velocity = 20.0 - 19.5 * (k as f64 / steps as f64).min(1.0);
+            inputs.drive.friction = if k > steps { 0.0 } else { 0.3 };
+            simulation.advance(&inputs, h).unwrap();
+            let o = simulation.outputs();
+            highest = highest.max(o.temperature_wheel_max).max(o.temperature_rail_max);
+            let points = o.profile_temperature_wheel.iter().chain(&o.profile_temperature_rail);
+            lowest = points.fold(lowest, |low, t| low.min(*t));
+        }
+        println!("h = {h} s: {lowest:.1} to {highest:.1} K");
+        (lowest, highest)
+    };
+    let (_, fine) = extremes(1e-3);
+    for h in [0.01, 0.02, 0.1, 0.2] {
+        let (lowest, highest) = extremes(h);
+        assert!(lowest > 293.0 - 0.01 * (fine - 293.0) && (highest - 293.0) / (fine - 293.0) < 1.5);
+    }
+}

@@ -82,9 +82,9 @@ impl Heat {
     /// exchange at the end of the step; in between everything varies linearly from the end of the step before (speeds and
     /// conductance that change by less than 1e-3 are taken from the end).
     ///
-    /// With [`Exchange::held`] the values of the end hold throughout. After a jump of them, and without a step before (see [`HeatState::restart`]), the values of the end hold
-    /// throughout, and the step is one of backward Euler, which does not overshoot. The flows are means over the step. On
-    /// error `state` is untouched.
+    /// With [`Exchange::held`] the values of the end hold throughout. After a jump of them, and without a step before (see
+    /// [`HeatState::restart`]), they hold, too, and the step is one of backward Euler, which does not overshoot. The flows
+    /// are means over the step. On error `state` is untouched.
     ///
     /// SDIRK2, `γ = 1 − 1/√2`, stiffly accurate and L-stable (Alexander, *SIAM J. Numer. Anal.* 14 (1977)):
     /// `ρcM̃ k₁ = f − A(T + γΔt k₁)`, `ρcM̃ k₂ = f − A(T + (1−γ)Δt k₁ + γΔt k₂)`, `T ← T + (1−γ)Δt k₁ + γΔt k₂`.
@@ -102,7 +102,8 @@ impl Heat {
         }
         self.check_state(state)?;
         let end = self.moment(velocity, omega, exchange)?;
-        let start = if exchange.held { Some(&end) } else { state.history.as_ref().filter(|b| !b.jumps_to(&end)) };
+        let steady = state.history.as_ref().filter(|before| !before.jumps_to(&end));
+        let start = if exchange.held { steady.map(|_| &end) } else { steady };
         let (gamma, stages): (f64, &[f64]) = match (self.config.time_scheme, start) {
             (HeatTimeScheme::Sdirk2, Some(_)) => (1.0 - FRAC_1_SQRT_2, &[1.0 - FRAC_1_SQRT_2, 1.0]),
             _ => (1.0, &[1.0]),

@@ -79,7 +79,7 @@ pub const INPUT_RANGES: [(&str, f64, f64); 8] = [
     ("drive.load", 0.0, 1e9),
     ("drive.displacement", -0.1, 0.1),
     ("rail.friction", 0.0, 10.0),
-    ("drive.tread_heat", -1e9, 1e9),
+    ("drive.tread_heat", 0.0, 1e9),
 ];
 
 impl Drive {

@@ -38,6 +38,8 @@ pub enum StepError {
          the parameter model.nominal_load (now {nominal:.6e} N), or change prescribed velocities more gently"
     )]
     ZoneExceeded { zone: f64, load: f64, nominal: f64 },
+    #[error("the motion grew beyond all numbers at t = {time:.9e} s with an internal step of {step:.1e} s")]
+    NotFinite { time: f64, step: f64 },
     #[error("no equilibrium: {0}")]
     NoEquilibrium(&'static str),
     #[error(transparent)]

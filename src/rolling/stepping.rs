@@ -4,7 +4,8 @@
 //! internal step lands exactly on its end. An internal step is halved if the contact finds no state, and, with a
 //! `solver.tolerance`, if contact force or contact temperature miss their prediction by more than that. The prediction
 //! is linear from the two steps before, or constant after a jump of the inputs; the difference is of second order in the
-//! step and larger than the error of the second-order formula. Loss of contact, re-contact, lock-up and breaking loose
+//! step and larger than the error of the second-order formula. A contact that heats or cools by hundreds of kelvin
+//! in one long step is always refined: friction that falls with the temperature follows it with one step's delay. Loss of contact, re-contact, lock-up and breaking loose
 //! show in it at once, so no event needs a rule of its own.
 
 use super::control::{Drive, Inputs};
@@ -18,6 +19,8 @@ pub const LONGEST_STEP: f64 = 1e3;
 const MAX_HALVINGS: u32 = 12;
 /// Internal step below which errors do not refine any further [s]: forces may jump, with the friction coefficient.
 const FINEST: f64 = 1e-5;
+/// Change of the highest contact temperature [K] that always refines steps longer than this [s].
+const HEATING: (f64, f64) = (300.0, 1e-3);
 /// Share of the tolerance below which the step doubles; the difference grows fourfold.
 const GROWTH: f64 = 0.125;
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
@@ -83,7 +86,9 @@ impl Model {
             match self.step(&next, inputs, &target, dt, workspace) {
                 Ok(mut advanced) => {
                     let error = self.error(&next, &advanced, dt);
-                    if tolerance > 0.0 && error > tolerance && dt > 2.0 * FINEST {
+                    let inaccurate = tolerance > 0.0 && error > tolerance && dt > 2.0 * FINEST;
+                    let heating = (controlled(&advanced)[2] - controlled(&next)[2]).abs();
+                    if inaccurate || (heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9)) {
                         (position, total) = (2 * position, 2 * total);
                         next.control.step = 0.5 * dt;
                         continue;
@@ -99,7 +104,7 @@ impl Model {
                         }
                     }
                 }
-                Err(StepError::Contact { .. }) if halvings < MAX_HALVINGS => {
+                Err(StepError::Contact { .. } | StepError::NotFinite { .. }) if halvings < MAX_HALVINGS => {
                     halvings += 1;
                     (position, total) = (2 * position, 2 * total);
                     next.last_step = 0.0;

@@ -145,6 +145,10 @@ impl Model {
         next.audit.hub_power = hub_power;
         next.audit.friction_power = friction_power;
         next.audit.energy = self.energy(&next);
+        let motion = [next.velocity.now, next.height.now, next.omega.now];
+        if !force.iter().chain(&motion).chain(&next.hub).all(|v| v.is_finite()) || !next.audit.energy.is_finite() {
+            return Err(StepError::NotFinite { time: state.time, step: dt });
+        }
         if let (Some(heat), Some(before)) = (&self.heat, thermal) {
             next.thermal = Some(self.step_heat(heat, before, &next, target.tread_heat, dt, workspace)?);
         }
