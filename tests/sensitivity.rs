@@ -38,6 +38,7 @@ const OUTPUTS: [(&str, Output, f64); 11] = [
 
 /// Thirty steps of 1 ms; returns the simulation, and memory and inputs before the last step.
 fn driven(model: &Arc<Model>, mut inputs: Inputs) -> (Simulation, Memory, Inputs) {
+    inputs.drive.tread_heat = 1e3;
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     let mut before = simulation.memory().clone();
     for k in 0..30 {
@@ -117,11 +118,31 @@ fn model_of(model: &Model) -> Arc<Model> {
 #[test]
 fn derivatives_at_the_start_are_those_of_the_stationary_state() {
     let model = model(preset("railway", 20));
-    let inputs = prescribed(&model, 20.0, 5e-4);
+    let mut inputs = prescribed(&model, 20.0, 5e-4);
+    inputs.drive.tread_heat = 1e3;
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     agree(&mut simulation, &inputs, 5e-3, 2e-6, &mut |inputs| {
         Simulation::new(model.clone(), inputs).unwrap().outputs().clone()
     });
+}
+
+#[test]
+fn at_the_end_of_a_range_the_derivative_is_one_sided() {
+    let model = model(preset("railway", 10));
+    let inputs = prescribed(&model, 20.0, 1e-3);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    for _ in 0..5 {
+        simulation.advance(&inputs, 1e-2).unwrap();
+    }
+    let direction = Drive { tread_heat: 1.0, ..Drive::default() };
+    let difference = simulation.difference(&direction).unwrap();
+    assert_eq!(difference.low.wheel_velocity, simulation.outputs().wheel_velocity);
+    // One watt for 10 ms in the wheel.
+    let config = model.config();
+    let area = std::f64::consts::PI * (0.46f64.powi(2) - 0.046f64.powi(2));
+    let capacity = area * config.model.contact_width * config.material.density * config.material.specific_heat;
+    let warming = difference.quotient(|o| o.temperature_wheel_bulk);
+    assert!((warming * capacity / 1e-2 - 1.0).abs() < 0.1, "{warming:e} K/W");
 }
 
 #[test]

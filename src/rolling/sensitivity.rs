@@ -5,7 +5,7 @@
 //! contact, heat and histories, by central differences *within its branch*: both perturbed steps must end with the
 //! contact states of the present one and have taken as many contact iterations and internal steps, otherwise the
 //! perturbation is reduced. Between changes of state the function is analytic, and the difference quotient has about
-//! eight correct digits; at a kink it falls back to the derivative of one side.
+//! seven correct digits; at a kink and at the end of a range it falls back to the derivative of one side.
 
 use super::control::{Drive, Inputs};
 use super::output::Outputs;
@@ -37,11 +37,11 @@ impl Difference {
     }
 }
 
-/// Sizes that inputs typically have, in the order of [`Drive::values`]; speeds at least that of walking.
+/// Sizes over which the outputs bend, in the order of [`Drive::values`]: they bend much with slip, less with forces.
 fn scales(model: &Model, inputs: &Inputs, state: &State) -> [f64; 8] {
     let config = &model.config;
     let load = config.model.nominal_load;
-    let (speed, radius) = (state.velocity.now.abs().max(1.0), config.wheel.radius);
+    let (speed, radius) = (0.1 * state.velocity.now.abs().max(1.0), config.wheel.radius);
     let approach = state.height.now.abs().max(1e-5);
     let heat = inputs.drive.tread_heat.abs().max(1e4);
     [speed / radius, load * radius, speed, load, load, approach, 1.0, heat]
@@ -49,7 +49,7 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> [f64; 8] {
 
 /// Perturbation relative to the scales, of a step and of a stationary state (which is only found to about 1e-6), and the
 /// factor by which it is reduced where the branch is left.
-const PERTURBATION: f64 = 3e-5;
+const PERTURBATION: f64 = 1e-4;
 const STATIONARY_PERTURBATION: f64 = 3e-4;
 const REDUCTION: f64 = 0.1;
 const TRIES: usize = 4;
@@ -74,12 +74,14 @@ impl Model {
         let mut width = if stationary { STATIONARY_PERTURBATION } else { PERTURBATION } / size;
         let mut one_sided = None;
         for _ in 0..TRIES {
+            let mut beyond_range = false;
             let mut ends = [-1.0, 1.0].map(|sign| {
                 let inputs = Inputs { drive: moved(&inputs.drive, direction, sign * width), ..*inputs };
                 let end = match origin {
                     Origin::Stationary(_) => self.stationary(&inputs, workspace),
                     Origin::Step { state, length, .. } => self.advance(state, &inputs, *length, workspace),
                 };
+                beyond_range |= matches!(end, Err(StepError::Input(_)));
                 end.ok().filter(|end| same_branch(end, state)).map(|end| self.outputs(&end))
             });
             match (ends[0].take(), ends[1].take()) {
@@ -87,6 +89,9 @@ impl Model {
                 (Some(low), None) => one_sided = Some(Difference { low, high: present.clone(), width }),
                 (None, Some(high)) => one_sided = Some(Difference { low: present.clone(), high, width }),
                 (None, None) => {}
+            }
+            if beyond_range && let Some(at_the_bound) = one_sided {
+                return Ok(at_the_bound);
             }
             width *= REDUCTION;
         }
