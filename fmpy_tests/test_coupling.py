@@ -52,3 +52,13 @@ def test_iterative_master_of_the_wheel_is_stable_far_beyond_carters_limit(fmu):
     limit = split.rolling.carter_limit(2.0)
     split.close()
     assert slip_growth(fmu, "iterative", 2.0, 20.0 * limit) < 0.99
+
+
+@pytest.mark.parametrize("speed", [10.0, 2.0, 1.0])
+@pytest.mark.parametrize("master", ["Jacobi", "Gauss-Seidel"])
+def test_explicit_masters_are_stable_with_the_step_that_the_fmu_suggests(fmu, master, speed):
+    split = Split(fmu, "wheel", speed)
+    suggested = split.wheel.get("solver.suggested_step")
+    split.close()
+    assert 1e-6 < suggested < 1e-4
+    assert slip_growth(fmu, master, speed, suggested) < 0.99
