@@ -68,7 +68,7 @@ clean:
 	$(CARGO) clean
 	rm -rf target $(VENV) results modelDescription.xml.new .pytest_cache
 
-$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE model.png
+$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE LICENSE-THIRD-PARTY model.png
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
 
 $(BUILT): $(SOURCES)

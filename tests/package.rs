@@ -83,3 +83,25 @@ fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
     assert!(refusal.contains("\"amiga\" is unknown: win32, win64, linux32, linux64, darwin32, darwin64"), "{refusal}");
     assert!(pack("wheelrail.dll").contains("PLATFORM=FILE"));
 }
+
+#[test]
+fn licences_of_all_linked_crates_are_in_the_archive() {
+    let listed = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("LICENSE-THIRD-PARTY")).unwrap();
+    let tree = Command::new(env!("CARGO"))
+        .args(["tree", "--edges", "normal,no-proc-macro", "--prefix", "none", "--offline", "--locked"])
+        .args(["--format", "{p}", "--target", "x86_64-unknown-linux-gnu"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
+    let tree = String::from_utf8(tree.stdout).unwrap();
+    let mut count = 0;
+    for line in tree.lines().filter(|line| !line.starts_with("wheelrail ")) {
+        let mut words = line.split_whitespace();
+        let (name, version) = (words.next().unwrap(), words.next().unwrap().trim_start_matches('v'));
+        let entry = format!("\n{name} {version}: ");
+        assert!(listed.contains(&entry), "{name} {version} is missing: run docs/third_party.py");
+        count += 1;
+    }
+    assert!(count > 20, "{count} crates");
+}
