@@ -233,7 +233,7 @@ impl Side {
         self.contact.clear();
         self.contact.resize(moments.len() + 1, [0.0; 3]);
         for (i, c) in moments.iter().enumerate() {
-            let sigma = self.transport.upwind[element + i];
+            let sigma = self.transport.upwind_of(element + i, [c[0], c[1]]);
             let (left, right) = (c[0] - c[1], c[1]);
             self.contact[i][1] += left - right + c[2] - sigma * left;
             self.contact[i][2] += right - c[2] - sigma * right;
