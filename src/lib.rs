@@ -1,7 +1,7 @@
 //! Transient wheel–rail rolling contact as a co-simulation FMU.
 //!
 //! A deformable wheel (annulus on a rigid hub) rolls on a deformable rail (plate on a fixed base): plane strain, linear
-//! elasticity, inertia and exact Coulomb friction, in a frame that moves with the wheel centre while the material
+//! elasticity, inertia, exact Coulomb friction and heat, in a frame that moves with the wheel centre while the material
 //! streams through it (arbitrary Lagrangian–Eulerian description). The model is that of A. Draganis, *Numerical
 //! simulation of thermomechanically coupled transient rolling contact*, PhD thesis, Chalmers 2014, Papers A–D.
 //!
@@ -15,6 +15,7 @@
 //! rail   ρ(ü + 2V ∂u̇ + V̇ ∂u + V² ∂²u) = div σ
 //! gap    g = r − √(r² − x²) + u_y,wheel + U − u_y,rail ≥ 0,   λ_n ≥ 0,   g λ_n = 0
 //! slip   s = V (1 + ∂_x u_rail) − rΩ (1 + ∂_x u_wheel) + d_t(u_wheel − u_rail),   |λ_t| ≤ μ λ_n,   λ_t ∥ −s
+//! heat   ρc (Ṫ + Ω ∂T) = k ΔT (rail: V),  q → body = share of γ_f |λ_t s| ∓ k_c (T_wheel − T_rail)
 //! hub    m V̇ + d_t p_x = F + Σλ_t,   I Ω̇ + d_t p_Ω = M − Σ(r λ_t + x λ_n),   m_y Ü + d_t p_y = Σλ_n − load
 //! ```
 //!

@@ -97,6 +97,20 @@ impl Drive {
         ]
     }
 
+    /// `f` of the values of both, one by one.
+    pub fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            omega: f(self.omega, other.omega),
+            moment: f(self.moment, other.moment),
+            velocity: f(self.velocity, other.velocity),
+            force: f(self.force, other.force),
+            load: f(self.load, other.load),
+            displacement: f(self.displacement, other.displacement),
+            friction: f(self.friction, other.friction),
+            tread_heat: f(self.tread_heat, other.tread_heat),
+        }
+    }
+
     /// Refuses values out of range, infinite or not a number.
     pub fn validate(&self) -> Result<(), InputError> {
         for ((name, low, high), value) in INPUT_RANGES.into_iter().zip(self.values()) {
@@ -122,17 +136,8 @@ impl Inputs {
 
     /// The inputs `time` seconds after the start of the communication step.
     pub fn at(&self, time: f64) -> Drive {
-        let (d, r) = (&self.drive, &self.rate);
-        Drive {
-            omega: d.omega + time * r.omega,
-            moment: d.moment + time * r.moment,
-            velocity: d.velocity + time * r.velocity,
-            force: d.force + time * r.force,
-            load: (d.load + time * r.load).max(0.0),
-            displacement: d.displacement + time * r.displacement,
-            friction: (d.friction + time * r.friction).max(0.0),
-            tread_heat: d.tread_heat + time * r.tread_heat,
-        }
+        let drive = self.drive.zip(&self.rate, |value, rate| value + time * rate);
+        Drive { load: drive.load.max(0.0), friction: drive.friction.max(0.0), ..drive }
     }
 }
 

@@ -76,7 +76,8 @@ impl Model {
         for _ in 0..TRIES {
             let mut beyond_range = false;
             let mut ends = [-1.0, 1.0].map(|sign| {
-                let inputs = Inputs { drive: moved(&inputs.drive, direction, sign * width), ..*inputs };
+                let by = sign * width;
+                let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
                 let end = match origin {
                     Origin::Stationary(_) => self.stationary(&inputs, workspace),
                     Origin::Step { state, length, .. } => self.advance(state, &inputs, *length, workspace),
@@ -96,20 +97,6 @@ impl Model {
             width *= REDUCTION;
         }
         one_sided.ok_or(StepError::NoDerivative { time: state.time })
-    }
-}
-
-/// Inputs moved along a direction.
-fn moved(drive: &Drive, direction: &Drive, by: f64) -> Drive {
-    Drive {
-        omega: drive.omega + by * direction.omega,
-        moment: drive.moment + by * direction.moment,
-        velocity: drive.velocity + by * direction.velocity,
-        force: drive.force + by * direction.force,
-        load: drive.load + by * direction.load,
-        displacement: drive.displacement + by * direction.displacement,
-        friction: drive.friction + by * direction.friction,
-        tread_heat: drive.tread_heat + by * direction.tread_heat,
     }
 }
 

@@ -82,7 +82,8 @@ impl Model {
         }
         while position < total {
             let dt = h / total as f64;
-            let target = interpolate(&start, &end, (position + 1) as f64 / total as f64);
+            let fraction = (position + 1) as f64 / total as f64;
+            let target = start.zip(&end, |a, b| if fraction == 1.0 { b } else { a + fraction * (b - a) });
             match self.step(&next, inputs, &target, dt, workspace) {
                 Ok(mut advanced) => {
                     let error = self.error(&next, &advanced, dt);
@@ -124,20 +125,5 @@ impl Model {
         // The first step after a jump of the inputs has no history.
         let ratio = if next.restarted || state.last_step == 0.0 { 0.0 } else { dt / state.last_step };
         (0..3).map(|k| (found[k] - now[k] - ratio * (now[k] - before[k])).abs() / scales[k]).fold(0.0, f64::max)
-    }
-}
-
-/// Targets at a fraction of the communication step.
-fn interpolate(start: &Drive, end: &Drive, fraction: f64) -> Drive {
-    let mix = |a: f64, b: f64| if fraction == 1.0 { b } else { a + fraction * (b - a) };
-    Drive {
-        omega: mix(start.omega, end.omega),
-        moment: mix(start.moment, end.moment),
-        velocity: mix(start.velocity, end.velocity),
-        force: mix(start.force, end.force),
-        load: mix(start.load, end.load),
-        displacement: mix(start.displacement, end.displacement),
-        friction: mix(start.friction, end.friction),
-        tread_heat: mix(start.tread_heat, end.tread_heat),
     }
 }
