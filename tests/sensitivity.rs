@@ -121,7 +121,7 @@ fn derivatives_at_the_start_are_those_of_the_stationary_state() {
     let mut inputs = prescribed(&model, 20.0, 5e-4);
     inputs.drive.tread_heat = 1e3;
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    agree(&mut simulation, &inputs, 5e-3, 2e-6, &mut |inputs| {
+    agree(&mut simulation, &inputs, 3e-4, 1e-6, &mut |inputs| {
         Simulation::new(model.clone(), inputs).unwrap().outputs().clone()
     });
 }

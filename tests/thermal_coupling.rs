@@ -30,7 +30,7 @@ fn friction_power_is_traction_times_slip_and_all_of_it_becomes_heat() {
 
 #[test]
 fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
-    let config = preset("railway", 10);
+    let config = preset("railway", 20);
     let model = model(config);
     let peak = |h: f64| {
         let mut inputs = prescribed(&model, 20.0, 0.0);

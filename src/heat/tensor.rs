@@ -150,15 +150,15 @@ impl Transport {
 
     /// Adds the load `∫ q w̃ ds` of an element with the moments `∫ q ds` and `∫ q ξ ds`, ξ from 0 to 1.
     pub fn add_load(&self, line: &Streamline, element: usize, moments: [f64; 2], load: &mut [f64]) {
-        let shifted = self.upwind_of(element, moments) * moments[0];
+        let shifted = self.upwind[element] * moments[0];
         load[element] += moments[0] - moments[1] - shifted;
         load[line.after(element)] += moments[1] + shifted;
     }
 
-    /// Upwinding of the test functions for something with the moments `∫ q ds` and `∫ q ξ ds` on an element.
+    /// Upwinding of the test functions for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds` on an element.
     ///
-    /// Where it begins or ends within the element, full upwinding would give the node upstream a share below zero, and
-    /// its temperature would undershoot: both shares keep the sign of the whole.
+    /// Where the contact begins or ends within the element, full upwinding would give the node upstream a share below
+    /// zero, and its temperature would undershoot: both shares keep the sign of the whole.
     pub fn upwind_of(&self, element: usize, [whole, first]: [f64; 2]) -> f64 {
         let sigma = self.upwind[element];
         let centroid = first / whole;

@@ -47,10 +47,8 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> [f64; 8] {
     [speed / radius, load * radius, speed, load, load, approach, 1.0, heat]
 }
 
-/// Perturbation relative to the scales, of a step and of a stationary state (which is only found to about 1e-6), and the
-/// factor by which it is reduced where the branch is left.
+/// Perturbation relative to the scales, and the factor by which it is reduced where the branch is left.
 const PERTURBATION: f64 = 1e-4;
-const STATIONARY_PERTURBATION: f64 = 3e-4;
 const REDUCTION: f64 = 0.1;
 const TRIES: usize = 4;
 
@@ -70,8 +68,7 @@ impl Model {
         if size == 0.0 {
             return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
         }
-        let stationary = matches!(origin, Origin::Stationary(_));
-        let mut width = if stationary { STATIONARY_PERTURBATION } else { PERTURBATION } / size;
+        let mut width = PERTURBATION / size;
         let mut one_sided = None;
         for _ in 0..TRIES {
             let mut beyond_range = false;

@@ -12,34 +12,35 @@ use crate::mechanics::response::{BodyState, Convection, TimeDerivative};
 
 /// Passes that bring in convective terms and the accelerations of unbalanced forces.
 const MAX_PASSES: usize = 30;
-/// Relative change of the contact forces at which they are brought in.
+/// Relative change of the contact forces at which they are brought in, and of the contact force at which temperatures
+/// and friction are: further passes repeat rounding.
 const TOLERANCE: f64 = 1e-6;
+const THERMAL_TOLERANCE: f64 = 1e-9;
 
 impl Model {
     /// Stationary state for inputs. Velocities that are not prescribed start from `initial.velocity` and
     /// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
     pub fn stationary(&self, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
         inputs.validate()?;
-        let mut state = self.stationary_contact(inputs, None, 0.0, workspace)?;
+        let mut state = self.stationary_contact(inputs, None, workspace)?;
         let Some(heat) = &self.heat else { return Ok(state) };
         for _ in 0..MAX_PASSES {
             let thermal = self.stationary_heat(heat, &state, inputs.at(0.0).tread_heat)?;
             let force = state.contact.resultant(&self.grid);
-            state = self.stationary_contact(inputs, Some(thermal), state.friction, workspace)?;
+            state = self.stationary_contact(inputs, Some(thermal), workspace)?;
             let settled = state.contact.resultant(&self.grid);
-            if (0..2).all(|k| (settled[k] - force[k]).abs() <= TOLERANCE * force[1].abs()) {
+            if (0..2).all(|k| (settled[k] - force[k]).abs() <= THERMAL_TOLERANCE * force[1].abs()) {
                 break;
             }
         }
         Ok(state)
     }
 
-    /// Stationary contact at given temperatures, which belong to the friction coefficient `before`.
+    /// Stationary contact at given temperatures.
     fn stationary_contact(
         &self,
         inputs: &Inputs,
         thermal: Option<ThermalState>,
-        before: f64,
         workspace: &mut Workspace,
     ) -> Result<State, StepError> {
         let width = self.config.model.contact_width;
@@ -52,7 +53,7 @@ impl Model {
             if prescribed_r { drive.omega } else { peripheral_velocity(velocity, initial.creepage) / self.grid.radius };
         let load = drive.load / width;
         let slip = velocity - self.grid.radius * omega;
-        let friction = self.friction(drive.friction, slip, before, thermal.as_ref());
+        let friction = self.friction(drive.friction, slip, thermal.as_ref(), 0.0);
         if inputs.vertical == Vertical::Force && load <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }

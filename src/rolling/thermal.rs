@@ -34,6 +34,8 @@ pub struct ThermalState {
     pub temperatures: Temperatures,
     /// Mean excess temperatures of the surfaces in the patch: wheel, rail [K].
     pub patch_mean: [f64; 2],
+    /// Mean of both over the friction coefficient, now and one step before [K].
+    pub heating: [f64; 2],
     /// Excess surface temperatures of wheel and rail at the candidates, reversible heating included [K].
     pub surface: [Vec<f64>; 2],
     /// Time during which the hottest contact point was above Ac1 [s].
@@ -229,9 +231,11 @@ impl Model {
             let [_, high] = edges(&self.grid, &state.contact, last);
             patch_mean = [&wheel, &rail].map(|t| mean(heat.zone_x(), t, low, high));
         }
+        let heating = if state.friction > 0.0 { 0.5 * (patch_mean[0] + patch_mean[1]) / state.friction } else { 0.0 };
         let mut result = ThermalState {
             surface,
             patch_mean,
+            heating: [heating, before.map_or(heating, |b| b.heating[0])],
             austenitised: before.map_or(0.0, |b| b.austenitised) + above,
             supplied: before.map_or(0.0, |b| b.supplied) + supplied,
             received: before.map_or(0.0, |b| b.received) + received,
@@ -269,20 +273,17 @@ impl Model {
         Ok(())
     }
 
-    /// Friction coefficient of the coming step from that available, the nominal slip velocity, and the coefficient and
-    /// temperatures of the step before.
-    pub(super) fn friction(&self, available: f64, slip: f64, before: f64, thermal: Option<&ThermalState>) -> f64 {
+    /// Friction coefficient of the coming step from that available and the nominal slip velocity; `ratio` is its length
+    /// over that of the step before, 0 if that says nothing.
+    pub(super) fn friction(&self, available: f64, slip: f64, thermal: Option<&ThermalState>, ratio: f64) -> f64 {
         let law = &self.config.friction;
         let falling = law.falling_ratio + (1.0 - law.falling_ratio) * (-law.falling_decay * slip.abs()).exp();
         let cold = available * falling;
-        let hot = thermal.map_or(0.0, |t| 0.5 * (t.patch_mean[0] + t.patch_mean[1])).max(0.0);
-        if hot == 0.0 || law.softening == 0.0 {
-            return cold;
-        }
-        // The flash temperature follows the friction coefficient within microseconds, T ∝ μ: solving for both at once
-        // keeps the law stable in long steps; the fixed point is μ = cold (1 − K T).
-        let soft = cold * before / (before + cold * law.softening * hot);
-        soft.max(cold * law.softening_floor)
+        // The flash temperature follows the friction coefficient within microseconds, T = θμ. Solving μ = cold (1 − KT)
+        // with θ extrapolated to the coming step keeps the law stable in long steps and second order in short ones.
+        let [now, before] = thermal.map_or([0.0; 2], |t| t.heating);
+        let heating = (now + ratio * (now - before)).clamp(0.0, 2.0 * now.max(0.0));
+        (cold / (1.0 + cold * law.softening * heating)).max(cold * law.softening_floor)
     }
 
     /// Undeformed gap with the thermal growth of wheel and layers.

@@ -24,8 +24,6 @@ impl Model {
     ) -> Result<State, StepError> {
         let width = self.config.model.contact_width;
         let thermal = state.thermal.as_ref();
-        let slip = state.velocity.now - self.grid.radius * state.omega.now;
-        let friction = self.friction(target.friction, slip, state.friction, thermal);
         let load = [target.force / width, target.moment / width, target.load / width, target.friction];
         let (free_v, free_r, free_y) = (
             inputs.translation == Translation::Force,
@@ -43,6 +41,8 @@ impl Model {
         };
         let v = predicted(&state.velocity, free_v, target.velocity);
         let omega = predicted(&state.omega, free_r, target.omega);
+        let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
+        let friction = self.friction(target.friction, v - self.grid.radius * omega, thermal, ratio);
         let stream_wheel = Convection { speed: omega, acceleration: state.omega.rate };
         let stream_rail = Convection { speed: v, acceleration: state.velocity.rate };
         let mut free_wheel = self.wheel.free(&operators.wheel, &state.wheel, &td, stream_wheel, &state.wheel);
