@@ -27,6 +27,7 @@ use std::sync::Arc;
 
 pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
+pub use crate::rolling::stepping::LONGEST_STEP;
 pub use crate::rolling::{
     Difference, Drive, Inputs, Origin, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical,
 };

@@ -2,7 +2,7 @@
 
 mod common;
 use common::*;
-use wheelrail::simulation::{Inputs, Rotation, Simulation, StepError, Translation, Vertical};
+use wheelrail::simulation::{Inputs, LONGEST_STEP, Rotation, Simulation, StepError, Translation, Vertical};
 
 #[test]
 fn a_thousand_random_starts_converge_without_shortening_a_step() {
@@ -82,6 +82,41 @@ fn wheel_lifts_off_falls_back_and_carries_the_load_again() {
     println!("landing force {largest:.0} N, then {:.0} N", outputs.contact_force_y);
     assert!(largest > 1.1 * inputs.drive.load);
     assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-3, "{}", outputs.contact_force_y);
+}
+
+/// Beyond the speed of surface waves a moving load has no stable field: energy would grow from nothing.
+#[test]
+fn a_motion_beyond_the_range_of_the_model_is_refused_and_the_run_goes_on() {
+    let model = model(preset("railway", 5));
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.drive.force = 1e8;
+    let error = (0..1000).find_map(|_| simulation.advance(&inputs, 1e-4).err()).unwrap();
+    assert!(matches!(error, StepError::Motion(_)) && error.to_string().contains("drive.velocity"), "{error}");
+    let velocity = simulation.outputs().wheel_velocity;
+    assert!(velocity > 190.0 && velocity <= 200.0, "{velocity} m/s");
+    simulation.advance(&Inputs::rolling(model.config()), 1e-4).unwrap();
+
+    let wave = model.config().material.rayleigh_speed();
+    assert!((wave / 2977.0 - 1.0).abs() < 0.01, "steel, Poisson's ratio 0.3: {wave} m/s");
+    inputs = Inputs { rotation: Rotation::Velocity, ..Inputs::rolling(model.config()) };
+    inputs.drive.omega = 1.01 * wave / model.config().wheel.radius;
+    let error = simulation.restart(&inputs).unwrap_err();
+    assert!(matches!(error, StepError::Motion(_)) && error.to_string().contains("drive.omega"), "{error}");
+}
+
+#[test]
+fn the_longest_communication_step_is_carried_out() {
+    let mut config = preset("railway", 5);
+    config.solver.max_step = 1.0;
+    let model = model(config);
+    let inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    simulation.advance(&inputs, LONGEST_STEP).unwrap();
+    let outputs = simulation.outputs();
+    assert_eq!(outputs.internal_steps, LONGEST_STEP as u64);
+    assert!((outputs.wheel_distance / (LONGEST_STEP * inputs.drive.velocity) - 1.0).abs() < 1e-3);
+    assert!(matches!(simulation.advance(&inputs, 1.001 * LONGEST_STEP), Err(StepError::StepSize { .. })));
 }
 
 #[test]

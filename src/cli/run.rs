@@ -4,8 +4,9 @@ use super::Failure;
 use super::scenario::{Scenario, Values};
 use super::setup::{Setup, failed, wrong};
 use std::path::PathBuf;
-use wheelrail::fmi::instance::{Instance, LONGEST_STEP};
+use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Kind, Value};
+use wheelrail::simulation::LONGEST_STEP;
 
 /// End of a run without scenario [s], as in modelDescription.xml.
 const DEFAULT_STOP: f64 = 1.0;

@@ -10,12 +10,10 @@ use super::snapshot::Snapshot;
 use super::variable::{Access, Causality, Reference, Value, Variable};
 use super::variables::find;
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, Model, Simulation};
+use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Simulation};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Longest communication step [s].
-pub const LONGEST_STEP: f64 = 3600.0;
 /// Largest mismatch of a communication point, relative to the step, besides rounding.
 const POINT_TOLERANCE: f64 = 1e-3;
 
@@ -315,7 +313,14 @@ impl Instance {
         let outputs = real_outputs(unknown)?;
         let failed = |error| Refusal::error(format!("directional derivative: {error}"));
         let difference = self.simulation()?.difference(&direction).map_err(failed)?;
-        Ok(outputs.into_iter().map(|variable| difference.quotient(|o| variable.real_output(o))).collect())
+        let quotient = |variable: &Variable| {
+            let value = difference.quotient(|o| variable.real_output(o));
+            let name = &variable.name;
+            let failed =
+                || Refusal::error(format!("directional derivative of {name} = {value}: the seed is too large"));
+            value.is_finite().then_some(value).ok_or_else(failed)
+        };
+        outputs.into_iter().map(quotient).collect()
     }
 
     /// Time derivatives of outputs (see [`Simulation::rate`]).

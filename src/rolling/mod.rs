@@ -15,7 +15,7 @@ pub mod stepping;
 pub mod thermal;
 pub mod transient;
 
-pub use control::{Drive, Inputs, Rotation, Translation, Vertical};
+pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use output::{Outputs, PROFILE_POINTS};
 pub use sensitivity::{Difference, Origin};
 pub use state::State;
@@ -40,10 +40,12 @@ pub enum StepError {
     ZoneExceeded { zone: f64, load: f64, nominal: f64 },
     #[error("the motion grew beyond all numbers at t = {time:.9e} s with an internal step of {step:.1e} s")]
     NotFinite { time: f64, step: f64 },
+    #[error("the motion leaves the range of the model: {0}")]
+    Motion(InputError),
     #[error("no equilibrium: {0}")]
     NoEquilibrium(&'static str),
     #[error(transparent)]
-    Input(#[from] control::InputError),
+    Input(#[from] InputError),
     #[error("communication step = {step} is outside its range: above 0 to {longest} s")]
     StepSize { step: f64, longest: f64 },
     #[error("no derivative at t = {time:.9e} s: contact states change at once to both sides")]
@@ -131,6 +133,27 @@ impl Model {
     /// Nominal wheel load per metre of width [N/m].
     pub fn nominal_line_load(&self) -> f64 {
         self.config.model.nominal_load / self.config.model.contact_width
+    }
+
+    /// Elastic energy of the contact under the nominal load, from its Hertzian penetration `a²/2r` [J/m].
+    fn contact_energy(&self) -> f64 {
+        let penetration = mechanics::nominal_half_width(&self.config).powi(2) / (2.0 * self.grid.radius);
+        0.5 * self.nominal_line_load() * penetration
+    }
+
+    /// Refuses motions (V, U, Ω) outside the ranges of the inputs that could prescribe them, and velocities at which
+    /// loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
+    fn check_motion(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
+        Drive { velocity, displacement, omega, ..Drive::default() }.validate().map_err(StepError::Motion)?;
+        let wave = self.config.material.rayleigh_speed();
+        for (name, value, limit) in
+            [("drive.velocity", velocity, wave), ("drive.omega", omega, wave / self.grid.radius)]
+        {
+            if value.abs() >= limit {
+                return Err(StepError::Motion(InputError { name, value, low: -limit, high: limit }));
+            }
+        }
+        Ok(())
     }
 
     /// Operators for `a0`, from the workspace if they are there.

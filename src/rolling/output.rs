@@ -94,7 +94,8 @@ pub struct Outputs {
     pub iterations: u64,
     /// Largest communication step for explicit coupling in this state [s].
     pub suggested_step: f64,
-    /// Energy imbalance since the start relative to the frictional dissipation [1].
+    /// Energy imbalance since the start relative to the frictional dissipation, at least to the elastic energy of a loaded
+    /// contact [1].
     pub energy_residual: f64,
     /// Positions of the profile points, x forward from below the wheel centre [m].
     pub profile_x: Vec<f64>,
@@ -173,7 +174,7 @@ impl Model {
             t_gamma: (force_x * xi).abs(),
             internal_steps: state.internal_steps,
             iterations: state.iterations,
-            energy_residual: state.audit.residual(),
+            energy_residual: state.audit.residual(self.contact_energy()),
             profile_x: profile(&|i| self.grid.x[i]),
             profile_pressure: profile(&|i| contact.normal(&self.grid, i) / h),
             profile_shear: profile(&|i| contact.tangential(&self.grid, i) / h),

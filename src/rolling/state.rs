@@ -70,10 +70,10 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// Imbalance relative to the dissipated energy [1] (to a millionth of the energy moved, where that is more).
-    pub fn residual(&self) -> f64 {
+    /// Imbalance relative to the dissipated energy [1], or to the energy `stored` [J/m] in the loaded contact or a
+    /// millionth of the energy moved, where those are more.
+    pub fn residual(&self, stored: f64) -> f64 {
         let imbalance = self.work - (self.energy - self.initial_energy) - self.dissipation;
-        let scale = self.dissipation.abs().max(1e-6 * self.throughput);
-        if scale > 0.0 { imbalance / scale } else { 0.0 }
+        imbalance / self.dissipation.max(1e-6 * self.throughput).max(stored)
     }
 }

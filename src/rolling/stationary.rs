@@ -51,6 +51,7 @@ impl Model {
         let velocity = if prescribed_x { drive.velocity } else { initial.velocity };
         let omega =
             if prescribed_r { drive.omega } else { peripheral_velocity(velocity, initial.creepage) / self.grid.radius };
+        self.check_motion([velocity, 0.0, omega])?;
         let load = drive.load / width;
         let slip = velocity - self.grid.radius * omega;
         let friction = self.friction(drive.friction, slip, thermal.as_ref(), 0.0);

@@ -4,9 +4,9 @@
 //! internal step lands exactly on its end. An internal step is halved if the contact finds no state, and, with a
 //! `solver.tolerance`, if contact force or contact temperature miss their prediction by more than that. The prediction
 //! is linear from the two steps before, or constant after a jump of the inputs; the difference is of second order in the
-//! step and larger than the error of the second-order formula. A contact that heats or cools by hundreds of kelvin
-//! in one long step is always refined: friction that falls with the temperature follows it with one step's delay. Loss of contact, re-contact, lock-up and breaking loose
-//! show in it at once, so no event needs a rule of its own.
+//! step and larger than the error of the second-order formula. Loss of contact, re-contact, lock-up and breaking loose
+//! show in it at once, so no event needs a rule of its own. A contact that heats or cools by hundreds of kelvin in one
+//! long step is always refined: friction that falls with the temperature follows it with one step's delay.
 
 use super::control::{Drive, Inputs};
 use super::state::State;
@@ -14,7 +14,7 @@ use super::{Model, StepError, Workspace};
 use serde::{Deserialize, Serialize};
 
 /// Longest communication step [s].
-pub const LONGEST_STEP: f64 = 1e3;
+pub const LONGEST_STEP: f64 = 3600.0;
 /// How often a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Internal step below which errors do not refine any further [s]: forces may jump, with the friction coefficient.

@@ -4,7 +4,6 @@ use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
 use super::integrator::{Sample, formula, settled};
 use super::state::State;
 use super::{Model, StepError, Workspace};
-use crate::config::TimeScheme;
 use crate::contact::{ContactProblem, RigidMotion, SurfaceResponse};
 use crate::mechanics::response::Convection;
 
@@ -129,11 +128,11 @@ impl Model {
         next.iterations += contact.iterations as u64;
         next.contact = contact;
 
-        // Work by the quadrature that belongs to the formula: end point for one-step, trapezoid for two-step.
-        let one_step = td.a2 == 0.0 && self.config.solver.time_scheme != TimeScheme::Theta;
+        // Work by the quadrature that belongs to the formula: end point for backward Euler, else trapezoid.
+        let backward_euler = td.a2 == 0.0 && td.b1 == 0.0;
         let (hub_power, friction_power) = self.powers(&next);
-        let mean = |before: f64, now: f64| if one_step { now } else { 0.5 * (before + now) };
-        let work = if one_step {
+        let mean = |before: f64, now: f64| if backward_euler { now } else { 0.5 * (before + now) };
+        let work = if backward_euler {
             dt * self.hub_power(&next.hub, &midway(state, &next))
         } else {
             0.5 * dt
@@ -149,6 +148,7 @@ impl Model {
         if !force.iter().chain(&motion).chain(&next.hub).all(|v| v.is_finite()) || !next.audit.energy.is_finite() {
             return Err(StepError::NotFinite { time: state.time, step: dt });
         }
+        self.check_motion(motion)?;
         if let (Some(heat), Some(before)) = (&self.heat, thermal) {
             next.thermal = Some(self.step_heat(heat, before, &next, target.tread_heat, dt, workspace)?);
         }
