@@ -35,8 +35,8 @@ use wheelrail::fmi::variables::variables;
 const ODD: [f64; 7] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 1e30, -1e30];
 /// Largest energy residual in calm runs: hundred times the elastic energy of the contact.
 const CALM_RESIDUAL: f64 = 100.0;
-/// Largest energy residual in wild ones: unaccounted energy no more than the energy moved, see `Audit::residual`.
-const WILD_RESIDUAL: f64 = 1e6;
+/// Largest energy residual in wild ones: unaccounted energy at most ten times the energy moved, see `Audit::residual`.
+const WILD_RESIDUAL: f64 = 1e7;
 /// Above this the model means nothing, but must stay sane [K].
 const MELTING: f64 = 2000.0;
 const UNKNOWN: u32 = 987_654;

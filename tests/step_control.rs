@@ -57,6 +57,24 @@ fn quiet_driving_takes_one_internal_step_each() {
 }
 
 #[test]
+fn breaking_loose_is_refined() {
+    // A brake at 60 % of the dry limit; then the rail is wet.
+    let wet = |inputs: &mut Inputs, t: f64| {
+        inputs.drive.moment = -8000.0 * (t / 0.1).min(1.0);
+        inputs.drive.friction = if t > 0.121 { 0.1 } else { 0.3 };
+    };
+    let (exact, _) = run(0.0, 2e-5, 2e-3, 0.126, wet);
+    let (plain, _) = run(0.0, 0.1, 2e-3, 0.126, wet);
+    let (controlled, _) = run(0.003, 0.1, 2e-3, 0.126, wet);
+    let loose = controlled.iter().position(|o| o.contact_stick_fraction == 0.0).unwrap();
+    assert_eq!(controlled[loose - 1].internal_steps, 1);
+    assert!(controlled[loose].internal_steps >= 8, "{}", controlled[loose].internal_steps);
+    let error = |seen: &[Outputs]| difference(&seen[loose..], &exact[loose..], |o| o.contact_slip_velocity);
+    println!("slip velocity error {:.1e} m/s, without control {:.1e} m/s", error(&controlled), error(&plain));
+    assert!(error(&controlled) < 0.2 * error(&plain));
+}
+
+#[test]
 fn take_off_and_landing_are_refined() {
     // The hub swings up by 0.4 mm and back within 50 ms, off the rail and onto it again.
     let lift = |inputs: &mut Inputs, t: f64| {

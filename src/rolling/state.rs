@@ -38,8 +38,8 @@ pub struct State {
     pub prescribed: [bool; 3],
     /// Friction coefficient of the last step [1].
     pub friction: f64,
-    /// Inputs of the last step that may have jumped since: force, moment, load per metre, friction.
-    pub last_load: [f64; 4],
+    /// Friction coefficient that was available in the last step [1].
+    pub available_friction: f64,
     /// Length of the last internal step [s]; 0 restarts the multistep formula.
     pub last_step: f64,
     /// Whether that step restarted the formula.

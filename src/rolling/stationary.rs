@@ -160,7 +160,7 @@ impl Model {
             hub,
             prescribed: [prescribed_x, inputs.vertical == Vertical::Displacement, prescribed_r],
             friction,
-            last_load: [drive.force / width, drive.moment / width, load, drive.friction],
+            available_friction: drive.friction,
             last_step: 0.0,
             restarted: true,
             control: StepControl { step: f64::INFINITY, before: [0.0; 3] },

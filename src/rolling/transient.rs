@@ -23,14 +23,15 @@ impl Model {
     ) -> Result<State, StepError> {
         let width = self.config.model.contact_width;
         let thermal = state.thermal.as_ref();
-        let load = [target.force / width, target.moment / width, target.load / width, target.friction];
-        let (free_v, free_r, free_y) = (
+        let load = [target.force / width, -target.load / width, target.moment / width];
+        let free = [
             inputs.translation == Translation::Force,
-            inputs.rotation == Rotation::Moment,
             inputs.vertical == Vertical::Force,
-        );
-        let acts = [free_v, free_r, free_y, true];
-        let before = if self.jumped(&state.last_load, &load, acts) { 0.0 } else { state.last_step };
+            inputs.rotation == Rotation::Moment,
+        ];
+        let [free_v, free_y, free_r] = free;
+        let jumped = self.jumped(state, &load, free, target.friction);
+        let before = if jumped { 0.0 } else { state.last_step };
         let dt = settled(dt, before);
         let td = formula(&self.config.solver, dt, before);
         let operators = self.operators(td.a0, workspace)?;
@@ -62,7 +63,7 @@ impl Model {
             gain: td.a0 * td.a0,
             offset: td.a0 * state.height.offset(&td) + state.climb.offset(&td),
             inertia: self.inertia[1],
-            load: -load[2],
+            load: load[1],
             momentum: free_wheel.momentum[1],
         };
         if let Some(thermal) = thermal {
@@ -82,7 +83,7 @@ impl Model {
             rigid: [
                 speed(&state.velocity, v, free_v, load[0], 0),
                 hub_height,
-                speed(&state.omega, omega, free_r, load[1], 2),
+                speed(&state.omega, omega, free_r, load[2], 2),
             ],
             slip_gain: td.a0,
             slip_offset: &slip_offset,
@@ -111,17 +112,15 @@ impl Model {
             let deformation: f64 = free_wheel.momentum[k]
                 + (operators.wheel.momentum.row(k) * &contact.forces)[0]
                 + (0..3).map(|l| operators.wheel.momentum_loads[(k, l)] * acceleration[l]).sum::<f64>();
-            let free = [free_v, free_y, free_r][k];
-            let prescribed = [load[0], -load[2], load[1]][k];
             let reaction = self.inertia[k] * acceleration[k] + deformation - force[k];
-            next.hub[k] = if free { prescribed } else { reaction };
+            next.hub[k] = if free[k] { load[k] } else { reaction };
         }
         next.time += dt;
         next.distance += 0.5 * dt * (state.velocity.now + next.velocity.now);
         next.angle += 0.5 * dt * (state.omega.now + next.omega.now);
         next.friction = friction;
-        next.prescribed = [!free_v, !free_y, !free_r];
-        next.last_load = load;
+        next.prescribed = free.map(|free| !free);
+        next.available_friction = target.friction;
         next.last_step = dt;
         next.restarted = before == 0.0;
         next.internal_steps += 1;
@@ -155,11 +154,14 @@ impl Model {
         Ok(next)
     }
 
-    /// Whether a driving force that acts, or the friction coefficient, has jumped between two steps.
-    fn jumped(&self, before: &[f64; 4], now: &[f64; 4], acts: [bool; 4]) -> bool {
-        let scale = JUMP * self.nominal_line_load();
-        let limits = [scale, scale * self.grid.radius, scale, JUMP * before[3].max(now[3])];
-        (0..4).any(|k| acts[k] && (now[k] - before[k]).abs() > limits[k])
+    /// Whether a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
+    /// friction coefficient; `acts`: which forces (x, y, moment) are prescribed now.
+    fn jumped(&self, state: &State, load: &[f64; 3], acts: [bool; 3], friction: f64) -> bool {
+        let limit = JUMP * self.nominal_line_load();
+        let limits = [limit, limit, limit * self.grid.radius];
+        let available = state.available_friction;
+        (friction - available).abs() > JUMP * available.max(friction)
+            || (0..3).any(|k| acts[k] && (load[k] - state.hub[k]).abs() > limits[k])
     }
 
     /// Power of the hub forces (x, y, moment) at rigid velocities (V, U̇, Ω) [W/m].
