@@ -119,3 +119,22 @@ def test_a_partner_that_was_never_set_starts_from_its_present_value(start, verti
         wheel.step(1e-3)
         assert wheel.get(*watched) == pytest.approx(before, rel=1e-4)
         assert wheel.get("contact.force_y") == pytest.approx(LOAD, rel=1e-4)
+
+
+def test_every_switch_starts_from_the_present_value(start):
+    """Held, braked, held again: the second hold must not return to the velocity of the first."""
+    wheel = start({"initial.velocity": V})
+    for moment in (-4000.0, -6000.0):
+        wheel.set({"control.rotation": "velocity", "control.vertical": "displacement"})
+        for _ in range(5):
+            wheel.step(1e-3)
+        wheel.set({"control.rotation": "moment", "control.vertical": "force", "drive.load": 0.9 * LOAD})
+        for k in range(200):
+            wheel.set({"drive.moment": moment * min(1.0, k / 100)})
+            wheel.step(1e-3)
+    before = wheel.get("contact.force_x", "contact.force_y", "wheel.omega")
+    wheel.set({"control.rotation": "velocity", "control.vertical": "displacement"})
+    wheel.step(1e-3)
+    after = wheel.get("contact.force_x", "contact.force_y", "wheel.omega")
+    assert after[:2] == pytest.approx(before[:2], abs=5e-3 * LOAD)
+    assert after[2] == pytest.approx(before[2], rel=1e-12)

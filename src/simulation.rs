@@ -223,21 +223,6 @@ impl Simulation {
         &self.outputs
     }
 
-    /// Present values of all quantities that can be prescribed.
-    pub fn present(&self) -> Drive {
-        let outputs = &self.outputs;
-        Drive {
-            omega: outputs.wheel_omega,
-            moment: outputs.hub_moment,
-            velocity: outputs.wheel_velocity,
-            force: outputs.hub_force_x,
-            load: (-outputs.hub_force_y).max(0.0),
-            displacement: -outputs.contact_approach,
-            friction: self.memory.state.friction,
-            tread_heat: 0.0,
-        }
-    }
-
     /// Displacement, velocity, stress and temperature in the whole bodies.
     pub fn fields(&self) -> Result<Fields, FieldError> {
         self.model.rolling.fields(&self.memory.state)

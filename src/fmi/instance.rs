@@ -5,12 +5,12 @@
 use super::lifecycle::{Call, Phase};
 use super::log::{Log, Refusal, Status};
 use super::presets;
-use super::settings::{Explicit, ramp_end, with_inputs, with_parameters};
+use super::settings::{Explicit, with_inputs, with_parameters};
 use super::snapshot::Snapshot;
 use super::variable::{Access, Causality, Reference, Value, Variable};
 use super::variables::find;
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Simulation};
+use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Rotation, Simulation, Translation, Vertical};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -31,6 +31,8 @@ pub struct Instance {
     config: Config,
     /// Explicitly set inputs; the others follow from the parameters.
     inputs: Explicit,
+    /// Present values that inputs took over when a control was switched to them; explicit ones override them.
+    taken: Explicit,
     /// Time derivatives of the inputs during the next step.
     rates: Drive,
     time: f64,
@@ -60,6 +62,7 @@ impl Instance {
             base,
             parameters: Explicit::new(),
             inputs: Explicit::new(),
+            taken: Explicit::new(),
             rates: Drive::default(),
             time: 0.0,
             stop: None,
@@ -168,6 +171,7 @@ impl Instance {
         self.base = base;
         self.parameters.clear();
         self.inputs.clear();
+        self.taken.clear();
         self.rates = Drive::default();
         (self.time, self.stop) = (0.0, None);
         self.simulation = None;
@@ -202,7 +206,8 @@ impl Instance {
         let variables = lookup(references, first.type_name())?;
         let early = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
         let (mut preset, mut base) = (self.preset.clone(), self.base.clone());
-        let (mut parameters, mut inputs, mut rates) = (self.parameters.clone(), self.inputs.clone(), self.rates);
+        let (mut parameters, mut rates) = (self.parameters.clone(), self.rates);
+        let (mut inputs, mut taken) = (self.inputs.clone(), self.taken.clone());
         for (variable, value) in variables.iter().zip(values) {
             match variable.causality() {
                 Causality::Output => {
@@ -229,10 +234,9 @@ impl Instance {
         }
         let config = with_parameters(&base, &parameters);
         if !early {
-            let now = with_inputs(&self.config, &self.inputs, rates);
-            self.take_over(&now, &with_inputs(&config, &inputs, rates), &mut inputs);
+            self.take_over(&with_inputs(&config, &taken, &inputs, rates), &mut taken);
         }
-        with_inputs(&config, &inputs, rates).validate().map_err(|error| Refusal::error(error.to_string()))?;
+        with_inputs(&config, &taken, &inputs, rates).validate().map_err(|error| Refusal::error(error.to_string()))?;
         if !early && config != self.config {
             config.validate().map_err(|error| Refusal::error(error.to_string()))?;
             if let Some(simulation) = &mut self.simulation {
@@ -241,29 +245,37 @@ impl Instance {
             }
         }
         (self.preset, self.base, self.config) = (preset, base, config);
-        (self.parameters, self.inputs, self.rates) = (parameters, inputs, rates);
+        (self.parameters, self.inputs, self.taken, self.rates) = (parameters, inputs, taken, rates);
         if early {
             self.simulation = None;
         }
         Ok(())
     }
 
-    /// When control switches during a run, a newly prescribed quantity that the master has never set starts from its
-    /// present value.
-    fn take_over(&self, now: &Inputs, next: &Inputs, inputs: &mut Explicit) {
+    /// A quantity that becomes prescribed during a run takes over its present value, unless the master has set it.
+    fn take_over(&self, next: &Inputs, taken: &mut Explicit) {
         let Some(simulation) = &self.simulation else { return };
-        let present = simulation.present();
-        for (switched, name, value) in [
-            (now.rotation != next.rotation, "drive.omega", present.omega),
-            (now.rotation != next.rotation, "drive.moment", present.moment),
-            (now.translation != next.translation, "drive.velocity", present.velocity),
-            (now.translation != next.translation, "drive.force", present.force),
-            (now.vertical != next.vertical, "drive.load", present.load),
-            (now.vertical != next.vertical, "drive.displacement", present.displacement),
+        let (now, outputs) = (self.effective_inputs(), simulation.outputs());
+        let rotation = match next.rotation {
+            Rotation::Velocity => ("drive.omega", outputs.wheel_omega),
+            Rotation::Moment => ("drive.moment", outputs.hub_moment),
+        };
+        let translation = match next.translation {
+            Translation::Velocity => ("drive.velocity", outputs.wheel_velocity),
+            Translation::Force => ("drive.force", outputs.hub_force_x),
+        };
+        let vertical = match next.vertical {
+            Vertical::Force => ("drive.load", (-outputs.hub_force_y).max(0.0)),
+            Vertical::Displacement => ("drive.displacement", -outputs.contact_approach),
+        };
+        for (switched, (name, present)) in [
+            (now.rotation != next.rotation, rotation),
+            (now.translation != next.translation, translation),
+            (now.vertical != next.vertical, vertical),
         ] {
             let row = super::variables::variables().iter().find(|variable| variable.name == name);
             if let Some(variable) = row.filter(|_| switched) {
-                inputs.entry(variable.reference).or_insert(Value::Real(value));
+                taken.insert(variable.reference, Value::Real(present));
             }
         }
     }
@@ -285,7 +297,7 @@ impl Instance {
             }
             *field(&mut rates) = *value;
         }
-        let inputs = with_inputs(&self.config, &self.inputs, rates);
+        let inputs = with_inputs(&self.config, &self.taken, &self.inputs, rates);
         inputs.validate().map_err(|error| Refusal::error(error.to_string()))?;
         self.rates = rates;
         Ok(())
@@ -359,11 +371,11 @@ impl Instance {
             return Err(Refusal::error(message));
         }
         let inputs = self.effective_inputs();
-        let end = ramp_end(&inputs, h);
+        let end = inputs.at(h);
         end.validate().map_err(|error| Refusal::error(format!("at the end of the step {error}")))?;
         match self.simulation()?.advance(&inputs, h) {
             Ok(()) => {
-                self.hold(&end);
+                self.hold(end);
                 self.time = start + h;
                 (self.phase, self.last_step) = (Phase::StepComplete, Status::Ok);
                 (self.failure, self.hopeless) = (None, false);
@@ -388,6 +400,7 @@ impl Instance {
             base: self.base.clone(),
             parameters: self.parameters.clone(),
             inputs: self.inputs.clone(),
+            taken: self.taken.clone(),
             rates: self.rates,
             time: self.time,
             stop: self.stop,
@@ -418,6 +431,7 @@ impl Instance {
         self.parameters.clone_from(&snapshot.parameters);
         self.config = config;
         self.inputs.clone_from(&snapshot.inputs);
+        self.taken.clone_from(&snapshot.taken);
         self.rates = snapshot.rates;
         (self.time, self.stop) = (snapshot.time, snapshot.stop);
         // A master may restore and repeat a discarded step for ever: the failure is remembered.
@@ -460,20 +474,19 @@ impl Instance {
     }
 
     fn effective_inputs(&self) -> Inputs {
-        with_inputs(&self.config, &self.inputs, self.rates)
+        with_inputs(&self.config, &self.taken, &self.inputs, self.rates)
     }
 
     /// Keeps the values at the end of a ramp as the new inputs.
-    fn hold(&mut self, end: &Inputs) {
+    fn hold(&mut self, mut end: Drive) {
         if self.rates == Drive::default() {
             return;
         }
-        let mut end = *end;
         for variable in super::variables::variables() {
             if let Access::RealInput(field) = variable.access
                 && *field(&mut self.rates) != 0.0
             {
-                self.inputs.insert(variable.reference, Value::Real(*field(&mut end.drive)));
+                self.inputs.insert(variable.reference, Value::Real(*field(&mut end)));
             }
         }
         self.rates = Drive::default();

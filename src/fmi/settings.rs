@@ -1,12 +1,12 @@
 //! What a master has set, laid over what follows without it.
 
-use super::variable::{Access, Kind, Reference, Value};
-use super::variables::{find, variables};
+use super::variable::{Reference, Value};
+use super::variables::find;
 use crate::config::Config;
 use crate::simulation::{Drive, Inputs};
 use std::collections::BTreeMap;
 
-/// Explicitly set values by value reference.
+/// Set values by value reference.
 pub type Explicit = BTreeMap<Reference, Value>;
 
 /// The configuration `base` with explicit parameters.
@@ -20,33 +20,14 @@ pub fn with_parameters(base: &Config, parameters: &Explicit) -> Config {
     config
 }
 
-/// The inputs that follow from the configuration, with explicit ones and their time derivatives.
-pub fn with_inputs(config: &Config, explicit: &Explicit, rate: Drive) -> Inputs {
+/// The inputs that follow from the configuration, overridden by those `taken` over when a control was switched and by
+/// explicit ones, with their time derivatives.
+pub fn with_inputs(config: &Config, taken: &Explicit, explicit: &Explicit, rate: Drive) -> Inputs {
     let mut inputs = Inputs::rolling(config);
-    for (reference, value) in explicit {
+    for (reference, value) in taken.iter().chain(explicit) {
         if let Some(variable) = find(*reference) {
             variable.set_input(&mut inputs, value);
         }
     }
     Inputs { rate, ..inputs }
-}
-
-/// Inputs after a time `h` [s], at rest there.
-pub fn ramp_end(inputs: &Inputs, h: f64) -> Inputs {
-    let (mut end, mut rate) = (*inputs, inputs.rate);
-    for variable in variables() {
-        if let Access::RealInput(field) = variable.access {
-            let by = h * *field(&mut rate);
-            let value = field(&mut end.drive);
-            let rounding = 4.0 * f64::EPSILON * (value.abs() + by.abs());
-            *value += by;
-            // A ramp to the end of the range must not be refused for rounding.
-            if let Kind::Real { min, max, .. } = variable.kind
-                && (*value - value.clamp(min, max)).abs() <= rounding
-            {
-                *value = value.clamp(min, max);
-            }
-        }
-    }
-    Inputs { rate: Drive::default(), ..end }
 }

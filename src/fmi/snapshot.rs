@@ -17,6 +17,7 @@ pub struct Snapshot {
     pub base: Config,
     pub parameters: Explicit,
     pub inputs: Explicit,
+    pub taken: Explicit,
     pub rates: Drive,
     /// Current communication point [s].
     pub time: f64,

@@ -97,18 +97,16 @@ impl Drive {
         ]
     }
 
+    /// The inverse of [`Drive::values`].
+    fn from_values(values: [f64; 8]) -> Self {
+        let [omega, moment, velocity, force, load, displacement, friction, tread_heat] = values;
+        Self { omega, moment, velocity, force, load, displacement, friction, tread_heat }
+    }
+
     /// `f` of the values of both, one by one.
     pub fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            omega: f(self.omega, other.omega),
-            moment: f(self.moment, other.moment),
-            velocity: f(self.velocity, other.velocity),
-            force: f(self.force, other.force),
-            load: f(self.load, other.load),
-            displacement: f(self.displacement, other.displacement),
-            friction: f(self.friction, other.friction),
-            tread_heat: f(self.tread_heat, other.tread_heat),
-        }
+        let (a, b) = (self.values(), other.values());
+        Self::from_values(std::array::from_fn(|k| f(a[k], b[k])))
     }
 
     /// Refuses values out of range, infinite or not a number.
@@ -134,10 +132,18 @@ impl Inputs {
         Ok(())
     }
 
-    /// The inputs `time` seconds after the start of the communication step.
+    /// The values `time` seconds after the start of the communication step. A ramp to the end of a range does not leave
+    /// it by rounding.
     pub fn at(&self, time: f64) -> Drive {
-        let drive = self.drive.zip(&self.rate, |value, rate| value + time * rate);
-        Drive { load: drive.load.max(0.0), friction: drive.friction.max(0.0), ..drive }
+        let (values, rates) = (self.drive.values(), self.rate.values());
+        Drive::from_values(std::array::from_fn(|k| {
+            let (_, low, high) = INPUT_RANGES[k];
+            let by = time * rates[k];
+            let value = values[k] + by;
+            let limited = value.clamp(low, high);
+            let rounding = 4.0 * f64::EPSILON * (values[k].abs() + by.abs());
+            if (value - limited).abs() <= rounding { limited } else { value }
+        }))
     }
 }
 
@@ -172,6 +178,23 @@ mod tests {
         assert_eq!(creepage(0.0, 10.0), -2.0);
         assert_eq!(creepage(0.0, 0.0), 0.0);
         assert!((creepage(13.0, peripheral_velocity(13.0, 3e-4)) - 3e-4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_ramp_to_the_end_of_a_range_does_not_leave_it_by_rounding() {
+        let (start, step) = (0.007, 0.003);
+        let inputs = |k: usize, slope: f64| {
+            let (mut values, mut rates) = ([0.0; 8], [0.0; 8]);
+            (values[k], rates[k]) = (start, slope);
+            let (drive, rate) = (Drive::from_values(values), Drive::from_values(rates));
+            let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);
+            Inputs { rotation, translation, vertical, drive, rate }
+        };
+        assert!(start + step * (-start / step) < 0.0, "the case rounds below zero");
+        for (k, (name, low, _)) in INPUT_RANGES.into_iter().enumerate().filter(|(_, range)| range.1 == 0.0) {
+            assert_eq!(inputs(k, -start / step).at(step).values()[k], low, "{name}");
+            assert_eq!(inputs(k, -2.0 * start / step).at(step).validate().unwrap_err().name, name);
+        }
     }
 
     #[test]
