@@ -255,11 +255,65 @@ pub struct Initial {
     pub creepage: f64,
 }
 
+/// FMI name, value, smallest and largest meaningful value of each numeric parameter; some depend on others besides, see
+/// [`Config::validate`].
+type NumericParameter = (&'static str, fn(&Config) -> f64, f64, f64);
+
+const NUMERIC_PARAMETERS: [NumericParameter; 41] = [
+    ("model.contact_width", |c| c.model.contact_width, 1e-4, 10.0),
+    ("model.nominal_load", |c| c.model.nominal_load, 1e-3, 1e9),
+    ("wheel.radius", |c| c.wheel.radius, 1e-2, 10.0),
+    ("wheel.hub_radius", |c| c.wheel.hub_radius, 2e-4, 9.0),
+    ("wheel.hub_mass", |c| c.wheel.hub_mass, 0.0, 1e6),
+    ("wheel.hub_inertia", |c| c.wheel.hub_inertia, 0.0, 1e6),
+    ("vehicle.mass", |c| c.vehicle.mass, 0.0, 1e9),
+    ("rail.length", |c| c.rail.length, 2e-3, 100.0),
+    ("rail.height", |c| c.rail.height, 2e-4, 10.0),
+    ("material.youngs_modulus", |c| c.material.youngs_modulus, 1e5, 1e13),
+    ("material.poissons_ratio", |c| c.material.poissons_ratio, 0.0, 0.49),
+    ("material.density", |c| c.material.density, 1.0, 1e5),
+    ("material.expansion", |c| c.material.expansion, 0.0, 1e-3),
+    ("material.conductivity", |c| c.material.conductivity, 1e-3, 1e5),
+    ("material.specific_heat", |c| c.material.specific_heat, 1.0, 1e5),
+    ("friction.coefficient", |c| c.friction.coefficient, 0.0, 10.0),
+    ("friction.falling_ratio", |c| c.friction.falling_ratio, 0.0, 1.0),
+    ("friction.falling_decay", |c| c.friction.falling_decay, 0.0, 1e3),
+    ("friction.softening", |c| c.friction.softening, 0.0, 1.0),
+    ("friction.softening_floor", |c| c.friction.softening_floor, 0.0, 1.0),
+    ("thermal.reference", |c| c.thermal.reference, 1.0, 1e4),
+    ("thermal.wheel_excess", |c| c.thermal.wheel_excess, -1e3, 5e3),
+    ("thermal.conductance", |c| c.thermal.conductance, 0.0, 1e12),
+    ("thermal.reference_pressure", |c| c.thermal.reference_pressure, 1.0, 1e12),
+    ("thermal.heat_ratio", |c| c.thermal.heat_ratio, 0.0, 1.0),
+    ("thermal.wheel_share", |c| c.thermal.wheel_share, 0.0, 1.0),
+    ("thermal.convection", |c| c.thermal.convection, 0.0, 1e5),
+    ("thermal.max_speed", |c| c.thermal.max_speed, 0.1, 200.0),
+    ("thermal.smallest_load_ratio", |c| c.thermal.smallest_load_ratio, 0.05, 1.0),
+    ("thermal.tread_angle", |c| c.thermal.tread_angle, -3.2, 3.2),
+    ("thermal.tread_width", |c| c.thermal.tread_width, 1e-3, 6.2),
+    ("thermal.tread_blocks", |c| c.thermal.tread_blocks as f64, 1.0, 2.0),
+    ("thermal.austenitisation", |c| c.thermal.austenitisation, 1.0, 1e4),
+    ("mesh.elements_per_half_width", |c| c.mesh.elements_per_half_width as f64, 4.0, 80.0),
+    ("solver.modes_wheel", |c| c.solver.modes_wheel as f64, 1.0, 200.0),
+    ("solver.modes_rail", |c| c.solver.modes_rail as f64, 1.0, 200.0),
+    ("solver.theta", |c| c.solver.theta, 0.5, 1.0),
+    ("solver.max_step", |c| c.solver.max_step, 1e-6, 1.0),
+    ("solver.tolerance", |c| c.solver.tolerance, 0.0, 1.0),
+    ("initial.velocity", |c| c.initial.velocity, -200.0, 200.0),
+    ("initial.creepage", |c| c.initial.creepage, -1.99, 2.0),
+];
+
+/// Smallest and largest meaningful value of the numeric parameter of that FMI name; without limits if there is none.
+pub fn parameter_range(name: &str) -> [f64; 2] {
+    let row = NUMERIC_PARAMETERS.iter().find(|row| row.0 == name);
+    row.map_or([f64::NEG_INFINITY, f64::INFINITY], |&(_, _, low, high)| [low, high])
+}
+
 /// A parameter outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} = {value} is outside its range: {range}")]
 pub struct ConfigError {
-    /// FMI name of the parameter.
+    /// FMI name of the parameter, or what follows from parameters.
     pub name: &'static str,
     pub value: f64,
     /// Allowed range, in words.
@@ -297,50 +351,17 @@ impl Config {
                 Err(ConfigError { name, value, range })
             }
         };
-        within("model.contact_width", c.model.contact_width, 1e-4, 10.0)?;
-        within("model.nominal_load", c.model.nominal_load, 1e-3, 1e9)?;
-        within("wheel.radius", c.wheel.radius, 1e-2, 10.0)?;
-        within("wheel.hub_radius", c.wheel.hub_radius, 0.02 * c.wheel.radius, 0.9 * c.wheel.radius)?;
-        within("wheel.hub_mass", c.wheel.hub_mass, 0.0, 1e6)?;
-        within("wheel.hub_inertia", c.wheel.hub_inertia, 0.0, 1e6)?;
-        within("vehicle.mass", c.vehicle.mass, 0.0, 1e9)?;
-        within("rail.length", c.rail.length, 0.2 * c.wheel.radius, 100.0)?;
-        within("rail.height", c.rail.height, 0.02 * c.wheel.radius, 10.0)?;
-        within("material.youngs_modulus", c.material.youngs_modulus, 1e5, 1e13)?;
-        within("material.poissons_ratio", c.material.poissons_ratio, 0.0, 0.49)?;
-        within("material.density", c.material.density, 1.0, 1e5)?;
-        within("material.expansion", c.material.expansion, 0.0, 1e-3)?;
-        within("material.conductivity", c.material.conductivity, 1e-3, 1e5)?;
-        within("material.specific_heat", c.material.specific_heat, 1.0, 1e5)?;
-        within("friction.coefficient", c.friction.coefficient, 0.0, 10.0)?;
-        within("friction.falling_ratio", c.friction.falling_ratio, 0.0, 1.0)?;
-        within("friction.falling_decay", c.friction.falling_decay, 0.0, 1e3)?;
-        within("friction.softening", c.friction.softening, 0.0, 1.0)?;
-        within("friction.softening_floor", c.friction.softening_floor, 0.0, 1.0)?;
-        within("thermal.reference", c.thermal.reference, 1.0, 1e4)?;
-        within("thermal.wheel_excess", c.thermal.wheel_excess, -1e3, 5e3)?;
-        within("thermal.conductance", c.thermal.conductance, 0.0, 1e12)?;
-        within("thermal.reference_pressure", c.thermal.reference_pressure, 1.0, 1e12)?;
-        within("thermal.heat_ratio", c.thermal.heat_ratio, 0.0, 1.0)?;
-        within("thermal.wheel_share", c.thermal.wheel_share, 0.0, 1.0)?;
-        within("thermal.convection", c.thermal.convection, 0.0, 1e5)?;
-        within("thermal.max_speed", c.thermal.max_speed, 0.1, 200.0)?;
-        within("thermal.smallest_load_ratio", c.thermal.smallest_load_ratio, 0.05, 1.0)?;
-        within("thermal.tread_angle", c.thermal.tread_angle, -3.2, 3.2)?;
-        within("thermal.tread_width", c.thermal.tread_width, 1e-3, 6.2)?;
-        within("thermal.tread_blocks", c.thermal.tread_blocks as f64, 1.0, 2.0)?;
-        within("thermal.austenitisation", c.thermal.austenitisation, 1.0, 1e4)?;
+        for (name, value, low, high) in NUMERIC_PARAMETERS {
+            within(name, value(c), low, high)?;
+        }
+        let radius = c.wheel.radius;
+        within("wheel.hub_radius", c.wheel.hub_radius, 0.02 * radius, 0.9 * radius)?;
+        within("rail.length", c.rail.length, 0.2 * radius, f64::INFINITY)?;
+        within("rail.height", c.rail.height, 0.02 * radius, f64::INFINITY)?;
         if c.thermal.reference + c.thermal.wheel_excess <= 0.0 {
             let range = format!("above {} K (absolute zero)", -c.thermal.reference);
             return Err(ConfigError { name: "thermal.wheel_excess", value: c.thermal.wheel_excess, range });
         }
-        within("mesh.elements_per_half_width", c.mesh.elements_per_half_width as f64, 4.0, 80.0)?;
-        within("solver.modes_wheel", c.solver.modes_wheel as f64, 1.0, 200.0)?;
-        within("solver.modes_rail", c.solver.modes_rail as f64, 1.0, 200.0)?;
-        within("solver.theta", c.solver.theta, 0.5, 1.0)?;
-        within("solver.max_step", c.solver.max_step, 1e-7, 1.0)?;
-        within("solver.tolerance", c.solver.tolerance, 0.0, 1.0)?;
-        within("initial.velocity", c.initial.velocity, -200.0, 200.0)?;
-        within("initial.creepage", c.initial.creepage, -2.0, 2.0)
+        Ok(())
     }
 }

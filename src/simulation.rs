@@ -173,6 +173,10 @@ impl Simulation {
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
         let next = self.model.rolling.advance(&self.memory.state, inputs, h, &mut self.workspace)?;
+        if next.pending > 0.0 {
+            self.memory.state = next;
+            return Ok(());
+        }
         let outputs = std::mem::replace(&mut self.outputs, self.model.rolling.outputs(&next));
         let state = std::mem::replace(&mut self.memory.state, next);
         self.memory.before.insert(0, (state.time, outputs));
@@ -183,8 +187,7 @@ impl Simulation {
 
     /// Goes on with other tunable parameters; refuses a model that differs in anything else.
     pub fn retune(&mut self, config: &Config) -> Result<(), StepError> {
-        let other = || StepError::Body("only tunable parameters may change during a run".into());
-        self.model = self.model.retuned(config).ok_or_else(other)?;
+        self.model = self.model.retuned(config).ok_or(StepError::NotTunable)?;
         Ok(())
     }
 
@@ -202,14 +205,14 @@ impl Simulation {
         self.model.rolling.difference(state, origin, direction, &mut self.workspace)
     }
 
-    /// Time derivative of an output: second-order backward difference of the last communication points (first order
-    /// after one step; at the start that of the stationary motion).
+    /// Time derivative of an output: second-order backward difference of the last communication points, which the
+    /// stationary motion precedes.
     pub fn rate(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
         let now = output(&self.outputs);
         let slope = |(time, before): &(f64, Outputs)| (now - output(before)) / (self.memory.state.time - time);
         let points = &self.memory.before;
         match (points.first(), points.get(1)) {
-            (Some(a), Some(b)) if points.len() == KEPT_POINTS => {
+            (Some(a), Some(b)) => {
                 let (h, total) = (self.memory.state.time - a.0, self.memory.state.time - b.0);
                 slope(a) + (slope(a) - slope(b)) * h / (total - h)
             }
@@ -243,22 +246,28 @@ impl Simulation {
         &self.memory.state
     }
 
-    /// Continues from the memory of a simulation with the same model.
-    pub fn recall(&mut self, memory: Memory) -> Result<(), StepError> {
+    /// Continues from the memory of a simulation with an equal model.
+    pub fn resume(model: Arc<Model>, memory: Memory) -> Result<Self, StepError> {
         let origin = match &memory.origin {
             Origin::Stationary(_) => None,
             Origin::Step { state, .. } => Some(&**state),
         };
-        if !origin.into_iter().chain([&memory.state]).all(|state| self.model.rolling.fits(state)) {
-            return Err(StepError::Body("the state belongs to a model with other dimensions".into()));
+        if !origin.into_iter().chain([&memory.state]).all(|state| model.rolling.fits(state)) {
+            return Err(StepError::ForeignState);
         }
-        self.outputs = self.model.rolling.outputs(&memory.state);
-        self.memory = memory;
+        let outputs = model.rolling.outputs(&memory.state);
+        Ok(Self { model, memory, outputs, workspace: Workspace::default() })
+    }
+
+    /// Goes back, or on, to the memory of a simulation with an equal model.
+    pub fn recall(&mut self, memory: Memory) -> Result<(), StepError> {
+        let resumed = Self::resume(self.model.clone(), memory)?;
+        *self = Self { workspace: std::mem::take(&mut self.workspace), ..resumed };
         Ok(())
     }
 
     /// Time since the start [s].
     pub fn time(&self) -> f64 {
-        self.memory.state.time
+        self.memory.state.time + self.memory.state.pending
     }
 }

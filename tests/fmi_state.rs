@@ -121,7 +121,10 @@ fn varied(slave: &Slave, mut time: f64) -> Vec<Vec<u64>> {
                 assert_eq!(slave.set_integer("control.vertical", 2), fmi2OK);
                 assert_eq!(slave.set_real("drive.displacement", 1e-4), fmi2OK);
             }
-            14 => assert_eq!(slave.set_integer("control.vertical", 1), fmi2OK),
+            14 => {
+                assert_eq!(slave.set_integer("control.vertical", 1), fmi2OK);
+                assert_eq!(slave.set_real("drive.load", 1e5), fmi2OK);
+            }
             _ => {}
         }
         assert_eq!(slave.step(time, h), fmi2OK, "step {i}: {:?}", slave.messages());

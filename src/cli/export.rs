@@ -1,17 +1,14 @@
 //! `export`: fields in the whole bodies to files for ParaView.
 
 use super::run::{Course, Run};
+use super::setting::Setting;
 use super::setup::{Setup, failed};
 use super::steady::{OperatingPoint, Velocity, parse_creepage};
 use super::vtu::{self, Data};
 use super::{Failure, model};
 use std::path::PathBuf;
 use wheelrail::fmi::instance::Instance;
-use wheelrail::fmi::variable::Value;
 use wheelrail::simulation::{BodyField, Fields, Stress, TemperatureField};
-
-/// Item of `solver.response`.
-const FULL: i32 = 2;
 
 /// Write displacement, velocity, stress and temperature of wheel and rail for ParaView (.vtu).
 ///
@@ -46,7 +43,7 @@ impl Export {
 
     /// The slave in the state to be exported, and what that is.
     fn instance(&self) -> Result<(Instance, String), Failure> {
-        let fixed = [("solver.response", Value::Integer(FULL))];
+        let fixed = [Setting::new("solver.response", "full")?];
         if self.creepage.is_some() || self.velocity.is_given() {
             if self.course.scenario.is_some() || self.course.stop.is_some() {
                 let why =

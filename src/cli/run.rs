@@ -2,14 +2,13 @@
 
 use super::Failure;
 use super::scenario::{Scenario, Values};
+use super::setting::Setting;
 use super::setup::{Setup, failed, wrong};
 use std::path::PathBuf;
+use wheelrail::fmi::description::{DEFAULT_STEP_SIZE, DEFAULT_STOP_TIME};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Kind, Value};
 use wheelrail::simulation::LONGEST_STEP;
-
-/// End of a run without scenario [s], as in modelDescription.xml.
-const DEFAULT_STOP: f64 = 1.0;
 
 /// Difference of times, in steps, that is rounding only.
 const ROUNDING: f64 = 1e-6;
@@ -25,7 +24,7 @@ pub struct Course {
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub stop: Option<f64>,
     /// Communication step [s].
-    #[arg(long, value_name = "SECONDS", default_value_t = 1e-3, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", default_value_t = DEFAULT_STEP_SIZE, allow_negative_numbers = true)]
     pub step: f64,
 }
 
@@ -41,15 +40,15 @@ pub struct Run {
 }
 
 impl Run {
-    /// The slave in its stationary start state; `fixed` are names and values that the command decides.
-    pub fn start(setup: &Setup, course: &Course, fixed: &[(&str, Value)]) -> Result<Run, Failure> {
+    /// The slave in its stationary start state; `fixed` are what the command decides.
+    pub fn start(setup: &Setup, course: &Course, fixed: &[Setting]) -> Result<Run, Failure> {
         let scenario = course.scenario.as_deref().map(Scenario::read).transpose()?;
         let step = course.step;
         if !(step > 0.0 && step <= LONGEST_STEP) {
             let range = format!("more than 0, at most {LONGEST_STEP} s");
             return Err(Failure::Usage(format!("--step = {step} is outside its range: {range}")));
         }
-        let stop = course.stop.or_else(|| scenario.as_ref().map(Scenario::end)).unwrap_or(DEFAULT_STOP);
+        let stop = course.stop.or_else(|| scenario.as_ref().map(Scenario::end)).unwrap_or(DEFAULT_STOP_TIME);
         if !(stop >= 0.0 && stop.is_finite()) {
             return Err(Failure::Usage(format!("--stop = {stop} is outside its range: finite, at least 0 s")));
         }

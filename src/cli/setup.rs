@@ -1,11 +1,10 @@
 //! From preset and settings to a slave: the arguments that all runs share.
 
-use super::setting::{Setting, find};
+use super::setting::Setting;
 use super::{Failure, model};
 use std::path::PathBuf;
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::log::{Log, Refusal};
-use wheelrail::fmi::variable::Value;
 
 #[derive(clap::Args)]
 pub struct Setup {
@@ -42,19 +41,19 @@ impl Setup {
 
     /// A slave in Initialization Mode with the settings, then `fixed` ones, and its model prepared.
     ///
-    /// `fixed` are names and values that the command itself decides. `stop` is the end of the run [s].
-    pub fn initialize(&self, fixed: &[(&str, Value)], stop: Option<f64>) -> Result<Instance, Failure> {
+    /// `fixed` are what the command itself decides. `stop` is the end of the run [s].
+    pub fn initialize(&self, fixed: &[Setting], stop: Option<f64>) -> Result<Instance, Failure> {
         let resources = Some(self.resources.clone());
         let mut instance = Instance::new(resources, Log::new(Box::new(|_, _, _| {}), false)).map_err(wrong)?;
         instance.setup_experiment(None, 0.0, stop).map_err(wrong)?;
         for Setting { variable, value } in self.settings()? {
-            if fixed.iter().any(|(name, decided)| *name == variable.name && *decided != value) {
+            if fixed.iter().any(|decided| decided.variable.name == variable.name && decided.value != value) {
                 return Err(Failure::Usage(format!("{} is decided by the command and cannot be set", variable.name)));
             }
             instance.set(&[variable.reference], vec![value]).map_err(wrong)?;
         }
-        for (name, value) in fixed {
-            instance.set(&[find(name, |_| true)?.reference], vec![value.clone()]).map_err(wrong)?;
+        for Setting { variable, value } in fixed {
+            instance.set(&[variable.reference], vec![value.clone()]).map_err(wrong)?;
         }
         let bar = model::bar("preparing", 100);
         let model = model::prepare(instance.config().clone(), &self.resources, &self.cache, &bar)?;

@@ -1,12 +1,13 @@
 //! `steady`: stationary rolling at one or many creepages.
 
-use super::setting::find;
+use super::setting::{Setting, find};
 use super::setup::{Setup, failed, wrong};
 use super::table::{self, Csv};
 use super::{Failure, model};
 use std::path::PathBuf;
 use std::str::FromStr;
 use wheelrail::analytic;
+use wheelrail::config::parameter_range;
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Value, Variable};
 use wheelrail::simulation::{STANDSTILL, peripheral_velocity};
@@ -91,10 +92,11 @@ impl FromStr for Range {
 /// A creepage that a travelling wheel can have.
 pub fn parse_creepage(text: &str) -> Result<f64, String> {
     let creepage: f64 = text.trim().parse().map_err(|_| format!("\"{text}\" is not a number"))?;
-    if creepage > -2.0 && creepage <= 2.0 {
+    let [low, high] = parameter_range("initial.creepage");
+    if (low..=high).contains(&creepage) {
         return Ok(creepage);
     }
-    Err(format!("creepage = {creepage} is outside its range: above -2, at most 2"))
+    Err(format!("creepage = {creepage} is outside its range: {low} to {high}"))
 }
 
 impl Range {
@@ -119,20 +121,21 @@ pub struct OperatingPoint {
 }
 
 impl OperatingPoint {
-    /// `fixed` are names and values that the command decides.
-    pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[(&str, Value)]) -> Result<OperatingPoint, Failure> {
-        let prescribed = |name| (name, Value::Integer(1));
-        let mut fixed = fixed.to_vec();
-        fixed.extend([prescribed("control.rotation"), prescribed("control.translation")]);
-        for name in ["drive.velocity", "drive.omega", "initial.creepage"] {
-            if setup.settings()?.iter().any(|setting| setting.variable.name == name) {
+    /// `fixed` are what the command decides.
+    pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
+        let prescribed = ["control.rotation", "control.translation"].map(|name| Setting::new(name, "velocity"));
+        let fixed = prescribed.into_iter().chain(fixed.iter().cloned().map(Ok)).collect::<Result<Vec<_>, _>>()?;
+        for Setting { variable, .. } in setup.settings()? {
+            if ["drive.velocity", "drive.omega", "initial.creepage"].contains(&variable.name.as_str()) {
+                let name = &variable.name;
                 return Err(Failure::Usage(format!("{name} follows from --velocity and --creepage and cannot be set")));
             }
         }
         let instance = setup.initialize(&fixed, None)?;
         let velocity = velocity.velocity.unwrap_or(instance.config().initial.velocity);
-        let range = "-200 to 200 m/s without standstill";
-        if !(velocity.abs() > STANDSTILL && velocity.abs() <= 200.0) {
+        let [low, high] = parameter_range("initial.velocity");
+        if !(velocity.abs() > STANDSTILL && (low..=high).contains(&velocity)) {
+            let range = format!("{low} to {high} m/s without standstill");
             return Err(Failure::Usage(format!("--velocity = {velocity} is outside its range: {range}")));
         }
         Ok(OperatingPoint { instance, velocity })

@@ -18,6 +18,10 @@ pub const INPUT_DERIVATIVE_ORDER: i32 = 1;
 /// Highest order of output derivatives that masters may get.
 pub const OUTPUT_DERIVATIVE_ORDER: i32 = 1;
 
+/// End of the default experiment and its communication step [s].
+pub const DEFAULT_STOP_TIME: f64 = 1.0;
+pub const DEFAULT_STEP_SIZE: f64 = 1e-3;
+
 const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an elastic rail: plane finite elements in \
     a moving frame, exact Coulomb friction. x in travel direction, y up, omega > 0 rolls forward; contact forces act \
     on the wheel. Plane model: no lateral force, no spin.";
@@ -56,7 +60,8 @@ fn write(guid: &str) -> String {
             list(xml, "LogCategories", |xml| {
                 CATEGORIES.iter().try_for_each(|c| empty(xml, "Category", &[("name", c.0), ("description", c.1)]))
             })?;
-            empty(xml, "DefaultExperiment", &[("startTime", "0.0"), ("stopTime", "1.0"), ("stepSize", "0.001")])?;
+            let (stop, step) = (format!("{DEFAULT_STOP_TIME:?}"), format!("{DEFAULT_STEP_SIZE:?}"));
+            empty(xml, "DefaultExperiment", &[("startTime", "0.0"), ("stopTime", &stop), ("stepSize", &step)])?;
             list(xml, "ModelVariables", model_variables)?;
             list(xml, "ModelStructure", model_structure)
         })?;

@@ -420,9 +420,7 @@ impl Instance {
             }
             (Some(memory), _) => {
                 let model = self.model(config.clone())?;
-                let mut simulation = Simulation::new(model, &Inputs::rolling(&config)).map_err(refused)?;
-                simulation.recall(memory.clone()).map_err(refused)?;
-                self.simulation = Some(simulation);
+                self.simulation = Some(Simulation::resume(model, memory.clone()).map_err(refused)?);
             }
         }
         self.phase = snapshot.phase;

@@ -30,9 +30,13 @@ pub struct Snapshot {
 const MAGIC: &[u8; 8] = b"WRSTATE\x01";
 const CHECKSUM: usize = 16;
 
-/// What identifies bytes as ours: version of the program and variable table.
+/// Digest of the names of all fields of a snapshot in their order: the bytes carry no names. A test tells the new value
+/// when the fields have changed.
+const LAYOUT: &str = "d6b06400-5b2e-5b65-9319-87a931727cd5";
+
+/// What identifies bytes as ours: version of the program, variable table, layout.
 fn identity() -> String {
-    format!("{} {}", env!("CARGO_PKG_VERSION"), guid())
+    format!("{} {} {LAYOUT}", env!("CARGO_PKG_VERSION"), guid())
 }
 
 /// A 128-bit digest (SHA-1, truncated as UUID version 5) of the identity and the payload.
@@ -65,5 +69,48 @@ impl Snapshot {
             return Err("serialized state is damaged: checksum does not match".to_owned());
         }
         postcard::from_bytes(payload).map_err(|error| format!("serialized state is damaged: {error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi::instance::Instance;
+    use crate::fmi::log::Log;
+    use crate::fmi::variable::Value;
+    use crate::fmi::variables::variables;
+
+    /// A coarse wheel after one step, with everything a snapshot can hold.
+    fn snapshot() -> Snapshot {
+        let mut instance = Instance::new(None, Log::new(Box::new(|_, _, _| {}), false)).unwrap();
+        let reference = |name: &str| variables().iter().find(|variable| variable.name == name).unwrap().reference;
+        for (name, value) in [("mesh.elements_per_half_width", 4), ("solver.modes_wheel", 2), ("solver.modes_rail", 2)]
+        {
+            instance.set(&[reference(name)], vec![Value::Integer(value)]).unwrap();
+        }
+        instance.enter_initialization().unwrap();
+        instance.exit_initialization().unwrap();
+        instance.set(&[reference("drive.moment")], vec![Value::Real(-100.0)]).unwrap();
+        instance.do_step(0.0, 1e-3).unwrap();
+        instance.snapshot().unwrap()
+    }
+
+    #[test]
+    fn the_layout_of_states_is_part_of_their_identity() {
+        let snapshot = snapshot();
+        let text = serde_json::to_string(&snapshot).unwrap();
+        // Names in quotes before a colon; keys of maps are numbers.
+        let named = text.split("\":").filter_map(|part| part.rsplit('"').next());
+        let names: Vec<&str> = named.filter(|name| name.starts_with(char::is_alphabetic)).collect();
+        assert!(names.contains(&"internal_steps") && names.contains(&"membrane"));
+        let layout = Uuid::new_v5(&Uuid::NAMESPACE_OID, names.join(" ").as_bytes()).to_string();
+        assert_eq!(layout, LAYOUT, "the fields of a state have changed: this is the new LAYOUT");
+
+        let bytes = snapshot.to_bytes().unwrap();
+        let at = bytes.windows(LAYOUT.len()).position(|window| window == LAYOUT.as_bytes()).unwrap();
+        let mut other = bytes.clone();
+        other[at] ^= 1;
+        assert!(Snapshot::from_bytes(&bytes).is_ok());
+        assert!(Snapshot::from_bytes(&other).err().unwrap().contains("version"));
     }
 }

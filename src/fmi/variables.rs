@@ -7,7 +7,7 @@
 
 use super::units::{self, Measure};
 use super::variable::{Access, Enumeration, Kind, Reference, Start, Variable};
-use crate::config::{ConductanceLaw, Config, Hub, Response, TimeScheme};
+use crate::config::{ConductanceLaw, Config, Hub, Response, TimeScheme, parameter_range};
 use crate::simulation::{Drive, INPUT_RANGES, Inputs, Outputs, PROFILE_POINTS, Rotation, Translation, Vertical};
 use std::sync::OnceLock;
 
@@ -257,11 +257,12 @@ fn outputs() -> Vec<Variable> {
 }
 
 fn parameters() -> Vec<Variable> {
-    let value = |r, name, measure, range, field: fn(&mut Config) -> &mut f64, text| {
-        row(r, name, real(measure, range, 1.0), Access::RealParameter(field), text)
+    let value = |r, name, measure, field: fn(&mut Config) -> &mut f64, text| {
+        row(r, name, real(measure, parameter_range(name), 1.0), Access::RealParameter(field), text)
     };
     let tunable = |variable: Variable| Variable { tunable: true, ..variable };
-    let count = |r, name, min, max, field: fn(&mut Config) -> &mut usize, text| {
+    let count = |r, name, field: fn(&mut Config) -> &mut usize, text| {
+        let [min, max] = parameter_range(name).map(|bound| bound as i32);
         row(r, name, Kind::Integer { min, max }, Access::CountParameter(field), text)
     };
     let response = Access::ChoiceParameter(
@@ -296,55 +297,55 @@ fn parameters() -> Vec<Variable> {
     #[rustfmt::skip]
     let rows = vec![
         row(1000, "preset", Kind::String, Access::Preset, "Name of a parameter set resources/<preset>.json; parameters that are set explicitly override it"),
-        value(1010, "model.contact_width", MILLIMETRE, [1e-4, 10.0], |c| &mut c.model.contact_width, "Width of the line contact: forces of the wheel = width x forces of the plane model"),
-        value(1011, "model.nominal_load", FORCE, [1e-3, 1e9], |c| &mut c.model.nominal_load, "Wheel load for which the mesh is laid out; the candidate contact zone carries at least twice this load"),
-        value(1020, "wheel.radius", METRE, [1e-2, 10.0], |c| &mut c.wheel.radius, "Outer radius of the wheel"),
-        value(1021, "wheel.hub_radius", METRE, [2e-4, 9.0], |c| &mut c.wheel.hub_radius, "Radius of the rigid hub, 0.02 to 0.9 of wheel.radius"),
-        value(1022, "wheel.hub_mass", KILOGRAM, [0.0, 1e6], |c| &mut c.wheel.hub_mass, "Unsprung mass fixed to the hub, moving in x and y"),
-        value(1023, "wheel.hub_inertia", INERTIA, [0.0, 1e6], |c| &mut c.wheel.hub_inertia, "Moment of inertia of that mass about the axle"),
-        value(1030, "vehicle.mass", TONNE, [0.0, 1e9], |c| &mut c.vehicle.mass, "The wheel's share of the vehicle, moving in x only"),
-        value(1040, "rail.length", METRE, [2e-3, 100.0], |c| &mut c.rail.length, "Modelled length of the rail, at least 0.2 wheel.radius"),
-        value(1041, "rail.height", METRE, [2e-4, 10.0], |c| &mut c.rail.height, "Height of the rail, at least 0.02 wheel.radius; its base is fixed"),
-        value(1050, "material.youngs_modulus", MODULUS, [1e5, 1e13], |c| &mut c.material.youngs_modulus, "Young's modulus of both bodies"),
-        value(1051, "material.poissons_ratio", NUMBER, [0.0, 0.49], |c| &mut c.material.poissons_ratio, "Poisson's ratio of both bodies"),
-        value(1052, "material.density", DENSITY, [1.0, 1e5], |c| &mut c.material.density, "Density of both bodies"),
-        value(1060, "friction.coefficient", NUMBER, [0.0, 10.0], |c| &mut c.friction.coefficient, "Friction coefficient; default of the input rail.friction"),
-        value(1053, "material.expansion", PER_KELVIN, [0.0, 1e-3], |c| &mut c.material.expansion, "Coefficient of linear thermal expansion of both bodies"),
-        value(1054, "material.conductivity", CONDUCTIVITY, [1e-3, 1e5], |c| &mut c.material.conductivity, "Thermal conductivity of both bodies"),
-        value(1055, "material.specific_heat", SPECIFIC_HEAT, [1.0, 1e5], |c| &mut c.material.specific_heat, "Specific heat capacity of both bodies"),
-        tunable(value(1061, "friction.falling_ratio", NUMBER, [0.0, 1.0], |c| &mut c.friction.falling_ratio, "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant")),
-        tunable(value(1062, "friction.falling_decay", DECAY, [0.0, 1e3], |c| &mut c.friction.falling_decay, "Decay of the rest with the slip velocity V - r omega (Polach's B)")),
-        tunable(value(1063, "friction.softening", PER_KELVIN, [0.0, 1.0], |c| &mut c.friction.softening, "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; 0: constant")),
-        tunable(value(1064, "friction.softening_floor", NUMBER, [0.0, 1.0], |c| &mut c.friction.softening_floor, "Share of the friction coefficient that remains in a hot contact")),
+        value(1010, "model.contact_width", MILLIMETRE, |c| &mut c.model.contact_width, "Width of the line contact: forces of the wheel = width x forces of the plane model"),
+        value(1011, "model.nominal_load", FORCE, |c| &mut c.model.nominal_load, "Wheel load for which the mesh is laid out; the candidate contact zone carries at least twice this load"),
+        value(1020, "wheel.radius", METRE, |c| &mut c.wheel.radius, "Outer radius of the wheel"),
+        value(1021, "wheel.hub_radius", METRE, |c| &mut c.wheel.hub_radius, "Radius of the rigid hub, 0.02 to 0.9 of wheel.radius"),
+        value(1022, "wheel.hub_mass", KILOGRAM, |c| &mut c.wheel.hub_mass, "Unsprung mass fixed to the hub, moving in x and y"),
+        value(1023, "wheel.hub_inertia", INERTIA, |c| &mut c.wheel.hub_inertia, "Moment of inertia of that mass about the axle"),
+        value(1030, "vehicle.mass", TONNE, |c| &mut c.vehicle.mass, "The wheel's share of the vehicle, moving in x only"),
+        value(1040, "rail.length", METRE, |c| &mut c.rail.length, "Modelled length of the rail, at least 0.2 wheel.radius"),
+        value(1041, "rail.height", METRE, |c| &mut c.rail.height, "Height of the rail, at least 0.02 wheel.radius; its base is fixed"),
+        value(1050, "material.youngs_modulus", MODULUS, |c| &mut c.material.youngs_modulus, "Young's modulus of both bodies"),
+        value(1051, "material.poissons_ratio", NUMBER, |c| &mut c.material.poissons_ratio, "Poisson's ratio of both bodies"),
+        value(1052, "material.density", DENSITY, |c| &mut c.material.density, "Density of both bodies"),
+        value(1060, "friction.coefficient", NUMBER, |c| &mut c.friction.coefficient, "Friction coefficient; default of the input rail.friction"),
+        value(1053, "material.expansion", PER_KELVIN, |c| &mut c.material.expansion, "Coefficient of linear thermal expansion of both bodies"),
+        value(1054, "material.conductivity", CONDUCTIVITY, |c| &mut c.material.conductivity, "Thermal conductivity of both bodies"),
+        value(1055, "material.specific_heat", SPECIFIC_HEAT, |c| &mut c.material.specific_heat, "Specific heat capacity of both bodies"),
+        tunable(value(1061, "friction.falling_ratio", NUMBER, |c| &mut c.friction.falling_ratio, "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant")),
+        tunable(value(1062, "friction.falling_decay", DECAY, |c| &mut c.friction.falling_decay, "Decay of the rest with the slip velocity V - r omega (Polach's B)")),
+        tunable(value(1063, "friction.softening", PER_KELVIN, |c| &mut c.friction.softening, "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; 0: constant")),
+        tunable(value(1064, "friction.softening_floor", NUMBER, |c| &mut c.friction.softening_floor, "Share of the friction coefficient that remains in a hot contact")),
         row(1110, "thermal.enabled", Kind::Boolean, Access::FlagParameter(|c| &mut c.thermal.enabled), "Whether temperatures are computed"),
-        value(1111, "thermal.reference", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.reference, "Absolute temperature of hub, air and arriving rail"),
-        value(1112, "thermal.wheel_excess", DIFFERENCE, [-1e3, 5e3], |c| &mut c.thermal.wheel_excess, "Excess temperature of the whole wheel over the reference at the start (a warm wheel)"),
-        value(1113, "thermal.conductance", CONDUCTANCE, [0.0, 1e12], |c| &mut c.thermal.conductance, "Contact conductance between wheel and rail"),
+        value(1111, "thermal.reference", TEMPERATURE, |c| &mut c.thermal.reference, "Absolute temperature of hub, air and arriving rail"),
+        value(1112, "thermal.wheel_excess", DIFFERENCE, |c| &mut c.thermal.wheel_excess, "Excess temperature of the whole wheel over the reference at the start (a warm wheel)"),
+        value(1113, "thermal.conductance", CONDUCTANCE, |c| &mut c.thermal.conductance, "Contact conductance between wheel and rail"),
         row(1114, "thermal.conductance_law", Kind::Enumeration(&CONDUCTANCE_LAW), conductance, "How the contact conductance depends on pressure"),
-        value(1115, "thermal.reference_pressure", PRESSURE, [1.0, 1e12], |c| &mut c.thermal.reference_pressure, "Pressure at which the pressure-dependent conductance is thermal.conductance"),
-        value(1116, "thermal.heat_ratio", NUMBER, [0.0, 1.0], |c| &mut c.thermal.heat_ratio, "Fraction of the friction power that heats wheel and rail"),
-        value(1117, "thermal.wheel_share", NUMBER, [0.0, 1.0], |c| &mut c.thermal.wheel_share, "Share of that heat first put into the wheel; conduction decides where it goes"),
+        value(1115, "thermal.reference_pressure", PRESSURE, |c| &mut c.thermal.reference_pressure, "Pressure at which the pressure-dependent conductance is thermal.conductance"),
+        value(1116, "thermal.heat_ratio", NUMBER, |c| &mut c.thermal.heat_ratio, "Fraction of the friction power that heats wheel and rail"),
+        value(1117, "thermal.wheel_share", NUMBER, |c| &mut c.thermal.wheel_share, "Share of that heat first put into the wheel; conduction decides where it goes"),
         row(1118, "thermal.hub", Kind::Enumeration(&HUB), hub, "Thermal boundary condition of the hub"),
-        value(1119, "thermal.convection", CONDUCTANCE, [0.0, 1e5], |c| &mut c.thermal.convection, "Coefficient of convection from tread and rail head to air at the reference temperature"),
-        value(1120, "thermal.max_speed", SPEED, [0.1, 200.0], |c| &mut c.thermal.max_speed, "Largest speed at which the thermal layer is resolved"),
-        value(1121, "thermal.smallest_load_ratio", NUMBER, [0.05, 1.0], |c| &mut c.thermal.smallest_load_ratio, "Smallest load over model.nominal_load at which the patch is thermally resolved"),
-        value(1122, "thermal.tread_angle", DEGREE, [-3.2, 3.2], |c| &mut c.thermal.tread_angle, "Angle of a brake block from the contact point, leading side positive"),
-        value(1123, "thermal.tread_width", DEGREE, [1e-3, 6.2], |c| &mut c.thermal.tread_width, "Arc covered by a brake block"),
-        count(1124, "thermal.tread_blocks", 1, 2, |c| &mut c.thermal.tread_blocks, "Brake blocks: one, or two mirrored ones that share drive.tread_heat"),
-        tunable(value(1125, "thermal.austenitisation", TEMPERATURE, [1.0, 1e4], |c| &mut c.thermal.austenitisation, "Austenitisation temperature Ac1")),
+        value(1119, "thermal.convection", CONDUCTANCE, |c| &mut c.thermal.convection, "Coefficient of convection from tread and rail head to air at the reference temperature"),
+        value(1120, "thermal.max_speed", SPEED, |c| &mut c.thermal.max_speed, "Largest speed at which the thermal layer is resolved"),
+        value(1121, "thermal.smallest_load_ratio", NUMBER, |c| &mut c.thermal.smallest_load_ratio, "Smallest load over model.nominal_load at which the patch is thermally resolved"),
+        value(1122, "thermal.tread_angle", DEGREE, |c| &mut c.thermal.tread_angle, "Angle of a brake block from the contact point, leading side positive"),
+        value(1123, "thermal.tread_width", DEGREE, |c| &mut c.thermal.tread_width, "Arc covered by a brake block"),
+        count(1124, "thermal.tread_blocks", |c| &mut c.thermal.tread_blocks, "Brake blocks: one, or two mirrored ones that share drive.tread_heat"),
+        tunable(value(1125, "thermal.austenitisation", TEMPERATURE, |c| &mut c.thermal.austenitisation, "Austenitisation temperature Ac1")),
         row(1071, "physics.thermal_expansion", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermal_expansion), "Thermal expansion and stress act back on the contact"),
         row(1072, "physics.thermoelastic_heating", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.thermoelastic_heating), "Reversible (Gough-Joule) heating of compressed material"),
         row(1070, "physics.centrifugal", Kind::Boolean, Access::FlagParameter(|c| &mut c.physics.centrifugal), "Centrifugal load of the spinning wheel"),
-        count(1080, "mesh.elements_per_half_width", 4, 80, |c| &mut c.mesh.elements_per_half_width, "Elements per Hertzian half-width at model.nominal_load"),
+        count(1080, "mesh.elements_per_half_width", |c| &mut c.mesh.elements_per_half_width, "Elements per Hertzian half-width at model.nominal_load"),
         row(1090, "solver.response", Kind::Enumeration(&RESPONSE), response, "How the bodies answer contact tractions"),
-        count(1091, "solver.modes_wheel", 1, 200, |c| &mut c.solver.modes_wheel, "Vibration modes kept for the wheel (reduced response)"),
-        count(1092, "solver.modes_rail", 1, 200, |c| &mut c.solver.modes_rail, "Vibration modes kept for the rail (reduced response)"),
+        count(1091, "solver.modes_wheel", |c| &mut c.solver.modes_wheel, "Vibration modes kept for the wheel (reduced response)"),
+        count(1092, "solver.modes_rail", |c| &mut c.solver.modes_rail, "Vibration modes kept for the rail (reduced response)"),
         row(1093, "solver.time_scheme", Kind::Enumeration(&TIME_SCHEME), scheme, "Implicit time discretisation of momentum and slip"),
-        value(1094, "solver.theta", NUMBER, [0.5, 1.0], |c| &mut c.solver.theta, "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)"),
-        tunable(value(1095, "solver.max_step", SECOND, [1e-7, 1.0], |c| &mut c.solver.max_step, "Largest internal time step; longer communication steps are divided evenly")),
-        tunable(value(1096, "solver.tolerance", NUMBER, [0.0, 1.0], |c| &mut c.solver.tolerance, "Error that halves an internal step: contact force over model.nominal_load, contact temperature over its rise or 100 K; 0: no error control")),
-        value(1100, "initial.velocity", SPEED, [-200.0, 200.0], |c| &mut c.initial.velocity, "Travel velocity of the stationary rolling state at the start"),
-        value(1101, "initial.creepage", PERCENT, [-2.0, 2.0], |c| &mut c.initial.creepage, "Its creepage 2 (V - r omega)/(V + r omega)"),
+        value(1094, "solver.theta", NUMBER, |c| &mut c.solver.theta, "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)"),
+        tunable(value(1095, "solver.max_step", SECOND, |c| &mut c.solver.max_step, "Largest internal time step; longer communication steps are divided evenly")),
+        tunable(value(1096, "solver.tolerance", NUMBER, |c| &mut c.solver.tolerance, "Error that halves an internal step: contact force over model.nominal_load, contact temperature over its rise or 100 K; 0: no error control")),
+        value(1100, "initial.velocity", SPEED, |c| &mut c.initial.velocity, "Travel velocity of the stationary rolling state at the start"),
+        value(1101, "initial.creepage", PERCENT, |c| &mut c.initial.creepage, "Its creepage 2 (V - r omega)/(V + r omega)"),
     ];
     rows
 }

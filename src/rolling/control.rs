@@ -157,9 +157,9 @@ pub fn creepage(v: f64, v_c: f64) -> f64 {
     2.0 * (v - v_c) / scale.copysign(v + v_c)
 }
 
-/// Peripheral velocity that belongs to a velocity and a creepage: `V_C = V (1 − ξ/2)/(1 + ξ/2)`.
+/// Peripheral velocity that belongs to a velocity and a creepage above −2: `V_C = V (1 − ξ/2)/(1 + ξ/2)`.
 pub fn peripheral_velocity(v: f64, creepage: f64) -> f64 {
-    if creepage <= -2.0 { 0.0 } else { v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage) }
+    v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage)
 }
 
 /// Sum of translational and peripheral speed below which creepage is reported as zero [m/s]: a wheel at rest rocks on

@@ -46,7 +46,7 @@ pub enum StepError {
     NoEquilibrium(&'static str),
     #[error(transparent)]
     Input(#[from] InputError),
-    #[error("communication step = {step} is outside its range: above 0 to {longest} s")]
+    #[error("communication step = {step} s is outside its range: above 0 to {longest} s")]
     StepSize { step: f64, longest: f64 },
     #[error("no derivative at t = {time:.9e} s: contact states change at once to both sides")]
     NoDerivative { time: f64 },
@@ -54,6 +54,10 @@ pub enum StepError {
     Heat(HeatError),
     #[error("body response failed: {0}")]
     Body(String),
+    #[error("only tunable parameters may change during a run")]
+    NotTunable,
+    #[error("the state belongs to a model with other dimensions")]
+    ForeignState,
 }
 
 /// Why a model could not be built.
@@ -208,7 +212,11 @@ impl Model {
                 state.shift.len(),
             ] == [n; 5]
             && [contact.forces.len(), contact.wheel_surface.len(), contact.rail_surface.len()] == [dofs; 3]
-            && state.thermal.is_some() == self.heat.is_some()
+            && match (&state.thermal, &self.heat) {
+                (Some(thermal), Some(heat)) => thermal.fits(heat, n),
+                (None, None) => true,
+                _ => false,
+            }
             && contact.forces.iter().all(|f| f.is_finite())
     }
 }

@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 pub struct State {
     /// Time since the start [s].
     pub time: f64,
+    /// Communication steps too short to be computed on their own since then; the next one makes up for them [s].
+    pub pending: f64,
     /// Distance travelled [m].
     pub distance: f64,
     /// Angle of rotation, forward positive [rad].

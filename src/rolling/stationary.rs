@@ -12,9 +12,9 @@ use crate::mechanics::response::{BodyState, Convection, TimeDerivative};
 
 /// Passes that bring in convective terms and the accelerations of unbalanced forces.
 const MAX_PASSES: usize = 30;
-/// Relative change of the contact forces at which they are brought in, and of the contact force at which temperatures
-/// and friction are: further passes repeat rounding.
+/// Relative change of the nodal contact forces at which they are brought in.
 const TOLERANCE: f64 = 1e-6;
+/// Relative change of the contact force at which temperatures and friction are settled: further passes repeat rounding.
 const THERMAL_TOLERANCE: f64 = 1e-9;
 
 impl Model {
@@ -30,10 +30,10 @@ impl Model {
             state = self.stationary_contact(inputs, Some(thermal), workspace)?;
             let settled = state.contact.resultant(&self.grid);
             if (0..2).all(|k| (settled[k] - force[k]).abs() <= THERMAL_TOLERANCE * force[1].abs()) {
-                break;
+                return Ok(state);
             }
         }
-        Ok(state)
+        Err(StepError::NoEquilibrium("contact and temperatures do not settle"))
     }
 
     /// Stationary contact at given temperatures.
@@ -146,6 +146,7 @@ impl Model {
             .collect();
         let mut state = State {
             time: 0.0,
+            pending: 0.0,
             distance: 0.0,
             angle: 0.0,
             velocity: Sample { rate: acceleration[0], ..Sample::constant(velocity) },

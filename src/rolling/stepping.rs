@@ -1,7 +1,7 @@
 //! Division of a communication step into internal steps.
 //!
 //! A communication step is first divided evenly by `solver.max_step`, then by halves where it must be, so that the last
-//! internal step lands exactly on its end. An internal step is halved if the contact finds no state, and, with a
+//! internal step lands exactly on its end, and joined again where they can be. An internal step is halved if the contact finds no state, and, with a
 //! `solver.tolerance`, if contact force or contact temperature miss their prediction by more than that. The prediction
 //! is linear from the two steps before, or constant after a jump of the inputs; the difference is of second order in the
 //! step and larger than the error of the second-order formula. Loss of contact, re-contact, lock-up and breaking loose
@@ -15,13 +15,16 @@ use serde::{Deserialize, Serialize};
 
 /// Longest communication step [s].
 pub const LONGEST_STEP: f64 = 3600.0;
-/// How often a step that finds no contact state is halved before it is given up.
+/// Shortest internal step [s]: below, waves do not cross an element and the contact may find no state. Communication
+/// steps that are shorter, such as those that rounding leaves at the end of a run, wait for the next one.
+pub const SHORTEST_STEP: f64 = 5e-7;
+/// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Internal step below which errors do not refine any further [s]: forces may jump, with the friction coefficient.
 const FINEST: f64 = 1e-5;
 /// Change of the highest contact temperature [K] that always refines steps longer than this [s].
 const HEATING: (f64, f64) = (300.0, 1e-3);
-/// Share of the tolerance below which the step doubles; the difference grows fourfold.
+/// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
 const GROWTH: f64 = 0.125;
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
@@ -70,11 +73,14 @@ impl Model {
             displacement: state.height.now,
             ..inputs.at(0.0)
         };
+        let h = h + state.pending;
+        if h < SHORTEST_STEP {
+            return Ok(State { pending: h, ..state.clone() });
+        }
+        let mut next = State { pending: 0.0, internal_steps: 0, iterations: 0, ..state.clone() };
         let tolerance = self.config.solver.tolerance;
         let pieces = (h / self.config.solver.max_step - 1e-9).ceil().max(1.0) as u64;
-        let mut next = state.clone();
-        (next.internal_steps, next.iterations) = (0, 0);
-        let mut halvings = 0;
+        let mut failures = 0;
         // Position within the communication step in units of h / total.
         let (mut position, mut total) = (0u64, pieces);
         while tolerance > 0.0 && h / total as f64 > next.control.step * (1.0 + 1e-9) {
@@ -97,16 +103,18 @@ impl Model {
                     advanced.control.before = controlled(&next);
                     next = advanced;
                     position += 1;
-                    if error <= GROWTH * tolerance {
+                    failures = 0;
+                    if (tolerance == 0.0 || error <= GROWTH * tolerance) && heating <= GROWTH * HEATING.0 {
                         next.control.step = next.control.step.max(2.0 * dt);
-                        let aligned = position.is_multiple_of(2) && total.is_multiple_of(2) && total / 2 >= pieces;
-                        if aligned && halvings == 0 {
+                        if position.is_multiple_of(2) && total.is_multiple_of(2) && total / 2 >= pieces {
                             (position, total) = (position / 2, total / 2);
                         }
                     }
                 }
-                Err(StepError::Contact { .. } | StepError::NotFinite { .. }) if halvings < MAX_HALVINGS => {
-                    halvings += 1;
+                Err(StepError::Contact { .. } | StepError::NotFinite { .. })
+                    if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP =>
+                {
+                    failures += 1;
                     (position, total) = (2 * position, 2 * total);
                     next.last_step = 0.0;
                 }

@@ -51,6 +51,14 @@ pub struct ThermalState {
     pub membrane: [Vec<f64>; 2],
 }
 
+impl ThermalState {
+    /// Whether the temperatures have the dimensions of this heat model and of `candidates` contact candidates.
+    pub(super) fn fits(&self, heat: &Heat, candidates: usize) -> bool {
+        let zone = [&self.surface, &self.membrane].into_iter().flatten().chain([&self.swelling]);
+        heat.fits(&self.fields) && zone.map(Vec::len).all(|length| length == candidates)
+    }
+}
+
 /// Parameters of the heat model for a configuration; `half_width` at the nominal load and `zone` [m].
 pub fn heat_config(config: &Config, half_width: f64, zone: f64) -> HeatConfig {
     let (material, thermal) = (&config.material, &config.thermal);
