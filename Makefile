@@ -24,7 +24,8 @@ PY := $(VENV)/bin/python
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg \
+	LICENSE-MIT LICENSE-APACHE LICENSE-THIRD-PARTY model.png
 
 .PHONY: demo test test-rust test-fmpy fmu masters bench endurance leak-check describe clean
 .NOTPARALLEL:
@@ -57,7 +58,8 @@ LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --e
 leak-check:
 	@if command -v valgrind > /dev/null; then \
 		$(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
-			-- --exact a_serialized_state_continues_in_another_instance; \
+			-- --exact a_serialized_state_continues_in_another_instance > $(TARGET)/leak-check.log; status=$$?; \
+		cat $(TARGET)/leak-check.log; grep -q '1 passed' $(TARGET)/leak-check.log && exit $$status; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
 
 describe:
@@ -68,7 +70,7 @@ clean:
 	$(CARGO) clean
 	rm -rf target $(VENV) results modelDescription.xml.new .pytest_cache
 
-$(FMU): $(BUILT) LICENSE-MIT LICENSE-APACHE LICENSE-THIRD-PARTY model.png
+$(FMU): $(BUILT)
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
 
 $(BUILT): $(SOURCES)

@@ -1,11 +1,15 @@
 //! How the shared library is linked: an FMU exports the functions of the standard, no others, and needs no libraries but
-//! those of the C runtime.
+//! those of the C runtime. And a digest of the code that computes reduced bases: stored ones of other code do not fit.
 
+use std::collections::BTreeMap;
 use std::error::Error;
-use std::path::Path;
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rustc-env=BASIS_CODE={:016x}", digest(&["src/linalg", "src/fem", "src/mechanics"])?);
     let target = |key: &str| std::env::var(format!("CARGO_CFG_TARGET_{key}")).unwrap_or_default();
     if target("OS") == "linux" {
         println!("cargo::rustc-cdylib-link-arg=-Wl,--exclude-libs,ALL");
@@ -13,9 +17,24 @@ fn main() -> Result<(), Box<dyn Error>> {
             // The unwinder behind the panic barrier from the static library: the standard library asks for `gcc_s`, and
             // the linker finds this script under that name first.
             let directory = std::env::var("OUT_DIR")?;
-            std::fs::write(Path::new(&directory).join("libgcc_s.so"), "INPUT(-lgcc_eh -lgcc)\n")?;
+            fs::write(Path::new(&directory).join("libgcc_s.so"), "INPUT(-lgcc_eh -lgcc)\n")?;
             println!("cargo::rustc-cdylib-link-arg=-L{directory}");
         }
     }
     Ok(())
+}
+
+/// Digest of the files in some directories.
+fn digest(directories: &[&str]) -> Result<u64, Box<dyn Error>> {
+    let mut files: BTreeMap<PathBuf, Vec<u8>> = BTreeMap::new();
+    for directory in directories {
+        println!("cargo::rerun-if-changed={directory}");
+        for entry in fs::read_dir(directory)? {
+            let path = entry?.path();
+            files.insert(path.clone(), fs::read(path)?);
+        }
+    }
+    let mut hasher = DefaultHasher::new();
+    files.hash(&mut hasher);
+    Ok(hasher.finish())
 }

@@ -107,8 +107,10 @@ impl Material {
 ///
 /// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|V − rω|}) · max(m, 1 − K (T − T_ref))`
 ///
-/// with the nominal slip velocity and the mean contact temperature of the step before (O. Polach, *Wear* 258 (2005), for
-/// the falling part); within a step the friction cone is exact.
+/// with nominal slip velocity and mean contact temperature (O. Polach, *Wear* 258 (2005), for the falling part). Both are
+/// predicted for the coming step: the slip velocity from its rate, the temperature as `T − T_ref = θ μ` with the heating
+/// θ extrapolated, which makes the last factor `1/(1 + K θ · rail.friction · (…))`. Within a step the friction cone is
+/// exact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Friction {

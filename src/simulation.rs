@@ -81,30 +81,28 @@ impl Model {
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
-        let (basis, stored) = match config.solver.response {
+        let (basis, file) = match config.solver.response {
             Response::Full => (None, None),
             Response::Reduced => {
                 let name = basis_file_name(&config);
-                let path = directory.map(|d| d.join("basis").join(&name));
-                let bytes = path.as_deref().and_then(|p| std::fs::read(p).ok());
-                match bytes {
-                    Some(bytes) => {
-                        let basis = Basis::from_bytes(&bytes)
-                            .map_err(|source| PrepareError::Basis { file: name.clone(), source })?;
-                        (Some(basis), Some((name, bytes)))
-                    }
+                let failed = |source| PrepareError::Basis { file: name.clone(), source };
+                let stored = directory.and_then(|d| std::fs::read(d.join("basis").join(&name)).ok());
+                let stored = stored.map(|bytes| Basis::from_bytes(&bytes).map(|basis| (basis, bytes)));
+                let stored = stored.transpose().map_err(failed)?.filter(|(basis, _)| basis.fits(&config));
+                let (basis, bytes) = match stored {
+                    Some(stored) => stored,
                     None => {
                         let basis = Basis::compute(&config, progress)?;
-                        let bytes =
-                            basis.to_bytes().map_err(|source| PrepareError::Basis { file: name.clone(), source })?;
-                        (Some(basis), Some((name, bytes)))
+                        let bytes = basis.to_bytes().map_err(failed)?;
+                        (basis, bytes)
                     }
-                }
+                };
+                (Some(basis), Some((name, bytes)))
             }
         };
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::Model::new(config, bodies)?;
-        Ok(Arc::new(Self { rolling, basis: stored.map(Arc::new) }))
+        Ok(Arc::new(Self { rolling, basis: file.map(Arc::new) }))
     }
 
     /// The same model with other tunable parameters (see [`Config::tuned_like`]); `None` if the configurations differ in
@@ -129,6 +127,8 @@ impl Model {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     pub state: State,
+    /// Parameters with which the state was computed; tunable ones may have changed since.
+    pub config: Config,
     /// What the state came from, for derivatives by inputs.
     pub origin: Origin,
     /// Times [s] and outputs of the communication points before, latest first, for derivatives in time.
@@ -137,6 +137,8 @@ pub struct Memory {
 
 /// Communication points kept for derivatives in time.
 const KEPT_POINTS: usize = 2;
+/// Largest ratio of the last step to the one before that counts in them.
+const LARGEST_RATIO: f64 = 10.0;
 /// How far a stationary motion is followed back from the start for them [s].
 const LEAD: f64 = 1e-3;
 
@@ -149,7 +151,8 @@ impl Memory {
         earlier.wheel_angle -= LEAD * earlier.wheel_omega;
         earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
         earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
-        Ok(Self { before: vec![(state.time - LEAD, earlier)], origin: Origin::Stationary(*inputs), state })
+        let (before, origin) = (vec![(state.time - LEAD, earlier)], Origin::Stationary(*inputs));
+        Ok(Self { state, config: model.config().clone(), origin, before })
     }
 }
 
@@ -181,6 +184,9 @@ impl Simulation {
         let state = std::mem::replace(&mut self.memory.state, next);
         self.memory.before.insert(0, (state.time, outputs));
         self.memory.before.truncate(KEPT_POINTS);
+        if self.memory.config != *self.model.config() {
+            self.memory.config = self.model.config().clone();
+        }
         self.memory.origin = Origin::Step { state: Box::new(state), inputs: *inputs, length: h };
         Ok(())
     }
@@ -201,8 +207,10 @@ impl Simulation {
     /// Outputs a little before and behind the present ones along a direction of the inputs that led to them: those of
     /// the last communication step, or of the stationary start. See [`crate::rolling::sensitivity`].
     pub fn difference(&mut self, direction: &Drive) -> Result<Difference, StepError> {
-        let Memory { state, origin, .. } = &self.memory;
-        self.model.rolling.difference(state, origin, direction, &mut self.workspace)
+        let Memory { state, config, origin, .. } = &self.memory;
+        let model = if config == self.model.config() { None } else { self.model.retuned(config) };
+        let model = model.as_ref().unwrap_or(&self.model);
+        model.rolling.difference(state, origin, direction, &mut self.workspace)
     }
 
     /// Time derivative of an output: second-order backward difference of the last communication points, which the
@@ -214,7 +222,8 @@ impl Simulation {
         match (points.first(), points.get(1)) {
             (Some(a), Some(b)) => {
                 let (h, total) = (self.memory.state.time - a.0, self.memory.state.time - b.0);
-                slope(a) + (slope(a) - slope(b)) * h / (total - h)
+                // A much shorter step before would amplify its rounding.
+                slope(a) + (slope(a) - slope(b)) * (h / (total - h)).min(LARGEST_RATIO)
             }
             (Some(a), _) => slope(a),
             (None, _) => 0.0,

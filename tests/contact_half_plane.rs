@@ -162,4 +162,5 @@ fn every_random_start_converges_to_the_same_contact_state() {
         total += solution.iterations;
     }
     println!("iterations: mean {:.2}, worst {worst}", total as f64 / 1000.0);
+    assert!(worst <= 30, "{worst}");
 }

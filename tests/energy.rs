@@ -55,3 +55,25 @@ fn steady_creep_dissipates_what_the_drive_supplies() {
         assert!(outputs.energy_residual.abs() < 0.01);
     }
 }
+
+/// The driven mass moves a thousand times the energy that the contact dissipates.
+#[test]
+fn energy_is_balanced_in_coarse_steps_of_gentle_traction() {
+    let mut config = preset("railway", 20);
+    config.initial.velocity = 20.0;
+    let model = model(config);
+    let residual = |step: f64| {
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        for k in 0..(3.0 / step) as usize {
+            inputs.drive.moment = 1000.0 * (k as f64 * step).sin();
+            simulation.advance(&inputs, step).unwrap();
+        }
+        simulation.outputs().energy_residual
+    };
+    for (step, limit) in [(2e-2, 0.05), (1e-2, 0.03), (2e-3, 0.01)] {
+        let found = residual(step);
+        println!("step {step} s: energy residual {found:+.2e}");
+        assert!(found.abs() < limit, "{found}");
+    }
+}

@@ -43,7 +43,7 @@ fn units_and_display_units_are_defined() {
     for variable in variables() {
         if let Kind::Real { measure, .. } = variable.kind {
             let unit = UNITS.iter().find(|unit| unit.name == measure.unit).expect(measure.unit);
-            let known = |display| unit.displays.iter().any(|(name, _)| *name == display);
+            let known = |display| unit.displays.iter().any(|known| known.name == display);
             assert!(measure.display.is_none_or(known), "{}: {measure:?}", variable.name);
         }
     }

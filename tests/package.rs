@@ -18,12 +18,13 @@ fn workplace(name: &str) -> PathBuf {
 /// Contents with the given libraries, without precomputed bases.
 fn contents(binaries: Vec<Binary>) -> Contents {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    Contents { binaries, resources: root.join("resources"), bases: Vec::new(), root }
+    Contents { binaries, resources: root.join("resources"), bases: Vec::new() }
 }
 
 /// A file that stands for the library of a platform, and its text.
 fn library(directory: &Path, platform: &str) -> (Binary, String) {
-    let (file, text) = (directory.join(platform), format!("library for {platform}"));
+    let head = if platform == "win64" { "MZ" } else { "\x7fELF" };
+    let (file, text) = (directory.join(platform), format!("{head} library for {platform}"));
     fs::write(&file, &text).unwrap();
     (Binary::new(platform, file).unwrap(), text)
 }
@@ -104,4 +105,14 @@ fn licences_of_all_linked_crates_are_in_the_archive() {
         count += 1;
     }
     assert!(count > 20, "{count} crates");
+}
+
+#[test]
+fn a_file_that_is_no_library_is_refused() {
+    let directory = workplace("no_library");
+    let file = directory.join("table.csv");
+    fs::write(&file, "time,drive.moment").unwrap();
+    let binaries = vec![Binary::new("linux64", &file).unwrap()];
+    let error = package::write(&directory.join("none.fmu"), &contents(binaries)).unwrap_err().to_string();
+    assert!(error.contains("table.csv") && error.contains("linux64"), "{error}");
 }

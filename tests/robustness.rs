@@ -31,7 +31,7 @@ fn a_thousand_random_starts_converge_without_shortening_a_step() {
         total += outputs.iterations;
     }
     println!("iterations: mean {:.2}, worst {worst}", total as f64 / 1000.0);
-    assert!(worst <= 40);
+    assert!(worst <= 30, "{worst}");
 }
 
 #[test]
@@ -103,6 +103,29 @@ fn a_motion_beyond_the_range_of_the_model_is_refused_and_the_run_goes_on() {
     inputs.drive.omega = 1.01 * wave / model.config().wheel.radius;
     let error = simulation.restart(&inputs).unwrap_err();
     assert!(matches!(error, StepError::Motion(_)) && error.to_string().contains("drive.omega"), "{error}");
+}
+
+/// Rounding leaves such steps at the end of a run.
+#[test]
+fn steps_too_short_to_be_computed_wait_for_the_next_one() {
+    let model = model(preset("railway", 5));
+    let mut inputs = Inputs::rolling(model.config());
+    let run = |steps: &[f64], inputs: &Inputs| {
+        let mut simulation = Simulation::new(model.clone(), inputs).unwrap();
+        steps.iter().for_each(|&h| simulation.advance(inputs, h).unwrap());
+        simulation
+    };
+    inputs.drive.moment = -3000.0;
+    let one = run(&[1e-3], &inputs);
+    let held = run(&[1e-3, 1e-15, 3e-8], &inputs);
+    assert_eq!(held.outputs(), one.outputs());
+    assert!((held.time() - 1e-3 - 3e-8).abs() < 1e-14);
+    let made_up = run(&[1e-3, 1e-15, 3e-8, 1e-3 - 3e-8], &inputs);
+    let two = run(&[1e-3, 1e-3], &inputs);
+    assert!((made_up.outputs().contact_force_x - two.outputs().contact_force_x).abs() < 1e-3);
+    assert!((made_up.time() - two.time()).abs() < 1e-15);
+    let dust = run(&[1e-7; 100], &inputs);
+    assert!((dust.outputs().wheel_distance / dust.time() / inputs.drive.velocity - 1.0).abs() < 1e-3);
 }
 
 #[test]

@@ -202,3 +202,27 @@ fn at_the_start_time_derivatives_are_those_of_the_stationary_motion() {
         assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{found} {expected}");
     }
 }
+
+/// A step of the second-order formula before and after heat sets in, and the parameters of the step, not of now.
+#[test]
+fn derivatives_by_heat_that_is_off_and_after_a_tunable_change_are_those_of_the_step() {
+    let model = model(preset("railway", 5));
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.friction = 0.08;
+    inputs.drive.moment = -6000.0;
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    for _ in 0..50 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let hottest = |o: &Outputs| o.temperature_wheel_max;
+    let heat = Drive { tread_heat: 1.0, ..Drive::default() };
+    let by_heat = simulation.difference(&heat).unwrap().quotient(hottest);
+    assert!(by_heat.abs() < 1e-6, "a block elsewhere on the tread does not heat the contact at once: {by_heat} K/W");
+
+    let load = Drive { load: 1.0, ..Drive::default() };
+    let before = simulation.difference(&load).unwrap().quotient(|o| o.contact_force_x);
+    let mut config = model.config().clone();
+    (config.friction.falling_ratio, config.friction.falling_decay, config.solver.max_step) = (0.5, 0.5, 1e-4);
+    simulation.retune(&config).unwrap();
+    assert_eq!(simulation.difference(&load).unwrap().quotient(|o| o.contact_force_x), before);
+}

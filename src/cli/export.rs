@@ -26,7 +26,7 @@ pub struct Export {
     #[command(flatten)]
     velocity: Velocity,
     /// Creepage 2 (V - r omega)/(V + r omega) of a stationary state, braking positive.
-    #[arg(long, value_name = "X", value_parser = parse_creepage, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = parse_creepage, allow_hyphen_values = true)]
     creepage: Option<f64>,
     /// Directory for the files; fields.vtm there opens all of them.
     #[arg(long, default_value = "fields", value_name = "DIR")]

@@ -16,7 +16,7 @@ mod table;
 mod vtu;
 
 use clap::{Parser, Subcommand};
-use std::io;
+use std::io::{self, Write};
 use wheelrail::fmi::description;
 
 /// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
@@ -44,7 +44,7 @@ impl Arguments {
         match self.command {
             Command::Pack(pack) => pack.run(),
             Command::Describe => {
-                print!("{}", description::model_description());
+                io::stdout().write_all(description::model_description().as_bytes())?;
                 Ok(())
             }
             Command::Simulate(simulate) => simulate.run(),

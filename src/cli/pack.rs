@@ -40,7 +40,7 @@ impl Pack {
         let Pack { out, library, binaries, resources, .. } = self;
         let own = Binary::new(package::platform(), library).map_err(failed)?;
         let binaries = [vec![own], binaries].concat();
-        package::write(&out, &Contents { binaries, resources, bases, root: PathBuf::from(".") }).map_err(failed)?;
+        package::write(&out, &Contents { binaries, resources, bases }).map_err(failed)?;
         println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
         Ok(())
     }

@@ -21,10 +21,10 @@ pub struct Course {
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
     /// End of the run [s]; that of the scenario, or 1, if not given.
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub stop: Option<f64>,
     /// Communication step [s].
-    #[arg(long, value_name = "SECONDS", default_value_t = DEFAULT_STEP_SIZE, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", default_value_t = DEFAULT_STEP_SIZE, allow_hyphen_values = true)]
     pub step: f64,
 }
 

@@ -2,9 +2,12 @@
 
 use super::setting::Setting;
 use super::{Failure, model};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::log::{Log, Refusal};
+
+/// Default directory with the presets; `railway` works without.
+const RESOURCES: &str = "resources";
 
 #[derive(clap::Args)]
 pub struct Setup {
@@ -12,7 +15,7 @@ pub struct Setup {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Directory with the presets.
-    #[arg(long, default_value = "resources", value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = RESOURCES)]
     resources: PathBuf,
     /// Directory that keeps computed bases for the next time, in its subdirectory `basis`; unused if it does not exist.
     #[arg(long, default_value = "target", value_name = "DIR")]
@@ -43,6 +46,9 @@ impl Setup {
     ///
     /// `fixed` are what the command itself decides. `stop` is the end of the run [s].
     pub fn initialize(&self, fixed: &[Setting], stop: Option<f64>) -> Result<Instance, Failure> {
+        if self.resources != Path::new(RESOURCES) && !self.resources.is_dir() {
+            return Err(Failure::Usage(format!("--resources {} is not a directory", self.resources.display())));
+        }
         let resources = Some(self.resources.clone());
         let mut instance = Instance::new(resources, Log::new(Box::new(|_, _, _| {}), false)).map_err(wrong)?;
         instance.setup_experiment(None, 0.0, stop).map_err(wrong)?;

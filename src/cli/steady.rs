@@ -55,7 +55,7 @@ pub struct Steady {
 #[derive(clap::Args)]
 pub struct Velocity {
     /// Travel velocity [m/s]; initial.velocity if not given.
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M/S", allow_hyphen_values = true)]
     velocity: Option<f64>,
 }
 

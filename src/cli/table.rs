@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 use wheelrail::fmi::instance::Instance;
-use wheelrail::fmi::units::{UNITS, display_offset};
+use wheelrail::fmi::units::UNITS;
 use wheelrail::fmi::variable::{Kind, Value, Variable};
 
 /// Values of variables, in their order.
@@ -74,8 +74,8 @@ pub fn shown(variable: &Variable, value: &Value) -> String {
     match (variable.kind, value) {
         (Kind::Real { measure, .. }, Value::Real(v)) => {
             let displays = UNITS.iter().find(|unit| unit.name == measure.unit).map_or(&[][..], |unit| unit.displays);
-            let display = displays.iter().find(|(name, _)| Some(*name) == measure.display);
-            significant(display.map_or(*v, |(name, factor)| factor * v + display_offset(name)))
+            let display = displays.iter().find(|display| Some(display.name) == measure.display);
+            significant(display.map_or(*v, |display| display.factor * v + display.offset))
         }
         _ => print(variable, value),
     }

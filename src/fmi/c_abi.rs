@@ -129,6 +129,7 @@ fn find_state(states: &BTreeMap<usize, Snapshot>, handle: fmi2FMUstate) -> Outco
 impl Component {
     /// Keeps a snapshot under the handle at `place`, a new one unless the place already holds one.
     fn keep(&mut self, place: &mut fmi2FMUstate, snapshot: Snapshot) -> Outcome {
+        // Handles differ between instances, so that those of another one are refused.
         static NEXT: AtomicUsize = AtomicUsize::new(1);
         if place.is_null() {
             *place = ptr::without_provenance_mut(NEXT.fetch_add(1, Ordering::Relaxed));

@@ -3,7 +3,7 @@
 use super::MODEL_IDENTIFIER;
 use super::log::CATEGORIES;
 use super::presets;
-use super::units::{BASE_UNITS, UNITS, display_offset};
+use super::units::{BASE_UNITS, UNITS};
 use super::variable::{Access, Causality, Kind, Start, Value, Variable};
 use super::variables::{ENUMERATIONS, variables};
 use quick_xml::Writer;
@@ -112,12 +112,11 @@ fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
                 let present: Vec<_> =
                     exponents.iter().filter(|(_, e)| e != "0").map(|(name, e)| (*name, e.as_str())).collect();
                 empty(xml, "BaseUnit", &present)?;
-                for (name, factor) in unit.displays {
-                    let (factor, offset) = (number(*factor), display_offset(name));
-                    let shifted = number(offset);
-                    let mut attributes = vec![("name", *name), ("factor", factor.as_str())];
-                    if offset != 0.0 {
-                        attributes.push(("offset", shifted.as_str()));
+                for display in unit.displays {
+                    let (factor, offset) = (number(display.factor), number(display.offset));
+                    let mut attributes = vec![("name", display.name), ("factor", factor.as_str())];
+                    if display.offset != 0.0 {
+                        attributes.push(("offset", offset.as_str()));
                     }
                     empty(xml, "DisplayUnit", &attributes)?;
                 }

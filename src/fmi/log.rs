@@ -70,7 +70,7 @@ impl Log {
         Log { sink, enabled: [on; CATEGORIES.len()] }
     }
 
-    /// Switches the named categories, or all of them when none is named.
+    /// Switches all categories when none is named; otherwise only the named ones are on, or these off.
     pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), Refusal> {
         let mut enabled = if on && !categories.is_empty() { [false; CATEGORIES.len()] } else { self.enabled };
         for name in categories {

@@ -22,9 +22,15 @@ pub struct Contents {
     pub resources: PathBuf,
     /// Precomputed bases, for `resources/basis/`.
     pub bases: Vec<Basis>,
-    /// Directory with licence texts (`LICENSE*`) and the picture `model.png`; what is missing is left out.
-    pub root: PathBuf,
 }
+
+/// Files that are the same in every FMU: picture and licence texts.
+const FIXED: [(&str, &[u8]); 4] = [
+    ("model.png", include_bytes!("../../model.png")),
+    ("documentation/licenses/LICENSE-APACHE", include_bytes!("../../LICENSE-APACHE")),
+    ("documentation/licenses/LICENSE-MIT", include_bytes!("../../LICENSE-MIT")),
+    ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../LICENSE-THIRD-PARTY")),
+];
 
 /// Platforms of FMI 2.0 and the extension of their shared libraries.
 pub const PLATFORMS: [(&str, &str); 6] = [
@@ -50,6 +56,20 @@ impl Binary {
         let known = PLATFORMS.into_iter().find(|(name, _)| *name == platform);
         let (platform, extension) = known.ok_or_else(|| PackageError::Platform(platform.to_owned()))?;
         Ok(Self { platform, extension, file: file.into() })
+    }
+
+    /// The library; refuses files that are none.
+    fn read(&self) -> Result<Vec<u8>, PackageError> {
+        let bytes = read(&self.file)?;
+        let heads: &[&[u8]] = match self.extension {
+            "dll" => &[b"MZ"],
+            "so" => &[b"\x7fELF"],
+            _ => &[b"\xcf\xfa\xed\xfe", b"\xce\xfa\xed\xfe", b"\xca\xfe\xba\xbe"],
+        };
+        let is_library = heads.iter().any(|head| bytes.starts_with(head));
+        is_library
+            .then_some(bytes)
+            .ok_or_else(|| PackageError::NoLibrary { path: self.file.clone(), platform: self.platform })
     }
 
     /// Path inside the FMU.
@@ -80,6 +100,8 @@ pub enum PackageError {
     Platform(String),
     #[error("{0:?} is not of the form PLATFORM=FILE")]
     Pair(String),
+    #[error("{} is no shared library for {platform}", path.display())]
+    NoLibrary { path: PathBuf, platform: &'static str },
     #[error("two binaries for {0}")]
     Twice(&'static str),
     #[error("{}: {source}", path.display())]
@@ -128,14 +150,9 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
         if contents.binaries[..i].iter().any(|other| other.platform == binary.platform) {
             return Err(PackageError::Twice(binary.platform));
         }
-        entries.push((binary.entry(), read(&binary.file)?));
+        entries.push((binary.entry(), binary.read()?));
     }
-    for (name, path) in files(&contents.root, |name| name.starts_with("LICENSE"))? {
-        entries.push((format!("documentation/licenses/{name}"), read(&path)?));
-    }
-    for (name, path) in files(&contents.root, |name| name == "model.png")? {
-        entries.push((name, read(&path)?));
-    }
+    entries.extend(FIXED.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     for (name, path) in files(&contents.resources, |name| name.ends_with(".json"))? {
         entries.push((format!("resources/{name}"), read(&path)?));
     }

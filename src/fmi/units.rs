@@ -44,14 +44,26 @@ pub const CONDUCTANCE: Measure = Measure { unit: "W/(m2.K)", display: None };
 pub const SPECIFIC_HEAT: Measure = Measure { unit: "J/(kg.K)", display: None };
 pub const DECAY: Measure = Measure { unit: "s/m", display: None };
 
+/// A unit for people: `display = factor · value + offset`.
+#[derive(Clone, Copy, Debug)]
+pub struct Display {
+    pub name: &'static str,
+    pub factor: f64,
+    pub offset: f64,
+}
+
+/// A multiple of the SI unit.
+const fn times(name: &'static str, factor: f64) -> Display {
+    Display { name, factor, offset: 0.0 }
+}
+
 /// A coherent SI unit as a product of powers of base units.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
     pub name: &'static str,
-    /// Exponents of kg, m, s and rad.
+    /// Exponents of [`BASE_UNITS`].
     pub exponents: [i32; 5],
-    /// Display units: name and the factor by which an SI value is multiplied.
-    pub displays: &'static [(&'static str, f64)],
+    pub displays: &'static [Display],
 }
 
 /// Names of the base units to which [`Unit::exponents`] belong, as the FMI schema spells them.
@@ -59,30 +71,25 @@ pub const BASE_UNITS: [&str; 5] = ["kg", "m", "s", "rad", "K"];
 
 /// Every unit of the interface.
 pub const UNITS: &[Unit] = &[
-    Unit { name: "1", exponents: [0, 0, 0, 0, 0], displays: &[("%", 100.0)] },
-    Unit { name: "m", exponents: [0, 1, 0, 0, 0], displays: &[("mm", 1e3)] },
+    Unit { name: "1", exponents: [0, 0, 0, 0, 0], displays: &[times("%", 100.0)] },
+    Unit { name: "m", exponents: [0, 1, 0, 0, 0], displays: &[times("mm", 1e3)] },
     Unit { name: "s", exponents: [0, 0, 1, 0, 0], displays: &[] },
-    Unit { name: "kg", exponents: [1, 0, 0, 0, 0], displays: &[("t", 1e-3)] },
-    Unit { name: "rad", exponents: [0, 0, 0, 1, 0], displays: &[("deg", 180.0 / std::f64::consts::PI)] },
-    Unit { name: "m/s", exponents: [0, 1, -1, 0, 0], displays: &[("km/h", 3.6), ("mm/s", 1e3)] },
+    Unit { name: "kg", exponents: [1, 0, 0, 0, 0], displays: &[times("t", 1e-3)] },
+    Unit { name: "rad", exponents: [0, 0, 0, 1, 0], displays: &[times("deg", 180.0 / std::f64::consts::PI)] },
+    Unit { name: "m/s", exponents: [0, 1, -1, 0, 0], displays: &[times("km/h", 3.6), times("mm/s", 1e3)] },
     Unit { name: "m/s2", exponents: [0, 1, -2, 0, 0], displays: &[] },
-    Unit { name: "rad/s", exponents: [0, 0, -1, 1, 0], displays: &[("rpm", 30.0 / std::f64::consts::PI)] },
+    Unit { name: "rad/s", exponents: [0, 0, -1, 1, 0], displays: &[times("rpm", 30.0 / std::f64::consts::PI)] },
     Unit { name: "rad/s2", exponents: [0, 0, -2, 1, 0], displays: &[] },
-    Unit { name: "N", exponents: [1, 1, -2, 0, 0], displays: &[("kN", 1e-3)] },
-    Unit { name: "N.m", exponents: [1, 2, -2, 0, 0], displays: &[("kN.m", 1e-3)] },
-    Unit { name: "Pa", exponents: [1, -1, -2, 0, 0], displays: &[("MPa", 1e-6), ("GPa", 1e-9)] },
-    Unit { name: "W", exponents: [1, 2, -3, 0, 0], displays: &[("kW", 1e-3)] },
+    Unit { name: "N", exponents: [1, 1, -2, 0, 0], displays: &[times("kN", 1e-3)] },
+    Unit { name: "N.m", exponents: [1, 2, -2, 0, 0], displays: &[times("kN.m", 1e-3)] },
+    Unit { name: "Pa", exponents: [1, -1, -2, 0, 0], displays: &[times("MPa", 1e-6), times("GPa", 1e-9)] },
+    Unit { name: "W", exponents: [1, 2, -3, 0, 0], displays: &[times("kW", 1e-3)] },
     Unit { name: "kg/m3", exponents: [1, -3, 0, 0, 0], displays: &[] },
     Unit { name: "kg.m2", exponents: [1, 2, 0, 0, 0], displays: &[] },
-    Unit { name: "K", exponents: [0, 0, 0, 0, 1], displays: &[("degC", 1.0)] },
+    Unit { name: "K", exponents: [0, 0, 0, 0, 1], displays: &[Display { name: "degC", factor: 1.0, offset: -273.15 }] },
     Unit { name: "1/K", exponents: [0, 0, 0, 0, -1], displays: &[] },
     Unit { name: "W/(m.K)", exponents: [1, 1, -3, 0, -1], displays: &[] },
     Unit { name: "W/(m2.K)", exponents: [1, 0, -3, 0, -1], displays: &[] },
     Unit { name: "J/(kg.K)", exponents: [0, 2, -2, 0, -1], displays: &[] },
     Unit { name: "s/m", exponents: [0, -1, 1, 0, 0], displays: &[] },
 ];
-
-/// Offset of a display unit: `display = factor · value + offset`.
-pub fn display_offset(name: &str) -> f64 {
-    if name == "degC" { -273.15 } else { 0.0 }
-}

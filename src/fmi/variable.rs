@@ -61,7 +61,7 @@ impl Kind {
     }
 }
 
-/// Where a variable lives. Parameters are fixed, inputs and real outputs continuous, the rest discrete.
+/// Where a variable lives. Parameters are fixed or tunable, inputs and real outputs continuous, the rest discrete.
 #[derive(Clone, Copy)]
 pub enum Access {
     /// Name of the preset file; the one parameter that is not part of [`Config`].

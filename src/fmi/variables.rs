@@ -250,7 +250,7 @@ fn outputs() -> Vec<Variable> {
         value(700, "damage.t_gamma", NEWTON, POSITIVE, 10.0, |o| o.t_gamma, "Wear number |contact.force_x contact.creepage|: energy dissipated per metre travelled"),
         count(800, "solver.internal_steps", |o| o.internal_steps, "Internal time steps in the last communication step"),
         count(801, "solver.iterations", |o| o.iterations, "Contact iterations in the last communication step"),
-        value(804, "solver.suggested_step", SECOND, POSITIVE, 1e-3, |o| o.suggested_step, "Largest communication step for explicit coupling: from creep damping and contact stiffness where velocities or the hub height are prescribed, 1 s otherwise"),
+        value(804, "solver.suggested_step", SECOND, POSITIVE, 1e-3, |o| o.suggested_step, "Largest communication step for explicit coupling: from creep damping and contact stiffness where velocities or the hub height were prescribed in the last step, 1 s otherwise"),
         zero(value(802, "solver.energy_residual", NUMBER, FREE, 1e-2, |o| o.energy_residual, "Energy balance since the start: unaccounted over dissipated energy, at least the elastic energy of the contact")),
     ];
     rows

@@ -29,6 +29,8 @@ const SAME_OPERATOR: f64 = 1e-3;
 
 /// Relative change of speeds, conductance or heat over a step that counts as a jump.
 const JUMP: f64 = 0.3;
+/// Heat whose changes do not count [W/m]: it warms a rolling contact by less than a kelvin.
+const SLIGHT_HEAT: f64 = 1e4;
 
 /// Speeds and boundary data at one time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -198,10 +200,11 @@ impl Moment {
         let (a, b) = (&self.supply, &other.supply);
         let conductance = |s: &Supply| s.conductance.iter().map(|c| c[0]).sum::<f64>();
         let total = |q: &[[f64; 2]]| q.iter().map(|q| q[0]).sum::<f64>();
+        let heat = [a, b].map(|s| [total(&s.friction), total(&s.tread)]);
+        let change = (heat[0][0] - heat[1][0]).abs() + (heat[0][1] - heat[1][1]).abs();
         self.speed_change(other) > JUMP
             || jump(conductance(a), conductance(b))
-            || jump(total(&a.friction), total(&b.friction))
-            || jump(total(&a.tread), total(&b.tread))
+            || change > SLIGHT_HEAT + JUMP * heat.map(|h| h[0] + h[1]).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether speeds and conductance differ so little that the operator of the end serves for the whole step.

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
 const MAGIC: &[u8; 8] = b"WHLRAIL1";
-/// Changes whenever the meaning of the data changes (mesh rules, reduction, layout).
-const VERSION: u64 = 1;
+/// Digest of the code that the data depend on (meshes, elements, reduction), from the build script.
+const CODE: &str = env!("BASIS_CODE");
 /// Name space of keys and checksums.
 const NAMESPACE: Uuid = Uuid::from_u128(0x6f1d_2d0a_5c1e_4f0e_9b57_1f0c_7a5e_33d1);
 
@@ -39,14 +39,15 @@ pub enum BasisError {
 
 /// Name of the basis for a configuration: UUID version 5 of the parameters it depends on.
 ///
-/// Geometry, elasticity, density, mesh, nominal line load and numbers of modes; not masses, friction or time scheme.
+/// Geometry, elasticity, density, mesh, nominal line load and numbers of modes, and the code; not masses, friction or time
+/// scheme.
 pub fn key(config: &Config) -> String {
     let Config { model, wheel, rail, material, mesh, solver, .. } = config;
     let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
     let elastic = [material.youngs_modulus, material.poissons_ratio, material.density];
     let line_load = [model.nominal_load / model.contact_width];
     let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail];
-    let mut bytes = VERSION.to_le_bytes().to_vec();
+    let mut bytes = CODE.as_bytes().to_vec();
     bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()

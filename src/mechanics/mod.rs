@@ -17,7 +17,8 @@ pub use reduced::{ReducedBasis, ReducedBody};
 pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, TimeDerivative};
 pub use system::BodySystem;
 
-use crate::config::{Config, Response};
+use crate::analytic;
+use crate::config::Config;
 use crate::fem::graded::GUARDS;
 use crate::fem::{self, ContactZone, FemError, Mesh};
 use crate::linalg::LinalgError;
@@ -45,9 +46,8 @@ pub struct Pair {
     pub candidates: Range<usize>,
 }
 
-/// Builds the bodies the configuration asks for.
+/// Builds the bodies: reduced ones from a basis that fits the configuration, full ones without.
 ///
-/// A `basis` with the right key is used, otherwise one is computed; the full response needs none.
 /// `progress` receives the activity and the share of it done, 0 to 1.
 pub fn bodies(
     config: &Config,
@@ -56,18 +56,12 @@ pub fn bodies(
 ) -> Result<Pair, MechanicsError> {
     let zone = contact_zone(config);
     let centrifugal = config.physics.centrifugal;
-    let (wheel, rail): (Box<dyn BodyResponse>, Box<dyn BodyResponse>) = match config.solver.response {
-        Response::Reduced => {
-            let basis = match basis.filter(|b| b.fits(config)) {
-                Some(basis) => basis,
-                None => Basis::compute(config, progress)?,
-            };
-            (
-                Box::new(ReducedBody { basis: basis.wheel, centrifugal }),
-                Box::new(ReducedBody { basis: basis.rail, centrifugal: false }),
-            )
-        }
-        Response::Full => {
+    let (wheel, rail): (Box<dyn BodyResponse>, Box<dyn BodyResponse>) = match basis {
+        Some(Basis { wheel, rail, .. }) => (
+            Box::new(ReducedBody { basis: wheel, centrifugal }),
+            Box::new(ReducedBody { basis: rail, centrifugal: false }),
+        ),
+        None => {
             progress("assembling the wheel", 0.0);
             let wheel = FullBody::new(wheel_system(config)?, centrifugal)?;
             progress("assembling the rail", 0.5);
@@ -85,10 +79,13 @@ pub fn bodies(
 ///
 /// `P` nominal load per metre of width, `1/E* = 2 (1 − ν²)/E`. Source: Johnson, *Contact Mechanics* (1985), eq. 4.43.
 pub fn nominal_half_width(config: &Config) -> f64 {
-    let nu = config.material.poissons_ratio;
-    let contact_modulus = 0.5 * config.material.youngs_modulus / (1.0 - nu * nu);
     let load = config.model.nominal_load / config.model.contact_width;
-    (4.0 * load * config.wheel.radius / (PI * contact_modulus)).sqrt()
+    analytic::hertz_half_width(load, config.wheel.radius, contact_modulus(config))
+}
+
+/// Contact modulus of wheel and rail [Pa].
+pub fn contact_modulus(config: &Config) -> f64 {
+    analytic::contact_modulus(config.material.youngs_modulus, config.material.poissons_ratio)
 }
 
 /// Fine zone of the meshes for the nominal load.

@@ -82,6 +82,12 @@ impl TimeDerivative {
         sum
     }
 
+    /// Impulse that the formula attributes to the force `now` in a momentum balance `d_t p = f`, after the force `before`
+    /// with the impulse `last`: the sum over all forces is the change of `p`.
+    pub fn impulse(&self, now: f64, before: f64, last: f64) -> f64 {
+        (now - self.b1 * before + self.a2 * last) / self.a0
+    }
+
     /// No time derivative at all: every step is an equilibrium.
     pub fn is_stationary(&self) -> bool {
         *self == Self::default()

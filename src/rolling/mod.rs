@@ -111,9 +111,7 @@ impl Model {
             radius: config.wheel.radius,
         };
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
-        let material = &config.material;
-        let modulus = 0.5 * material.youngs_modulus / (1.0 - material.poissons_ratio.powi(2));
-        let kernel = KernelCorrection::new(&(wheel.surface + rail.surface), modulus);
+        let kernel = KernelCorrection::new(&(wheel.surface + rail.surface), mechanics::contact_modulus(&config));
         let width = config.model.contact_width;
         let mass = mechanics::wheel_mass(&config) + config.wheel.hub_mass / width;
         let moment = mechanics::wheel_inertia(&config) + config.wheel.hub_inertia / width;

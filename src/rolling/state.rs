@@ -66,16 +66,23 @@ pub struct Audit {
     pub dissipation: f64,
     /// Time integral of the absolute power of the hub forces [J/m]: the scale of the round-off.
     pub throughput: f64,
-    /// Present power of the hub forces and of friction [W/m].
-    pub hub_power: f64,
+    /// Present power of friction [W/m].
     pub friction_power: f64,
+    /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
+    pub impulse: [f64; 3],
+    /// Energy that friction dissipated in it [J/m].
+    pub dissipated: f64,
 }
 
 impl Audit {
+    /// Energy that has vanished, in the numerics [J/m].
+    pub fn imbalance(&self) -> f64 {
+        self.work - (self.energy - self.initial_energy) - self.dissipation
+    }
+
     /// Imbalance relative to the dissipated energy [1], or to the energy `stored` [J/m] in the loaded contact or a
     /// millionth of the energy moved, where those are more.
     pub fn residual(&self, stored: f64) -> f64 {
-        let imbalance = self.work - (self.energy - self.initial_energy) - self.dissipation;
-        imbalance / self.dissipation.max(1e-6 * self.throughput).max(stored)
+        self.imbalance() / self.dissipation.max(1e-6 * self.throughput).max(stored)
     }
 }

@@ -6,7 +6,7 @@
 //! is linear from the two steps before, or constant after a jump of the inputs; the difference is of second order in the
 //! step and larger than the error of the second-order formula. Loss of contact, re-contact, lock-up and breaking loose
 //! show in it at once, so no event needs a rule of its own. A contact that heats or cools by hundreds of kelvin in one
-//! long step is always refined: friction that falls with the temperature follows it with one step's delay.
+//! long step is always refined: friction that falls with the temperature is predicted from the steps before.
 
 use super::control::{Drive, Inputs};
 use super::state::State;

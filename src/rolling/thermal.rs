@@ -52,6 +52,15 @@ pub struct ThermalState {
 }
 
 impl ThermalState {
+    /// Takes what acts back on the contact in the `share` of its change.
+    pub(super) fn average(&mut self, before: &ThermalState, share: f64) {
+        let ours = self.membrane.iter_mut().chain([&mut self.swelling]).flatten().chain(&mut self.heating);
+        let theirs = before.membrane.iter().chain([&before.swelling]).flatten().chain(&before.heating);
+        for (now, before) in ours.chain([&mut self.growth]).zip(theirs.chain([&before.growth])) {
+            *now = before + share * (*now - before);
+        }
+    }
+
     /// Whether the temperatures have the dimensions of this heat model and of `candidates` contact candidates.
     pub(super) fn fits(&self, heat: &Heat, candidates: usize) -> bool {
         let zone = [&self.surface, &self.membrane].into_iter().flatten().chain([&self.swelling]);

@@ -2,7 +2,7 @@
 
 use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
 use super::integrator::{Sample, formula, settled};
-use super::state::State;
+use super::state::{Audit, State};
 use super::{Model, StepError, Workspace};
 use crate::contact::{ContactProblem, RigidMotion, SurfaceResponse};
 use crate::mechanics::response::Convection;
@@ -127,22 +127,21 @@ impl Model {
         next.iterations += contact.iterations as u64;
         next.contact = contact;
 
-        // Work by the quadrature that belongs to the formula: end point for backward Euler, else trapezoid.
-        let backward_euler = td.a2 == 0.0 && td.b1 == 0.0;
-        let (hub_power, friction_power) = self.powers(&next);
-        let mean = |before: f64, now: f64| if backward_euler { now } else { 0.5 * (before + now) };
-        let work = if backward_euler {
-            dt * self.hub_power(&next.hub, &midway(state, &next))
-        } else {
-            0.5 * dt
-                * (self.hub_power(&state.hub, &midway(state, &next)) + self.hub_power(&next.hub, &midway(state, &next)))
+        // The formula gives every force an impulse, by which the momenta change; its work is that times the mean velocity.
+        let (before, friction_power) = (&state.audit, next.contact.friction_power(&self.grid));
+        let impulse = [0, 1, 2].map(|k| td.impulse(next.hub[k], state.hub[k], before.impulse[k]));
+        let work: f64 = impulse.iter().zip(midway(state, &next)).map(|(j, v)| j * v).sum();
+        let dissipated = td.impulse(friction_power, before.friction_power, before.dissipated);
+        next.audit = Audit {
+            initial_energy: before.initial_energy,
+            energy: self.energy(&next),
+            work: before.work + work,
+            dissipation: before.dissipation + dissipated,
+            throughput: before.throughput + work.abs(),
+            friction_power,
+            impulse,
+            dissipated,
         };
-        next.audit.work += work;
-        next.audit.throughput += work.abs();
-        next.audit.dissipation += dt * mean(state.audit.friction_power, friction_power);
-        next.audit.hub_power = hub_power;
-        next.audit.friction_power = friction_power;
-        next.audit.energy = self.energy(&next);
         let motion = [next.velocity.now, next.height.now, next.omega.now];
         if !force.iter().chain(&motion).chain(&next.hub).all(|v| v.is_finite()) || !next.audit.energy.is_finite() {
             return Err(StepError::NotFinite { time: state.time, step: dt });
@@ -162,17 +161,6 @@ impl Model {
         let available = state.available_friction;
         (friction - available).abs() > JUMP * available.max(friction)
             || (0..3).any(|k| acts[k] && (load[k] - state.hub[k]).abs() > limits[k])
-    }
-
-    /// Power of the hub forces (x, y, moment) at rigid velocities (V, U̇, Ω) [W/m].
-    fn hub_power(&self, hub: &[f64; 3], velocity: &[f64; 3]) -> f64 {
-        hub.iter().zip(velocity).map(|(f, v)| f * v).sum()
-    }
-
-    /// Power of the hub forces and frictional dissipation [W/m].
-    pub(super) fn powers(&self, state: &State) -> (f64, f64) {
-        let velocity = [state.velocity.now, state.height.rate, state.omega.now];
-        (self.hub_power(&state.hub, &velocity), state.contact.friction_power(&self.grid))
     }
 
     /// Kinetic and elastic energy [J/m].
