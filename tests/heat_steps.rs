@@ -206,9 +206,9 @@ fn bad_input_is_refused_by_name_and_leaves_the_state_alone() {
     let bad = Exchange { ambient: f64::NAN, ..good.clone() };
     refuse(1e-3, 14.0, 28.0, &bad, "ambient temperature is NaN");
     for (config, word) in [
-        (HeatConfig { conductivity: -45.0, ..config(1e5, 20.0) }, "conductivity = -45"),
-        (HeatConfig { conductance: Conductance::Constant { value: -1.0 }, ..config(1e5, 20.0) }, "conductance = -1"),
-        (HeatConfig { density: f64::NAN, ..config(1e5, 20.0) }, "density = NaN"),
+        (HeatConfig { rail_length: 1e-3, ..config(1e5, 20.0) }, "rail.length = 0.001"),
+        (HeatConfig { half_width: f64::NAN, ..config(1e5, 20.0) }, "half-width at model.nominal_load = NaN"),
+        (HeatConfig { smallest_half_width: 1e-6, ..config(1e5, 20.0) }, "thermal.smallest_load_ratio"),
     ] {
         let message = Heat::new(&config).unwrap_err().to_string();
         println!("{message}");

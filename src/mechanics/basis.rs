@@ -163,13 +163,14 @@ mod tests {
     }
 
     #[test]
-    fn a_basis_of_another_configuration_is_replaced() {
+    fn a_basis_fits_its_own_configuration_only() {
         let config = small();
         let mut other = config.clone();
         other.solver.modes_wheel = 4;
         let basis = Basis::compute(&other, &mut |_, _| {}).unwrap();
-        let pair = bodies(&config, Some(basis), &mut |_, _| {}).unwrap();
-        assert_eq!((pair.wheel.state_len(), pair.rail.state_len()), (6, 5));
+        assert!(basis.fits(&other) && !basis.fits(&config));
+        let pair = bodies(&other, Some(basis), &mut |_, _| {}).unwrap();
+        assert_eq!((pair.wheel.state_len(), pair.rail.state_len()), (4, 5));
         assert_eq!((pair.surface_x.len(), pair.candidates), (19, 3..16));
     }
 
