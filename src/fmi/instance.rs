@@ -7,7 +7,7 @@ use super::log::{Log, Refusal, Status};
 use super::presets;
 use super::settings::{Explicit, with_inputs, with_parameters};
 use super::snapshot::Snapshot;
-use super::variable::{Access, Causality, Reference, Value, Variable};
+use super::variable::{Access, Causality, Kind, Reference, Value, Variable};
 use super::variables::find;
 use crate::config::Config;
 use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Rotation, Simulation, Translation, Vertical};
@@ -254,7 +254,8 @@ impl Instance {
         Ok(())
     }
 
-    /// A quantity that becomes prescribed during a run takes over its present value, unless the master has set it.
+    /// A quantity that becomes prescribed during a run takes over its present value, unless the master has set it; a
+    /// reaction beyond its range as far as that goes.
     fn take_over(&self, next: &Inputs, taken: &mut Explicit) {
         let Some(simulation) = &self.simulation else { return };
         let (now, outputs) = (self.effective_inputs(), simulation.outputs());
@@ -267,7 +268,7 @@ impl Instance {
             Translation::Force => ("drive.force", outputs.hub_force_x),
         };
         let vertical = match next.vertical {
-            Vertical::Force => ("drive.load", (-outputs.hub_force_y).max(0.0)),
+            Vertical::Force => ("drive.load", -outputs.hub_force_y),
             Vertical::Displacement => ("drive.displacement", -outputs.contact_approach),
         };
         for (switched, (name, present)) in [
@@ -276,8 +277,8 @@ impl Instance {
             (now.vertical != next.vertical, vertical),
         ] {
             let row = super::variables::variables().iter().find(|variable| variable.name == name);
-            if let Some(variable) = row.filter(|_| switched) {
-                taken.insert(variable.reference, Value::Real(present));
+            if let (true, Some(Variable { reference, kind: Kind::Real { min, max, .. }, .. })) = (switched, row) {
+                taken.insert(*reference, Value::Real(present.clamp(*min, *max)));
             }
         }
     }
