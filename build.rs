@@ -9,7 +9,10 @@ use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rustc-env=BASIS_CODE={:016x}", digest(&["src/linalg", "src/fem", "src/mechanics"])?);
+    println!(
+        "cargo::rustc-env=BASIS_CODE={:016x}",
+        digest(&["src/analytic.rs", "src/linalg", "src/fem", "src/mechanics"])?
+    );
     let target = |key: &str| std::env::var(format!("CARGO_CFG_TARGET_{key}")).unwrap_or_default();
     if target("OS") == "linux" {
         println!("cargo::rustc-cdylib-link-arg=-Wl,--exclude-libs,ALL");
@@ -24,13 +27,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Digest of the files in some directories.
-fn digest(directories: &[&str]) -> Result<u64, Box<dyn Error>> {
+/// Digest of some files, and of all in some directories.
+fn digest(sources: &[&str]) -> Result<u64, Box<dyn Error>> {
     let mut files: BTreeMap<PathBuf, Vec<u8>> = BTreeMap::new();
-    for directory in directories {
-        println!("cargo::rerun-if-changed={directory}");
-        for entry in fs::read_dir(directory)? {
-            let path = entry?.path();
+    let mut paths: Vec<PathBuf> = sources.iter().map(PathBuf::from).collect();
+    while let Some(path) = paths.pop() {
+        println!("cargo::rerun-if-changed={}", path.display());
+        if path.is_dir() {
+            paths.extend(fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?);
+        } else {
             files.insert(path.clone(), fs::read(path)?);
         }
     }

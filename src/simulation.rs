@@ -73,8 +73,8 @@ pub fn basis_file_name(config: &Config) -> String {
 }
 
 impl Model {
-    /// Validates the configuration and makes the model ready. The reduced basis is read from
-    /// `<directory>/basis/` if it is stored there and computed otherwise; `progress` hears what is being computed and its share done.
+    /// Validates the configuration and makes the model ready. The reduced basis is read from `<directory>/basis/` if it is
+    /// stored there and computed otherwise; `progress` hears what is being computed and its share done.
     pub fn prepare(
         config: Config,
         directory: Option<&Path>,

@@ -54,7 +54,7 @@ fn strings_stay_readable_until_the_next_call() {
 fn every_message_carries_a_declared_category() {
     let dll = load();
     let declared = wheelrail::fmi::log::CATEGORIES.map(|(name, _)| name);
-    let description = wheelrail::fmi::description::model_description();
+    let description = wheelrail::fmi::description::model_description().unwrap();
     for name in declared {
         assert!(description.contains(&format!("<Category name=\"{name}\"")), "{name}");
     }

@@ -17,7 +17,7 @@ fn with_causality(causality: Causality) -> impl Iterator<Item = &'static Variabl
 fn committed_file_is_the_generated_one() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription.xml");
     let committed = std::fs::read_to_string(path).unwrap();
-    assert!(committed == model_description(), "run `wheelrail describe > modelDescription.xml`");
+    assert!(committed == model_description().unwrap(), "run `wheelrail describe > modelDescription.xml`");
 }
 
 #[test]
@@ -66,13 +66,13 @@ fn every_preset_is_valid() {
         let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));
         wheelrail::simulation::Inputs::rolling(&config).validate().unwrap_or_else(|error| panic!("{name}: {error}"));
     }
-    assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(presets::default_config()));
+    assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(presets::default_config().unwrap()));
 }
 
 /// Every field of the configuration is a parameter of the interface and has its name there.
 #[test]
 fn parameters_are_the_fields_of_the_configuration() {
-    let json = serde_json::to_value(presets::default_config()).unwrap();
+    let json = serde_json::to_value(presets::default_config().unwrap()).unwrap();
     let mut fields: Vec<String> = Vec::new();
     for (group, content) in json.as_object().unwrap() {
         fields.extend(content.as_object().unwrap().keys().map(|name| format!("{group}.{name}")));
@@ -85,7 +85,7 @@ fn parameters_are_the_fields_of_the_configuration() {
     for variable in with_causality(Causality::Parameter).filter(|v| v.name != "preset") {
         let (group, name) = variable.name.split_once('.').unwrap();
         let field = |config: &Config| serde_json::to_value(config).unwrap()[group][name].clone();
-        let mut config = presets::default_config();
+        let mut config = presets::default_config().unwrap();
         let value = match variable.parameter("", &mut config).unwrap() {
             Value::Real(v) => Value::Real(v + 1e-3),
             Value::Integer(v) => Value::Integer(v + 1),
@@ -93,7 +93,7 @@ fn parameters_are_the_fields_of_the_configuration() {
             other => other,
         };
         variable.set_parameter(&mut config, &value);
-        assert_ne!(field(&config), field(&presets::default_config()), "{} reaches its field", variable.name);
+        assert_ne!(field(&config), field(&presets::default_config().unwrap()), "{} reaches its field", variable.name);
         assert_eq!(variable.parameter("", &mut config), Some(value));
     }
 }
@@ -105,7 +105,7 @@ fn around(min: f64, max: f64) -> ([f64; 2], [f64; 2]) {
 
 #[test]
 fn declared_ranges_of_inputs_are_those_of_the_model() {
-    let inputs = wheelrail::simulation::Inputs::rolling(&presets::default_config());
+    let inputs = wheelrail::simulation::Inputs::rolling(&presets::default_config().unwrap());
     for variable in with_causality(Causality::Input) {
         let Kind::Real { min, max, .. } = variable.kind else {
             continue;
@@ -136,7 +136,7 @@ fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
             _ => continue,
         };
         for value in values {
-            let mut config = presets::default_config();
+            let mut config = presets::default_config().unwrap();
             variable.set_parameter(&mut config, &value);
             let error = config.validate().expect_err(&variable.name);
             assert_eq!(error.name, variable.name);
@@ -147,7 +147,7 @@ fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
 
 #[test]
 fn tunable_parameters_are_those_that_nothing_computed_in_advance_depends_on() {
-    let start = presets::default_config();
+    let start = presets::default_config().unwrap();
     for variable in variables().iter().filter(|v| v.causality() == Causality::Parameter) {
         let mut changed = start.clone();
         match variable.parameter("", &mut changed) {

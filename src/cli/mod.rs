@@ -44,7 +44,7 @@ impl Arguments {
         match self.command {
             Command::Pack(pack) => pack.run(),
             Command::Describe => {
-                io::stdout().write_all(description::model_description().as_bytes())?;
+                io::stdout().write_all(description::model_description()?.as_bytes())?;
                 Ok(())
             }
             Command::Simulate(simulate) => simulate.run(),

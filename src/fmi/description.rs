@@ -6,6 +6,7 @@ use super::presets;
 use super::units::{BASE_UNITS, UNITS};
 use super::variable::{Access, Causality, Kind, Start, Value, Variable};
 use super::variables::{ENUMERATIONS, variables};
+use crate::config::Config;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
@@ -31,46 +32,42 @@ type Xml = Writer<Vec<u8>>;
 /// Name-based UUID of the description with an empty GUID: changes with the interface and only with it.
 pub fn guid() -> &'static str {
     static GUID: OnceLock<String> = OnceLock::new();
-    GUID.get_or_init(|| Uuid::new_v5(&Uuid::NAMESPACE_OID, write("").as_bytes()).to_string())
+    GUID.get_or_init(|| Uuid::new_v5(&Uuid::NAMESPACE_OID, write("").unwrap_or_default().as_bytes()).to_string())
 }
 
 /// The model description as it stands in the FMU.
-pub fn model_description() -> String {
+pub fn model_description() -> io::Result<String> {
     write(guid())
 }
 
-fn write(guid: &str) -> String {
+fn write(guid: &str) -> io::Result<String> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    let written = xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None))).and_then(|()| {
-        let version = env!("CARGO_PKG_VERSION");
-        let root = xml.create_element("fmiModelDescription").with_attributes([
-            ("fmiVersion", "2.0"),
-            ("modelName", "Wheel on rail"),
-            ("guid", guid),
-            ("description", DESCRIPTION),
-            ("version", version),
-            ("license", env!("CARGO_PKG_LICENSE")),
-            ("generationTool", concat!("wheelrail ", env!("CARGO_PKG_VERSION"))),
-            ("variableNamingConvention", "structured"),
-        ]);
-        root.write_inner_content(|xml| {
-            capabilities(xml)?;
-            unit_definitions(xml)?;
-            type_definitions(xml)?;
-            list(xml, "LogCategories", |xml| {
-                CATEGORIES.iter().try_for_each(|c| empty(xml, "Category", &[("name", c.0), ("description", c.1)]))
-            })?;
-            let (stop, step) = (format!("{DEFAULT_STOP_TIME:?}"), format!("{DEFAULT_STEP_SIZE:?}"));
-            empty(xml, "DefaultExperiment", &[("startTime", "0.0"), ("stopTime", &stop), ("stepSize", &step)])?;
-            list(xml, "ModelVariables", model_variables)?;
-            list(xml, "ModelStructure", model_structure)
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let root = xml.create_element("fmiModelDescription").with_attributes([
+        ("fmiVersion", "2.0"),
+        ("modelName", "Wheel on rail"),
+        ("guid", guid),
+        ("description", DESCRIPTION),
+        ("version", env!("CARGO_PKG_VERSION")),
+        ("license", env!("CARGO_PKG_LICENSE")),
+        ("generationTool", concat!("wheelrail ", env!("CARGO_PKG_VERSION"))),
+        ("variableNamingConvention", "structured"),
+    ]);
+    root.write_inner_content(|xml| {
+        capabilities(xml)?;
+        unit_definitions(xml)?;
+        type_definitions(xml)?;
+        list(xml, "LogCategories", |xml| {
+            CATEGORIES.iter().try_for_each(|c| empty(xml, "Category", &[("name", c.0), ("description", c.1)]))
         })?;
-        Ok(())
-    });
-    written.expect("writing to memory does not fail");
-    let mut text = String::from_utf8(xml.into_inner()).expect("names and descriptions are UTF-8");
+        let (stop, step) = (format!("{DEFAULT_STOP_TIME:?}"), format!("{DEFAULT_STEP_SIZE:?}"));
+        empty(xml, "DefaultExperiment", &[("startTime", "0.0"), ("stopTime", &stop), ("stepSize", &step)])?;
+        list(xml, "ModelVariables", model_variables)?;
+        list(xml, "ModelStructure", model_structure)
+    })?;
+    let mut text = String::from_utf8(xml.into_inner()).map_err(io::Error::other)?;
     text.push('\n');
-    text
+    Ok(text)
 }
 
 fn empty(xml: &mut Xml, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
@@ -151,8 +148,8 @@ fn type_definitions(xml: &mut Xml) -> io::Result<()> {
 
 /// Start value of an input or parameter under the default preset; `None` for outputs.
 pub fn start_value(variable: &Variable) -> Option<Value> {
-    static CONFIG: OnceLock<crate::config::Config> = OnceLock::new();
-    let mut config = CONFIG.get_or_init(presets::default_config).clone();
+    static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
+    let mut config = CONFIG.get_or_init(|| presets::default_config().ok()).clone()?;
     let parameter = variable.parameter(presets::DEFAULT, &mut config);
     parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
 }

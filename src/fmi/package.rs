@@ -143,7 +143,7 @@ fn files(directory: &Path, wanted: impl Fn(&str) -> bool) -> Result<Vec<(String,
 /// Writes the FMU to `out`. Equal contents give equal bytes: entries are in a fixed order and carry a fixed date.
 pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     let mut entries = vec![
-        ("modelDescription.xml".to_owned(), model_description().into_bytes()),
+        ("modelDescription.xml".to_owned(), model_description()?.into_bytes()),
         ("documentation/index.html".to_owned(), index_html().into_bytes()),
     ];
     for (i, binary) in contents.binaries.iter().enumerate() {

@@ -17,8 +17,8 @@ impl Model {
     /// Who prescribes velocities integrates an inertia against the contact, which on the initial slope of Carter's
     /// theory is a damper between V and rΩ: `c = 2 F_n r/(a V)`. With the effective mass m of the prescribed motions
     /// (the inertias that the parameters give to the wheel; vehicle included in x) explicit exchange needs `h < 2m/c`
-    /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and moments as
-    /// inputs leave the stiff motion to this model and set no limit (1 s).
+    /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and
+    /// moments as inputs leave the stiff motion to this model and set no limit (1 s).
     pub(super) fn suggested_step(&self, state: &State, outputs: &Outputs) -> f64 {
         let [x, y, rotation] = state.prescribed;
         let radius = self.grid.radius;

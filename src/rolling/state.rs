@@ -64,7 +64,7 @@ pub struct Audit {
     pub work: f64,
     /// Frictional dissipation [J/m].
     pub dissipation: f64,
-    /// Time integral of the absolute power of the hub forces [J/m]: the scale of the round-off.
+    /// Sum of the absolute work of all steps [J/m]: the scale of the round-off.
     pub throughput: f64,
     /// Present power of friction [W/m].
     pub friction_power: f64,
