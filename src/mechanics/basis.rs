@@ -109,6 +109,7 @@ mod tests {
     use super::*;
     use crate::mechanics::testing::paper_d;
     use crate::mechanics::*;
+    use crate::multistep::TimeDerivative;
     use nalgebra::DVector;
     use std::time::Instant;
 
