@@ -5,8 +5,10 @@ pub mod basis;
 pub mod elasticity;
 pub mod field;
 pub mod full;
+mod motion;
 pub mod reduced;
 pub mod response;
+pub mod solver;
 pub mod system;
 #[cfg(test)]
 pub mod testing;

@@ -8,7 +8,7 @@ use super::{Model, StepError, Workspace};
 use crate::analytic;
 use crate::contact::{ContactError, ContactProblem, ContactSolution, RigidMotion, Status, SurfaceResponse};
 use crate::mechanics;
-use crate::mechanics::response::{BodyState, Convection};
+use crate::mechanics::response::{BodyState, Convection, FreeResponse};
 use crate::multistep::{History, TimeDerivative};
 
 /// Passes that bring in convective terms and the accelerations of unbalanced forces.
@@ -82,6 +82,7 @@ impl Model {
         let operators = self.operators(0.0, workspace)?;
         let mut wheel = BodyState::zeros(self.wheel.state_len());
         let mut rail = BodyState::zeros(self.rail.state_len());
+        let (mut free_wheel, mut free_rail) = (FreeResponse::default(), FreeResponse::default());
         let mut contact = self.hertzian_guess(load);
         let mut acceleration = [0.0; 3];
         let no_offset = vec![0.0; self.grid.len()];
@@ -90,8 +91,8 @@ impl Model {
         for pass in 0..MAX_PASSES {
             let stream_wheel = Convection { speed: omega, acceleration: acceleration[2] };
             let stream_rail = Convection { speed: velocity, acceleration: acceleration[0] };
-            let mut free_wheel = self.wheel.free(&operators.wheel, &wheel, &td, stream_wheel, &wheel);
-            let mut free_rail = self.rail.free(&operators.rail, &rail, &td, stream_rail, &rail);
+            self.wheel.free_response(&operators.wheel, &wheel, &td, stream_wheel, &mut free_wheel);
+            self.rail.free_response(&operators.rail, &rail, &td, stream_rail, &mut free_rail);
             if let Some(thermal) = &thermal {
                 self.add_membrane(&mut free_wheel.surface, &operators.wheel.surface, &thermal.membrane[0]);
                 self.add_membrane(&mut free_rail.surface, &operators.rail.surface, &thermal.membrane[1]);
@@ -110,9 +111,9 @@ impl Model {
                 radius: self.grid.radius + thermal.as_ref().map_or(0.0, |t| t.growth),
                 wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
                 rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
-                wheel_loads: &operators.wheel.loads,
+                wheel_loads: &operators.wheel.inertial_response,
                 momentum: &operators.wheel.momentum,
-                momentum_loads: &operators.wheel.momentum_loads,
+                momentum_loads: &operators.wheel.deformation_inertia,
                 rigid: [fixed(slip_v, acceleration[0]), vertical, fixed(slip_omega, acceleration[2])],
                 slip_gain: 0.0,
                 slip_offset: &no_offset,
@@ -124,8 +125,16 @@ impl Model {
             let solved = problem.solve(&contact).map_err(|e| self.contact_failure(e, 0.0, 0.0))?;
             let change = (&solved.forces - &contact.forces).amax();
             contact = solved;
-            self.wheel.commit(&operators.wheel, &free_wheel, &contact.forces, acceleration, &td, &mut wheel);
-            self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &mut rail);
+            self.wheel.commit(
+                &operators.wheel,
+                &free_wheel,
+                &contact.forces,
+                acceleration,
+                &td,
+                &wheel.clone(),
+                &mut wheel,
+            );
+            self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &rail.clone(), &mut rail);
 
             let force = contact.resultant(&self.grid);
             let scale = force[1].abs().max(1e-9 * self.nominal_line_load());

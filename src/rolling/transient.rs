@@ -4,7 +4,7 @@ use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
 use super::state::{Audit, State};
 use super::{Model, StepError, Workspace};
 use crate::contact::{ContactProblem, RigidMotion, SurfaceResponse};
-use crate::mechanics::response::Convection;
+use crate::mechanics::response::{Convection, FreeResponse};
 use crate::multistep::{History, formula, settled};
 
 /// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
@@ -45,8 +45,9 @@ impl Model {
         let friction = self.friction(target.friction, v - self.grid.radius * omega, thermal, ratio);
         let stream_wheel = Convection { speed: omega, acceleration: state.omega.rate };
         let stream_rail = Convection { speed: v, acceleration: state.velocity.rate };
-        let mut free_wheel = self.wheel.free(&operators.wheel, &state.wheel, &td, stream_wheel, &state.wheel);
-        let mut free_rail = self.rail.free(&operators.rail, &state.rail, &td, stream_rail, &state.rail);
+        let (mut free_wheel, mut free_rail) = (FreeResponse::default(), FreeResponse::default());
+        self.wheel.free_response(&operators.wheel, &state.wheel, &td, stream_wheel, &mut free_wheel);
+        self.rail.free_response(&operators.rail, &state.rail, &td, stream_rail, &mut free_rail);
 
         let speed = |sample: &History, value: f64, free: bool, load: f64, k: usize| RigidMotion {
             value,
@@ -77,9 +78,9 @@ impl Model {
             radius: self.grid.radius + thermal.map_or(0.0, |t| t.growth),
             wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
             rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
-            wheel_loads: &operators.wheel.loads,
+            wheel_loads: &operators.wheel.inertial_response,
             momentum: &operators.wheel.momentum,
-            momentum_loads: &operators.wheel.momentum_loads,
+            momentum_loads: &operators.wheel.deformation_inertia,
             rigid: [
                 speed(&state.velocity, v, free_v, load[0], 0),
                 hub_height,
@@ -100,8 +101,16 @@ impl Model {
         next.climb.push(&td, next.height.rate);
         next.omega.push(&td, contact.rigid[2]);
         let acceleration = [next.velocity.rate, next.climb.rate, next.omega.rate];
-        self.wheel.commit(&operators.wheel, &free_wheel, &contact.forces, acceleration, &td, &mut next.wheel);
-        self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &mut next.rail);
+        self.wheel.commit(
+            &operators.wheel,
+            &free_wheel,
+            &contact.forces,
+            acceleration,
+            &td,
+            &state.wheel,
+            &mut next.wheel,
+        );
+        self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &state.rail, &mut next.rail);
         for (i, sample) in next.shift.iter_mut().enumerate() {
             let d = self.grid.dof(i);
             sample.push(&td, contact.wheel_surface[d] - contact.rail_surface[d]);
@@ -111,7 +120,7 @@ impl Model {
         for k in 0..3 {
             let deformation: f64 = free_wheel.momentum[k]
                 + (operators.wheel.momentum.row(k) * &contact.forces)[0]
-                + (0..3).map(|l| operators.wheel.momentum_loads[(k, l)] * acceleration[l]).sum::<f64>();
+                + (0..3).map(|l| operators.wheel.deformation_inertia[(k, l)] * acceleration[l]).sum::<f64>();
             let reaction = self.inertia[k] * acceleration[k] + deformation - force[k];
             next.hub[k] = if free[k] { load[k] } else { reaction };
         }
