@@ -233,7 +233,7 @@ impl Model {
             (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
         }
         let hottest = self.config.thermal.reference + temperatures.wheel_max.max(temperatures.rail_max);
-        let above = if hottest > self.config.thermal.austenitisation { dt } else { 0.0 };
+        let above = if hottest > self.config.tuning.austenitisation { dt } else { 0.0 };
         let supplied = dt * (flows.friction + flows.tread);
         let received = dt
             * (flows.stored_wheel
@@ -294,7 +294,7 @@ impl Model {
     /// Friction coefficient of the coming step from that available and the nominal slip velocity; `ratio` is its length
     /// over that of the step before, 0 if that says nothing.
     pub(super) fn friction(&self, available: f64, slip: f64, thermal: Option<&ThermalState>, ratio: f64) -> f64 {
-        let law = &self.config.friction;
+        let law = &self.config.tuning;
         let falling = law.falling_ratio + (1.0 - law.falling_ratio) * (-law.falling_decay * slip.abs()).exp();
         let cold = available * falling;
         // The flash temperature follows the friction coefficient within microseconds, T = θμ. Solving μ = cold (1 − KT)
