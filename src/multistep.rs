@@ -114,15 +114,7 @@ mod tests {
 
     fn solver(time_scheme: TimeScheme) -> SolverParameters {
         let response = crate::config::Response::Reduced;
-        SolverParameters {
-            response,
-            modes_wheel: 1,
-            modes_rail: 1,
-            time_scheme,
-            theta: 0.5,
-            max_step: 1.0,
-            tolerance: 0.0,
-        }
+        SolverParameters { response, modes_wheel: 1, modes_rail: 1, time_scheme, theta: 0.5 }
     }
 
     #[test]
