@@ -23,6 +23,7 @@ use crate::config::Config;
 use crate::contact::kernel::KernelCorrection;
 use crate::contact::{ContactError, ContactGrid};
 use crate::heat::{Heat, HeatError, Scratch};
+use crate::material::Isotropic;
 use crate::mechanics::response::{BodyResponse, StepOperator};
 use crate::mechanics::{self, MechanicsError, Pair};
 use std::sync::Arc;
@@ -146,7 +147,7 @@ impl Model {
     /// loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
     fn check_motion(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
         Drive { velocity, displacement, omega, ..Drive::default() }.validate().map_err(StepError::Motion)?;
-        let wave = self.config.material.rayleigh_speed();
+        let wave = Isotropic::from(&self.config.material).rayleigh_speed();
         for (name, value, limit) in
             [("drive.velocity", velocity, wave), ("drive.omega", omega, wave / self.grid.radius)]
         {

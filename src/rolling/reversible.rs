@@ -9,6 +9,7 @@
 
 use super::Model;
 use crate::contact::ContactSolution;
+use crate::material::Isotropic;
 
 impl Model {
     /// Reversible temperatures of the surfaces of wheel and rail at the candidates [K]; zero unless
@@ -18,14 +19,9 @@ impl Model {
         if !self.config.physics.thermoelastic_heating {
             return [vec![0.0; grid.len()], vec![0.0; grid.len()]];
         }
-        let material = &self.config.material;
-        let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
-        let shear = 0.5 * e / (1.0 + nu);
-        // P-wave modulus λ + 2μ.
-        let modulus = 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu);
-        let heating = self.config.thermal.reference * material.expansion * e
-            / (1.0 - 2.0 * nu)
-            / (material.density * material.specific_heat);
+        let material = Isotropic::from(&self.config.material);
+        let (shear, modulus) = (material.shear_modulus(), material.wave_modulus());
+        let heating = material.gough_joule(self.config.thermal.reference);
         [&contact.wheel_surface, &contact.rail_surface].map(|u| {
             let temperature = |i: usize| {
                 let d = grid.dof(i);

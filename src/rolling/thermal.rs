@@ -13,6 +13,7 @@
 
 use super::state::State;
 use super::{Model, StepError, Workspace};
+use crate::analytic;
 use crate::config::{ConductanceLaw, Config, Hub};
 use crate::contact::streamline::edge_offset;
 use crate::contact::{ContactGrid, ContactSolution, patches};
@@ -20,6 +21,7 @@ use crate::heat::{
     Conductance, Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatState, HeatTimeScheme, HubCondition, Patch,
     Temperatures, TreadHeat,
 };
+use crate::material::Isotropic;
 use crate::piecewise::{Piecewise, interpolate, mean, peak};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -273,14 +275,18 @@ impl Model {
     /// Thermal deformation of the bodies.
     fn expand(&self, heat: &Heat, state: &mut ThermalState) -> Result<(), StepError> {
         let Config { wheel, material, .. } = &self.config;
-        let (ro, ri, nu) = (wheel.radius, wheel.hub_radius, material.poissons_ratio);
-        let swell = (1.0 + nu) / (1.0 - nu) * material.expansion;
-        let moment = 0.5 * state.temperatures.wheel_mean * (ro * ro - ri * ri);
-        let c = swell * moment / (ro * ro) / (1.0 / (1.0 - 2.0 * nu) + ri * ri / (ro * ro));
-        state.growth = swell * moment / ro + c * (ro - ri * ri / ro);
+        let poissons_ratio = material.poissons_ratio;
+        let material = Isotropic::from(material);
+        state.growth = analytic::annulus_growth(
+            state.temperatures.wheel_mean,
+            material.layer_expansion(),
+            poissons_ratio,
+            wheel.radius,
+            wheel.hub_radius,
+        );
 
         let [wheel, rail] = heat.layers(&state.fields, &self.grid.x)?;
-        let membrane = material.youngs_modulus * material.expansion / (1.0 - nu);
+        let (swell, membrane) = (material.layer_expansion(), material.layer_pressure());
         let n = self.grid.len();
         for i in 0..n {
             state.swelling[i] = swell * (wheel[i] + rail[i]);
