@@ -108,6 +108,7 @@ mod tests {
     use crate::fem::element::EdgePoint;
     use crate::fem::{DofMap, assemble_faces};
     use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
+    use crate::material::Isotropic;
     use crate::mechanics::testing::{committed, free, paper_d};
     use crate::mechanics::{BodyResponse, BodySystem, FullBody, ReducedBasis, ReducedBody};
     use crate::mechanics::{rail_mesh, rail_system, wheel_system};
@@ -139,10 +140,8 @@ mod tests {
     /// (Lysmer & Kuhlemeyer, *J. Eng. Mech. Div. ASCE* 95 (1969) 859–877).
     fn rail_with_quiet_ends() -> BodySystem {
         let config = paper_d(4);
-        let (e, nu, density) =
-            (config.material.youngs_modulus, config.material.poissons_ratio, config.material.density);
-        let shear = (0.5 * e / ((1.0 + nu) * density)).sqrt();
-        let pressure = shear * (2.0 * (1.0 - nu) / (1.0 - 2.0 * nu)).sqrt();
+        let (material, density) = (Isotropic::from(&config.material), config.material.density);
+        let (pressure, shear) = (material.pressure_wave_speed(), material.shear_wave_speed());
         let dashpot = |points: &[EdgePoint; 2]| -> ElementMatrix {
             let mut matrix = [[0.0; 8]; 8];
             for p in points {

@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn surface_kernel_follows_the_half_plane_beyond_the_grid_scale() {
         let config = paper_d(20);
-        let modulus = 0.5 * config.material.youngs_modulus / (1.0 - config.material.poissons_ratio.powi(2));
+        let modulus = contact_modulus(&config);
         let mut sum = nalgebra::DMatrix::<f64>::zeros(134, 134);
         for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
             sum += system.surface_compliance(&Cholesky::new(&system.stiffness).unwrap());

@@ -20,6 +20,8 @@ pub struct ContactModel {
     pub solver: Box<dyn ContactSolver>,
     /// Wheel load for which the mesh is laid out [N].
     nominal_load: f64,
+    /// Half-width of the Hertzian patch under it [m].
+    nominal_half_width: f64,
     /// Width of the line contact [m].
     width: f64,
 }
@@ -48,7 +50,13 @@ impl ContactModel {
     /// A round wheel on a plane rail.
     pub fn new(config: &Config, solver: Box<dyn ContactSolver>) -> Self {
         let surfaces = Surfaces::smooth(config.wheel.radius);
-        Self { surfaces, solver, nominal_load: config.model.nominal_load, width: config.model.contact_width }
+        Self {
+            surfaces,
+            solver,
+            nominal_load: config.model.nominal_load,
+            nominal_half_width: mechanics::nominal_half_width(config),
+            width: config.model.contact_width,
+        }
     }
 
     /// Nominal wheel load per metre of width [N/m].
@@ -91,9 +99,9 @@ impl ContactModel {
 
     /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck and
     /// without forces yet.
-    pub fn hertzian_guess(&self, load: f64, contact_modulus: f64) -> ContactState {
-        let load = if load > 0.0 { load } else { self.nominal_line_load() };
-        self.solver.touching(crate::analytic::hertz_half_width(load, self.surfaces.radius, contact_modulus))
+    pub fn hertzian_guess(&self, load: f64) -> ContactState {
+        let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
+        self.solver.touching(self.nominal_half_width * share.sqrt())
     }
 
     /// Whether a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
@@ -120,8 +128,8 @@ impl ContactModel {
     }
 
     /// Elastic energy of the contact under the nominal load, from its Hertzian penetration `a²/2r` [J/m].
-    pub fn nominal_energy(&self, config: &Config) -> f64 {
-        let penetration = mechanics::nominal_half_width(config).powi(2) / (2.0 * self.surfaces.radius);
+    pub fn nominal_energy(&self) -> f64 {
+        let penetration = self.nominal_half_width.powi(2) / (2.0 * self.surfaces.radius);
         0.5 * self.nominal_line_load() * penetration
     }
 }

@@ -10,8 +10,9 @@ use crate::config::Config;
 use crate::contact::grid::{ContactGrid, GridSolver};
 use crate::contact::{self, ContactSolver};
 use crate::heat;
+use crate::material::Isotropic;
+use crate::mechanics::Pair;
 use crate::mechanics::response::FreeResponse;
-use crate::mechanics::{self, Pair};
 use nalgebra::DVector;
 
 /// Everything that does not change during a run; instances with equal parameters share it.
@@ -56,7 +57,7 @@ impl Model {
             guard: bodies.candidates.start,
         };
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
-        let solver = GridSolver::new(grid, &wheel.surface, &rail.surface, mechanics::contact_modulus(&config));
+        let solver = GridSolver::new(grid, &wheel.surface, &rail.surface, Isotropic::from(&config.material).contact_modulus());
         Self::with_solver(config, bodies, Box::new(solver))
     }
 

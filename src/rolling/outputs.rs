@@ -150,7 +150,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         t_gamma: (force_x * xi).abs(),
         internal_steps: state.internal_steps,
         iterations: state.iterations,
-        energy_residual: state.audit.residual(model.contact.nominal_energy(&model.config)),
+        energy_residual: state.audit.residual(model.contact.nominal_energy()),
         suggested_step: suggested_step(model, state),
         profile_pressure: sampled(&traction.pressure),
         profile_shear: sampled(&traction.shear),

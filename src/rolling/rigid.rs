@@ -5,6 +5,7 @@ use super::error::StepError;
 use super::state::{Motion, State};
 use crate::config::Config;
 use crate::contact::{AxisDrive, RigidMotion};
+use crate::material::Isotropic;
 use crate::mechanics;
 use crate::mechanics::response::{FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
@@ -33,7 +34,7 @@ impl RigidWheel {
             radius: config.wheel.radius,
             width,
             inertia: [mass + config.vehicle.mass / width, mass, moment],
-            wave_speed: config.material.rayleigh_speed(),
+            wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
         }
     }
 

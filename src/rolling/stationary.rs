@@ -13,7 +13,6 @@ use super::state::{Motion, State, ThermalState};
 use super::substeps;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, ContactError, Heating, RigidMotion};
-use crate::mechanics;
 use crate::mechanics::response::{BodyState, Convection};
 use crate::multistep::{History, TimeDerivative};
 
@@ -134,7 +133,7 @@ fn settle(
     let mut state = State {
         wheel: BodyState::zeros(model.bodies.wheel.state_len()),
         rail: BodyState::zeros(model.bodies.rail.state_len()),
-        contact: model.contact.hertzian_guess(load, mechanics::contact_modulus(&model.config)),
+        contact: model.contact.hertzian_guess(load),
         friction,
         available_friction: goal.drive.friction,
         prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),

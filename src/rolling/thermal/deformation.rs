@@ -7,8 +7,10 @@
 //! - The layer (tens of micrometres, much thinner than the patch) is held by the cold material below: it swells by
 //!   `(1+ν)/(1−ν) α ∫T dz`, and its membrane force `Eα/(1−ν) ∫T dz` pulls tangentially at the body by its gradient.
 
+use crate::analytic::annulus_growth;
 use crate::config::Config;
 use crate::heat::{Heat, HeatError, HeatState, Temperatures};
+use crate::material::Isotropic;
 use crate::rolling::state::ThermalDeformation;
 
 /// Thermal expansion of wheel and rail.
@@ -26,23 +28,19 @@ pub struct Expansion {
 impl Expansion {
     /// From the parameters.
     pub fn new(config: &Config) -> Self {
-        let (wheel, material) = (&config.wheel, &config.material);
-        let nu = material.poissons_ratio;
+        let (wheel, material) = (&config.wheel, Isotropic::from(&config.material));
         Self {
             outer_radius: wheel.radius,
             hub_radius: wheel.hub_radius,
-            poissons_ratio: nu,
-            swelling: (1.0 + nu) / (1.0 - nu) * material.expansion,
-            membrane: material.youngs_modulus * material.expansion / (1.0 - nu),
+            poissons_ratio: config.material.poissons_ratio,
+            swelling: material.layer_expansion(),
+            membrane: material.layer_pressure(),
         }
     }
 
     /// Growth [m] of the outer radius at a mean temperature [K] of the annulus over that of the hub.
     fn radius_growth(&self, mean: f64) -> f64 {
-        let (ro, ri, nu) = (self.outer_radius, self.hub_radius, self.poissons_ratio);
-        let moment = 0.5 * mean * (ro * ro - ri * ri);
-        let c = self.swelling * moment / (ro * ro) / (1.0 / (1.0 - 2.0 * nu) + ri * ri / (ro * ro));
-        self.swelling * moment / ro + c * (ro - ri * ri / ro)
+        annulus_growth(mean, self.swelling, self.poissons_ratio, self.outer_radius, self.hub_radius)
     }
 
     /// Writes the deformation that belongs to temperature fields.

@@ -9,6 +9,7 @@
 
 use crate::config::Config;
 use crate::contact::Traction;
+use crate::material::Isotropic;
 use crate::piecewise::Piecewise;
 
 /// Reversible heating of both surfaces.
@@ -25,13 +26,12 @@ pub struct Thermoelastic {
 impl Thermoelastic {
     /// From the parameters.
     pub fn new(config: &Config) -> Self {
-        let material = &config.material;
-        let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
-        let shear = 0.5 * e / (1.0 + nu);
-        let heating = config.thermal.reference * material.expansion * e
-            / (1.0 - 2.0 * nu)
-            / (material.density * material.specific_heat);
-        Self { heating, shear, modulus: 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu) }
+        let material = Isotropic::from(&config.material);
+        Self {
+            heating: material.gough_joule(config.thermal.reference),
+            shear: material.shear_modulus(),
+            modulus: material.wave_modulus(),
+        }
     }
 
     /// Reversible temperatures [K] of a surface with the tangential strain `strain` under the contact pressure.
