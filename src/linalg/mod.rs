@@ -1,6 +1,8 @@
 //! Linear algebra: sparse matrices with a Cholesky factorisation (over faer) and the lowest modes of a pencil.
 
+pub mod gmres;
 pub mod modes;
+pub mod pencil;
 pub mod sparse;
 
 pub use modes::{Modes, lowest_modes};

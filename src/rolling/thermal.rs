@@ -13,14 +13,14 @@
 
 use super::state::State;
 use super::{Model, StepError, Workspace};
-use crate::config::{ConductanceLaw, Config, Hub};
+use crate::config::Config;
 use crate::contact::streamline::edge_offset;
 use crate::contact::{ContactGrid, ContactSolution, patches};
 use crate::heat::{
-    Conductance, Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatState, HeatTimeScheme, HubCondition, Patch,
-    Temperatures, TreadHeat,
+    Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatModel, HeatState, Interval, Observation, Temperatures,
+    TreadHeat,
 };
-use crate::piecewise::{Piecewise, interpolate, mean, peak};
+use crate::piecewise::{Piecewise, interpolate, mean, peak, resample};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
@@ -71,34 +71,14 @@ impl ThermalState {
 
 /// Parameters of the heat model for a configuration; `half_width` at the nominal load and `zone` [m].
 pub fn heat_config(config: &Config, half_width: f64, zone: f64) -> HeatConfig {
-    let (material, thermal) = (&config.material, &config.thermal);
     HeatConfig {
-        conductivity: material.conductivity,
-        specific_heat: material.specific_heat,
-        density: material.density,
-        wheel_radius: config.wheel.radius,
-        hub_radius: config.wheel.hub_radius,
-        rail_length: config.rail.length,
-        rail_height: config.rail.height,
-        half_width,
-        smallest_half_width: half_width * thermal.smallest_load_ratio.sqrt(),
-        zone,
-        max_speed: thermal.max_speed,
+        wheel: config.wheel.clone(),
+        rail: config.rail.clone(),
+        material: config.material.clone(),
+        thermal: config.thermal.clone(),
         elements_per_half_width: config.mesh.elements_per_half_width,
-        hub: match thermal.hub {
-            Hub::Fixed => HubCondition::Fixed,
-            Hub::Insulated => HubCondition::Insulated,
-        },
-        conductance: match thermal.conductance_law {
-            ConductanceLaw::Constant => Conductance::Constant { value: thermal.conductance },
-            ConductanceLaw::Pressure => {
-                Conductance::Pressure { value: thermal.conductance, reference_pressure: thermal.reference_pressure }
-            }
-        },
-        friction_fraction: thermal.heat_ratio,
-        wheel_share: thermal.wheel_share,
-        convection: thermal.convection,
-        time_scheme: HeatTimeScheme::Sdirk2,
+        half_width,
+        zone,
     }
 }
 
@@ -145,7 +125,7 @@ impl Model {
         let patches = patches(&contact.status)
             .iter()
             .map(|run| edges(grid, contact, run))
-            .map(|[low, high]| Patch { low, high })
+            .map(|[low, high]| Interval { low, high })
             .collect();
         // Where friction acts, in proportion to traction times slip; the total is the friction power.
         let dissipation = |i: usize| (-contact.tangential(grid, i) * contact.slip[i] / grid.spacing).max(0.0);
@@ -170,7 +150,7 @@ impl Model {
         } else {
             Piecewise::default()
         };
-        Exchange { patches, pressure, friction_power, tread, reversible, ambient: 0.0, held: true }
+        Exchange { patches, pressure, friction_power, tread, reversible }
     }
 
     /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel on top. At
@@ -204,8 +184,9 @@ impl Model {
         workspace: &mut Workspace,
     ) -> Result<ThermalState, StepError> {
         let exchange = self.exchange(&next.contact, tread_heat);
-        let mut fields = before.fields.clone();
-        let flows = heat.step(&mut fields, dt, next.velocity.now, next.omega.now, &exchange, &mut workspace.heat)?;
+        let mut fields = HeatState::default();
+        let (v, omega) = (next.velocity.now, next.omega.now);
+        let flows = heat.step(&before.fields, &mut fields, dt, v, omega, &exchange, &mut workspace.heat)?;
         self.thermal_state(heat, next, fields, flows, Some(before), dt)
     }
 
@@ -218,9 +199,13 @@ impl Model {
         before: Option<&ThermalState>,
         dt: f64,
     ) -> Result<ThermalState, StepError> {
-        let mut temperatures = heat.temperatures(&fields)?;
-        let (mut wheel, mut rail) = heat.zone_temperatures(&fields)?;
-        let mut surface = heat.at_zone(&fields, &self.grid.x)?;
+        let mut seen = Observation::default();
+        heat.observe(&fields, &mut seen)?;
+        let Observation { mut temperatures, surface: [mut wheel, mut rail], layer, .. } = seen;
+        let mut surface = [Vec::new(), Vec::new()];
+        for (values, out) in [&wheel, &rail].into_iter().zip(&mut surface) {
+            resample(heat.zone_x(), values, &self.grid.x, out);
+        }
         if self.config.physics.thermoelastic_heating {
             let reversible = self.reversible_temperatures(&state.contact);
             let zone = heat.zone_x();
@@ -265,13 +250,13 @@ impl Model {
             temperatures,
         };
         if self.config.physics.thermal_expansion {
-            self.expand(heat, &mut result)?;
+            self.expand(heat, &layer, &mut result);
         }
         Ok(result)
     }
 
     /// Thermal deformation of the bodies.
-    fn expand(&self, heat: &Heat, state: &mut ThermalState) -> Result<(), StepError> {
+    fn expand(&self, heat: &Heat, layer: &[Vec<f64>; 2], state: &mut ThermalState) {
         let Config { wheel, material, .. } = &self.config;
         let (ro, ri, nu) = (wheel.radius, wheel.hub_radius, material.poissons_ratio);
         let swell = (1.0 + nu) / (1.0 - nu) * material.expansion;
@@ -279,7 +264,9 @@ impl Model {
         let c = swell * moment / (ro * ro) / (1.0 / (1.0 - 2.0 * nu) + ri * ri / (ro * ro));
         state.growth = swell * moment / ro + c * (ro - ri * ri / ro);
 
-        let [wheel, rail] = heat.layers(&state.fields, &self.grid.x)?;
+        let (mut wheel, mut rail) = (Vec::new(), Vec::new());
+        resample(heat.zone_x(), &layer[0], &self.grid.x, &mut wheel);
+        resample(heat.zone_x(), &layer[1], &self.grid.x, &mut rail);
         let membrane = material.youngs_modulus * material.expansion / (1.0 - nu);
         let n = self.grid.len();
         for i in 0..n {
@@ -288,7 +275,6 @@ impl Model {
             state.membrane[0][i] = -0.5 * membrane * (wheel[right] - wheel[left]);
             state.membrane[1][i] = -0.5 * membrane * (rail[right] - rail[left]);
         }
-        Ok(())
     }
 
     /// Friction coefficient of the coming step from that available and the nominal slip velocity; `ratio` is its length
