@@ -99,7 +99,7 @@ fn unsafe_is_only_in_the_c_interface() {
     for path in sources(&src()) {
         let code = code(&path);
         let uses = code.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "unsafe");
-        assert!(!uses || path.ends_with("fmi/c_abi.rs"), "{}", path.display());
+        assert!(!uses || path.components().any(|part| part.as_os_str() == "c_abi"), "{}", path.display());
     }
     assert!(code(&src().join("lib.rs")).contains("#![deny(unsafe_code)]"));
 }

@@ -4,7 +4,7 @@ use super::setting::Setting;
 use super::{Failure, model};
 use std::path::{Path, PathBuf};
 use wheelrail::fmi::instance::Instance;
-use wheelrail::fmi::log::{Log, Refusal};
+use wheelrail::fmi::log::{CallError, Log};
 
 /// Default directory with the presets; `railway` works without.
 const RESOURCES: &str = "resources";
@@ -26,12 +26,12 @@ pub struct Setup {
 }
 
 /// A refusal of what the user has set.
-pub fn wrong(refusal: Refusal) -> Failure {
+pub fn wrong(refusal: CallError) -> Failure {
     Failure::Usage(refusal.message)
 }
 
 /// A refusal because the model could not do it.
-pub fn failed(refusal: Refusal) -> Failure {
+pub fn failed(refusal: CallError) -> Failure {
     Failure::Run(refusal.message)
 }
 

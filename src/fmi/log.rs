@@ -1,4 +1,4 @@
-//! Messages to the master: categories, levels, and refusals of calls.
+//! Messages to the master: categories, levels, and errors of calls.
 
 /// Severity of a message and outcome of a call, in the order of `fmi2Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,17 +42,17 @@ impl Status {
 
 /// Why a call was not carried out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
+pub struct CallError {
     pub status: Status,
     pub message: String,
 }
 
-impl Refusal {
-    pub fn error(message: impl Into<String>) -> Refusal {
-        Refusal { status: Status::Error, message: message.into() }
+impl CallError {
+    pub fn error(message: impl Into<String>) -> CallError {
+        CallError { status: Status::Error, message: message.into() }
     }
-    pub fn discard(message: impl Into<String>) -> Refusal {
-        Refusal { status: Status::Discard, message: message.into() }
+    pub fn discard(message: impl Into<String>) -> CallError {
+        CallError { status: Status::Discard, message: message.into() }
     }
 }
 
@@ -71,13 +71,13 @@ impl Log {
     }
 
     /// Switches all categories when none is named; otherwise only the named ones are on, or these off.
-    pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), Refusal> {
+    pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), CallError> {
         let mut enabled = if on && !categories.is_empty() { [false; CATEGORIES.len()] } else { self.enabled };
         for name in categories {
             let known = CATEGORIES.iter().position(|(category, _)| category == name);
             let index = known.ok_or_else(|| {
                 let names = CATEGORIES.map(|(category, _)| category).join(", ");
-                Refusal::error(format!("log category \"{name}\" is unknown; known categories: {names}"))
+                CallError::error(format!("log category \"{name}\" is unknown; known categories: {names}"))
             })?;
             enabled[index] = on;
         }
@@ -135,8 +135,8 @@ mod tests {
         log.report(Status::Ok, "");
         log.progress("");
         assert_eq!(*seen.borrow(), [PROGRESS]);
-        let refusal = log.switch(false, &["nonsense".to_owned()]).unwrap_err();
-        assert!(refusal.message.contains("nonsense") && refusal.message.contains(PROGRESS));
+        let error = log.switch(false, &["nonsense".to_owned()]).unwrap_err();
+        assert!(error.message.contains("nonsense") && error.message.contains(PROGRESS));
         log.progress("");
         assert_eq!(seen.borrow().len(), 2);
     }
