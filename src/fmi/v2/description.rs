@@ -215,17 +215,16 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     empty(xml, element, &attributes)
 }
 
-/// Outputs depend on no input at the same communication point (inputs act in the step that follows); initially they
-/// depend on everything, which the standard expresses by leaving the list out, or are zero by definition.
+/// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
+/// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
+/// outputs depend on everything, too, or are zero by definition.
 fn model_structure(xml: &mut Xml) -> io::Result<()> {
     let outputs: Vec<_> = (1usize..)
         .zip(variables())
         .filter(|(_, variable)| variable.causality() == Causality::Output)
         .map(|(index, variable)| (index.to_string(), variable.start))
         .collect();
-    list(xml, "Outputs", |xml| {
-        outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index), ("dependencies", "")]))
-    })?;
+    list(xml, "Outputs", |xml| outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index)])))?;
     list(xml, "InitialUnknowns", |xml| {
         outputs.iter().try_for_each(|(index, start)| match start {
             Start::Zero => empty(xml, "Unknown", &[("index", index), ("dependencies", "")]),
