@@ -4,10 +4,10 @@
 //!
 //! ```no_run
 //! use wheelrail::config::Config;
-//! use wheelrail::simulation::{Inputs, Model, Simulation};
+//! use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 //!
 //! let config: Config = serde_json::from_str(&std::fs::read_to_string("resources/railway.json")?)?;
-//! let model = Model::prepare(config, None, &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
+//! let model = Model::shared(config, &BasisStore::of_user(), &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
 //! let mut inputs = Inputs::rolling(model.config());
 //! let mut simulation = Simulation::new(model, &inputs)?;
 //! inputs.drive.moment = -2000.0;
@@ -18,12 +18,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod advice;
+mod shared;
+mod store;
+mod validity;
+
+pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
+pub use validity::Limit;
+
 use crate::config::{Config, ConfigError, Response};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, Workspace};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
@@ -41,14 +48,19 @@ pub enum PrepareError {
     Mechanics(#[from] MechanicsError),
     #[error(transparent)]
     Model(#[from] rolling::ModelError),
-    #[error("stored basis {file}: {source}")]
-    Basis { file: String, source: BasisError },
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("computed basis: {0}")]
+    Basis(#[from] BasisError),
 }
 
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
     rolling: rolling::Model,
     basis: Option<Arc<(String, Vec<u8>)>>,
+    not_kept: Option<String>,
+    /// The stationary start computed last: equal instances of a process mostly start alike.
+    start: Mutex<Option<(Inputs, Memory)>>,
 }
 
 impl Inputs {
@@ -67,54 +79,48 @@ impl Inputs {
     }
 }
 
-/// File name of the stored basis of a configuration, below a resource directory.
-pub fn basis_file_name(config: &Config) -> String {
-    format!("{}.bin", mechanics::basis::key(config))
-}
-
 impl Model {
-    /// Validates the configuration and makes the model ready. The reduced basis is read from `<directory>/basis/` if it is
-    /// stored there and computed otherwise; `progress` hears what is being computed and its share done.
+    /// Validates the configuration and makes the model ready. The reduced basis is read from the store if it is there, and
+    /// computed and kept there otherwise; `progress` hears what is being computed and its share done.
     pub fn prepare(
         config: Config,
-        directory: Option<&Path>,
+        store: &BasisStore,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
-        let (basis, file) = match config.solver.response {
-            Response::Full => (None, None),
-            Response::Reduced => {
-                let name = basis_file_name(&config);
-                let failed = |source| PrepareError::Basis { file: name.clone(), source };
-                let stored = directory.and_then(|d| std::fs::read(d.join("basis").join(&name)).ok());
-                let stored = stored.map(|bytes| Basis::from_bytes(&bytes).map(|basis| (basis, bytes)));
-                let stored = stored.transpose().map_err(failed)?.filter(|(basis, _)| basis.fits(&config));
-                let (basis, bytes) = match stored {
-                    Some(stored) => stored,
-                    None => {
-                        let basis = Basis::compute(&config, progress)?;
-                        let bytes = basis.to_bytes().map_err(failed)?;
-                        (basis, bytes)
-                    }
-                };
-                (Some(basis), Some((name, bytes)))
-            }
-        };
+        let (mut basis, mut file, mut not_kept) = (None, None, None);
+        if config.solver.response == Response::Reduced {
+            let (found, bytes) = match store.find(&config)? {
+                Some(stored) => stored,
+                None => {
+                    let computed = Basis::compute(&config, progress)?;
+                    let bytes = computed.to_bytes()?;
+                    not_kept = store.keep(&config, &bytes).err();
+                    (computed, bytes)
+                }
+            };
+            (basis, file) = (Some(found), Some(Arc::new((basis_file_name(&config), bytes))));
+        }
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::Model::new(config, bodies)?;
-        Ok(Arc::new(Self { rolling, basis: file.map(Arc::new) }))
+        Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default() }))
     }
 
     /// The same model with other tunable parameters (see [`Config::tuned_like`]); `None` if the configurations differ in
     /// anything else.
     pub fn retuned(&self, config: &Config) -> Option<Arc<Self>> {
         let rolling = self.rolling.retuned(config)?;
-        Some(Arc::new(Self { rolling, basis: self.basis.clone() }))
+        Some(Arc::new(Self { rolling, basis: self.basis.clone(), not_kept: None, start: Mutex::default() }))
     }
 
     /// Parameters of the model.
     pub fn config(&self) -> &Config {
         &self.rolling.config
+    }
+
+    /// Why the basis, which had to be computed, could not be kept for the next time.
+    pub fn not_kept(&self) -> Option<&str> {
+        self.not_kept.as_deref()
     }
 
     /// File name and content of the reduced basis; `None` for the full response.
@@ -145,6 +151,9 @@ const LEAD: f64 = 1e-3;
 impl Memory {
     /// Memory of a stationary start.
     fn stationary(model: &Model, inputs: &Inputs, workspace: &mut Workspace) -> Result<Self, StepError> {
+        if let Some((_, known)) = shared::lock(&model.start).as_ref().filter(|(known, _)| known == inputs) {
+            return Ok(known.clone());
+        }
         let state = model.rolling.stationary(inputs, workspace)?;
         let mut earlier = model.rolling.outputs(&state);
         earlier.wheel_distance -= LEAD * earlier.wheel_velocity;
@@ -152,7 +161,9 @@ impl Memory {
         earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
         earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
         let (before, origin) = (vec![(state.time - LEAD, earlier)], Origin::Stationary(*inputs));
-        Ok(Self { state, config: model.config().clone(), origin, before })
+        let memory = Self { state, config: model.config().clone(), origin, before };
+        *shared::lock(&model.start) = Some((*inputs, memory.clone()));
+        Ok(memory)
     }
 }
 

@@ -14,7 +14,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("heat", &["fem", "linalg", "config"]),
     ("contact", &["linalg", "config"]),
     ("rolling", &["mechanics", "contact", "heat", "config", "analytic"]),
-    ("simulation", &["rolling", "mechanics", "contact", "heat", "config"]),
+    ("simulation", &["rolling", "mechanics", "contact", "heat", "fem", "linalg", "config"]),
     ("fmi", &["simulation", "config"]),
     ("cli", &["fmi", "simulation", "analytic", "config"]),
     ("main", &["cli"]),

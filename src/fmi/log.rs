@@ -59,7 +59,8 @@ impl CallError {
 /// Receiver of messages: status, category, text.
 pub type Sink = Box<dyn Fn(Status, &str, &str)>;
 
-/// Filters messages by category. Discarded steps, errors and worse always pass; everything else must be asked for.
+/// Filters messages by category. Warnings, discarded steps, errors and worse always pass; everything else must be asked
+/// for.
 pub struct Log {
     sink: Sink,
     enabled: [bool; CATEGORIES.len()],
@@ -99,7 +100,7 @@ impl Log {
 
     fn send(&self, status: Status, category: &str, message: &str) {
         let index = CATEGORIES.iter().position(|(name, _)| *name == category);
-        if status >= Status::Discard || index.is_some_and(|i| self.enabled[i]) {
+        if status >= Status::Warning || index.is_some_and(|i| self.enabled[i]) {
             (self.sink)(status, category, message);
         }
     }
@@ -118,14 +119,14 @@ mod tests {
     }
 
     #[test]
-    fn quiet_unless_asked_except_for_failures() {
+    fn quiet_unless_asked_except_for_warnings_and_failures() {
         let (log, seen) = recorder(false);
         log.report(Status::Ok, "");
-        log.report(Status::Warning, "");
         log.progress("");
         assert!(seen.borrow().is_empty());
+        log.report(Status::Warning, "");
         log.report(Status::Error, "");
-        assert_eq!(*seen.borrow(), ["logStatusError"]);
+        assert_eq!(*seen.borrow(), ["logStatusWarning", "logStatusError"]);
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::settings::{SetValues, with_inputs};
 use super::variable::{Access, Value};
 use super::variables::variables;
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Simulation};
+use crate::simulation::{Drive, Inputs, LONGEST_STEP, Limit, Model, Simulation, advice};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -52,6 +52,8 @@ pub struct Instance {
     /// Communication point, length and inputs of the last discarded step.
     failure: Option<(f64, f64, Inputs)>,
     hopeless: bool,
+    /// Limits of the model that the user has been warned of in this run.
+    warned: Vec<Limit>,
 }
 
 type Outcome<T = ()> = Result<T, CallError>;
@@ -78,6 +80,7 @@ impl Instance {
             last_step: Status::Ok,
             failure: None,
             hopeless: false,
+            warned: Vec::new(),
         })
     }
 
@@ -155,10 +158,12 @@ impl Instance {
         Ok(())
     }
 
+    /// Ends Initialization Mode. If parameters and inputs do not go together, it stays, so that they can be corrected.
     pub fn exit_initialization(&mut self) -> Outcome {
         self.allow(Call::ExitInitializationMode)?;
         self.simulation()?;
         self.phase = Phase::StepComplete;
+        self.warn_of_limits();
         self.log.report(Status::Ok, &format!("initialized at t = {} s", self.time));
         Ok(())
     }
@@ -186,6 +191,7 @@ impl Instance {
         self.simulation = None;
         self.last_step = Status::Ok;
         (self.failure, self.hopeless) = (None, false);
+        self.warned.clear();
         self.log.report(Status::Ok, "reset");
         Ok(())
     }
@@ -220,6 +226,7 @@ impl Instance {
                 self.time = start + h;
                 (self.phase, self.last_step) = (Phase::StepComplete, Status::Ok);
                 (self.failure, self.hopeless) = (None, false);
+                self.warn_of_limits();
                 Ok(())
             }
             Err(error) => {
@@ -227,7 +234,8 @@ impl Instance {
                     self.failure.is_some_and(|(t, length, with)| t == start && h >= length && with == inputs);
                 self.failure = Some((start, h, inputs));
                 (self.phase, self.last_step) = (Phase::StepFailed, Status::Discard);
-                Err(CallError::discard(format!("step from {start:?} s over {h:?} s failed: {error}")))
+                let why = advice::failed_step(&error, &self.config);
+                Err(CallError::discard(format!("step from {start:?} s over {h:?} s failed: {why}")))
             }
         }
     }

@@ -28,7 +28,8 @@ impl Instance {
         variables.into_iter().map(value).collect()
     }
 
-    /// Sets variables, all or none.
+    /// Sets variables, all or none. Each must be within its own range; whether all go together shows at the end of
+    /// initialization, or when outputs are asked for, so that the order of calls does not matter.
     pub fn set(&mut self, references: &[Reference], values: Vec<Value>) -> Outcome {
         self.allow(Call::Set)?;
         let Some(first) = values.first() else { return Ok(()) };
@@ -65,9 +66,6 @@ impl Instance {
         if !early {
             self.take_over(&with_inputs(&config, &bumpless, &inputs, rates), &mut bumpless);
         }
-        with_inputs(&config, &bumpless, &inputs, rates)
-            .validate()
-            .map_err(|error| CallError::error(error.to_string()))?;
         if !early && config != self.config {
             config.validate().map_err(|error| CallError::error(error.to_string()))?;
             if let Some(simulation) = &mut self.simulation {
