@@ -314,7 +314,7 @@ pub fn parameter_range(name: &str) -> [f64; 2] {
 
 /// A parameter outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} = {value} is outside its range: {range}")]
+#[error("{name} = {value:?} is outside its range: {range}")]
 pub struct ConfigError {
     /// FMI name of the parameter, or what follows from parameters.
     pub name: &'static str,

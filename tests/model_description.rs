@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 use std::path::Path;
 use wheelrail::config::Config;
-use wheelrail::fmi::description::{model_description, start_value};
 use wheelrail::fmi::presets;
 use wheelrail::fmi::units::UNITS;
+use wheelrail::fmi::v2::description::{model_description, start_value};
 use wheelrail::fmi::variable::{Access, Causality, Kind, Value, Variable};
 use wheelrail::fmi::variables::variables;
 

@@ -17,7 +17,7 @@ mod vtu;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, Write};
-use wheelrail::fmi::description;
+use wheelrail::fmi::v2::description;
 
 /// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
 ///

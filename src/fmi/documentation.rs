@@ -1,9 +1,10 @@
 //! `documentation/index.html` of the FMU: conventions with a figure, theory, use, and the table of variables.
 
+use super::presets;
 use super::units::Measure;
+use super::v2::description;
 use super::variable::{Causality, Kind, Value, Variable};
 use super::variables::{ENUMERATIONS, variables};
-use super::{description, presets};
 use std::fmt::Write;
 
 /// Text before the tables.

@@ -87,8 +87,7 @@ pub enum Causality {
     Output,
 }
 
-/// What an output depends on in Initialization Mode. Between steps it depends on nothing but the past: inputs that
-/// are set at a communication point act in the following step.
+/// What an output depends on in Initialization Mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Zero by definition.
@@ -196,7 +195,7 @@ impl Variable {
                     (false, true) => format!("finite, at most {max}"),
                     (false, false) => "finite numbers".to_owned(),
                 };
-                outside(v, range)
+                outside(&format_args!("{v:?}"), range)
             }
             (Kind::Integer { min, max }, Value::Integer(v)) => {
                 if (min..=max).contains(v) {

@@ -61,7 +61,7 @@ pub struct Inputs {
 
 /// An input outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} = {value} is outside its range: {low} to {high}")]
+#[error("{name} = {value:?} is outside its range: {low} to {high}")]
 pub struct InputError {
     /// FMI name of the input.
     pub name: &'static str,

@@ -1,23 +1,18 @@
 //! `modelDescription.xml` and the GUID, both made from the table of variables.
 
-use super::MODEL_IDENTIFIER;
-use super::log::CATEGORIES;
-use super::presets;
-use super::units::{BASE_UNITS, UNITS};
-use super::variable::{Access, Causality, Kind, Start, Value, Variable};
-use super::variables::{ENUMERATIONS, variables};
 use crate::config::Config;
+use crate::fmi::MODEL_IDENTIFIER;
+use crate::fmi::instance::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
+use crate::fmi::log::CATEGORIES;
+use crate::fmi::presets;
+use crate::fmi::units::{BASE_UNITS, UNITS};
+use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
+use crate::fmi::variables::{ENUMERATIONS, variables};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
-
-/// Highest order of input derivatives that masters may set, so that inputs are ramps within a step.
-pub const INPUT_DERIVATIVE_ORDER: i32 = 1;
-
-/// Highest order of output derivatives that masters may get.
-pub const OUTPUT_DERIVATIVE_ORDER: i32 = 1;
 
 /// End of the default experiment and its communication step [s].
 pub const DEFAULT_STOP_TIME: f64 = 1.0;
@@ -220,17 +215,16 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     empty(xml, element, &attributes)
 }
 
-/// Outputs depend on no input at the same communication point (inputs act in the step that follows); initially they
-/// depend on everything, which the standard expresses by leaving the list out, or are zero by definition.
+/// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
+/// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
+/// outputs depend on everything, too, or are zero by definition.
 fn model_structure(xml: &mut Xml) -> io::Result<()> {
     let outputs: Vec<_> = (1usize..)
         .zip(variables())
         .filter(|(_, variable)| variable.causality() == Causality::Output)
         .map(|(index, variable)| (index.to_string(), variable.start))
         .collect();
-    list(xml, "Outputs", |xml| {
-        outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index), ("dependencies", "")]))
-    })?;
+    list(xml, "Outputs", |xml| outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index)])))?;
     list(xml, "InitialUnknowns", |xml| {
         outputs.iter().try_for_each(|(index, start)| match start {
             Start::Zero => empty(xml, "Unknown", &[("index", index), ("dependencies", "")]),
