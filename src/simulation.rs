@@ -6,8 +6,7 @@
 //! use wheelrail::config::Config;
 //! use wheelrail::simulation::{Inputs, Model, Simulation};
 //!
-//! let config: Config = serde_json::from_str(&std::fs::read_to_string("resources/railway.json")?)?;
-//! let model = Model::prepare(config, None, &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
+//! let model = Model::prepare(Config::default(), None, &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
 //! let mut inputs = Inputs::rolling(model.config());
 //! let mut simulation = Simulation::new(model, &inputs)?;
 //! inputs.drive.moment = -2000.0;
@@ -25,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
 
-pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::stepping::LONGEST_STEP;
 pub use crate::rolling::{

@@ -3,9 +3,10 @@
 use super::MODEL_IDENTIFIER;
 use super::log::CATEGORIES;
 use super::presets;
+use super::table::enumerations;
 use super::units::{BASE_UNITS, UNITS};
 use super::variable::{Access, Causality, Kind, Start, Value, Variable};
-use super::variables::{ENUMERATIONS, variables};
+use super::variables::variables;
 use crate::config::Config;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -126,7 +127,7 @@ fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
 
 fn type_definitions(xml: &mut Xml) -> io::Result<()> {
     list(xml, "TypeDefinitions", |xml| {
-        for list in ENUMERATIONS {
+        for list in enumerations() {
             let element = xml
                 .create_element("SimpleType")
                 .with_attributes([("name", list.name), ("description", list.description)]);
@@ -148,16 +149,17 @@ fn type_definitions(xml: &mut Xml) -> io::Result<()> {
 
 /// Start value of an input or parameter under the default preset; `None` for outputs.
 pub fn start_value(variable: &Variable) -> Option<Value> {
-    static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
-    let mut config = CONFIG.get_or_init(|| presets::default_config().ok()).clone()?;
-    let parameter = variable.parameter(presets::DEFAULT, &mut config);
+    let config = Config::default();
+    let parameter = variable.parameter(presets::DEFAULT, &config);
     parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
 }
 
 /// FMI variability of a variable.
 pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
-        Access::RealInput(_) | Access::RealOutput(_) | Access::ProfileOutput(..) => "continuous",
+        Access::RealInput(_) | Access::RealOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
+            "continuous"
+        }
         Access::ChoiceInput(..) | Access::CountOutput(_) => "discrete",
         _ if variable.tunable => "tunable",
         _ => "fixed",
@@ -209,12 +211,7 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
             "Enumeration"
         }
     };
-    let start = start_value(variable).map(|value| match value {
-        Value::Real(v) => number(v),
-        Value::Integer(v) => v.to_string(),
-        Value::Boolean(v) => v.to_string(),
-        Value::String(v) => v,
-    });
+    let start = start_value(variable).map(|value| value.to_string());
     attributes.extend(start.map(|start| ("start", start)));
     let attributes: Vec<_> = attributes.iter().map(|(name, value)| (*name, value.as_str())).collect();
     empty(xml, element, &attributes)

@@ -69,6 +69,9 @@ pub enum ModelError {
     Heat(#[from] HeatError),
 }
 
+/// How far a motion may leave the range of the input that could prescribe it, as a factor.
+const MOTION_MARGIN: f64 = 1.05;
+
 /// Everything that does not change during a run but for tunable parameters; shared between instances.
 #[derive(Clone)]
 pub struct Model {
@@ -143,16 +146,21 @@ impl Model {
         0.5 * self.nominal_line_load() * penetration
     }
 
-    /// Refuses motions (V, U, Ω) outside the ranges of the inputs that could prescribe them, and velocities at which
+    /// Refuses motions (V, U, Ω) well outside the ranges of the inputs that could prescribe them, and velocities at which
     /// loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
     fn check_motion(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
-        Drive { velocity, displacement, omega, ..Drive::default() }.validate().map_err(StepError::Motion)?;
+        // What is prescribed ends within its range; a free wheel that starts at its end may drift a little.
+        let motion = Drive { velocity, displacement, omega, ..Drive::default() };
+        motion.zip(&motion, |value, _| value / MOTION_MARGIN).validate().map_err(|error| {
+            let [value, low, high] = [error.value, error.low, error.high].map(|limit| limit * MOTION_MARGIN);
+            StepError::Motion(InputError { value, low, high, ..error })
+        })?;
         let wave = self.config.material.rayleigh_speed();
-        for (name, value, limit) in
-            [("drive.velocity", velocity, wave), ("drive.omega", omega, wave / self.grid.radius)]
+        for (name, value, limit, unit) in
+            [("drive.velocity", velocity, wave, "m/s"), ("drive.omega", omega, wave / self.grid.radius, "rad/s")]
         {
             if value.abs() >= limit {
-                return Err(StepError::Motion(InputError { name, value, low: -limit, high: limit }));
+                return Err(StepError::Motion(InputError { name, value, low: -limit, high: limit, unit }));
             }
         }
         Ok(())

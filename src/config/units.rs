@@ -1,4 +1,4 @@
-//! Units of the interface: their SI exponents and what people like to read instead.
+//! Units: their SI exponents and what people like to read instead.
 
 /// A unit and the unit in which a master should show the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ pub struct Unit {
 /// Names of the base units to which [`Unit::exponents`] belong, as the FMI schema spells them.
 pub const BASE_UNITS: [&str; 5] = ["kg", "m", "s", "rad", "K"];
 
-/// Every unit of the interface.
+/// Every unit of the tables.
 pub const UNITS: &[Unit] = &[
     Unit { name: "1", exponents: [0, 0, 0, 0, 0], displays: &[times("%", 100.0)] },
     Unit { name: "m", exponents: [0, 1, 0, 0, 0], displays: &[times("mm", 1e3)] },
