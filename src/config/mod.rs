@@ -159,8 +159,9 @@ impl Config {
                 low: if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 },
                 high: infinity,
                 others: format!(
-                    "initial.velocity = {} m/s (the rim stays slower than surface waves)",
-                    display_number(velocity)
+                    "initial.velocity = {} m/s (the rim stays slower than surface waves, {} m/s)",
+                    display_number(velocity),
+                    display_number(self.material.rayleigh_speed())
                 ),
             },
         ]
@@ -203,8 +204,8 @@ mod tests {
             &["thermal.wheel_excess = -150 ", "at least -99 K with thermal.reference = 100 K"],
         );
         refused(
-            |c| (c.initial.velocity, c.initial.creepage) = (200.0, -1.5),
-            &["initial.creepage = -1.5 ", "at least -1.7", "with initial.velocity = 200 m/s"],
+            |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, -1.0, 5e9),
+            &["initial.creepage = -1 ", "at least -0.78", "with initial.velocity = 200 m/s", "459.164 m/s"],
         );
         refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.5 to 2"]);
     }

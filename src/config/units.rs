@@ -18,8 +18,6 @@ pub const PERCENT: Measure = measure("1", "%");
 pub const METRE: Measure = Measure { unit: "m", display: None };
 pub const MILLIMETRE: Measure = measure("m", "mm");
 pub const SECOND: Measure = Measure { unit: "s", display: None };
-pub const KILOGRAM: Measure = Measure { unit: "kg", display: None };
-pub const TONNE: Measure = measure("kg", "t");
 pub const DEGREE: Measure = measure("rad", "deg");
 pub const SPEED: Measure = measure("m/s", "km/h");
 pub const SLIP: Measure = measure("m/s", "mm/s");
@@ -30,19 +28,9 @@ pub const FORCE: Measure = measure("N", "kN");
 pub const NEWTON: Measure = Measure { unit: "N", display: None };
 pub const MOMENT: Measure = measure("N.m", "kN.m");
 pub const PRESSURE: Measure = measure("Pa", "MPa");
-pub const MODULUS: Measure = measure("Pa", "GPa");
 pub const POWER: Measure = measure("W", "kW");
-pub const DENSITY: Measure = Measure { unit: "kg/m3", display: None };
-pub const INERTIA: Measure = Measure { unit: "kg.m2", display: None };
 /// Absolute temperature.
 pub const TEMPERATURE: Measure = measure("K", "degC");
-/// Temperature difference.
-pub const DIFFERENCE: Measure = Measure { unit: "K", display: None };
-pub const PER_KELVIN: Measure = Measure { unit: "1/K", display: None };
-pub const CONDUCTIVITY: Measure = Measure { unit: "W/(m.K)", display: None };
-pub const CONDUCTANCE: Measure = Measure { unit: "W/(m2.K)", display: None };
-pub const SPECIFIC_HEAT: Measure = Measure { unit: "J/(kg.K)", display: None };
-pub const DECAY: Measure = Measure { unit: "s/m", display: None };
 
 /// A unit for people: `display = factor · value + offset`.
 #[derive(Clone, Copy, Debug)]
