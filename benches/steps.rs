@@ -3,16 +3,9 @@
 //! `cargo bench` prints medians; README quotes them.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use std::path::Path;
 use std::time::{Duration, Instant};
 use wheelrail::config::{Config, Response};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
-
-fn railway() -> Config {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/railway.json");
-    let text = std::fs::read_to_string(path).expect("resources/railway.json");
-    serde_json::from_str(&text).expect("a complete configuration")
-}
 
 /// A rolling wheel under a braking moment of about half the adhesion limit.
 fn braking(model: std::sync::Arc<Model>) -> (Simulation, Inputs) {
@@ -35,7 +28,7 @@ fn resident() -> f64 {
 fn steps(c: &mut Criterion) {
     let mut quiet = |_: &str, _: f64| {};
     let start = Instant::now();
-    let model = Model::prepare(railway(), &BasisStore::none(), &mut quiet).expect("model");
+    let model = Model::prepare(Config::default(), &BasisStore::none(), &mut quiet).expect("model");
     println!("reduced basis computed in {:.2} s", start.elapsed().as_secs_f64());
     let store = BasisStore::within(&std::env::temp_dir().join("wheelrail-bench"));
     let (_, bytes) = model.basis_file().expect("reduced model");
@@ -48,13 +41,13 @@ fn steps(c: &mut Criterion) {
     });
     c.bench_function("instantiate to ready with the stored basis", |b| {
         b.iter(|| {
-            let model = Model::prepare(railway(), &store, &mut |_, _| {}).expect("model");
+            let model = Model::prepare(Config::default(), &store, &mut |_, _| {}).expect("model");
             let inputs = Inputs::rolling(model.config());
             Simulation::new(model, &inputs).expect("stationary state")
         })
     });
     let before = resident();
-    let prepare = |_| braking(Model::prepare(railway(), &store, &mut |_, _| {}).expect("model"));
+    let prepare = |_| braking(Model::prepare(Config::default(), &store, &mut |_, _| {}).expect("model"));
     let several: Vec<_> = (0..20).map(prepare).collect();
     println!("memory of a reduced simulation: {:.1} MB", (resident() - before) / several.len() as f64);
     let (mut simulation, inputs) = braking(model.clone());
@@ -69,7 +62,7 @@ fn steps(c: &mut Criterion) {
     });
     println!("state: {} kB", postcard::to_stdvec(simulation.state()).expect("bytes").len() / 1024);
 
-    let mut config = railway();
+    let mut config = Config::default();
     config.solver.response = Response::Full;
     let before = resident();
     let (mut simulation, inputs) = braking(Model::prepare(config, &BasisStore::none(), &mut quiet).expect("model"));

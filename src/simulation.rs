@@ -6,9 +6,9 @@
 //! use wheelrail::config::Config;
 //! use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 //!
-//! let config: Config = serde_json::from_str(&std::fs::read_to_string("resources/railway.json")?)?;
 //! let store = BasisStore::of_user();
-//! let model = Model::shared(config, &store, &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
+//! let progress = &mut |what: &str, share: f64| println!("{what}: {:.0} %", 100.0 * share);
+//! let model = Model::shared(Config::default(), &store, progress)?;
 //! let mut inputs = Inputs::rolling(model.config());
 //! let mut simulation = Simulation::new(model, &inputs)?;
 //! inputs.drive.moment = -2000.0;
@@ -33,7 +33,7 @@ use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, 
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 
-pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{

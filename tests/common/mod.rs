@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::Config;
+use wheelrail::config::{Config, presets};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Rotation, Simulation, Translation};
 
 pub const KMH: f64 = 1.0 / 3.6;
@@ -11,7 +11,7 @@ pub const KMH: f64 = 1.0 / 3.6;
 /// A shipped preset with another mesh density.
 pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(format!("{name}.json"));
-    let mut config: Config = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let mut config = presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap();
     config.mesh.elements_per_half_width = elements_per_half_width;
     config
 }

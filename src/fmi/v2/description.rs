@@ -5,9 +5,10 @@ use crate::fmi::MODEL_IDENTIFIER;
 use crate::fmi::instance::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
 use crate::fmi::log::CATEGORIES;
 use crate::fmi::presets;
+use crate::fmi::table::enumerations;
 use crate::fmi::units::{BASE_UNITS, UNITS};
 use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
-use crate::fmi::variables::{ENUMERATIONS, variables};
+use crate::fmi::variables::variables;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
@@ -121,7 +122,7 @@ fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
 
 fn type_definitions(xml: &mut Xml) -> io::Result<()> {
     list(xml, "TypeDefinitions", |xml| {
-        for list in ENUMERATIONS {
+        for list in enumerations() {
             let element = xml
                 .create_element("SimpleType")
                 .with_attributes([("name", list.name), ("description", list.description)]);
@@ -143,16 +144,17 @@ fn type_definitions(xml: &mut Xml) -> io::Result<()> {
 
 /// Start value of an input or parameter under the default preset; `None` for outputs.
 pub fn start_value(variable: &Variable) -> Option<Value> {
-    static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
-    let mut config = CONFIG.get_or_init(|| presets::default_config().ok()).clone()?;
-    let parameter = variable.parameter(presets::DEFAULT, &mut config);
+    let config = Config::default();
+    let parameter = variable.parameter(presets::DEFAULT, &config);
     parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
 }
 
 /// FMI variability of a variable.
 pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
-        Access::RealInput(_) | Access::RealOutput(_) | Access::ProfileOutput(..) => "continuous",
+        Access::RealInput(_) | Access::RealOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
+            "continuous"
+        }
         Access::ChoiceInput(..) | Access::CountOutput(_) => "discrete",
         _ if variable.tunable => "tunable",
         _ => "fixed",
@@ -204,12 +206,7 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
             "Enumeration"
         }
     };
-    let start = start_value(variable).map(|value| match value {
-        Value::Real(v) => number(v),
-        Value::Integer(v) => v.to_string(),
-        Value::Boolean(v) => v.to_string(),
-        Value::String(v) => v,
-    });
+    let start = start_value(variable).map(|value| value.to_string());
     attributes.extend(start.map(|start| ("start", start)));
     let attributes: Vec<_> = attributes.iter().map(|(name, value)| (*name, value.as_str())).collect();
     empty(xml, element, &attributes)
