@@ -26,10 +26,10 @@ pub struct Contents {
 
 /// Files that are the same in every FMU: picture and licence texts.
 const FIXED: [(&str, &[u8]); 4] = [
-    ("model.png", include_bytes!("../../model.png")),
+    ("model.png", include_bytes!("../../docs/model.png")),
     ("documentation/licenses/LICENSE-APACHE", include_bytes!("../../LICENSE-APACHE")),
     ("documentation/licenses/LICENSE-MIT", include_bytes!("../../LICENSE-MIT")),
-    ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../LICENSE-THIRD-PARTY")),
+    ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../docs/LICENSE-THIRD-PARTY")),
 ];
 
 /// Platforms of FMI 2.0 and the extension of their shared libraries.

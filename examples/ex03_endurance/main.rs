@@ -1,6 +1,6 @@
 //! Endurance: a million steps of mixed driving with the shipped `railway` wheel, starting from rest.
 //!
-//! `cargo run --release --example endurance -- --steps 1000000` prints failures, growth of memory and the energy audit,
+//! `cargo run --release --example ex03_endurance -- --steps 1000000` prints failures, growth of memory and the energy audit,
 //! by phase of driving, and fails if a limit is exceeded.
 
 #[path = "../../tests/memory/mod.rs"]
