@@ -2,7 +2,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use wheelrail::heat::{Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, Profile, Scratch};
+use wheelrail::heat::{Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, Scratch};
+use wheelrail::piecewise::Piecewise;
 
 const HALF_WIDTH: f64 = 0.761e-3;
 const SPEED: f64 = 50.0 / 3.6;
@@ -35,7 +36,7 @@ fn heat(c: &mut Criterion) {
     let heat = Heat::new(&config()).expect("meshes");
     let exchange = Exchange {
         patches: vec![Patch { low: -HALF_WIDTH, high: HALF_WIDTH }],
-        friction_power: Profile::sampled(-HALF_WIDTH, HALF_WIDTH, 41, |x| 1e6 * (1.0 - x / HALF_WIDTH)),
+        friction_power: Piecewise::sampled(-HALF_WIDTH, HALF_WIDTH, 41, |x| 1e6 * (1.0 - x / HALF_WIDTH)),
         ..Exchange::default()
     };
     c.bench_function("heat: stationary rolling", |b| {

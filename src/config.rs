@@ -32,6 +32,8 @@ pub struct Config {
     pub solver: SolverParameters,
     /// Start state.
     pub initial: Initial,
+    /// What may change during a run.
+    pub tuning: Tuning,
 }
 
 /// Map between the two-dimensional model and the wheel.
@@ -103,27 +105,12 @@ impl Material {
     }
 }
 
-/// Coulomb friction. The coefficient of a step is
-///
-/// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|V − rω|}) · max(m, 1 − K (T − T_ref))`
-///
-/// with nominal slip velocity and mean contact temperature (O. Polach, *Wear* 258 (2005), for the falling part). Both are
-/// predicted for the coming step: the slip velocity from its rate, the temperature as `T − T_ref = θ μ` with the heating
-/// θ extrapolated, which makes the last factor `1/(1 + K θ · rail.friction · (…))`. Within a step the friction cone is
-/// exact.
+/// Coulomb friction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Friction {
     /// Friction coefficient μ [1]; start value of the input `rail.friction`.
     pub coefficient: f64,
-    /// `A`: share of the coefficient that remains at high slip velocity [1]; 1 for constant friction.
-    pub falling_ratio: f64,
-    /// `B`: decay with the slip velocity [s/m].
-    pub falling_decay: f64,
-    /// `K`: decay with the contact temperature [1/K]; 0 for constant friction.
-    pub softening: f64,
-    /// `m`: share of the coefficient that remains at high temperature [1].
-    pub softening_floor: f64,
 }
 
 /// Heat in wheel, rail and contact.
@@ -160,8 +147,6 @@ pub struct Thermal {
     pub tread_width: f64,
     /// Number of brake blocks: one, or two mirrored ones that share `drive.tread_heat`.
     pub tread_blocks: usize,
-    /// Austenitisation temperature Ac1 [K], above which contact time is counted.
-    pub austenitisation: f64,
 }
 
 /// Contact conductance law.
@@ -218,11 +203,6 @@ pub struct SolverParameters {
     pub time_scheme: TimeScheme,
     /// Weight of the new time level in the θ scheme (1: backward Euler, 0.5: Crank–Nicolson).
     pub theta: f64,
-    /// Largest internal step [s]; longer communication steps are divided evenly.
-    pub max_step: f64,
-    /// Local error of an internal step that halves it: contact force relative to the nominal load, contact temperature
-    /// relative to its rise or 100 K [1]; 0: no error control.
-    pub tolerance: f64,
 }
 
 /// Body response behind the contact.
@@ -257,6 +237,36 @@ pub struct Initial {
     pub creepage: f64,
 }
 
+/// What may change during a run: nothing that is computed in advance depends on it.
+///
+/// The friction coefficient of a step is
+///
+/// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|V − rω|}) · max(m, 1 − K (T − T_ref))`
+///
+/// with nominal slip velocity and mean contact temperature (O. Polach, *Wear* 258 (2005), for the falling part). Both are
+/// predicted for the coming step: the slip velocity from its rate, the temperature as `T − T_ref = θ μ` with the heating
+/// θ extrapolated, which makes the last factor `1/(1 + K θ · rail.friction · (…))`. Within a step the friction cone is
+/// exact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tuning {
+    /// `A`: share of the friction coefficient that remains at high slip velocity [1]; 1 for constant friction.
+    pub falling_ratio: f64,
+    /// `B`: decay with the slip velocity [s/m].
+    pub falling_decay: f64,
+    /// `K`: decay with the contact temperature [1/K]; 0 for constant friction.
+    pub softening: f64,
+    /// `m`: share of the coefficient that remains at high temperature [1].
+    pub softening_floor: f64,
+    /// Austenitisation temperature Ac1 [K], above which contact time is counted.
+    pub austenitisation: f64,
+    /// Largest internal step [s]; longer communication steps are divided evenly.
+    pub max_step: f64,
+    /// Local error of an internal step that halves it: contact force relative to the nominal load, contact temperature
+    /// relative to its rise or 100 K [1]; 0: no error control.
+    pub tolerance: f64,
+}
+
 /// FMI name, value, smallest and largest meaningful value of each numeric parameter; some depend on others besides, see
 /// [`Config::validate`].
 type NumericParameter = (&'static str, fn(&Config) -> f64, f64, f64);
@@ -278,10 +288,10 @@ const NUMERIC_PARAMETERS: [NumericParameter; 41] = [
     ("material.conductivity", |c| c.material.conductivity, 1e-3, 1e5),
     ("material.specific_heat", |c| c.material.specific_heat, 1.0, 1e5),
     ("friction.coefficient", |c| c.friction.coefficient, 0.0, 10.0),
-    ("friction.falling_ratio", |c| c.friction.falling_ratio, 0.0, 1.0),
-    ("friction.falling_decay", |c| c.friction.falling_decay, 0.0, 1e3),
-    ("friction.softening", |c| c.friction.softening, 0.0, 1.0),
-    ("friction.softening_floor", |c| c.friction.softening_floor, 0.0, 1.0),
+    ("friction.falling_ratio", |c| c.tuning.falling_ratio, 0.0, 1.0),
+    ("friction.falling_decay", |c| c.tuning.falling_decay, 0.0, 1e3),
+    ("friction.softening", |c| c.tuning.softening, 0.0, 1.0),
+    ("friction.softening_floor", |c| c.tuning.softening_floor, 0.0, 1.0),
     ("thermal.reference", |c| c.thermal.reference, 1.0, 1e4),
     ("thermal.wheel_excess", |c| c.thermal.wheel_excess, -1e3, 5e3),
     ("thermal.conductance", |c| c.thermal.conductance, 0.0, 1e12),
@@ -294,13 +304,13 @@ const NUMERIC_PARAMETERS: [NumericParameter; 41] = [
     ("thermal.tread_angle", |c| c.thermal.tread_angle, -3.2, 3.2),
     ("thermal.tread_width", |c| c.thermal.tread_width, 1e-3, 6.2),
     ("thermal.tread_blocks", |c| c.thermal.tread_blocks as f64, 1.0, 2.0),
-    ("thermal.austenitisation", |c| c.thermal.austenitisation, 1.0, 1e4),
+    ("thermal.austenitisation", |c| c.tuning.austenitisation, 1.0, 1e4),
     ("mesh.elements_per_half_width", |c| c.mesh.elements_per_half_width as f64, 4.0, 80.0),
     ("solver.modes_wheel", |c| c.solver.modes_wheel as f64, 1.0, 200.0),
     ("solver.modes_rail", |c| c.solver.modes_rail as f64, 1.0, 200.0),
     ("solver.theta", |c| c.solver.theta, 0.5, 1.0),
-    ("solver.max_step", |c| c.solver.max_step, 1e-6, 1.0),
-    ("solver.tolerance", |c| c.solver.tolerance, 0.0, 1.0),
+    ("solver.max_step", |c| c.tuning.max_step, 1e-6, 1.0),
+    ("solver.tolerance", |c| c.tuning.tolerance, 0.0, 1.0),
     ("initial.velocity", |c| c.initial.velocity, -200.0, 200.0),
     ("initial.creepage", |c| c.initial.creepage, -1.99, 2.0),
 ];
@@ -331,15 +341,7 @@ impl Config {
     /// This configuration with those values of another one that may change during a run: nothing that has been
     /// computed in advance depends on them.
     pub fn tuned_like(&self, other: &Config) -> Config {
-        let mut config = self.clone();
-        config.friction.falling_ratio = other.friction.falling_ratio;
-        config.friction.falling_decay = other.friction.falling_decay;
-        config.friction.softening = other.friction.softening;
-        config.friction.softening_floor = other.friction.softening_floor;
-        config.thermal.austenitisation = other.thermal.austenitisation;
-        config.solver.max_step = other.solver.max_step;
-        config.solver.tolerance = other.solver.tolerance;
-        config
+        Config { tuning: other.tuning.clone(), ..self.clone() }
     }
 
     /// Refuses values for which the model has no meaning; the message names parameter, value and range.

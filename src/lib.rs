@@ -34,6 +34,8 @@
 //! |---|---|
 //! | [`config`] | parameters and presets: plain data |
 //! | [`analytic`] | Hertz, Carter: start guesses and tests |
+//! | [`multistep`] | the time formula: derivative, history, impulse |
+//! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time |
 //! | [`linalg`] | sparse factorisation, vibration modes |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly |
 //! | [`mechanics`] | elasticity and convection; full and reduced bodies behind one interface |
@@ -54,5 +56,7 @@ pub mod fmi;
 pub mod heat;
 pub mod linalg;
 pub mod mechanics;
+pub mod multistep;
+pub mod piecewise;
 pub mod rolling;
 pub mod simulation;

@@ -4,6 +4,7 @@ mod heat_common;
 use heat_common::*;
 use std::f64::consts::PI;
 use wheelrail::heat::*;
+use wheelrail::piecewise::Piecewise;
 
 const A: f64 = 0.761e-3;
 
@@ -40,7 +41,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
     };
     let heat = heat(&config);
     for (name, q, reference) in cases {
-        let friction_power = Profile::sampled(-A, A, 400, |x| q(x / A));
+        let friction_power = Piecewise::sampled(-A, A, 400, |x| q(x / A));
         let exchange = Exchange { friction_power, ..Exchange::default() };
         let (state, _) = heat.stationary(v, 0.0, &exchange).unwrap();
         let t = heat.temperatures(&state).unwrap();
@@ -87,7 +88,7 @@ fn reversal_of_both_speeds_mirrors_the_temperatures() {
     let heat = heat(&config);
     let forward =
         Exchange { tread: vec![TreadHeat { angle: 1.0, width: 0.3, heat: 100.0 }], ..carter(load, v, creepage) };
-    let mirrored = |profile: &Profile| Profile {
+    let mirrored = |profile: &Piecewise| Piecewise {
         x: profile.x.iter().rev().map(|x| -x).collect(),
         value: profile.value.iter().rev().copied().collect(),
     };

@@ -4,6 +4,7 @@ mod heat_common;
 use heat_common::*;
 use std::time::Instant;
 use wheelrail::heat::*;
+use wheelrail::piecewise::Piecewise;
 
 fn median(mut times: Vec<f64>) -> f64 {
     times.sort_by(f64::total_cmp);
@@ -15,7 +16,7 @@ fn cost(name: &str, heat: &Heat, vary: f64, creepage: f64) -> f64 {
     let mut exchange = carter(1e5, v, creepage);
     // As the mechanics delivers it: about forty nodes.
     let a = half_width(1e5);
-    exchange.friction_power = Profile::sampled(-a, a, 41, |x| 1e6 * (1.0 - x / a));
+    exchange.friction_power = Piecewise::sampled(-a, a, 41, |x| 1e6 * (1.0 - x / a));
     let mut state = heat.initial(0.0);
     let mut scratch = Scratch::default();
     let mut times = Vec::new();

@@ -3,6 +3,7 @@
 mod heat_common;
 use heat_common::*;
 use wheelrail::heat::*;
+use wheelrail::piecewise::Piecewise;
 
 /// Temperatures after one second of smoothly changing speed, load and tread heat, from the stationary state.
 fn manoeuvre(heat: &Heat, steps: usize) -> [f64; 4] {
@@ -63,7 +64,7 @@ fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
             exchange.ambient = 10.0;
             if k % 5 == 4 {
                 exchange.patches.clear();
-                exchange.friction_power = Profile::default();
+                exchange.friction_power = Piecewise::default();
             }
             if k % 4 == 3 {
                 state.restart();
@@ -124,7 +125,7 @@ fn resampled_friction_heat_keeps_its_total() {
             x[5] = x[4];
         }
         let value = x.iter().map(|_| 1e6 * random()).collect();
-        let friction_power = Profile { x, value };
+        let friction_power = Piecewise { x, value };
         let total = 0.1 * friction_power.integral();
         let exchange = Exchange { friction_power, ..Exchange::default() };
         let flows = heat.step(&mut heat.initial(0.0), 1e-3, 10.0, 20.0, &exchange, &mut scratch).unwrap();
@@ -142,7 +143,7 @@ fn conductance_follows_the_pressure_to_the_power_of_0_95() {
     let flow = |heat: &Heat, p: f64| {
         let exchange = Exchange {
             patches: vec![Patch { low: -a, high: a }],
-            pressure: Profile { x: vec![-2.0 * a, 2.0 * a], value: vec![p, p] },
+            pressure: Piecewise { x: vec![-2.0 * a, 2.0 * a], value: vec![p, p] },
             ..Exchange::default()
         };
         heat.step(&mut heat.initial(1.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).unwrap().conduction

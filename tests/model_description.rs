@@ -69,7 +69,8 @@ fn every_preset_is_valid() {
     assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(presets::default_config().unwrap()));
 }
 
-/// Every field of the configuration is a parameter of the interface and has its name there.
+/// Every field of the configuration is a parameter of the interface and has its name there; tunable ones are together in
+/// `tuning` and keep the group of their name.
 #[test]
 fn parameters_are_the_fields_of_the_configuration() {
     let json = serde_json::to_value(presets::default_config().unwrap()).unwrap();
@@ -78,12 +79,21 @@ fn parameters_are_the_fields_of_the_configuration() {
         fields.extend(content.as_object().unwrap().keys().map(|name| format!("{group}.{name}")));
     }
     fields.push("preset".to_owned());
-    let mut names: Vec<_> = with_causality(Causality::Parameter).map(|v| v.name.clone()).collect();
+    let group = |v: &'static Variable| match v.name.split_once('.') {
+        Some(_) if v.tunable => "tuning",
+        Some((group, _)) => group,
+        None => "",
+    };
+    let field = |v: &'static Variable| match v.name.split_once('.') {
+        Some((_, name)) => format!("{}.{name}", group(v)),
+        None => v.name.clone(),
+    };
+    let mut names: Vec<_> = with_causality(Causality::Parameter).map(field).collect();
     fields.sort();
     names.sort();
     assert_eq!(names, fields);
     for variable in with_causality(Causality::Parameter).filter(|v| v.name != "preset") {
-        let (group, name) = variable.name.split_once('.').unwrap();
+        let (group, name) = (group(variable), variable.name.split_once('.').unwrap().1);
         let field = |config: &Config| serde_json::to_value(config).unwrap()[group][name].clone();
         let mut config = presets::default_config().unwrap();
         let value = match variable.parameter("", &mut config).unwrap() {

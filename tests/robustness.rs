@@ -131,7 +131,7 @@ fn steps_too_short_to_be_computed_wait_for_the_next_one() {
 #[test]
 fn the_longest_communication_step_is_carried_out() {
     let mut config = preset("railway", 5);
-    config.solver.max_step = 1.0;
+    config.tuning.max_step = 1.0;
     let model = model(config);
     let inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model, &inputs).unwrap();

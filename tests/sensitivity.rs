@@ -159,7 +159,7 @@ fn a_derivative_leaves_no_trace() {
 #[test]
 fn time_derivatives_converge_with_second_order() {
     let mut config = preset("railway", 10);
-    config.solver.max_step = 1e-3;
+    config.tuning.max_step = 1e-3;
     let model = model(config);
     // A force that grows steadily: the distance is a cubic of time, its derivative the velocity.
     let error = |h: f64| {
@@ -222,7 +222,7 @@ fn derivatives_by_heat_that_is_off_and_after_a_tunable_change_are_those_of_the_s
     let load = Drive { load: 1.0, ..Drive::default() };
     let before = simulation.difference(&load).unwrap().quotient(|o| o.contact_force_x);
     let mut config = model.config().clone();
-    (config.friction.falling_ratio, config.friction.falling_decay, config.solver.max_step) = (0.5, 0.5, 1e-4);
+    (config.tuning.falling_ratio, config.tuning.falling_decay, config.tuning.max_step) = (0.5, 0.5, 1e-4);
     simulation.retune(&config).unwrap();
     assert_eq!(simulation.difference(&load).unwrap().quotient(|o| o.contact_force_x), before);
 }

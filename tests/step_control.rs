@@ -8,7 +8,7 @@ use wheelrail::simulation::{Inputs, Outputs, Simulation, Vertical};
 /// Outputs after each communication step `h` under `drive(inputs, time)`, with the number of internal steps.
 fn run(tolerance: f64, max_step: f64, h: f64, end: f64, drive: impl Fn(&mut Inputs, f64)) -> (Vec<Outputs>, u64) {
     let mut config = preset("railway", 10);
-    (config.solver.tolerance, config.solver.max_step) = (tolerance, max_step);
+    (config.tuning.tolerance, config.tuning.max_step) = (tolerance, max_step);
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model, &inputs).unwrap();

@@ -107,7 +107,7 @@ fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
 #[test]
 fn falling_friction_lowers_the_force_of_a_fast_slide_exactly() {
     let mut config = preset("railway", 10);
-    (config.friction.falling_ratio, config.friction.falling_decay, config.friction.softening) = (0.4, 0.6, 0.0);
+    (config.tuning.falling_ratio, config.tuning.falling_decay, config.tuning.softening) = (0.4, 0.6, 0.0);
     let model = model(config);
     let inputs = prescribed(&model, 20.0, 0.2);
     let simulation = Simulation::new(model, &inputs).unwrap();
@@ -120,7 +120,7 @@ fn falling_friction_lowers_the_force_of_a_fast_slide_exactly() {
 #[test]
 fn hot_contact_softens_friction_to_its_floor() {
     let mut config = preset("railway", 10);
-    (config.friction.softening, config.friction.softening_floor) = (2e-3, 0.3);
+    (config.tuning.softening, config.tuning.softening_floor) = (2e-3, 0.3);
     let model = model(config);
     let mut inputs = prescribed(&model, 20.0, 0.0);
     let mut simulation = Simulation::new(model, &inputs).unwrap();

@@ -5,59 +5,9 @@
 //! edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
 
 use super::{Heat, HeatError};
+use crate::piecewise::{Piecewise, interpolate};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-
-/// Piecewise linear function of x, zero outside its first and last point; a repeated x is a jump.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Profile {
-    /// Ascending positions relative to the contact point, positive in travel direction [m].
-    pub x: Vec<f64>,
-    pub value: Vec<f64>,
-}
-
-impl Profile {
-    /// `∫ value dx`.
-    pub fn integral(&self) -> f64 {
-        self.segments().map(|(x, v)| 0.5 * (x[1] - x[0]) * (v[0] + v[1])).sum()
-    }
-
-    /// The same profile times a factor.
-    pub fn scaled(mut self, factor: f64) -> Self {
-        self.value.iter_mut().for_each(|v| *v *= factor);
-        self
-    }
-
-    /// Samples of a function at `count` points between `low` and `high`, denser towards both ends (cosine spacing).
-    pub fn sampled(low: f64, high: f64, count: usize, f: impl Fn(f64) -> f64) -> Self {
-        let last = count.max(2) - 1;
-        let place = |i: usize| {
-            let c = (PI * i as f64 / last as f64).cos();
-            0.5 * (low * (1.0 + c) + high * (1.0 - c))
-        };
-        let x: Vec<f64> = (0..=last).map(place).collect();
-        let value = x.iter().map(|&x| f(x)).collect();
-        Self { x, value }
-    }
-
-    fn segments(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
-        self.x.windows(2).zip(self.value.windows(2)).map(|(x, v)| ([x[0], x[1]], [v[0], v[1]]))
-    }
-
-    fn check(&self, name: &'static str) -> Result<(), HeatError> {
-        if self.x.len() != self.value.len() {
-            return Err(HeatError::ProfileLength { name, positions: self.x.len(), values: self.value.len() });
-        }
-        let bad = self.x.iter().chain(&self.value).find(|v| !v.is_finite());
-        if let Some(&value) = bad {
-            return Err(HeatError::Input { name, value });
-        }
-        match self.x.windows(2).find(|w| w[1] < w[0]) {
-            Some(w) => Err(HeatError::ProfileOrder { name, before: w[0], after: w[1] }),
-            None => Ok(()),
-        }
-    }
-}
 
 /// Interval of the surface where the bodies touch [m].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -100,12 +50,12 @@ pub struct Exchange {
     /// Where the bodies touch; none: lifted off.
     pub patches: Vec<Patch>,
     /// Contact pressure [Pa]; used by the pressure-dependent conductance only.
-    pub pressure: Profile,
+    pub pressure: Piecewise,
     /// Friction power per area `|τ s|` [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
-    pub friction_power: Profile,
+    pub friction_power: Piecewise,
     pub tread: Vec<TreadHeat>,
     /// Reversible temperatures that conduct besides those of the fields: wheel less rail [K].
-    pub reversible: Profile,
+    pub reversible: Piecewise,
     /// Excess temperature of the air [K].
     pub ambient: f64,
     /// Whether speeds and everything above hold over the whole step, instead of varying linearly from the step before.
@@ -158,7 +108,7 @@ impl Supply {
 impl Heat {
     /// Moments of `exchange` on the surface elements.
     pub(super) fn supply(&self, exchange: &Exchange) -> Result<Supply, HeatError> {
-        exchange.friction_power.check("friction power")?;
+        check("friction power", &exchange.friction_power)?;
         if !exchange.ambient.is_finite() {
             return Err(HeatError::Input { name: "ambient temperature", value: exchange.ambient });
         }
@@ -177,9 +127,9 @@ impl Heat {
         supply.conductance.resize(self.zone_elements(), [0.0; 3]);
         self.add_conductance(exchange, &mut supply.conductance)?;
         if !exchange.reversible.x.is_empty() {
-            exchange.reversible.check("reversible temperature")?;
-            let Profile { x, value } = &exchange.reversible;
-            let jump: Vec<f64> = self.zone_x().iter().map(|&at| super::interpolate(x, value, at)).collect();
+            check("reversible temperature", &exchange.reversible)?;
+            let Piecewise { x, value } = &exchange.reversible;
+            let jump: Vec<f64> = self.zone_x().iter().map(|&at| interpolate(x, value, at)).collect();
             let through = |(c, d): (&[f64; 3], &[f64])| {
                 let slope = d[1] - d[0];
                 [c[0] * d[0] + c[1] * slope, c[1] * d[0] + c[2] * slope]
@@ -193,7 +143,7 @@ impl Heat {
     fn add_conductance(&self, exchange: &Exchange, out: &mut [[f64; 3]]) -> Result<(), HeatError> {
         for patch in &exchange.patches {
             if patch.low.is_nan() || patch.high.is_nan() || patch.low > patch.high {
-                return Err(HeatError::ProfileOrder { name: "contact patch", before: patch.low, after: patch.high });
+                return Err(HeatError::Patch { low: patch.low, high: patch.high });
             }
             match self.config.conductance {
                 Conductance::Constant { value } => {
@@ -202,7 +152,7 @@ impl Heat {
                     })?;
                 }
                 Conductance::Pressure { value, reference_pressure } => {
-                    exchange.pressure.check("contact pressure")?;
+                    check("contact pressure", &exchange.pressure)?;
                     for (x, p) in exchange.pressure.segments() {
                         let inside = [x[0].max(patch.low), x[1].min(patch.high)];
                         if inside[1] <= inside[0] {
@@ -279,6 +229,11 @@ impl Heat {
         }
         Ok(())
     }
+}
+
+/// Refuses a profile that is no function.
+fn check(name: &'static str, profile: &Piecewise) -> Result<(), HeatError> {
+    profile.check().map_err(|why| HeatError::Profile { name, why })
 }
 
 /// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the part.

@@ -29,11 +29,12 @@ mod tensor;
 mod tests;
 
 pub use field::TemperatureField;
-pub use interface::{Conductance, Exchange, Patch, Profile, TreadHeat};
+pub use interface::{Conductance, Exchange, Patch, TreadHeat};
 pub use parameters::{HeatConfig, HeatTimeScheme, HubCondition};
 pub use step::{LARGEST_STEP, SMALLEST_STEP, Scratch};
 
 use crate::config::ConfigError;
+use crate::piecewise::{PiecewiseError, interpolate, peak};
 use modal::Body;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -47,10 +48,10 @@ pub enum HeatError {
     Config(#[from] ConfigError),
     #[error("{name} is {value}: not a usable number")]
     Input { name: &'static str, value: f64 },
-    #[error("profile of {name}: {positions} positions, {values} values")]
-    ProfileLength { name: &'static str, positions: usize, values: usize },
-    #[error("{name}: positions must ascend, {after} m follows {before} m")]
-    ProfileOrder { name: &'static str, before: f64, after: f64 },
+    #[error("{name}: {why}")]
+    Profile { name: &'static str, why: PiecewiseError },
+    #[error("contact patch from {low} m to {high} m: its ends must be numbers and ascend")]
+    Patch { low: f64, high: f64 },
     #[error("{name} reaches x = {x} m, outside the contact zone of ±{zone} m")]
     OutsideZone { name: &'static str, x: f64, zone: f64 },
     #[error("heat step of {dt} s is outside {SMALLEST_STEP} to {LARGEST_STEP} s")]
@@ -391,13 +392,6 @@ impl Heat {
     }
 }
 
-/// Value at x of a piecewise linear function, constant outside its ends.
-pub fn interpolate(nodes: &[f64], values: &[f64], x: f64) -> f64 {
-    let after = nodes.partition_point(|&n| n <= x).clamp(1, nodes.len() - 1);
-    let share = ((x - nodes[after - 1]) / (nodes[after] - nodes[after - 1])).clamp(0.0, 1.0);
-    values[after - 1] + share * (values[after] - values[after - 1])
-}
-
 /// Temperature at one point; outside an open streamline that of its end.
 fn evaluate(body: &Body, field: &[f64], s: f64, z: f64) -> f64 {
     let line = &body.line;
@@ -424,29 +418,4 @@ fn zone_nodes(c: &HeatConfig) -> Vec<f64> {
         nodes.extend(outside.iter().skip(1).map(|s| c.half_width + s));
     }
     nodes
-}
-
-/// Maximum of the cubic Hermite interpolant whose slopes at the nodes are those of the parabolas through three
-/// neighbours: continuous in the values, wherever the maximum moves.
-pub fn peak(x: &[f64], values: &[f64]) -> f64 {
-    let n = x.len().min(values.len());
-    let top = values[..n].iter().fold(f64::NEG_INFINITY, |top, v| top.max(*v));
-    let chord = |i: usize| (values[i + 1] - values[i]) / (x[i + 1] - x[i]);
-    let slope = |i: usize| {
-        let (left, right) = (x[i] - x[i - 1], x[i + 1] - x[i]);
-        (chord(i - 1) * right + chord(i) * left) / (left + right)
-    };
-    // Maxima inside the cells; the outermost cells have only a chord.
-    let inside = (1..n.saturating_sub(2)).filter_map(|i| {
-        let h = x[i + 1] - x[i];
-        let (from, to, rise) = (h * slope(i), h * slope(i + 1), values[i + 1] - values[i]);
-        // v(ξ) = v₀ + from ξ + b ξ² + c ξ³.
-        let (b, c) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
-        let root = b * b - 3.0 * c * from;
-        // The zero of v′ where v″ < 0, in the form that survives c = 0.
-        let xi = from / (root.max(0.0).sqrt() - b);
-        let value = values[i] + xi * (from + xi * (b + xi * c));
-        (root >= 0.0 && xi > 0.0 && xi < 1.0).then_some(value)
-    });
-    inside.fold(top, f64::max)
 }

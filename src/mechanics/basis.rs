@@ -109,6 +109,7 @@ mod tests {
     use super::*;
     use crate::mechanics::testing::paper_d;
     use crate::mechanics::*;
+    use crate::multistep::TimeDerivative;
     use nalgebra::DVector;
     use std::time::Instant;
 
@@ -144,7 +145,7 @@ mod tests {
         same.vehicle.mass = 1e4;
         same.wheel.hub_inertia = 3.0;
         same.friction.coefficient = 0.1;
-        same.solver.max_step = 1e-5;
+        same.tuning.max_step = 1e-5;
         same.physics.centrifugal = false;
         (same.model.nominal_load, same.model.contact_width) = (2e5, 2.0);
         assert_eq!(key(&base), key(&same));

@@ -1,9 +1,10 @@
 //! The full finite-element equations of a body behind the contact (verification).
 
 use super::MechanicsError;
-use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, StepSolver, TimeDerivative};
+use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, StepSolver};
 use super::system::BodySystem;
 use crate::linalg::{CholeskyPattern, CsrMatrix};
+use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
 
 /// State: all free nodal displacements.

@@ -14,7 +14,7 @@ pub mod testing;
 pub use basis::{Basis, BasisError};
 pub use full::FullBody;
 pub use reduced::{ReducedBasis, ReducedBody};
-pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, TimeDerivative};
+pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 pub use system::BodySystem;
 
 use crate::analytic;

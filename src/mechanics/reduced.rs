@@ -6,9 +6,10 @@
 //! Source: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006), ch. 17 (Rubin's method).
 
 use super::MechanicsError;
-use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, StepSolver, TimeDerivative};
+use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, StepSolver};
 use super::system::{BodySystem, symmetrise};
 use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
+use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 

@@ -16,6 +16,7 @@
 
 use super::MechanicsError;
 use crate::linalg::Cholesky;
+use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -59,41 +60,6 @@ pub trait BodyResponse: Send + Sync {
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
 }
 
-/// Linear multistep formula `d_t y = a0 y_{n+1} + a1 y_n + a2 y_{n−1} + b1 (d_t y)_n`; all zero: stationary.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TimeDerivative {
-    pub a0: f64,
-    pub a1: f64,
-    pub a2: f64,
-    pub b1: f64,
-}
-
-impl TimeDerivative {
-    /// The part of `d_t y` known before the step.
-    pub fn offset(&self, now: f64, before: f64, rate: f64) -> f64 {
-        self.a1 * now + self.a2 * before + self.b1 * rate
-    }
-
-    /// [`Self::offset`] of all coordinates.
-    pub fn offsets(&self, now: &DVector<f64>, before: &DVector<f64>, rate: &DVector<f64>) -> DVector<f64> {
-        let mut sum = now * self.a1;
-        sum.axpy(self.a2, before, 1.0);
-        sum.axpy(self.b1, rate, 1.0);
-        sum
-    }
-
-    /// Impulse that the formula attributes to the force `now` in a momentum balance `d_t p = f`, after the force `before`
-    /// with the impulse `last`: the sum over all forces is the change of `p`.
-    pub fn impulse(&self, now: f64, before: f64, last: f64) -> f64 {
-        (now - self.b1 * before + self.a2 * last) / self.a0
-    }
-
-    /// No time derivative at all: every step is an equilibrium.
-    pub fn is_stationary(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 /// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Convection {
@@ -131,8 +97,8 @@ impl BodyState {
 
     /// The part of `d_tt y` known before the step: `a0 h_v + h_a` with the offsets of velocity and acceleration.
     pub fn acceleration_offsets(&self, td: &TimeDerivative) -> DVector<f64> {
-        let mut sum = td.offsets(&self.velocity, &self.velocity_before, &self.acceleration);
-        sum.axpy(td.a0, &td.offsets(&self.displacement, &self.displacement_before, &self.velocity), 1.0);
+        let mut sum = offsets(td, &self.velocity, &self.velocity_before, &self.acceleration);
+        sum.axpy(td.a0, &offsets(td, &self.displacement, &self.displacement_before, &self.velocity), 1.0);
         sum
     }
 
@@ -140,9 +106,9 @@ impl BodyState {
     ///
     /// Stationary: velocity and acceleration vanish and the history is the new displacement.
     pub fn advance(&mut self, td: &TimeDerivative, new: DVector<f64>) {
-        let mut velocity = td.offsets(&self.displacement, &self.displacement_before, &self.velocity);
+        let mut velocity = offsets(td, &self.displacement, &self.displacement_before, &self.velocity);
         velocity.axpy(td.a0, &new, 1.0);
-        let mut acceleration = td.offsets(&self.velocity, &self.velocity_before, &self.acceleration);
+        let mut acceleration = offsets(td, &self.velocity, &self.velocity_before, &self.acceleration);
         acceleration.axpy(td.a0, &velocity, 1.0);
         if td.is_stationary() {
             self.displacement_before = new.clone();
@@ -155,6 +121,14 @@ impl BodyState {
         self.velocity = velocity;
         self.acceleration = acceleration;
     }
+}
+
+/// Part of `d_t y` known before the step, of all coordinates.
+fn offsets(td: &TimeDerivative, now: &DVector<f64>, before: &DVector<f64>, rate: &DVector<f64>) -> DVector<f64> {
+    let mut sum = now * td.a1;
+    sum.axpy(td.a2, before, 1.0);
+    sum.axpy(td.b1, rate, 1.0);
+    sum
 }
 
 /// Answer of a body to unit port loads for one value of `a0` (0: static).

@@ -5,7 +5,6 @@
 pub mod control;
 mod coupling;
 pub mod fields;
-pub mod integrator;
 pub mod output;
 mod reversible;
 pub mod sensitivity;

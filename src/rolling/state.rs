@@ -1,10 +1,10 @@
 //! All that a restart needs, and nothing else. Per metre of width.
 
-use super::integrator::Sample;
 use super::stepping::StepControl;
 use super::thermal::ThermalState;
 use crate::contact::ContactSolution;
 use crate::mechanics::response::BodyState;
+use crate::multistep::History;
 use serde::{Deserialize, Serialize};
 
 /// State of a wheel on its rail at a communication point.
@@ -19,17 +19,17 @@ pub struct State {
     /// Angle of rotation, forward positive [rad].
     pub angle: f64,
     /// Translational velocity V [m/s].
-    pub velocity: Sample,
+    pub velocity: History,
     /// Angular velocity Ω, forward positive [rad/s].
-    pub omega: Sample,
+    pub omega: History,
     /// Hub height above just touching U [m].
-    pub height: Sample,
+    pub height: History,
     /// Its rate of change [m/s].
-    pub climb: Sample,
+    pub climb: History,
     pub wheel: BodyState,
     pub rail: BodyState,
     /// Tangential displacement difference `u_c − u_p` at the contact candidates [m].
-    pub shift: Vec<Sample>,
+    pub shift: Vec<History>,
     /// Contact state, forces and surface displacements: results and warm start.
     pub contact: ContactSolution,
     /// Temperatures, unless the thermal part is switched off.

@@ -1,7 +1,6 @@
 //! Stationary rolling: the state in which nothing changes in the moving frame (`d_t = 0`).
 
 use super::control::{Inputs, Rotation, Translation, Vertical, peripheral_velocity};
-use super::integrator::Sample;
 use super::state::{Audit, State};
 use super::stepping::StepControl;
 use super::thermal::ThermalState;
@@ -9,7 +8,8 @@ use super::{Model, StepError, Workspace};
 use crate::analytic;
 use crate::contact::{ContactError, ContactProblem, ContactSolution, RigidMotion, Status, SurfaceResponse};
 use crate::mechanics;
-use crate::mechanics::response::{BodyState, Convection, TimeDerivative};
+use crate::mechanics::response::{BodyState, Convection};
+use crate::multistep::{History, TimeDerivative};
 
 /// Passes that bring in convective terms and the accelerations of unbalanced forces.
 const MAX_PASSES: usize = 30;
@@ -155,17 +155,17 @@ impl Model {
         contact.rigid = [velocity, contact.rigid[1], omega];
         let shift = (0..self.grid.len())
             .map(|i| self.grid.dof(i))
-            .map(|d| Sample::constant(contact.wheel_surface[d] - contact.rail_surface[d]))
+            .map(|d| History::constant(contact.wheel_surface[d] - contact.rail_surface[d]))
             .collect();
         let mut state = State {
             time: 0.0,
             pending: 0.0,
             distance: 0.0,
             angle: 0.0,
-            velocity: Sample { rate: acceleration[0], ..Sample::constant(velocity) },
-            omega: Sample { rate: acceleration[2], ..Sample::constant(omega) },
-            height: Sample::constant(contact.rigid[1]),
-            climb: Sample::default(),
+            velocity: History { rate: acceleration[0], ..History::constant(velocity) },
+            omega: History { rate: acceleration[2], ..History::constant(omega) },
+            height: History::constant(contact.rigid[1]),
+            climb: History::default(),
             wheel,
             rail,
             shift,

@@ -78,8 +78,8 @@ impl Model {
             return Ok(State { pending: h, ..state.clone() });
         }
         let mut next = State { pending: 0.0, internal_steps: 0, iterations: 0, ..state.clone() };
-        let tolerance = self.config.solver.tolerance;
-        let pieces = (h / self.config.solver.max_step - 1e-9).ceil().max(1.0) as u64;
+        let tolerance = self.config.tuning.tolerance;
+        let pieces = (h / self.config.tuning.max_step - 1e-9).ceil().max(1.0) as u64;
         let mut failures = 0;
         // Position within the communication step in units of h / total.
         let (mut position, mut total) = (0u64, pieces);

@@ -18,8 +18,9 @@ use crate::contact::streamline::edge_offset;
 use crate::contact::{ContactGrid, ContactSolution, patches};
 use crate::heat::{
     Conductance, Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatState, HeatTimeScheme, HubCondition, Patch,
-    Profile, Temperatures, TreadHeat, interpolate, peak,
+    Temperatures, TreadHeat,
 };
+use crate::piecewise::{Piecewise, interpolate, mean, peak};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
@@ -120,8 +121,8 @@ fn edges(grid: &ContactGrid, contact: &ContactSolution, run: &std::ops::Range<us
 }
 
 /// A nodal quantity as a profile over all patches, zero at their edges.
-fn over_patches(grid: &ContactGrid, contact: &ContactSolution, value: impl Fn(usize) -> f64) -> Profile {
-    let mut profile = Profile::default();
+fn over_patches(grid: &ContactGrid, contact: &ContactSolution, value: impl Fn(usize) -> f64) -> Piecewise {
+    let mut profile = Piecewise::default();
     for run in patches(&contact.status) {
         let [low, high] = edges(grid, contact, &run);
         profile.x.push(low);
@@ -156,7 +157,7 @@ impl Model {
         } else {
             // Centred slip without any slipping node: spread it like the pressure.
             let load = pressure.integral();
-            if load > 0.0 { pressure.clone().scaled(total / load) } else { Profile::default() }
+            if load > 0.0 { pressure.clone().scaled(total / load) } else { Piecewise::default() }
         };
         let thermal = &self.config.thermal;
         let blocks: &[f64] = if thermal.tread_blocks == 2 { &[1.0, -1.0] } else { &[1.0] };
@@ -165,9 +166,9 @@ impl Model {
         let tread = if heat == 0.0 { Vec::new() } else { blocks.iter().map(block).collect() };
         let reversible = if self.config.physics.thermoelastic_heating {
             let [wheel, rail] = self.reversible_temperatures(contact);
-            Profile { x: grid.x.clone(), value: wheel.iter().zip(&rail).map(|(w, r)| w - r).collect() }
+            Piecewise { x: grid.x.clone(), value: wheel.iter().zip(&rail).map(|(w, r)| w - r).collect() }
         } else {
-            Profile::default()
+            Piecewise::default()
         };
         Exchange { patches, pressure, friction_power, tread, reversible, ambient: 0.0, held: true }
     }
@@ -232,7 +233,7 @@ impl Model {
             (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
         }
         let hottest = self.config.thermal.reference + temperatures.wheel_max.max(temperatures.rail_max);
-        let above = if hottest > self.config.thermal.austenitisation { dt } else { 0.0 };
+        let above = if hottest > self.config.tuning.austenitisation { dt } else { 0.0 };
         let supplied = dt * (flows.friction + flows.tread);
         let received = dt
             * (flows.stored_wheel
@@ -293,7 +294,7 @@ impl Model {
     /// Friction coefficient of the coming step from that available and the nominal slip velocity; `ratio` is its length
     /// over that of the step before, 0 if that says nothing.
     pub(super) fn friction(&self, available: f64, slip: f64, thermal: Option<&ThermalState>, ratio: f64) -> f64 {
-        let law = &self.config.friction;
+        let law = &self.config.tuning;
         let falling = law.falling_ratio + (1.0 - law.falling_ratio) * (-law.falling_decay * slip.abs()).exp();
         let cold = available * falling;
         // The flash temperature follows the friction coefficient within microseconds, T = θμ. Solving μ = cold (1 − KT)
@@ -322,17 +323,4 @@ impl Model {
         }
         free.gemv(1.0, compliance, &forces, 1.0);
     }
-}
-
-/// Mean of a piecewise linear function over an interval.
-fn mean(x: &[f64], values: &[f64], low: f64, high: f64) -> f64 {
-    let mut integral = 0.0;
-    for (ends, v) in x.windows(2).zip(values.windows(2)) {
-        let (a, b) = (low.max(ends[0]), high.min(ends[1]));
-        if b > a {
-            let at = |x: f64| v[0] + (x - ends[0]) / (ends[1] - ends[0]) * (v[1] - v[0]);
-            integral += 0.5 * (b - a) * (at(a) + at(b));
-        }
-    }
-    if high > low { integral / (high - low) } else { 0.0 }
 }

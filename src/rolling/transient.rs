@@ -1,11 +1,11 @@
 //! One implicit step.
 
 use super::control::{Drive, Inputs, Rotation, Translation, Vertical};
-use super::integrator::{Sample, formula, settled};
 use super::state::{Audit, State};
 use super::{Model, StepError, Workspace};
 use crate::contact::{ContactProblem, RigidMotion, SurfaceResponse};
 use crate::mechanics::response::Convection;
+use crate::multistep::{History, formula, settled};
 
 /// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
 /// restarts the multistep formula.
@@ -36,7 +36,7 @@ impl Model {
         let td = formula(&self.config.solver, dt, before);
         let operators = self.operators(td.a0, workspace)?;
 
-        let predicted = |sample: &Sample, free: bool, target: f64| {
+        let predicted = |sample: &History, free: bool, target: f64| {
             if free { sample.now + dt * sample.rate } else { target }
         };
         let v = predicted(&state.velocity, free_v, target.velocity);
@@ -48,7 +48,7 @@ impl Model {
         let mut free_wheel = self.wheel.free(&operators.wheel, &state.wheel, &td, stream_wheel, &state.wheel);
         let mut free_rail = self.rail.free(&operators.rail, &state.rail, &td, stream_rail, &state.rail);
 
-        let speed = |sample: &Sample, value: f64, free: bool, load: f64, k: usize| RigidMotion {
+        let speed = |sample: &History, value: f64, free: bool, load: f64, k: usize| RigidMotion {
             value,
             prescribed: !free,
             gain: td.a0,
@@ -177,7 +177,7 @@ impl Model {
 
 /// Mean rigid velocities (V, U̇, Ω) over a step.
 fn midway(state: &State, next: &State) -> [f64; 3] {
-    let mean = |a: &Sample, b: &Sample| 0.5 * (a.now + b.now);
+    let mean = |a: &History, b: &History| 0.5 * (a.now + b.now);
     [
         mean(&state.velocity, &next.velocity),
         0.5 * (state.height.rate + next.height.rate),

@@ -2,9 +2,8 @@
 #![allow(dead_code)]
 
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::heat::{
-    Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, Profile, TreadHeat,
-};
+use wheelrail::heat::{Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, TreadHeat};
+use wheelrail::piecewise::Piecewise;
 
 pub const KMH: f64 = 1.0 / 3.6;
 pub const RADIUS: f64 = 0.5;
@@ -59,14 +58,14 @@ pub fn carter(load: f64, velocity: f64, creepage: f64) -> Exchange {
     let ellipse = |x: f64, half: f64| (1.0 - x * x / (half * half)).max(0.0).sqrt();
     let patches = vec![Patch { low: -a, high: a }];
     let friction_power = if circumferential == 0.0 {
-        Profile::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * velocity.abs())
+        Piecewise::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * velocity.abs())
     } else if d >= a {
         let slip = |x: f64| mean * (creepage.abs() - FRICTION * x / RADIUS);
-        Profile::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * slip(x))
+        Piecewise::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * slip(x))
     } else {
         let b = a - d;
         // x = d − b − t² near the stick zone: dense sampling at the square-root kink.
-        Profile::sampled(-a, d - b, 400, |x| {
+        Piecewise::sampled(-a, d - b, 400, |x| {
             let slip = mean * FRICTION / RADIUS * ((x - d) * (x - d) - b * b).max(0.0).sqrt();
             FRICTION * p0 * ellipse(x, a) * slip
         })
