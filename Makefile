@@ -25,8 +25,8 @@ PY := $(VENV)/bin/python
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg \
-	docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
+	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
 .PHONY: demo test test-rust test-fmpy fmu masters bench endurance leak-check docs describe clean
 .NOTPARALLEL:

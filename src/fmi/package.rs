@@ -32,6 +32,28 @@ const FIXED: [(&str, &[u8]); 4] = [
     ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../docs/LICENSE-THIRD-PARTY")),
 ];
 
+/// Name and text of a page of `docs/theory`.
+macro_rules! theory {
+    ($($page:literal),* $(,)?) => {
+        [$((concat!("documentation/theory/", $page), include_bytes!(concat!("../../docs/theory/", $page)))),*]
+    };
+}
+
+/// Derivations, which the documentation links.
+const THEORY: [(&str, &[u8]); 11] = theory![
+    "README.md",
+    "ale-balance.md",
+    "condensation.md",
+    "contact.md",
+    "damping.md",
+    "edge-consistent-rows.md",
+    "energy-audit.md",
+    "friction-and-coupling.md",
+    "heat.md",
+    "kernel-correction.md",
+    "time-formula.md",
+];
+
 /// Platforms of FMI 2.0 and the extension of their shared libraries.
 pub const PLATFORMS: [(&str, &str); 6] = [
     ("win32", "dll"),
@@ -152,7 +174,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
         }
         entries.push((binary.entry(), binary.read()?));
     }
-    entries.extend(FIXED.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
+    entries.extend(FIXED.into_iter().chain(THEORY).map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     for (name, path) in files(&contents.resources, |name| name.ends_with(".json"))? {
         entries.push((format!("resources/{name}"), read(&path)?));
     }
