@@ -96,15 +96,6 @@ pub struct Material {
     pub specific_heat: f64,
 }
 
-impl Material {
-    /// Speed of Rayleigh waves [m/s] (Viktorov's fit, 0.5 % for any Poisson's ratio).
-    pub fn rayleigh_speed(&self) -> f64 {
-        let nu = self.poissons_ratio;
-        let shear_wave = (0.5 * self.youngs_modulus / ((1.0 + nu) * self.density)).sqrt();
-        shear_wave * (0.87 + 1.12 * nu) / (1.0 + nu)
-    }
-}
-
 /// Coulomb friction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

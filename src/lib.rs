@@ -20,6 +20,7 @@
 //! |---|---|---|
 //! | [`config`] | parameters and presets: plain data | |
 //! | [`analytic`] | Hertz, Carter: start guesses and tests | |
+//! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula](../../../docs/theory/time-formula.md) |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
 //! | [`linalg`] | sparse factorisation, vibration modes | |
@@ -27,9 +28,9 @@
 //! | [`mechanics`] | elasticity and convection; full and reduced bodies behind one interface | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md) |
 //! | [`heat`] | temperature of both bodies on boundary-layer meshes, modal direct solver | [heat](../../../docs/theory/heat.md) |
 //! | [`contact`] | what a contact is for everyone else; exact Coulomb contact by an active set; friction laws | [contact](../../../docs/theory/contact.md), [edge-consistent-rows](../../../docs/theory/edge-consistent-rows.md), [kernel-correction](../../../docs/theory/kernel-correction.md) |
-//! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit | [energy-audit](../../../docs/theory/energy-audit.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |
+//! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit | [lever-arms](../../../docs/theory/lever-arms.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |
 //! | [`simulation`] | façade: configuration → model → advance → outputs | |
-//! | [`fmi`] | the FMI co-simulation slave around it | |
+//! | [`fmi`] | the FMI 2.0 co-simulation slave around it | |
 //!
 //! Imports run downward only; a test keeps it so.
 #![deny(unsafe_code)]
@@ -41,6 +42,7 @@ pub mod fem;
 pub mod fmi;
 pub mod heat;
 pub mod linalg;
+pub mod material;
 pub mod mechanics;
 pub mod multistep;
 pub mod piecewise;

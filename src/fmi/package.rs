@@ -47,7 +47,7 @@ const THEORY: [(&str, &[u8]); 11] = theory![
     "contact.md",
     "damping.md",
     "edge-consistent-rows.md",
-    "energy-audit.md",
+    "lever-arms.md",
     "friction-and-coupling.md",
     "heat.md",
     "kernel-correction.md",

@@ -71,7 +71,7 @@ pub enum HeatError {
 /// Both temperature fields and what the next step needs to know of the last one.
 ///
 /// The fields are coefficients of the modes across the streamlines; see [`Heat::wheel_temperature`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
     wheel: Vec<f64>,
     rail: Vec<f64>,
