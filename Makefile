@@ -5,6 +5,7 @@
 # make bench     speed of steps, starts and the reduced basis
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make leak-check memory leaks of the FMU's C interface, with valgrind
+# make docs      HTML documentation of the library; every warning is an error
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
 
@@ -24,14 +25,14 @@ PY := $(VENV)/bin/python
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg \
-	LICENSE-MIT LICENSE-APACHE LICENSE-THIRD-PARTY model.png
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
+	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu masters bench endurance leak-check describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters bench endurance leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
-	$(PY) examples/braking_stop.py --fmu $(FMU) --out results
+	$(PY) examples/ex01_braking_stop.py --fmu $(FMU) --out results
 
 test: test-rust test-fmpy
 
@@ -44,13 +45,13 @@ test-fmpy: $(FMU) $(MASTERS)
 fmu: $(FMU)
 
 masters: $(FMU) $(INSTALLED)
-	$(PY) examples/masters.py --fmu $(FMU) --out results
+	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
 
 bench:
 	$(CARGO) bench --locked
 
 endurance:
-	$(CARGO) run --release --locked --example endurance
+	$(CARGO) run --release --locked --example ex03_endurance
 
 # One master through the C functions: instantiate, steps, states saved, serialized and freed.
 LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=1
@@ -61,6 +62,9 @@ leak-check:
 			-- --exact a_serialized_state_continues_in_another_instance > $(TARGET)/leak-check.log; status=$$?; \
 		cat $(TARGET)/leak-check.log; grep -q '1 passed' $(TARGET)/leak-check.log && exit $$status; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
+
+docs:
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib
 
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new

@@ -1,5 +1,9 @@
-//! How the shared library is linked: an FMU exports the functions of the standard, no others, and needs no libraries but
-//! those of the C runtime. And a digest of the code that computes reduced bases: stored ones of other code do not fit.
+//! What the compiler alone does not do for the shared library.
+//!
+//! - The library of an FMU exports the functions of the standard and no others, and needs no libraries but those of the C
+//!   runtime: options for the linker.
+//! - Reduced bases are computed once and stored. A basis is only right for the code that computed it, so the build gives the
+//!   code a digest of its own sources, which becomes part of the key under which a basis is stored.
 
 use std::collections::BTreeMap;
 use std::error::Error;

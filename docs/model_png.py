@@ -1,4 +1,4 @@
-"""Draws model.png, the icon of the FMU: wheel, rail and contact patch with pressure and temperature.
+"""Draws docs/model.png, the icon of the FMU: wheel, rail and contact patch with pressure and temperature.
 
     .venv/bin/python docs/model_png.py
 """
@@ -86,7 +86,7 @@ def main():
     heat(axis)
     axis.set(xlim=(-1.1, 2.4), ylim=(-0.6, 2.025))
     magnifier(axis)
-    figure.savefig(Path(__file__).parent.parent / "model.png", metadata={"Software": None})
+    figure.savefig(Path(__file__).parent / "model.png", metadata={"Software": None})
 
 
 if __name__ == "__main__":

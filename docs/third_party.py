@@ -1,4 +1,4 @@
-"""Writes LICENSE-THIRD-PARTY: crates that are linked into the library, with their licence texts (each text once)."""
+"""Writes docs/LICENSE-THIRD-PARTY: crates that are linked into the library, with their licence texts (each text once)."""
 
 import json
 import subprocess
@@ -47,7 +47,7 @@ def main():
             first.setdefault(words, text)
     for words, names in owners.items():
         lines += ["", RULE, ", ".join(names), RULE, "", first[words]]
-    (ROOT / "LICENSE-THIRD-PARTY").write_text("\n".join(lines) + "\n")
+    (ROOT / "docs" / "LICENSE-THIRD-PARTY").write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
-"""The braking stop of examples/braking_stop.py, from a lower speed."""
+"""The braking stop of examples/ex01_braking_stop.py, from a lower speed."""
 
 import pytest
 
-from braking_stop import brake_to_standstill, column, results
+from ex01_braking_stop import brake_to_standstill, column, results
 from wheel import Wheel
 
 MOMENT = 0.6 * 0.3 * 1e5 * 0.46

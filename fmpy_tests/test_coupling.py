@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from masters import SPEED, Split, coupled, errors, monolithic, slip_growth
+from ex02_masters import SPEED, Split, coupled, errors, monolithic, slip_growth
 
 DURATION = 0.4  # s of the braking
 STEPS = (2e-3, 1e-3, 5e-4)  # s

@@ -57,8 +57,10 @@ def test_package_is_complete(packed):
         names = set(archive.namelist())
         description = archive.read("modelDescription.xml")
     presets = {f"resources/{path.name}" for path in (ROOT / "resources").glob("*.json")}
-    licences = {f"documentation/licenses/{path.name}" for path in ROOT.glob("LICENSE*")}
-    expected = {"binaries/linux64/wheelrail.so", "documentation/index.html", "model.png"} | presets | licences
+    texts = [*ROOT.glob("LICENSE*"), *ROOT.glob("docs/LICENSE*")]
+    licences = {f"documentation/licenses/{path.name}" for path in texts}
+    theory = {f"documentation/theory/{path.name}" for path in (ROOT / "docs" / "theory").glob("*.md")}
+    expected = {"binaries/linux64/wheelrail.so", "documentation/index.html", "model.png"} | presets | licences | theory
     assert len(licences) == 3 and expected <= names
     assert description == (ROOT / "modelDescription.xml").read_bytes()
     assert packed.stat().st_size < LARGEST
@@ -67,6 +69,8 @@ def test_package_is_complete(packed):
 def test_documentation_has_figure_theory_references_and_every_variable(fmu, packed):
     with zipfile.ZipFile(packed) as archive:
         page = archive.read("documentation/index.html").decode()
+        linked = set(re.findall(r'href="(theory/[^"]+)"', page))
+        assert {f"documentation/{name}" for name in linked} <= set(archive.namelist()) and len(linked) > 5
     assert etree.HTML(page) is not None and not re.search(r"\{[a-z]+\}", page)
     for section in ("signs", "model", "theory", "use", "masters", "limits", "references", "licence", "variables"):
         assert f'<h2 id="{section}">' in page and f'href="#{section}"' in page, section

@@ -1,6 +1,6 @@
-//! Half a minute of mixed driving; `examples/endurance` is the same without end.
+//! Half a minute of mixed driving; `examples/ex03_endurance` is the same without end.
 
-#[path = "../examples/endurance/scenario.rs"]
+#[path = "../examples/ex03_endurance/scenario.rs"]
 mod scenario;
 
 mod common;

@@ -87,7 +87,7 @@ fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
 
 #[test]
 fn licences_of_all_linked_crates_are_in_the_archive() {
-    let listed = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("LICENSE-THIRD-PARTY")).unwrap();
+    let listed = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/LICENSE-THIRD-PARTY")).unwrap();
     let tree = Command::new(env!("CARGO"))
         .args(["tree", "--edges", "normal,no-proc-macro", "--prefix", "none", "--offline", "--locked"])
         .args(["--format", "{p}", "--target", "x86_64-unknown-linux-gnu"])

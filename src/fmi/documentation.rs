@@ -1,4 +1,4 @@
-//! `documentation/index.html` of the FMU: conventions with a figure, theory, use, and the table of variables.
+//! `documentation/index.html` of the FMU: conventions with a figure, use, and the table of variables; the theory is beside it.
 
 use super::presets;
 use super::reference::{self, Cells};
@@ -8,9 +8,9 @@ use super::variable::{Causality, Variable};
 use std::fmt::Write;
 
 /// Text before the tables.
-const INTRODUCTION: &str = include_str!("documentation.html");
+const INTRODUCTION: &str = include_str!("../../docs/fmu.html");
 
-/// Figure of the sign conventions; README shows it too.
+/// Figure of the sign conventions; README links it, too.
 const SIGNS: &str = include_str!("../../docs/signs.svg");
 
 /// The page as it stands in the FMU.

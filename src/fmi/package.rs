@@ -26,10 +26,32 @@ pub struct Contents {
 
 /// Files that are the same in every FMU: picture and licence texts.
 const FIXED: [(&str, &[u8]); 4] = [
-    ("model.png", include_bytes!("../../model.png")),
+    ("model.png", include_bytes!("../../docs/model.png")),
     ("documentation/licenses/LICENSE-APACHE", include_bytes!("../../LICENSE-APACHE")),
     ("documentation/licenses/LICENSE-MIT", include_bytes!("../../LICENSE-MIT")),
-    ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../LICENSE-THIRD-PARTY")),
+    ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../docs/LICENSE-THIRD-PARTY")),
+];
+
+/// Name and text of a page of `docs/theory`.
+macro_rules! theory {
+    ($($page:literal),* $(,)?) => {
+        [$((concat!("documentation/theory/", $page), include_bytes!(concat!("../../docs/theory/", $page)))),*]
+    };
+}
+
+/// Derivations, which the documentation links.
+const THEORY: [(&str, &[u8]); 11] = theory![
+    "README.md",
+    "ale-balance.md",
+    "condensation.md",
+    "contact.md",
+    "damping.md",
+    "edge-consistent-rows.md",
+    "lever-arms.md",
+    "friction-and-coupling.md",
+    "heat.md",
+    "kernel-correction.md",
+    "time-formula.md",
 ];
 
 /// Platforms of FMI 2.0 and the extension of their shared libraries.
@@ -152,7 +174,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
         }
         entries.push((binary.entry(), binary.read()?));
     }
-    entries.extend(FIXED.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
+    entries.extend(FIXED.into_iter().chain(THEORY).map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     for (name, path) in files(&contents.resources, |name| name.ends_with(".json"))? {
         entries.push((format!("resources/{name}"), read(&path)?));
     }

@@ -1,6 +1,14 @@
-"""Masters that own the inertia: explicit and iterative coupling of the wheel near standstill.
+"""Example 2: masters that own the inertia. Explicit and iterative coupling of the wheel near standstill.
 
-A wheel brakes from 2 m/s almost to rest. The masters differ in what they own and how they exchange it:
+    make masters
+
+1. A start state without tangential force (`free_rolling`).
+2. A wheel brakes from 2 m/s almost to rest under masters that differ in what they own and exchange (below).
+3. Error of each against the run in which the FMU owns everything, over the communication step.
+4. Largest stable step of the explicit masters, over the speed.
+5. A plot of both, and of the force.
+
+What they own and exchange:
 
     monolithic     the FMU owns all inertia (force and moment control): nothing is exchanged
     vehicle        the master owns the vehicle: it prescribes V, the FMU returns the force on the hub

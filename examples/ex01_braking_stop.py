@@ -1,9 +1,13 @@
-"""A wheel brakes from 100 km/h to standstill: result table, CSV and plot.
+"""Example 1: a wheel brakes from 100 km/h to standstill. Result table, CSV and plot.
 
-The wheel rolls freely under its load and carries its share of the vehicle. A brake moment is ramped up, held, and eased
-at walking speed as a driver does. When the wheel is about to stop, the brake grips: the control of the rotation switches
-from moment to angular velocity, which goes to zero and stays there, while the vehicle swings out on the elasticity of
-wheel and rail. A moment beyond the adhesion limit locks the wheel, and the vehicle slides to rest.
+    make demo
+
+1. The wheel rolls freely under its load and carries its share of the vehicle.
+2. A brake moment is ramped up and held. A moment beyond the adhesion limit locks the wheel: try --utilisation 1.5.
+3. At walking speed it is eased, as a driver does.
+4. When the wheel is about to stop, the brake grips: control of the rotation switches from moment to angular velocity,
+   which goes to zero and stays there, while the vehicle swings out on the elasticity of wheel and rail.
+5. Outputs of every step become a table, a CSV and a plot with one look into the contact patch at half the speed.
 """
 
 import argparse

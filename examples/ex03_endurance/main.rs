@@ -1,6 +1,10 @@
-//! Endurance: a million steps of mixed driving with the shipped `railway` wheel, starting from rest.
+//! Example 3: endurance. A million steps of mixed driving with the shipped `railway` wheel, through the Rust library.
 //!
-//! `cargo run --release --example endurance -- --steps 1000000` prints failures, growth of memory and the energy audit,
+//! 1. A model from a configuration, a simulation from the model, starting from rest.
+//! 2. A scenario of traction, coasting, braking, locked slides, wet and dry (`scenario.rs`), step by step.
+//! 3. Failures, growth of memory and the energy audit, counted by phase of driving.
+//!
+//! `cargo run --release --example ex03_endurance -- --steps 1000000` prints failures, growth of memory and the energy audit,
 //! by phase of driving, and fails if a limit is exceeded.
 
 #[path = "../../tests/memory/mod.rs"]
