@@ -242,8 +242,7 @@ impl Instance {
         if !early && config != self.config {
             config.validate().map_err(|error| Refusal::error(error.to_string()))?;
             if let Some(simulation) = &mut self.simulation {
-                simulation.retune(&config).map_err(|error| Refusal::error(error.to_string()))?;
-                self.model = Some(simulation.model().clone());
+                simulation.retune(&config.tuning);
             }
         }
         (self.preset, self.base, self.config) = (preset, base, config);
@@ -407,7 +406,7 @@ impl Instance {
             rates: self.rates,
             time: self.time,
             stop: self.stop,
-            memory: self.simulation.as_ref().map(|simulation| simulation.memory().clone()),
+            checkpoint: self.simulation.as_ref().map(|simulation| simulation.checkpoint().clone()),
         })
     }
 
@@ -416,14 +415,15 @@ impl Instance {
         self.allow(Call::FmuState)?;
         let config = with_parameters(&snapshot.base, &snapshot.parameters);
         let refused = |error| Refusal::error(format!("state cannot be set: {error}"));
-        match (&snapshot.memory, &mut self.simulation) {
+        match (&snapshot.checkpoint, &mut self.simulation) {
             (None, _) => self.simulation = None,
-            (Some(memory), Some(simulation)) if config == self.config => {
-                simulation.recall(memory.clone()).map_err(refused)?;
+            (Some(checkpoint), Some(simulation)) if simulation.model().serves(&config) => {
+                simulation.recall(&config.tuning, checkpoint.clone()).map_err(refused)?;
             }
-            (Some(memory), _) => {
+            (Some(checkpoint), _) => {
                 let model = self.model(config.clone())?;
-                self.simulation = Some(Simulation::resume(model, memory.clone()).map_err(refused)?);
+                let resumed = Simulation::resume(model, config.tuning.clone(), checkpoint.clone());
+                self.simulation = Some(resumed.map_err(refused)?);
             }
         }
         self.phase = snapshot.phase;
@@ -446,19 +446,16 @@ impl Instance {
             let model = self.model(self.config.clone())?;
             let inputs = self.effective_inputs();
             let failed = |error| Refusal::error(format!("no stationary state for these inputs: {error}"));
-            self.simulation = Some(Simulation::new(model, &inputs).map_err(failed)?);
+            let tuning = self.config.tuning.clone();
+            self.simulation = Some(Simulation::start(model, tuning, &inputs).map_err(failed)?);
         }
         self.simulation.as_mut().ok_or_else(|| Refusal::error("no simulation"))
     }
 
     /// The model with these parameters; prepared now, with logged progress, unless it is the present one.
     fn model(&mut self, config: Config) -> Outcome<Arc<Model>> {
-        if let Some(model) = self.model.as_ref().filter(|model| *model.config() == config) {
+        if let Some(model) = self.model.as_ref().filter(|model| model.serves(&config)) {
             return Ok(model.clone());
-        }
-        if let Some(model) = self.model.as_ref().and_then(|model| model.retuned(&config)) {
-            self.model = Some(model.clone());
-            return Ok(model);
         }
         let log = &self.log;
         let mut last = (String::new(), 0.0);

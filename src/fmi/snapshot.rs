@@ -4,7 +4,7 @@ use super::description::guid;
 use super::lifecycle::Phase;
 use super::settings::Explicit;
 use crate::config::Config;
-use crate::simulation::{Drive, Memory};
+use crate::simulation::{Checkpoint, Drive};
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
@@ -24,7 +24,7 @@ pub struct Snapshot {
     /// Stop time [s] if the master defined one.
     pub stop: Option<f64>,
     /// `None` before the stationary state has been computed.
-    pub memory: Option<Memory>,
+    pub checkpoint: Option<Checkpoint>,
 }
 
 const MAGIC: &[u8; 8] = b"WRSTATE\x01";

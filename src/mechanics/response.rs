@@ -182,6 +182,12 @@ pub struct FreeResponse {
     pub(super) product: DVector<f64>,
 }
 
+impl Default for BodyState {
+    fn default() -> Self {
+        Self::zeros(0)
+    }
+}
+
 impl Default for FreeResponse {
     /// Buffers that take their size at the first use.
     fn default() -> Self {

@@ -6,7 +6,7 @@
 //! the weights are chosen so that the slip is consistent with that position. A fixed weight makes the force jump by
 //! about 0.01 μP whenever the edge passes a node.
 
-use super::{Status, patches};
+use super::{Status, for_each_patch};
 
 /// Ratio of edge to inner nodal pressure, limited to the range of the discrete edge solution.
 fn edge_ratio(edge: f64, inner: f64) -> f64 {
@@ -22,31 +22,33 @@ pub fn edge_offset(edge: f64, inner: f64) -> f64 {
 /// Weights of the two cells upstream of a node: `∂u ≈ w0·m0 + w1·m1`, `w0 + w1 = 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Upwind {
+    /// Of the nearer cell [1].
     pub w0: f64,
+    /// Of the one behind it [1].
     pub w1: f64,
 }
 
 const SMOOTH: Upwind = Upwind { w0: 1.5, w1: -0.5 };
 const FIRST_CELL: Upwind = Upwind { w0: 1.0, w1: 0.0 };
 
-/// Weights of every node; `to_right` tells that upstream is towards `+x` (forward motion).
+/// Writes the weights of every node to `rows`; `to_right` tells that upstream is towards `+x` (forward motion).
 ///
-/// `pressure` holds nodal normal forces. Only the closed set and the edge ratios matter, never stick or slip.
-pub fn upwind_rows(status: &[Status], pressure: &[f64], to_right: bool) -> Vec<Upwind> {
-    let mut rows = vec![SMOOTH; status.len()];
-    for run in patches(status) {
+/// `pressure` gives nodal normal forces. Only the closed set and the edge ratios matter, never stick or slip.
+pub fn upwind_rows(status: &[Status], pressure: impl Fn(usize) -> f64, to_right: bool, rows: &mut Vec<Upwind>) {
+    rows.clear();
+    rows.resize(status.len(), SMOOTH);
+    for_each_patch(status, |run| {
         let (first, last) = (run.start, run.end - 1);
         let (edge, inner) = if to_right { (last, last.wrapping_sub(1)) } else { (first, first + 1) };
         if first == last {
             rows[edge] = FIRST_CELL;
-            continue;
+            return;
         }
-        let r = edge_ratio(pressure[edge], pressure[inner]);
+        let r = edge_ratio(pressure(edge), pressure(inner));
         let beta = (2.0 - 3.0 * r) / (1.0 + 0.5 * r);
         rows[edge] = Upwind { w0: 1.0 + beta, w1: -beta };
         rows[inner] = FIRST_CELL;
-    }
-    rows
+    });
 }
 
 impl Upwind {

@@ -1,9 +1,9 @@
-//! The contact grid and the undeformed gap.
+//! The surface nodes at which contact is looked for.
 
 /// Uniformly spaced pairs of surface nodes: candidates for contact with guard nodes on both sides.
 ///
 /// Guard nodes never come into contact; the slip of the outermost candidates needs their displacements.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ContactGrid {
     /// Positions of the candidates [m], ascending.
     pub x: Vec<f64>,
@@ -11,8 +11,6 @@ pub struct ContactGrid {
     pub spacing: f64,
     /// Number of guard nodes on each side.
     pub guard: usize,
-    /// Wheel radius [m].
-    pub radius: f64,
 }
 
 impl ContactGrid {
@@ -26,20 +24,13 @@ impl ContactGrid {
         self.x.is_empty()
     }
 
-    /// Surface displacement components: `2·(candidates + 2·guard)`.
-    pub fn surface_dofs(&self) -> usize {
+    /// Number of ports, the surface displacement components: `2·(candidates + 2·guard)`.
+    pub fn ports(&self) -> usize {
         2 * (self.len() + 2 * self.guard)
     }
 
-    /// Index of the x component of candidate `i` among the surface displacements; y follows it.
-    pub fn dof(&self, i: usize) -> usize {
+    /// Port of the x component of candidate `i`; y follows it.
+    pub fn port(&self, i: usize) -> usize {
         2 * (i + self.guard)
-    }
-
-    /// Distance between the undeformed, just touching bodies at candidate `i` [m]: `r − √(r² − x²)`.
-    pub fn undeformed_gap(&self, i: usize) -> f64 {
-        let x = self.x[i];
-        // The equivalent form without cancellation.
-        x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt())
     }
 }
