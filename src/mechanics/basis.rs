@@ -3,7 +3,7 @@
 //! Layout of the bytes: 8 of magic, 16 of checksum (UUID version 5 of the rest), then the postcard form of [`Basis`],
 //! whose first field is its key.
 
-use super::reduced::ReducedBasis;
+use super::reduction::ReducedBasis;
 use super::{BodySystem, MechanicsError, check_size, contact_zone, rail_system, wheel_system};
 use crate::config::Config;
 use serde::{Deserialize, Serialize};

@@ -7,6 +7,7 @@ pub mod field;
 pub mod full;
 mod motion;
 pub mod reduced;
+pub mod reduction;
 pub mod response;
 pub mod size;
 pub mod solver;
@@ -16,7 +17,8 @@ pub mod testing;
 
 pub use basis::{Basis, BasisError};
 pub use full::FullBody;
-pub use reduced::{ReducedBasis, ReducedBody};
+pub use reduced::ReducedBody;
+pub use reduction::ReducedBasis;
 pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 pub use size::check_size;
 pub use system::BodySystem;
