@@ -6,7 +6,7 @@
 //! flows towards −x.
 //!
 //! ```text
-//! wheel    ρc (∂_t T − ω ∂_φ T) = k ΔT      hub: T = 0 or insulated; tread: q_tread, h (T − T_air)
+//! wheel    ρc (∂_t T − ω ∂_φ T) = k ΔT      hub: T = 0 or insulated; tread: q_tread, −h T
 //! rail     ρc (∂_t T − V ∂_x T) = k ΔT      inflow: ρc|V|T − k ∂_n T = 0; outflow: k ∂_n T = 0; base insulated
 //! contact  q → wheel = β γ_f |τ s| − k_c (T_w − T_r),   q → rail = (1 − β) γ_f |τ s| + k_c (T_w − T_r)
 //! ```
@@ -14,10 +14,12 @@
 //! A. Draganis, PhD thesis, Chalmers 2014: Paper B, section 4 (energy balance in the moving frame), Paper C, section
 //! 4.2 (conductance, friction heat). The tensor meshes with streamwise upwinding in every term replace its triangles.
 //!
-//! Limits: line contact in the plane; what acts is held over a step, so that a run under changing loads and speeds is first
-//! order in time, although the formula is of second order under constant ones; a hot spot carried round the wheel is smeared where the mesh along the tread is
-//! coarse; distances along the surface stand for x in the contact zone (they differ by `x²/6r²`); convection to the air
-//! acts under the contact, too.
+//! Limits:
+//! - Line contact in the plane; distances along the surface stand for x in the contact zone (they differ by `x²/6r²`).
+//! - What acts is held over a step. The time formula is of second order under constant speeds and exchange; a run in
+//!   which they vary is of first order in the step.
+//! - A hot spot carried round the wheel is smeared where the mesh along the tread is coarse.
+//! - Air has the reference temperature, and convection to it acts under the contact, too.
 
 mod exchange;
 mod model;
