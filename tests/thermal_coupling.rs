@@ -168,7 +168,7 @@ fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
     // The start is iterated until contact and temperatures agree, to a little more than six digits.
     assert!((o.thermal_growth / expected - 1.0).abs() < 1e-6);
     // Warm but for the cold hub, and a stationary contact that takes and gives a little heat.
-    assert!((bulk / 60.0 - 1.0).abs() < 0.02);
+    assert!((bulk / 60.0 - 1.0).abs() < 0.03);
     // At the same creepage of the nominal radius the larger wheel pulls.
     let mut cold = config.clone();
     cold.thermal.wheel_excess = 0.0;

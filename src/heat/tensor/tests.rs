@@ -128,7 +128,8 @@ fn erfcx(z: f64) -> f64 {
 
 #[test]
 fn entry_into_a_conducting_contact_follows_its_closed_form() {
-    use super::{Exchange, Heat, HeatModel};
+    use super::layout::Heat;
+    use crate::heat::{Exchange, HeatModel};
     use crate::config::{ConductanceLaw, Config, Hub};
     use crate::heat::{HeatConfig, Interval};
     let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
