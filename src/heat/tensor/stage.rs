@@ -36,11 +36,15 @@ pub(super) struct BodyOperator {
     factor: TridiagonalFactor,
     /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal, upper.
     contact: Vec<[f64; 3]>,
+    /// Surface temperatures at the contact nodes due to unit loads there, row-major.
     response: Vec<f64>,
+    /// Buffer of a field.
     work: Vec<f64>,
+    /// Surface temperatures at the contact nodes.
     trace: Vec<f64>,
     /// Load at surface nodes.
     load: Vec<f64>,
+    /// Field and its rate, summed along the streamlines.
     sums: [Vec<f64>; 2],
 }
 
@@ -49,6 +53,7 @@ pub(super) struct BodyOperator {
 pub(super) struct StageKey {
     /// Velocity of the wheel's centre [m/s] and angular velocity [rad/s].
     pub speeds: [f64; 2],
+    /// Weights of storage and flow.
     pub coefficients: StageCoefficients,
     /// Inverse of the step that upwinding sees [1/s].
     pub rate: f64,
@@ -59,7 +64,8 @@ pub(super) struct StageKey {
 /// Everything needed to apply and to invert the matrix of an implicit stage.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stage {
-    /// What the operators below were made for; `None` if there are none.
+    /// What the operators below were made for: speeds, conductance, coefficients (`None`: there are no operators), and
+    /// whether conduction along the streamlines is exact.
     speeds: [f64; 2],
     conductance: Vec<[f64; 3]>,
     coefficients: Option<StageCoefficients>,
@@ -69,6 +75,7 @@ pub(super) struct Stage {
     /// Contact elements and nodes, counted from the first of the zone.
     elements: Range<usize>,
     nodes: Range<usize>,
+    /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature difference.
     coupling: Option<LU<f64, Dyn, Dyn>>,
     /// Temperature of the wheel less that of the rail at the contact nodes.
     jump: Vec<f64>,

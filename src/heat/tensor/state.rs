@@ -9,8 +9,8 @@ const SLIGHT_HEAT: f64 = 1e4;
 
 /// Both temperature fields and what the next step needs to know of the last one.
 ///
-/// The fields are coefficients of the modes across the streamlines; [`Heat::wheel_temperature`](super::Heat::wheel_temperature) and
-/// [`Heat::rail_temperature`](super::Heat::rail_temperature) evaluate them.
+/// The fields are coefficients of the modes across the streamlines; `wheel_temperature` and `rail_temperature` of
+/// [`Heat`](super::Heat) evaluate them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
     /// Wheel, then rail.
