@@ -64,7 +64,9 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     // Wet rail, too strong a brake: the wheel locks; the rail dries after three seconds.
     inputs.drive.friction = 0.08;
     inputs.drive.moment = -8000.0;
-    let (mut hottest, mut most_possible, mut locked) = (0.0f64, 0.0f64, false);
+    // The flash temperature is in proportion to Q/√(a v).
+    let unit = flash(&config, 1.0, 1.0, 1.0);
+    let (mut hottest, mut all_to_rail, mut locked) = (0.0f64, 0.0f64, false);
     let mut time = 0.0;
     while simulation.outputs().wheel_velocity > 0.05 {
         if !locked && simulation.outputs().wheel_omega < 0.5 {
@@ -77,8 +79,8 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
         hottest = hottest.max(o.temperature_wheel_max).max(o.temperature_rail_max);
         if locked && o.wheel_velocity > 1.0 {
             let heat = heat_ratio * o.friction_power / width;
-            let flash = flash(&config, heat, o.contact_half_width, o.wheel_velocity);
-            most_possible = most_possible.max(reference + flash);
+            let flash = unit * heat / (o.contact_half_width * o.wheel_velocity).sqrt();
+            all_to_rail = all_to_rail.max(reference + flash);
         }
         assert!(o.temperature_wheel_max.is_finite() && o.temperature_wheel_max > 290.0);
         assert!(time < 60.0, "still {} m/s", o.wheel_velocity);
@@ -86,8 +88,10 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     let o = simulation.outputs();
     println!("at rest after {time:.2} s, hottest {hottest:.0} K, above Ac1 {:.2} s", o.austenitised_time);
     println!("energy residual {:+.2e}, heat residual {:+.1e}", o.energy_residual, o.heat_residual);
-    println!("flash temperature of a rail that takes all heat {most_possible:.0} K");
-    assert!(locked && hottest > reference);
+    println!("flash temperature of a rail that takes all heat {all_to_rail:.0} K");
+    // Most heat leaves with the rail. The pressure of a hot, expanding patch is no ellipse: within a fifth.
+    let ratio = (hottest - reference) / (all_to_rail - reference);
+    assert!(locked && (ratio - 1.0).abs() < 0.2, "{ratio:.3}");
     assert!(o.energy_residual.abs() < 0.01 && o.heat_residual.abs() < 1e-6);
 }
 
@@ -161,9 +165,10 @@ fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
     let bulk = o.temperature_wheel_bulk - config.thermal.reference;
     let expected = growth_on_rigid_hub(&config, bulk);
     println!("growth {:.9e} m, annulus {expected:.9e} m, bulk {bulk:.3} K over the reference", o.thermal_growth);
-    assert!((o.thermal_growth / expected - 1.0).abs() < 1e-9);
+    // The start is iterated until contact and temperatures agree, to a little more than six digits.
+    assert!((o.thermal_growth / expected - 1.0).abs() < 1e-6);
     // Warm but for the cold hub, and a stationary contact that takes and gives a little heat.
-    assert!((bulk / 60.0 - 1.0).abs() < 0.02);
+    assert!((bulk / 60.0 - 1.0).abs() < 0.03);
     // At the same creepage of the nominal radius the larger wheel pulls.
     let mut cold = config.clone();
     cold.thermal.wheel_excess = 0.0;
@@ -224,7 +229,7 @@ fn brake_blocks_heat_the_tread_and_the_rail_chills_it() {
 }
 
 #[test]
-fn long_steps_neither_overshoot_nor_undershoot() {
+fn long_steps_do_not_undershoot_and_find_the_peak_of_a_ramp_within_fifteen_percent() {
     let model = model(preset("railway", 10));
     // A wheel that spins too fast while the vehicle is stopped under it, in steps h; then friction vanishes.
     let extremes = |h: f64| {
@@ -249,8 +254,11 @@ fn long_steps_neither_overshoot_nor_undershoot() {
         (lowest, highest)
     };
     let (_, fine) = extremes(1e-3);
-    for h in [0.01, 0.02, 0.1, 0.2] {
+    // The slip at the end of a step is held over the step: what is too hot grows with the step.
+    for (h, limit) in [(0.01, 0.03), (0.02, 0.06), (0.1, 0.15), (0.2, 0.15)] {
         let (lowest, highest) = extremes(h);
-        assert!(lowest > 293.0 - 0.01 * (fine - 293.0) && (highest - 293.0) / (fine - 293.0) < 1.5);
+        let excess = (highest - 293.0) / (fine - 293.0) - 1.0;
+        assert!(lowest > 293.0 - 1e-4 * (fine - 293.0), "h = {h} s: {lowest} K");
+        assert!((-0.01..limit).contains(&excess), "h = {h} s: {excess:+.3}");
     }
 }

@@ -161,7 +161,7 @@ mod tests {
     fn every_failure_of_the_numerics_names_a_parameter() {
         let config = config();
         let source = ContactError::NotConverged { iterations: 40 };
-        let heat = HeatError::NotConverged { residual: 1e-3, iterations: 50 };
+        let heat = HeatError::NotConverged { residual: 1e-3, iterations: 50, direct_below: 0.01 };
         let modes = LinalgError::ModesNotConverged { wanted: 40, converged: 0, space: 80, residual: 1.0 };
         let zone = FemError::ZoneTooLarge { zone: 0.2, half_width: 0.1, limit: 0.115, what: "a quarter" };
         for (text, name) in [

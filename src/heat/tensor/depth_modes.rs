@@ -1,6 +1,6 @@
 //! The factor of the tensor meshes across the streamlines: eigenmodes over the depth.
 
-use crate::heat::HeatError;
+use crate::heat::error::HeatError;
 use crate::linalg::pencil::{Wide, WideModes, narrow, wide, wide_modes};
 use nalgebra::DMatrix;
 

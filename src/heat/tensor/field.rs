@@ -1,9 +1,10 @@
 //! Temperature of whole bodies at the nodes of their meshes.
 
-use super::Heat;
+use super::layout::Heat;
 use super::modal::{HeatBody, dot};
+use super::state::HeatState;
 use crate::fem::Mesh;
-use crate::heat::{HeatError, HeatState};
+use crate::heat::error::HeatError;
 
 /// Temperature of one body.
 #[derive(Clone, Debug)]

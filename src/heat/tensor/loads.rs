@@ -4,9 +4,10 @@
 //! ξ from 0 to 1 across an element, integrated piecewise between all break points (nodes of the mesh and of the profile,
 //! edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
 
-use super::Heat;
+use super::layout::Heat;
 use crate::config::ConductanceLaw;
-use crate::heat::{Exchange, HeatError, HeatModel, TreadHeat};
+use crate::heat::error::HeatError;
+use crate::heat::exchange::{Exchange, TreadHeat};
 use crate::piecewise::{Piecewise, interpolate};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -81,8 +82,8 @@ impl Heat {
     ) -> Result<(), HeatError> {
         check("reversible temperature", difference)?;
         let value = |x: f64| interpolate(&difference.x, &difference.value, x);
-        let mut from = self.zone_x().first().map_or(0.0, |&x| value(x));
-        for (c, &end) in conductance.iter().zip(&self.zone_x()[1..]) {
+        let mut from = self.zone_positions().first().map_or(0.0, |&x| value(x));
+        for (c, &end) in conductance.iter().zip(&self.zone_positions()[1..]) {
             let to = value(end);
             let slope = to - from;
             out.push([c[0] * from + c[1] * slope, c[1] * from + c[2] * slope]);
@@ -161,7 +162,7 @@ impl Heat {
         interval: [f64; 2],
         f: &mut dyn FnMut(usize, [f64; 2], [f64; 2], f64),
     ) -> Result<(), HeatError> {
-        let (x, zone) = (self.zone_x(), self.config.zone);
+        let (x, zone) = (self.zone_positions(), self.config.zone);
         let [low, high] = interval;
         // Edges that coincide with the end of the zone are inside, round-off included.
         let reach = zone * (1.0 + 1e-12);

@@ -16,7 +16,9 @@ use std::ops::Range;
 /// A tensor mesh with its material.
 #[derive(Clone, Debug)]
 pub(super) struct HeatBody {
+    /// Along the surface.
     pub line: Streamline,
+    /// Across the streamlines.
     pub modes: DepthModes,
     /// Heat capacity `ρc` [J/(m³ K)].
     pub heat_capacity: f64,
@@ -29,7 +31,9 @@ pub(super) struct HeatBody {
 /// Weights of storage and flow in the matrix of a step: `S = μ ρc M̃ + β A`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StageCoefficients {
+    /// `μ` [1].
     pub storage: f64,
+    /// `β` [s]; 1 in the stationary state.
     pub flow: f64,
 }
 

@@ -1,35 +1,18 @@
 //! One implicit step of both bodies, and their stationary state.
 
+use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::StageCoefficients;
-use super::stage::{Stage, StageKey};
-use super::{CURVED_BELOW, CURVED_STEP, Heat, HeatState};
-use crate::heat::{Exchange, HeatConfig, HeatError, HeatFlows};
-use serde::{Deserialize, Serialize};
+use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageKey};
+use super::state::{BoundaryState, HeatState};
+use crate::heat::error::HeatError;
+use crate::heat::exchange::Exchange;
+use crate::heat::model::{HeatFlows, LARGEST_STEP, SMALLEST_STEP};
+use crate::heat::parameters::HeatConfig;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Shortest step [s].
-pub const SMALLEST_STEP: f64 = 1e-9;
-/// Longest step [s].
-pub const LARGEST_STEP: f64 = 1e6;
 /// Storage that keeps the preconditioner of the stationary state regular, relative to `κ/r_o²` [1].
 const REGULARISATION: f64 = 1e-3;
-
-/// Relative change of speeds, conductance or heat from one step to the next that counts as a jump.
-const JUMP: f64 = 0.3;
-/// Heat whose changes do not count [W/m]: it warms a rolling contact by less than a kelvin.
-const SLIGHT_HEAT: f64 = 1e4;
-
-/// Speeds and totals of what acts during a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct BoundaryState {
-    /// Velocity of the wheel's centre [m/s] and angular velocity [rad/s], forward rolling positive.
-    speeds: [f64; 2],
-    /// Contact conductance integrated over the patch [W/(m K)].
-    conductance: f64,
-    /// Friction heat and heat on the tread [W/m].
-    heat: [f64; 2],
-}
 
 /// Memory of a step; holds nothing that outlives it.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +26,7 @@ pub struct Scratch {
 }
 
 impl Heat {
-    /// A step of [`HeatModel::step`](super::HeatModel::step).
+    /// A step of [`HeatModel::step`](crate::heat::HeatModel::step).
     ///
     /// Speeds and exchange hold over the step. The formula is SDIRK2: of second order under constant exchange, stiffly
     /// accurate and L-stable (Alexander, *SIAM J. Numer. Anal.* 14 (1977)), with `γ = 1 − 1/√2` and two stages
@@ -66,7 +49,7 @@ impl Heat {
         scratch: &mut Scratch,
     ) -> Result<HeatFlows, HeatError> {
         if !(SMALLEST_STEP..=LARGEST_STEP).contains(&dt) {
-            return Err(HeatError::StepSize { dt });
+            return Err(HeatError::StepSize { dt, shortest: SMALLEST_STEP, longest: LARGEST_STEP });
         }
         check_speeds(speeds)?;
         if scratch.owner.as_ref() != Some(&self.config) {
@@ -74,7 +57,7 @@ impl Heat {
         }
         let Scratch { stage, loads, load, rate, .. } = scratch;
         self.set_loads(exchange, loads)?;
-        let now = BoundaryState::new(speeds, loads);
+        let now = boundary(speeds, loads);
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
         let (gamma, stages) = if smooth { (1.0 - FRAC_1_SQRT_2, 2) } else { (1.0, 1) };
         let coefficients = StageCoefficients { storage: 1.0, flow: gamma * dt };
@@ -103,7 +86,7 @@ impl Heat {
         Ok(flows)
     }
 
-    /// The stationary state of [`HeatModel::stationary`](super::HeatModel::stationary).
+    /// The stationary state of [`HeatModel::stationary`](crate::heat::HeatModel::stationary).
     pub(super) fn settle(&self, speeds: [f64; 2], exchange: &Exchange) -> Result<(HeatState, HeatFlows), HeatError> {
         check_speeds(speeds)?;
         let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
@@ -115,7 +98,9 @@ impl Heat {
         stage.set_loads(self, &loads, &mut field);
         let solved = stage.solve(self, StageCoefficients { storage: 0.0, flow: 1.0 }, &mut field);
         let iterations = solved.map_err(|error| match error {
-            HeatError::NotConverged { residual, iterations } => HeatError::NoStationaryState { residual, iterations },
+            HeatError::NotConverged { residual, iterations, .. } => {
+                HeatError::NoStationaryState { residual, iterations }
+            }
             other => other,
         })?;
         let mut flows = HeatFlows { iterations, ..HeatFlows::default() };
@@ -123,7 +108,17 @@ impl Heat {
         if !flows.is_finite() {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
-        Ok((HeatState { field, last: Some(BoundaryState::new(speeds, &loads)) }, flows))
+        Ok((HeatState { field, last: Some(boundary(speeds, &loads)) }, flows))
+    }
+}
+
+/// What acts during a step, summed up.
+fn boundary(speeds: [f64; 2], loads: &SurfaceLoads) -> BoundaryState {
+    let total = |moments: &[[f64; 2]]| moments.iter().map(|q| q[0]).sum();
+    BoundaryState {
+        speeds,
+        conductance: loads.conductance.iter().map(|c| c[0]).sum(),
+        heat: [total(&loads.friction), total(&loads.tread)],
     }
 }
 
@@ -134,25 +129,4 @@ fn check_speeds(speeds: [f64; 2]) -> Result<(), HeatError> {
         }
     }
     Ok(())
-}
-
-impl BoundaryState {
-    fn new(speeds: [f64; 2], loads: &SurfaceLoads) -> Self {
-        let total = |moments: &[[f64; 2]]| moments.iter().map(|q| q[0]).sum();
-        Self {
-            speeds,
-            conductance: loads.conductance.iter().map(|c| c[0]).sum(),
-            heat: [total(&loads.friction), total(&loads.tread)],
-        }
-    }
-
-    /// Whether speeds, conductance or heat change so much that the next step cannot continue smoothly.
-    fn jumps_to(&self, next: &Self) -> bool {
-        let jump = |a: f64, b: f64| (a - b).abs() > JUMP * a.abs().max(b.abs());
-        let change: f64 = self.heat.iter().zip(&next.heat).map(|(a, b)| (a - b).abs()).sum();
-        let larger = self.heat.iter().sum::<f64>().max(next.heat.iter().sum());
-        self.speeds.iter().zip(&next.speeds).any(|(a, b)| jump(*a, *b))
-            || jump(self.conductance, next.conductance)
-            || change > SLIGHT_HEAT + JUMP * larger
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::modal::{HeatBody, StageCoefficients, dot};
 use super::streamline::Transport;
-use crate::heat::HeatError;
+use crate::heat::error::HeatError;
 use std::ops::Range;
 
 /// Factors of the tridiagonal systems of all modes.

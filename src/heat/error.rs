@@ -1,0 +1,116 @@
+//! Why a heat computation has no answer.
+
+use crate::config::ConfigError;
+use crate::piecewise::PiecewiseError;
+
+/// A heat computation that has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HeatError {
+    /// A parameter out of its range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// An infinite or undefined input.
+    #[error("{name} is {value}: not a usable number")]
+    Input {
+        /// What it is.
+        name: &'static str,
+        /// Its value, in the unit of the input.
+        value: f64,
+    },
+    /// A profile that is no function of x.
+    #[error("{name}: {why}")]
+    Profile {
+        /// What it is a profile of.
+        name: &'static str,
+        /// What is wrong with it.
+        why: PiecewiseError,
+    },
+    /// An interval of the surface without meaning.
+    #[error("contact patch from {low} m to {high} m: its ends must be numbers and ascend")]
+    Patch {
+        /// First end [m].
+        low: f64,
+        /// Second end [m].
+        high: f64,
+    },
+    /// Something that acts beyond the finely meshed surface.
+    #[error("{name} reaches x = {x} m, outside the contact zone of ±{zone} m")]
+    OutsideZone {
+        /// What acts there.
+        name: &'static str,
+        /// Where it ends [m].
+        x: f64,
+        /// Half-length of the zone [m].
+        zone: f64,
+    },
+    /// A step too short or too long to compute.
+    #[error("heat step of {dt} s is outside {shortest} to {longest} s")]
+    StepSize {
+        /// Its size [s].
+        dt: f64,
+        /// Shortest step [s].
+        shortest: f64,
+        /// Longest step [s].
+        longest: f64,
+    },
+    /// A state of another model.
+    #[error("temperature fields of {found} values do not belong to this mesh of {expected}")]
+    StateSize {
+        /// Number of values of this model.
+        expected: usize,
+        /// Number of values found.
+        found: usize,
+    },
+    /// Modes over the depth that were not found.
+    #[error(
+        "the {size} temperature modes over the depth of a body were not found; wheel.hub_radius, rail.height and \
+         thermal.max_speed set its layers"
+    )]
+    Eigen {
+        /// Number of unknowns.
+        size: usize,
+    },
+    /// Coefficients beyond the range of numbers.
+    #[error(
+        "the heat equations of {unknowns} unknowns have no finite solution; material.conductivity, thermal.conductance \
+         and thermal.convection enter them"
+    )]
+    Singular {
+        /// Number of unknowns.
+        unknowns: usize,
+    },
+    /// Heat that is supplied for ever and not removed.
+    #[error(
+        "no stationary temperatures were found (relative residual {residual:.2e} after {iterations} iterations): \
+         thermal.hub = fixed, thermal.convection > 0 or a rail that moves under the contact lets heat out"
+    )]
+    NoStationaryState {
+        /// Relative residual reached [1].
+        residual: f64,
+        /// Iterations done.
+        iterations: usize,
+    },
+    /// The correction for the curvature of a nearly standing wheel stopped early.
+    #[error(
+        "temperatures of a wheel that hardly turns were found to a relative residual of {residual:.2e} only, in \
+         {iterations} iterations; steps shorter than {direct_below} s (solver.max_step) need none"
+    )]
+    NotConverged {
+        /// Relative residual reached [1].
+        residual: f64,
+        /// Iterations done.
+        iterations: usize,
+        /// Steps below this one need no correction [s].
+        direct_below: f64,
+    },
+    /// Temperatures beyond the range of numbers.
+    #[error("temperatures are not finite after a step of {dt} s at V = {velocity} m/s, ω = {omega} rad/s")]
+    NotFinite {
+        /// Step [s].
+        dt: f64,
+        /// Velocity [m/s].
+        velocity: f64,
+        /// Angular velocity [rad/s].
+        omega: f64,
+    },
+}
