@@ -19,6 +19,7 @@
 //! ```
 
 pub mod advice;
+mod plausible;
 mod shared;
 mod store;
 mod validity;
@@ -29,6 +30,7 @@ pub use validity::Limit;
 use crate::config::{Config, ConfigError, Response};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, Workspace};
+use plausible::plausible;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 
@@ -272,7 +274,7 @@ impl Simulation {
             Origin::Stationary(_) => None,
             Origin::Step { state, .. } => Some(&**state),
         };
-        if !origin.into_iter().chain([&memory.state]).all(|state| model.rolling.fits(state)) {
+        if !origin.into_iter().chain([&memory.state]).all(|state| model.rolling.fits(state) && plausible(state)) {
             return Err(StepError::ForeignState);
         }
         let outputs = model.rolling.outputs(&memory.state);
