@@ -61,7 +61,7 @@ LEAK_TESTS := a_run_from_a_saved_state_is_the_first_bit_for_bit a_serialized_sta
 
 leak-check:
 	@if command -v valgrind > /dev/null; then \
-		$(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
+		WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
 			-- --test-threads 1 --exact $(LEAK_TESTS) > $(TARGET)/leak-check.log 2>&1; status=$$?; \
 		cat $(TARGET)/leak-check.log; grep -q '$(words $(LEAK_TESTS)) passed' $(TARGET)/leak-check.log && exit $$status; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
