@@ -4,7 +4,7 @@
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make bench     speed of steps, starts and the reduced basis
 # make endurance a million steps of mixed driving: failures, memory, energy audit
-# make leak-check memory leaks of the FMU's C interface, with valgrind
+# make leak-check memory errors and leaks of the FMU's C interface, with valgrind
 # make docs      HTML documentation of the library; every warning is an error
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
@@ -53,14 +53,18 @@ bench:
 endurance:
 	$(CARGO) run --release --locked --example ex03_endurance
 
-# One master through the C functions: instantiate, steps, states saved, serialized and freed.
+# Masters through the C functions: instantiate, steps, states saved, restored, serialized, misused and freed. Any error
+# that valgrind finds counts, and every block that is definitely lost.
 LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=1
+LEAK_TESTS := a_run_from_a_saved_state_is_the_first_bit_for_bit a_serialized_state_continues_in_another_instance \
+	a_state_passed_in_place_of_its_address_is_refused_and_stays \
+	handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed
 
 leak-check:
 	@if command -v valgrind > /dev/null; then \
-		$(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
-			-- --exact a_serialized_state_continues_in_another_instance > $(TARGET)/leak-check.log; status=$$?; \
-		cat $(TARGET)/leak-check.log; grep -q '1 passed' $(TARGET)/leak-check.log && exit $$status; \
+		WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
+			-- --test-threads 1 --exact $(LEAK_TESTS) > $(TARGET)/leak-check.log 2>&1; status=$$?; \
+		cat $(TARGET)/leak-check.log; grep -q '$(words $(LEAK_TESTS)) passed' $(TARGET)/leak-check.log && exit $$status; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
 
 docs:

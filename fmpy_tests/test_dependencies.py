@@ -112,9 +112,9 @@ def test_a_tool_that_skips_pairs_not_declared_gets_every_derivative(start, unkno
     wheel = start(START, SWITCHED | {name: pair[0] for name, pair in VALUES.items()})
     wheel.step(1e-3)
     found = 0
-    references = [wheel.variables[output].valueReference for output in outputs]
+    references = [wheel.fmu.variables[output].valueReference for output in outputs]
     for name in VALUES:
-        column = wheel.slave.getDirectionalDerivative(references, [wheel.variables[name].valueReference], [1.0])
+        column = wheel.slave.getDirectionalDerivative(references, [wheel.fmu.variables[name].valueReference], [1.0])
         for output, value in zip(outputs, column):
             declared = unknowns[0][output]
             assert value == 0.0 or declared is None or name in declared, (output, name, value)

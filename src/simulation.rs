@@ -20,6 +20,7 @@
 //! ```
 
 pub mod advice;
+mod plausible;
 mod shared;
 mod store;
 mod validity;
@@ -30,6 +31,7 @@ pub use validity::Limit;
 use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, substeps};
+use plausible::plausible;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 
@@ -304,7 +306,7 @@ impl Simulation {
             Origin::Stationary(_) => None,
             Origin::Step { state, .. } => Some(&**state),
         };
-        if !origin.into_iter().chain([&checkpoint.state]).all(|state| model.rolling.fits(state)) {
+        if !origin.into_iter().chain([&checkpoint.state]).all(|state| model.rolling.fits(state) && plausible(state)) {
             return Err(StepError::ForeignState);
         }
         Ok(Self::at(model, tuning, checkpoint, Workspace::default()))

@@ -14,9 +14,9 @@
 //! - a restored state has the outputs of the moment when it was saved;
 //! - after a reset, the first steps are those of a new instance, bit for bit.
 //!
-//! Half of the runs are calm: driven by service moments, forces and loads with steps of at most 2 ms. The bounds of the
-//! energy residual are wide, because it compares with the dissipation, which abuse makes as small as it likes, and jumps
-//! of inputs excite vibrations that the time integration damps. `tests/endurance.rs` has those of driving.
+//! Half of the runs are calm: driven by service moments, forces and loads with steps of at most 2 ms. Only in these the
+//! energy residual is bounded; wild runs step over whole collisions, and then it says nothing (measured: from -1e6 to 1e5).
+//! `tests/endurance.rs` has the bounds of driving.
 #![allow(unsafe_code)]
 
 mod common;
@@ -33,10 +33,12 @@ use wheelrail::fmi::variables::variables;
 
 /// Values that no real variable may take, and extremes of the number format.
 const ODD: [f64; 7] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 1e30, -1e30];
-/// Largest energy residual in calm runs: hundred times the elastic energy of the contact.
-const CALM_RESIDUAL: f64 = 100.0;
-/// Largest energy residual in wild ones: unaccounted energy at most ten times the energy moved, see `Audit::residual`.
-const WILD_RESIDUAL: f64 = 1e7;
+/// Energy that calm runs may create, over that dissipated or the elastic energy of the contact: jumps of inputs within
+/// steps are known to the time formula only by their ends (measured in 24,000 calls: 1.4).
+const MOST_CREATED: f64 = 5.0;
+/// Energy that calm runs may lose: the time formula damps the vibrations that each jump of the load excites, of about the
+/// elastic energy of the contact each (measured: 11).
+const MOST_LOST: f64 = 40.0;
 /// Above this the model means nothing, but must stay sane [K].
 const MELTING: f64 = 2000.0;
 const UNKNOWN: u32 = 987_654;
@@ -180,8 +182,7 @@ impl<'a> Master<'a> {
             if !value.is_finite() {
                 self.fail(&format!("{} = {value}", row.name));
             }
-            let residual = if self.calm { CALM_RESIDUAL } else { WILD_RESIDUAL };
-            if row.name == "solver.energy_residual" && value.abs() > residual {
+            if row.name == "solver.energy_residual" && self.calm && !(-MOST_CREATED..=MOST_LOST).contains(value) {
                 self.fail(&format!("{} = {value}", row.name));
             }
             if is_temperature(row) && *value != 0.0 && *value < coldest {

@@ -1,7 +1,8 @@
 //! FMI 2.0 co-simulation around [`crate::simulation`]: one table of variables, everything else follows from it.
 //!
-//! `table` (every variable once) → `variables` (scalars) → `description` (XML, GUID), `documentation` (HTML) and `instance` (the safe slave with
-//! the rules of `lifecycle`) → `c_abi` (the exported C functions, the only `unsafe`); `package` zips the FMU.
+//! `table` (every variable once) → `variables` (scalars) → `instance` (the safe slave with the rules of `lifecycle`),
+//! `snapshot` (its states as bytes) → `v2` (description, GUID and the exported C functions, the only `unsafe`) →
+//! `documentation` (HTML), `reference` (Markdown) and `package`, which zips the FMU.
 //!
 //! Source of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4.
 

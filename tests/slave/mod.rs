@@ -7,6 +7,7 @@ use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::PathBuf;
 use std::ptr;
+use std::sync::OnceLock;
 use wheelrail::fmi::variable::{Causality, Value, Variable};
 use wheelrail::fmi::variables::variables;
 
@@ -21,7 +22,13 @@ pub fn library() -> PathBuf {
 pub fn load() -> Fmi2Dll {
     let path = library();
     // SAFETY: our own library, whose loading runs no code.
-    unsafe { Fmi2Dll::new(&path) }.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    let load = || unsafe { Fmi2Dll::new(&path) }.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    if std::env::var_os("WHEELRAIL_KEEP_LOADED").is_some() {
+        // A library that stays: what its tables hold counts as lost when it is unloaded.
+        static KEPT: OnceLock<Fmi2Dll> = OnceLock::new();
+        KEPT.get_or_init(load);
+    }
+    load()
 }
 
 pub const RESOURCES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/resources");
@@ -86,7 +93,12 @@ fn printed(format: &CStr) -> String {
 /// A function of the library that takes C integers where the header has enumerations, as a C master calls it.
 macro_rules! plain {
     ($dll:ident.$name:ident, ($($argument:ty),*) -> $result:ty) => {
-        std::mem::transmute::<_, unsafe extern "C" fn($($argument),*) -> $result>(*$dll.$name.as_ref().unwrap())
+        {
+            #[allow(clippy::missing_transmute_annotations)]
+            let function: unsafe extern "C" fn($($argument),*) -> $result =
+                std::mem::transmute(*$dll.$name.as_ref().unwrap());
+            function
+        }
     };
 }
 

@@ -84,7 +84,8 @@ mod tests {
     use super::*;
     use crate::fmi::instance::Instance;
     use crate::fmi::log::Log;
-    use crate::fmi::variable::Value;
+    use crate::fmi::settings::with_parameters;
+    use crate::fmi::variable::{Causality, Value};
 
     /// A coarse wheel after one step, with everything a snapshot can hold.
     fn snapshot() -> Snapshot {
@@ -114,5 +115,80 @@ mod tests {
         other[at + identity.len() - 1] ^= 1;
         assert!(Snapshot::from_bytes(&bytes).is_ok());
         assert!(Snapshot::from_bytes(&other).err().unwrap().contains("version"));
+    }
+
+    /// SplitMix64 (Steele et al., OOPSLA 2014).
+    struct Random(u64);
+
+    impl Random {
+        fn below(&mut self, end: usize) -> usize {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) % end as u64) as usize
+        }
+    }
+
+    /// A payload with other bits, other numbers, or of another length.
+    fn mutated(payload: &[u8], random: &mut Random) -> Vec<u8> {
+        const NUMBERS: [f64; 8] = [0.0, -1.0, 1e-300, 1e300, f64::MAX, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        let mut bytes = payload.to_vec();
+        // The fields before the large arrays decide what happens: every other change is made there.
+        let reach = [bytes.len(), 2000.min(bytes.len())][random.below(2)];
+        match random.below(4) {
+            0 => bytes[random.below(reach)] ^= 1 << random.below(8),
+            1 => bytes[random.below(reach)] = random.below(256) as u8,
+            2 => {
+                let (at, number) = (random.below(reach), NUMBERS[random.below(NUMBERS.len())]);
+                bytes.iter_mut().skip(at).zip(number.to_le_bytes()).for_each(|(byte, new)| *byte = new);
+            }
+            _ => bytes.truncate(random.below(reach)),
+        }
+        bytes
+    }
+
+    /// Bytes of a made-up state, whose checksum is right.
+    fn sealed(payload: &[u8]) -> Vec<u8> {
+        let identity = identity().unwrap();
+        let sum = checksum(identity, payload);
+        [MAGIC, [identity.len() as u8].as_slice(), identity.as_bytes(), &sum, payload].concat()
+    }
+
+    /// `WHEELRAIL_FUZZ` asks for more states than the usual 2,000.
+    #[test]
+    fn a_made_up_state_with_a_valid_checksum_is_refused_or_steps_or_is_refused_a_step() {
+        let original = snapshot();
+        let config = with_parameters(&original.base, &original.parameters);
+        let payload = postcard::to_stdvec(&original).unwrap();
+        assert_eq!(sealed(&payload), original.to_bytes().unwrap());
+        let mut instance = Instance::new(None, Log::new(Box::new(|_, _, _| {}), false)).unwrap();
+        let outputs: Vec<_> = variables().iter().filter(|v| v.causality() == Causality::Output).collect();
+        let outputs: Vec<_> = outputs.iter().filter(|v| v.kind.type_name() == "Real").map(|v| v.reference).collect();
+        let cases = std::env::var("WHEELRAIL_FUZZ").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
+        let (mut read, mut restored, mut stepped) = (0, 0, 0);
+        let mut random = Random(1);
+        for _ in 0..cases {
+            let Ok(state) = Snapshot::from_bytes(&sealed(&mutated(&payload, &mut random))) else { continue };
+            read += 1;
+            // Another configuration is a model of its own, judged by its ranges and long to prepare.
+            let theirs = with_parameters(&state.base, &state.parameters);
+            if theirs != config {
+                let _ = theirs.validate();
+                continue;
+            }
+            if instance.restore(&state).is_err() {
+                continue;
+            }
+            restored += 1;
+            let _ = instance.get(&outputs, "Real");
+            if instance.do_step(instance.last_successful_time(), 1e-3).is_ok() {
+                stepped += 1;
+                instance.get(&outputs, "Real").unwrap();
+            }
+        }
+        println!("{cases} states: {read} read, {restored} restored, {stepped} stepped");
+        assert!(read > cases / 10 && restored > cases / 20 && stepped > cases / 50 && stepped < cases);
+        instance.restore(&original).unwrap();
+        instance.do_step(original.time, 1e-3).unwrap();
     }
 }

@@ -19,7 +19,8 @@ const NO_HANDLE: usize = 1;
 #[derive(Default)]
 pub struct States {
     held: BTreeMap<usize, (Box<usize>, Snapshot)>,
-    /// Words without a state.
+    /// Words without a state, which keep their addresses.
+    #[allow(clippy::vec_box)]
     spare: Vec<Box<usize>>,
 }
 

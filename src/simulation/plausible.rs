@@ -1,0 +1,16 @@
+//! States from outside: what no run can have left behind is refused before it can do harm.
+
+use crate::rolling::State;
+use crate::rolling::substeps::{LONGEST_STEP, SHORTEST_STEP};
+
+/// Whether times and step sizes of a state are such as a run leaves behind. Others could make a step endless; wrong values
+/// of the fields only make it fail.
+pub(super) fn plausible(state: &State) -> bool {
+    let [velocity, height, omega] = state.motion.values();
+    let motions = [velocity, omega, height, state.distance, state.angle];
+    state.time.is_finite()
+        && (0.0..SHORTEST_STEP).contains(&state.pending)
+        && (0.0..=LONGEST_STEP).contains(&state.last_step)
+        && state.control.step >= SHORTEST_STEP
+        && motions.iter().all(|value| value.is_finite())
+}
