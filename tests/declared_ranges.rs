@@ -9,10 +9,10 @@ use wheelrail::simulation::{Inputs, Model, Simulation};
 
 const PRESETS: [&str; 5] = ["railway", "paper_a", "paper_b", "paper_c", "paper_d"];
 
-/// A preset on the coarsest mesh with few modes.
+/// A preset on the coarsest mesh with fewer modes, as many as the eigenvalue solver finds for the longest rail.
 fn coarse(name: &str) -> Config {
     let mut config = common::preset(name, 4);
-    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 5);
+    (config.solver.modes_wheel, config.solver.modes_rail) = (12, 20);
     config
 }
 

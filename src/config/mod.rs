@@ -16,7 +16,15 @@ pub use table::{
 };
 pub use value::{display_number, display_outside, display_range};
 
+use crate::analytic;
+use std::f64::consts::PI;
 use value::{Kind, Value};
+
+/// Half-width of the contact that can still be meshed [m].
+const SMALLEST_HALF_WIDTH: f64 = 1e-6;
+/// Largest half-width relative to the wheel radius and to the length of the rail.
+const WHEEL_SHARE: f64 = 0.095;
+const RAIL_SHARE: f64 = 0.12;
 
 /// A parameter outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -109,8 +117,30 @@ impl Config {
         self.dependent().into_iter().try_for_each(Dependent::check)
     }
 
+    /// Loads for which the contact zone can be meshed and fits wheel and rail.
+    fn contact_zone(&self) -> Dependent {
+        let (Material { youngs_modulus, poissons_ratio, .. }, radius) = (&self.material, self.wheel.radius);
+        let stiffness = analytic::contact_modulus(*youngs_modulus, *poissons_ratio);
+        let load = |half_width: f64| PI * stiffness * half_width.powi(2) / (4.0 * radius) * self.model.contact_width;
+        Dependent {
+            name: "model.nominal_load",
+            value: self.model.nominal_load,
+            unit: "N",
+            low: load(SMALLEST_HALF_WIDTH),
+            high: load((WHEEL_SHARE * radius).min(RAIL_SHARE * self.rail.length)),
+            others: format!(
+                "model.contact_width = {} m, wheel.radius = {} m, rail.length = {} m and material.youngs_modulus = {} Pa \
+                 (the contact zone fits wheel and rail)",
+                display_number(self.model.contact_width),
+                display_number(radius),
+                display_number(self.rail.length),
+                display_number(*youngs_modulus)
+            ),
+        }
+    }
+
     /// Ranges that depend on other parameters.
-    fn dependent(&self) -> [Dependent; 5] {
+    fn dependent(&self) -> [Dependent; 6] {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
         let with_radius = || format!("wheel.radius = {} m", display_number(radius));
         let Initial { velocity, creepage } = self.initial;
@@ -164,6 +194,7 @@ impl Config {
                     display_number(self.material.rayleigh_speed())
                 ),
             },
+            self.contact_zone(),
         ]
     }
 }
@@ -206,6 +237,15 @@ mod tests {
         refused(
             |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, -1.0, 5e9),
             &["initial.creepage = -1 ", "at least -0.78", "with initial.velocity = 200 m/s", "459.164 m/s"],
+        );
+        refused(
+            |c| (c.model.contact_width, c.model.nominal_load) = (2e-3, 2e6),
+            &[
+                "model.nominal_load = 2e6 ",
+                " N with model.contact_width = 0.002 m",
+                "wheel.radius",
+                "rail.length = 1 m",
+            ],
         );
         refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.5 to 2"]);
     }

@@ -1,7 +1,7 @@
 //! Parameters of the heat model.
 
 use super::Conductance;
-use crate::config::ConfigError;
+use crate::config::{ConfigError, display_range};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of both bodies and of the meshes.
@@ -69,7 +69,7 @@ impl HeatConfig {
             if value >= low && value <= high {
                 Ok(())
             } else {
-                Err(ConfigError { name, value, range: format!("{low} to {high}") })
+                Err(ConfigError { name, value, range: display_range([low, high], "1") })
             }
         };
         within("rail.length", c.rail_length, 4.0 * c.zone, f64::INFINITY)?;
