@@ -34,6 +34,9 @@
 //! |---|---|
 //! | [`config`] | parameters and presets: plain data |
 //! | [`analytic`] | Hertz, Carter: start guesses and tests |
+//! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters |
+//! | [`multistep`] | the time formula: derivative, history, impulse |
+//! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time |
 //! | [`linalg`] | sparse factorisation, vibration modes |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly |
 //! | [`mechanics`] | elasticity and convection; full and reduced bodies behind one interface |
@@ -53,6 +56,9 @@ pub mod fem;
 pub mod fmi;
 pub mod heat;
 pub mod linalg;
+pub mod material;
 pub mod mechanics;
+pub mod multistep;
+pub mod piecewise;
 pub mod rolling;
 pub mod simulation;

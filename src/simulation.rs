@@ -4,9 +4,11 @@
 //!
 //! ```no_run
 //! use wheelrail::config::Config;
-//! use wheelrail::simulation::{Inputs, Model, Simulation};
+//! use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 //!
-//! let model = Model::prepare(Config::default(), None, &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
+//! let store = BasisStore::of_user();
+//! let progress = &mut |what: &str, share: f64| println!("{what}: {:.0} %", 100.0 * share);
+//! let model = Model::shared(Config::default(), &store, progress)?;
 //! let mut inputs = Inputs::rolling(model.config());
 //! let mut simulation = Simulation::new(model, &inputs)?;
 //! inputs.drive.moment = -2000.0;
@@ -17,16 +19,23 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::config::{Config, ConfigError, Response};
+pub mod advice;
+mod shared;
+mod store;
+mod validity;
+
+pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
+pub use validity::Limit;
+
+use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
-use crate::rolling::{self, Workspace};
+use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, substeps};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
-pub use crate::rolling::stepping::LONGEST_STEP;
+pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{
     Difference, Drive, Inputs, Origin, Outputs, PROFILE_POINTS, Rotation, State, StepError, Translation, Vertical,
 };
@@ -40,14 +49,19 @@ pub enum PrepareError {
     Mechanics(#[from] MechanicsError),
     #[error(transparent)]
     Model(#[from] rolling::ModelError),
-    #[error("stored basis {file}: {source}")]
-    Basis { file: String, source: BasisError },
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("computed basis: {0}")]
+    Basis(#[from] BasisError),
 }
 
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
     rolling: rolling::Model,
     basis: Option<Arc<(String, Vec<u8>)>>,
+    not_kept: Option<String>,
+    /// The stationary start computed last, with its inputs: equal instances of a process mostly start alike.
+    start: Mutex<Option<(Inputs, Checkpoint)>>,
 }
 
 impl Inputs {
@@ -66,54 +80,46 @@ impl Inputs {
     }
 }
 
-/// File name of the stored basis of a configuration, below a resource directory.
-pub fn basis_file_name(config: &Config) -> String {
-    format!("{}.bin", mechanics::basis::key(config))
-}
-
 impl Model {
-    /// Validates the configuration and makes the model ready. The reduced basis is read from `<directory>/basis/` if it is
-    /// stored there and computed otherwise; `progress` hears what is being computed and its share done.
+    /// Validates the configuration and makes the model ready. The reduced basis is read from the store if it is there, and
+    /// computed and kept there otherwise; `progress` hears what is being computed and its share done.
     pub fn prepare(
         config: Config,
-        directory: Option<&Path>,
+        store: &BasisStore,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
-        let (basis, file) = match config.solver.response {
-            Response::Full => (None, None),
-            Response::Reduced => {
-                let name = basis_file_name(&config);
-                let failed = |source| PrepareError::Basis { file: name.clone(), source };
-                let stored = directory.and_then(|d| std::fs::read(d.join("basis").join(&name)).ok());
-                let stored = stored.map(|bytes| Basis::from_bytes(&bytes).map(|basis| (basis, bytes)));
-                let stored = stored.transpose().map_err(failed)?.filter(|(basis, _)| basis.fits(&config));
-                let (basis, bytes) = match stored {
-                    Some(stored) => stored,
-                    None => {
-                        let basis = Basis::compute(&config, progress)?;
-                        let bytes = basis.to_bytes().map_err(failed)?;
-                        (basis, bytes)
-                    }
-                };
-                (Some(basis), Some((name, bytes)))
-            }
-        };
+        let (mut basis, mut file, mut not_kept) = (None, None, None);
+        if config.solver.response == Response::Reduced {
+            let (found, bytes) = match store.find(&config)? {
+                Some(stored) => stored,
+                None => {
+                    let computed = Basis::compute(&config, progress)?;
+                    let bytes = computed.to_bytes()?;
+                    not_kept = store.keep(&config, &bytes).err();
+                    (computed, bytes)
+                }
+            };
+            (basis, file) = (Some(found), Some(Arc::new((basis_file_name(&config), bytes))));
+        }
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::Model::new(config, bodies)?;
-        Ok(Arc::new(Self { rolling, basis: file.map(Arc::new) }))
+        Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default() }))
     }
 
-    /// The same model with other tunable parameters (see [`Config::tuned_like`]); `None` if the configurations differ in
-    /// anything else.
-    pub fn retuned(&self, config: &Config) -> Option<Arc<Self>> {
-        let rolling = self.rolling.retuned(config)?;
-        Some(Arc::new(Self { rolling, basis: self.basis.clone() }))
+    /// Whether the model serves a configuration: all but the tunable parameters are equal.
+    pub fn serves(&self, config: &Config) -> bool {
+        same_model(self.config(), config)
     }
 
     /// Parameters of the model.
     pub fn config(&self) -> &Config {
         &self.rolling.config
+    }
+
+    /// Why the basis, which had to be computed, could not be kept for the next time.
+    pub fn not_kept(&self) -> Option<&str> {
+        self.not_kept.as_deref()
     }
 
     /// File name and content of the reduced basis; `None` for the full response.
@@ -122,12 +128,18 @@ impl Model {
     }
 }
 
-/// All that a simulation needs to continue bit for bit, besides its model.
+/// Whether one model serves both configurations: all but the tunable parameters are equal.
+fn same_model(a: &Config, b: &Config) -> bool {
+    *a == Config { tuning: a.tuning.clone(), ..b.clone() }
+}
+
+/// All that a simulation needs to continue bit for bit, besides its model and its tunable parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
+pub struct Checkpoint {
+    /// The physical state.
     pub state: State,
-    /// Parameters with which the state was computed; tunable ones may have changed since.
-    pub config: Config,
+    /// Tunable parameters with which it was computed; they may have changed since.
+    pub tuning: Tuning,
     /// What the state came from, for derivatives by inputs.
     pub origin: Origin,
     /// Times [s] and outputs of the communication points before, latest first, for derivatives in time.
@@ -141,86 +153,118 @@ const LARGEST_RATIO: f64 = 10.0;
 /// How far a stationary motion is followed back from the start for them [s].
 const LEAD: f64 = 1e-3;
 
-impl Memory {
-    /// Memory of a stationary start.
-    fn stationary(model: &Model, inputs: &Inputs, workspace: &mut Workspace) -> Result<Self, StepError> {
-        let state = model.rolling.stationary(inputs, workspace)?;
-        let mut earlier = model.rolling.outputs(&state);
+impl Checkpoint {
+    /// Checkpoint of a stationary start.
+    fn stationary(
+        model: &Model,
+        tuning: &Tuning,
+        inputs: &Inputs,
+        workspace: &mut Workspace,
+    ) -> Result<Self, StepError> {
+        let known = |(with, known): &(Inputs, Self)| (with == inputs && known.tuning == *tuning).then(|| known.clone());
+        if let Some(known) = shared::lock(&model.start).as_ref().and_then(known) {
+            return Ok(known);
+        }
+        let state = stationary::start(&model.rolling, tuning, inputs, workspace)?;
+        let mut earlier = outputs::observe(&model.rolling, &state);
         earlier.wheel_distance -= LEAD * earlier.wheel_velocity;
         earlier.wheel_angle -= LEAD * earlier.wheel_omega;
         earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
         earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
         let (before, origin) = (vec![(state.time - LEAD, earlier)], Origin::Stationary(*inputs));
-        Ok(Self { state, config: model.config().clone(), origin, before })
+        let checkpoint = Self { state, tuning: tuning.clone(), origin, before };
+        *shared::lock(&model.start) = Some((*inputs, checkpoint.clone()));
+        Ok(checkpoint)
     }
 }
 
-/// One wheel on one rail: model, memory, scratch space and outputs.
+/// One wheel on one rail: model, tunable parameters, checkpoint, scratch space and outputs.
 pub struct Simulation {
     model: Arc<Model>,
-    memory: Memory,
+    tuning: Tuning,
+    checkpoint: Checkpoint,
     outputs: Outputs,
     workspace: Workspace,
+    /// Memory for the next state.
+    spare: State,
 }
 
 impl Simulation {
-    /// Starts from the stationary state for the inputs.
+    /// Starts from the stationary state for the inputs, with the tunable parameters of the model's configuration.
     pub fn new(model: Arc<Model>, inputs: &Inputs) -> Result<Self, StepError> {
+        let tuning = model.config().tuning.clone();
+        Self::start(model, tuning, inputs)
+    }
+
+    /// Starts from the stationary state for the inputs.
+    pub fn start(model: Arc<Model>, tuning: Tuning, inputs: &Inputs) -> Result<Self, StepError> {
         let mut workspace = Workspace::default();
-        let memory = Memory::stationary(&model, inputs, &mut workspace)?;
-        let outputs = model.rolling.outputs(&memory.state);
-        Ok(Self { model, memory, outputs, workspace })
+        let checkpoint = Checkpoint::stationary(&model, &tuning, inputs, &mut workspace)?;
+        Ok(Self::at(model, tuning, checkpoint, workspace))
+    }
+
+    fn at(model: Arc<Model>, tuning: Tuning, checkpoint: Checkpoint, workspace: Workspace) -> Self {
+        let outputs = outputs::observe(&model.rolling, &checkpoint.state);
+        Self { model, tuning, checkpoint, outputs, workspace, spare: State::default() }
     }
 
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
-        let next = self.model.rolling.advance(&self.memory.state, inputs, h, &mut self.workspace)?;
-        if next.pending > 0.0 {
-            self.memory.state = next;
+        let Self { model, tuning, checkpoint, workspace, spare, .. } = self;
+        substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
+        std::mem::swap(&mut checkpoint.state, spare);
+        if checkpoint.state.pending > 0.0 {
             return Ok(());
         }
-        let outputs = std::mem::replace(&mut self.outputs, self.model.rolling.outputs(&next));
-        let state = std::mem::replace(&mut self.memory.state, next);
-        self.memory.before.insert(0, (state.time, outputs));
-        self.memory.before.truncate(KEPT_POINTS);
-        if self.memory.config != *self.model.config() {
-            self.memory.config = self.model.config().clone();
+        let present = outputs::observe(&model.rolling, &checkpoint.state);
+        let outputs = std::mem::replace(&mut self.outputs, present);
+        checkpoint.before.insert(0, (spare.time, outputs));
+        checkpoint.before.truncate(KEPT_POINTS);
+        checkpoint.tuning.clone_from(tuning);
+        // The state before becomes the origin, and the memory of the origin before that the spare one.
+        match &mut checkpoint.origin {
+            Origin::Step { state, inputs: with, length } => {
+                std::mem::swap(&mut **state, spare);
+                (*with, *length) = (*inputs, h);
+            }
+            origin => *origin = Origin::Step { state: Box::new(std::mem::take(spare)), inputs: *inputs, length: h },
         }
-        self.memory.origin = Origin::Step { state: Box::new(state), inputs: *inputs, length: h };
         Ok(())
     }
 
-    /// Goes on with other tunable parameters; refuses a model that differs in anything else.
-    pub fn retune(&mut self, config: &Config) -> Result<(), StepError> {
-        self.model = self.model.retuned(config).ok_or(StepError::NotTunable)?;
-        Ok(())
+    /// Goes on with other tunable parameters.
+    pub fn retune(&mut self, tuning: &Tuning) {
+        self.tuning.clone_from(tuning);
+    }
+
+    /// Tunable parameters of the coming steps.
+    pub fn tuning(&self) -> &Tuning {
+        &self.tuning
     }
 
     /// Replaces everything by the stationary state for the inputs.
     pub fn restart(&mut self, inputs: &Inputs) -> Result<(), StepError> {
-        self.memory = Memory::stationary(&self.model, inputs, &mut self.workspace)?;
-        self.outputs = self.model.rolling.outputs(&self.memory.state);
+        self.checkpoint = Checkpoint::stationary(&self.model, &self.tuning, inputs, &mut self.workspace)?;
+        self.outputs = outputs::observe(&self.model.rolling, &self.checkpoint.state);
         Ok(())
     }
 
     /// Outputs a little before and behind the present ones along a direction of the inputs that led to them: those of
     /// the last communication step, or of the stationary start. See [`crate::rolling::sensitivity`].
     pub fn difference(&mut self, direction: &Drive) -> Result<Difference, StepError> {
-        let Memory { state, config, origin, .. } = &self.memory;
-        let model = if config == self.model.config() { None } else { self.model.retuned(config) };
-        let model = model.as_ref().unwrap_or(&self.model);
-        model.rolling.difference(state, origin, direction, &mut self.workspace)
+        let Checkpoint { state, tuning, origin, .. } = &self.checkpoint;
+        sensitivity::difference(&self.model.rolling, tuning, state, origin, direction, &mut self.workspace)
     }
 
     /// Time derivative of an output: second-order backward difference of the last communication points, which the
     /// stationary motion precedes.
     pub fn rate(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
         let now = output(&self.outputs);
-        let slope = |(time, before): &(f64, Outputs)| (now - output(before)) / (self.memory.state.time - time);
-        let points = &self.memory.before;
+        let slope = |(time, before): &(f64, Outputs)| (now - output(before)) / (self.checkpoint.state.time - time);
+        let points = &self.checkpoint.before;
         match (points.first(), points.get(1)) {
             (Some(a), Some(b)) => {
-                let (h, total) = (self.memory.state.time - a.0, self.memory.state.time - b.0);
+                let (h, total) = (self.checkpoint.state.time - a.0, self.checkpoint.state.time - b.0);
                 // A much shorter step before would amplify its rounding.
                 slope(a) + (slope(a) - slope(b)) * (h / (total - h)).min(LARGEST_RATIO)
             }
@@ -236,7 +280,7 @@ impl Simulation {
 
     /// Displacement, velocity, stress and temperature in the whole bodies.
     pub fn fields(&self) -> Result<Fields, FieldError> {
-        self.model.rolling.fields(&self.memory.state)
+        fields::fields(&self.model.rolling, &self.checkpoint.state)
     }
 
     /// The model this simulation runs on.
@@ -245,37 +289,37 @@ impl Simulation {
     }
 
     /// All that a restart needs.
-    pub fn memory(&self) -> &Memory {
-        &self.memory
+    pub fn checkpoint(&self) -> &Checkpoint {
+        &self.checkpoint
     }
 
     /// The physical state.
     pub fn state(&self) -> &State {
-        &self.memory.state
+        &self.checkpoint.state
     }
 
-    /// Continues from the memory of a simulation with an equal model.
-    pub fn resume(model: Arc<Model>, memory: Memory) -> Result<Self, StepError> {
-        let origin = match &memory.origin {
+    /// Continues from the checkpoint of a simulation with an equal model.
+    pub fn resume(model: Arc<Model>, tuning: Tuning, checkpoint: Checkpoint) -> Result<Self, StepError> {
+        let origin = match &checkpoint.origin {
             Origin::Stationary(_) => None,
             Origin::Step { state, .. } => Some(&**state),
         };
-        if !origin.into_iter().chain([&memory.state]).all(|state| model.rolling.fits(state)) {
+        if !origin.into_iter().chain([&checkpoint.state]).all(|state| model.rolling.fits(state)) {
             return Err(StepError::ForeignState);
         }
-        let outputs = model.rolling.outputs(&memory.state);
-        Ok(Self { model, memory, outputs, workspace: Workspace::default() })
+        Ok(Self::at(model, tuning, checkpoint, Workspace::default()))
     }
 
-    /// Goes back, or on, to the memory of a simulation with an equal model.
-    pub fn recall(&mut self, memory: Memory) -> Result<(), StepError> {
-        let resumed = Self::resume(self.model.clone(), memory)?;
-        *self = Self { workspace: std::mem::take(&mut self.workspace), ..resumed };
+    /// Goes back, or on, to the checkpoint of a simulation with an equal model.
+    pub fn recall(&mut self, tuning: &Tuning, checkpoint: Checkpoint) -> Result<(), StepError> {
+        let resumed = Self::resume(self.model.clone(), tuning.clone(), checkpoint)?;
+        let (workspace, spare) = (std::mem::take(&mut self.workspace), std::mem::take(&mut self.spare));
+        *self = Self { workspace, spare, ..resumed };
         Ok(())
     }
 
     /// Time since the start [s].
     pub fn time(&self) -> f64 {
-        self.memory.state.time + self.memory.state.pending
+        self.checkpoint.state.time + self.checkpoint.state.pending
     }
 }

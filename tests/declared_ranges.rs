@@ -42,8 +42,7 @@ fn ends(config: &Config) -> Vec<(&'static str, f64, Config)> {
 
 /// Start and two steps of free rolling.
 fn rolls(config: &Config) -> Result<(), String> {
-    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
-    let model = Model::prepare(config.clone(), Some(&target), &mut |_, _| {}).map_err(|error| error.to_string())?;
+    let model = Model::prepare(config.clone(), &common::store(), &mut |_, _| {}).map_err(|error| error.to_string())?;
     let inputs = Inputs::rolling(config);
     let mut simulation = Simulation::new(model, &inputs).map_err(|error| error.to_string())?;
     (0..2).try_for_each(|_| simulation.advance(&inputs, 1e-3)).map_err(|error| error.to_string())

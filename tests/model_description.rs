@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 use std::path::Path;
 use wheelrail::config::Config;
-use wheelrail::fmi::description::{model_description, start_value};
 use wheelrail::fmi::presets;
 use wheelrail::fmi::reference::markdown;
 use wheelrail::fmi::table::table;
 use wheelrail::fmi::units::UNITS;
+use wheelrail::fmi::v2::description::{model_description, start_value};
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
 use wheelrail::fmi::variables::variables;
 use wheelrail::simulation::{Outputs, PROFILE_POINTS};

@@ -2,7 +2,8 @@
 
 mod common;
 use common::*;
-use wheelrail::simulation::{Inputs, LONGEST_STEP, Rotation, Simulation, StepError, Translation, Vertical};
+use wheelrail::material::Isotropic;
+use wheelrail::simulation::{Inputs, LONGEST_STEP, Rotation, Simulation, StepError, Translation, Vertical, advice};
 
 #[test]
 fn a_thousand_random_starts_converge_without_shortening_a_step() {
@@ -97,7 +98,7 @@ fn a_motion_beyond_the_range_of_the_model_is_refused_and_the_run_goes_on() {
     assert!(velocity > 190.0 && velocity <= 200.0, "{velocity} m/s");
     simulation.advance(&Inputs::rolling(model.config()), 1e-4).unwrap();
 
-    let wave = model.config().material.rayleigh_speed();
+    let wave = Isotropic::from(&model.config().material).rayleigh_speed();
     assert!((wave / 2977.0 - 1.0).abs() < 0.01, "steel, Poisson's ratio 0.3: {wave} m/s");
     inputs = Inputs { rotation: Rotation::Velocity, ..Inputs::rolling(model.config()) };
     inputs.drive.omega = 1.01 * wave / model.config().wheel.radius;
@@ -234,7 +235,8 @@ fn a_load_beyond_the_candidate_zone_is_refused_and_the_run_goes_on() {
     inputs.drive.load *= 3.0;
     let error = twice.restart(&inputs).unwrap_err();
     assert!(matches!(error, StepError::ZoneExceeded { .. }), "{error}");
-    assert!(error.to_string().contains("model.nominal_load"), "{error}");
+    let advice = advice::failed_start(&error, model.config());
+    assert!(advice.contains("model.nominal_load") && advice.contains("drive.load"), "{advice}");
     let before = simulation.state().clone();
     let mut bad = Inputs::rolling(model.config());
     bad.drive.load = f64::NAN;

@@ -13,7 +13,7 @@ use scenario::{Drive, PHASES};
 use std::error::Error;
 use std::time::Instant;
 use wheelrail::config::Config;
-use wheelrail::simulation::Model;
+use wheelrail::simulation::{BasisStore, Model};
 
 /// Largest growth of the resident memory after [`WARM_UP`] steps [kB].
 const MEMORY: i64 = 1024;
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let Arguments { steps, step } = Arguments::parse();
     let mut config = Config::default();
     config.initial.velocity = 0.0;
-    let model = Model::prepare(config, None, &mut |_, _| {})?;
+    let model = Model::shared(config, &BasisStore::of_user(), &mut |_, _| {})?;
     let mut drive = Drive::new(model, step)?;
 
     let style = "{wide_bar} {pos}/{len} steps, {msg}, {eta} left";

@@ -17,7 +17,8 @@ mod vtu;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, Write};
-use wheelrail::fmi::{description, reference};
+use wheelrail::fmi::reference;
+use wheelrail::fmi::v2::description;
 
 /// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
 ///

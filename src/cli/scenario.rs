@@ -7,6 +7,7 @@ use std::io::Read;
 use std::path::Path;
 use wheelrail::config::display_number;
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
+use wheelrail::piecewise::between;
 
 /// Shorter times than this are rounding [s].
 const ROUNDING: f64 = 1e-10;
@@ -76,27 +77,17 @@ impl Scenario {
 
     /// Value at a time; at a jump that after it.
     pub fn after(&self, values: &[f64], time: f64) -> f64 {
-        self.interpolate(values, time, self.times.partition_point(|&t| t <= time + ROUNDING))
+        between(&self.times, values, time, self.times.partition_point(|&t| t <= time + ROUNDING))
     }
 
     /// Value at a time; at a jump that before it.
     pub fn before(&self, values: &[f64], time: f64) -> f64 {
-        self.interpolate(values, time, self.times.partition_point(|&t| t < time - ROUNDING))
+        between(&self.times, values, time, self.times.partition_point(|&t| t < time - ROUNDING))
     }
 
     /// Choice that holds from a time on.
     pub fn choice(&self, values: &[i32], time: f64) -> i32 {
         values[self.times.partition_point(|&t| t <= time + ROUNDING).max(1) - 1]
-    }
-
-    /// Between row `next − 1` and row `next`.
-    fn interpolate(&self, values: &[f64], time: f64, next: usize) -> f64 {
-        if next == 0 || next == values.len() {
-            return values[next.max(1) - 1];
-        }
-        let (from, to) = (self.times[next - 1], self.times[next]);
-        let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
-        if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
     }
 }
 

@@ -17,7 +17,6 @@ pub use table::{
 pub use value::{display_number, display_outside, display_range};
 
 use crate::analytic;
-use std::f64::consts::PI;
 use value::{Kind, Value};
 
 /// Half-width of the contact that can still be meshed [m].
@@ -65,15 +64,6 @@ fn tail_similarity(a: &str, b: &str) -> f64 {
     0.95 * strsim::normalized_damerau_levenshtein(&tail(a), &tail(b))
 }
 
-impl Material {
-    /// Speed of Rayleigh waves [m/s] (Viktorov's fit, 0.5 % for any Poisson's ratio).
-    pub fn rayleigh_speed(&self) -> f64 {
-        let nu = self.poissons_ratio;
-        let shear_wave = (0.5 * self.youngs_modulus / ((1.0 + nu) * self.density)).sqrt();
-        shear_wave * (0.87 + 1.12 * nu) / (1.0 + nu)
-    }
-}
-
 /// A check of one parameter against others: its name, value and unit, the range, and the others with their values.
 struct Dependent {
     name: &'static str,
@@ -117,11 +107,18 @@ impl Config {
         self.dependent().into_iter().try_for_each(Dependent::check)
     }
 
+    /// Speed of surface waves [m/s].
+    fn rayleigh_speed(&self) -> f64 {
+        let Material { youngs_modulus, poissons_ratio, density, .. } = self.material;
+        let shear_wave_speed = (0.5 * youngs_modulus / ((1.0 + poissons_ratio) * density)).sqrt();
+        analytic::rayleigh_speed(shear_wave_speed, poissons_ratio)
+    }
+
     /// Loads for which the contact zone can be meshed and fits wheel and rail.
     fn contact_zone(&self) -> Dependent {
         let (Material { youngs_modulus, poissons_ratio, .. }, radius) = (&self.material, self.wheel.radius);
         let stiffness = analytic::contact_modulus(*youngs_modulus, *poissons_ratio);
-        let load = |half_width: f64| PI * stiffness * half_width.powi(2) / (4.0 * radius) * self.model.contact_width;
+        let load = |half_width| analytic::hertz_load(half_width, radius, stiffness) * self.model.contact_width;
         Dependent {
             name: "model.nominal_load",
             value: self.model.nominal_load,
@@ -145,7 +142,8 @@ impl Config {
         let with_radius = || format!("wheel.radius = {} m", display_number(radius));
         let Initial { velocity, creepage } = self.initial;
         // The rim stays below the surface waves: |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the model.
-        let share = self.material.rayleigh_speed() / velocity.abs();
+        let wave = self.rayleigh_speed();
+        let share = wave / velocity.abs();
         [
             Dependent {
                 name: "wheel.hub_radius",
@@ -191,7 +189,7 @@ impl Config {
                 others: format!(
                     "initial.velocity = {} m/s (the rim stays slower than surface waves, {} m/s)",
                     display_number(velocity),
-                    display_number(self.material.rayleigh_speed())
+                    display_number(wave)
                 ),
             },
             self.contact_zone(),

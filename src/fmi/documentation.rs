@@ -1,9 +1,10 @@
 //! `documentation/index.html` of the FMU: conventions with a figure, theory, use, and the table of variables.
 
+use super::presets;
 use super::reference::{self, Cells};
 use super::table::{enumerations, table};
+use super::v2::description;
 use super::variable::{Causality, Variable};
-use super::{description, presets};
 use std::fmt::Write;
 
 /// Text before the tables.

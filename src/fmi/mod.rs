@@ -5,8 +5,6 @@
 //!
 //! Source of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4.
 
-pub mod c_abi;
-pub mod description;
 pub mod documentation;
 pub mod instance;
 pub mod lifecycle;
@@ -18,6 +16,7 @@ pub mod settings;
 pub mod snapshot;
 pub mod table;
 pub mod uri;
+pub mod v2;
 pub mod variable;
 pub mod variables;
 

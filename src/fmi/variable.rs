@@ -41,8 +41,7 @@ pub enum Causality {
     Output,
 }
 
-/// What an output depends on in Initialization Mode. Between steps it depends on nothing but the past: inputs that
-/// are set at a communication point act in the following step.
+/// What an output depends on in Initialization Mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Zero by definition.

@@ -34,7 +34,7 @@ impl Stream {
     }
 
     /// `C = ρ ∫ w·∂u dA`.
-    pub fn convection(self, points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn gyroscopic(self, points: &[Point; 4], density: f64) -> ElementMatrix {
         let mut matrix = [[0.0; 4]; 4];
         for p in points {
             let derivative = self.derivative(p.position, &p.gradient);
@@ -48,7 +48,7 @@ impl Stream {
     }
 
     /// `S = ρ ∫ ∂w·∂u dA`.
-    pub fn curvature(self, points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn ale_inertia(self, points: &[Point; 4], density: f64) -> ElementMatrix {
         let mut matrix = [[0.0; 4]; 4];
         for p in points {
             let derivative = self.derivative(p.position, &p.gradient);
@@ -87,11 +87,11 @@ mod tests {
     use crate::mechanics::{rail_mesh, wheel_system};
 
     #[test]
-    fn wheel_convection_is_antisymmetric() {
+    fn gyroscopic_matrix_of_the_wheel_is_antisymmetric() {
         let (outer, around) = (0.5, 48);
         let mesh = annulus(outer, 0.05, around, 8);
         let dofs = DofMap::new(&mesh);
-        let c = assemble(&mesh, &dofs, |p| Stream::Rotation.convection(p, 8000.0)).unwrap();
+        let c = assemble(&mesh, &dofs, |p| Stream::Rotation.gyroscopic(p, 8000.0)).unwrap();
         let boundary = |i: usize| i / 2 < around || i / 2 >= 8 * around;
         let (mut largest, mut inside, mut rim) = (0.0_f64, 0.0_f64, 0.0_f64);
         for i in 0..c.rows() {
@@ -107,9 +107,9 @@ mod tests {
     }
 
     #[test]
-    fn wheel_curvature_is_symmetric_and_not_negative() {
+    fn ale_inertia_of_the_wheel_is_symmetric_and_not_negative() {
         let system = wheel_system(&paper_d(4)).unwrap();
-        let s = &system.curvature;
+        let s = &system.ale_inertia;
         let largest = (0..s.rows()).map(|i| s.get(i, i)).fold(0.0, f64::max);
         for i in 0..s.rows() {
             for (j, value) in s.row(i) {
@@ -132,7 +132,7 @@ mod tests {
             (&rail, Stream::Translation, &in_rail),
         ] {
             let dofs = DofMap::new(mesh);
-            let convected = assemble_vector(mesh, &dofs, |p| stream.convection(p, 8e3), field).unwrap();
+            let convected = assemble_vector(mesh, &dofs, |p| stream.gyroscopic(p, 8e3), field).unwrap();
             let exact = assemble_vector(mesh, &dofs, |p| mass(p, 8e3), derivative).unwrap();
             assert!((convected - &exact).amax() < 1e-13 * exact.amax());
         }
@@ -142,7 +142,7 @@ mod tests {
     fn robin_term_makes_the_free_ends_blind_to_uniform_stretch() {
         let mesh = rail_mesh(&paper_d(4)).unwrap();
         let dofs = DofMap::new(&mesh);
-        let inner = assemble(&mesh, &dofs, |p| Stream::Translation.curvature(p, 1.0)).unwrap();
+        let inner = assemble(&mesh, &dofs, |p| Stream::Translation.ale_inertia(p, 1.0)).unwrap();
         let ends = assemble_faces(&mesh, &dofs, |p| Stream::Translation.outflow(p, 1.0)).unwrap();
         // Rows away from the fixed base of (S − B) times u = (x, 0), for which ∂∂u = 0.
         let mut u = vec![0.0; dofs.len()];

@@ -3,18 +3,21 @@
 use crate::config::Material;
 use crate::fem::Point;
 use crate::fem::assembly::{ElementMatrix, both_components};
+use crate::material::Isotropic;
 
 /// Lamé constants `λ`, `μ` [Pa].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lame {
+    /// First constant [Pa].
     pub lambda: f64,
+    /// Second constant, the shear modulus [Pa].
     pub mu: f64,
 }
 
 impl From<&Material> for Lame {
     fn from(material: &Material) -> Self {
-        let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
-        Self { lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), mu: 0.5 * e / (1.0 + nu) }
+        let material = Isotropic::from(material);
+        Self { lambda: material.lame(), mu: material.shear_modulus() }
     }
 }
 

@@ -1,10 +1,12 @@
 //! The full finite-element equations of a body behind the contact (verification).
 
 use super::MechanicsError;
-use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, StepSolver, TimeDerivative};
+use super::motion::{self, Equations};
+use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::system::BodySystem;
-use crate::linalg::{CholeskyPattern, CsrMatrix};
-use nalgebra::DVector;
+use crate::linalg::{CholeskyPattern, CsrMatrix, LinalgError};
+use crate::multistep::TimeDerivative;
+use nalgebra::{DMatrix, DVector};
 
 /// State: all free nodal displacements.
 pub struct FullBody {
@@ -13,20 +15,62 @@ pub struct FullBody {
     centrifugal: bool,
 }
 
+/// `a0² M + a0 D + K`; the pattern does not depend on `a0`.
+fn step_matrix(system: &BodySystem, a0: f64) -> Result<CsrMatrix, LinalgError> {
+    let undamped = CsrMatrix::combination(a0 * a0, &system.mass, 1.0, &system.stiffness)?;
+    match &system.damping {
+        Some(damping) => CsrMatrix::combination(1.0, &undamped, a0, damping),
+        None => Ok(undamped),
+    }
+}
+
 impl FullBody {
-    /// Analyses the pattern of `a0² M + K` once for all `a0`.
+    /// Analyses the pattern of `a0² M + a0 D + K` once for all `a0`; `centrifugal`: with the centrifugal load.
     pub fn new(system: BodySystem, centrifugal: bool) -> Result<Self, MechanicsError> {
-        let pattern = CholeskyPattern::new(&CsrMatrix::combination(0.0, &system.mass, 1.0, &system.stiffness)?)?;
+        let pattern = CholeskyPattern::new(&step_matrix(&system, 0.0)?)?;
         Ok(Self { system, pattern, centrifugal })
     }
+}
 
-    /// The matrices behind the response.
-    pub fn system(&self) -> &BodySystem {
-        &self.system
+impl Equations for FullBody {
+    fn set_inertia(&self, acceleration: &DVector<f64>, load: &mut DVector<f64>) {
+        load.fill(0.0);
+        self.system.mass.multiply_add(-1.0, acceleration.as_slice(), load.as_mut_slice());
     }
 
-    fn momentum(&self, rate: &DVector<f64>) -> [f64; 3] {
-        std::array::from_fn(|k| self.system.rigid.column(k).dot(rate))
+    fn is_damped(&self) -> bool {
+        self.system.damping.is_some()
+    }
+
+    fn subtract_damping(&self, velocity: &DVector<f64>, load: &mut DVector<f64>) {
+        if let Some(damping) = &self.system.damping {
+            damping.multiply_add(-1.0, velocity.as_slice(), load.as_mut_slice());
+        }
+    }
+
+    fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
+        self.system.gyroscopic.multiply_add(-1.0, rate.as_slice(), load.as_mut_slice());
+    }
+
+    fn add_ale_inertia(&self, square: f64, displacement: &DVector<f64>, load: &mut DVector<f64>) {
+        self.system.ale_inertia.multiply_add(square, displacement.as_slice(), load.as_mut_slice());
+    }
+
+    fn centrifugal(&self) -> Option<&DVector<f64>> {
+        self.centrifugal.then_some(&self.system.centrifugal)
+    }
+
+    fn rigid(&self) -> &DMatrix<f64> {
+        &self.system.rigid
+    }
+
+    fn set_surface(&self, y: &DVector<f64>, _square: f64, surface: &mut DVector<f64>) {
+        fit(surface, self.system.surface.len());
+        surface.iter_mut().zip(&self.system.surface).for_each(|(value, &i)| *value = y[i]);
+    }
+
+    fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>) {
+        self.system.surface.iter().zip(forces).for_each(|(&i, force)| load[i] += force);
     }
 }
 
@@ -37,45 +81,25 @@ impl BodyResponse for FullBody {
 
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let system = &self.system;
-        let matrix = CsrMatrix::combination(a0 * a0, &system.mass, 1.0, &system.stiffness)?;
-        let factor = self.pattern.factorise(&matrix)?;
+        let factor = self.pattern.factorise(&step_matrix(system, a0)?)?;
         let surface = system.surface_compliance(&factor);
         let mut rigid = system.rigid.clone();
         factor.solve_columns(&mut rigid);
-        let loads = -system.rows_on_surface(&rigid);
-        let momentum = loads.transpose() * -(a0 * a0);
-        let momentum_loads = system.rigid.tr_mul(&rigid) * -(a0 * a0);
-        Ok(StepOperator { a0, surface, loads, momentum, momentum_loads, solver: StepSolver::Sparse(factor) })
+        let inertial_response = -system.rows_on_surface(&rigid);
+        let momentum = inertial_response.transpose() * -(a0 * a0);
+        let deformation_inertia = system.rigid.tr_mul(&rigid) * -(a0 * a0);
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver: Box::new(factor) })
     }
 
-    fn free(
+    fn free_response(
         &self,
         op: &StepOperator,
         state: &BodyState,
         td: &TimeDerivative,
-        convection: Convection,
-        convected: &BodyState,
-    ) -> FreeResponse {
-        let Convection { speed, acceleration } = convection;
-        let system = &self.system;
-        let mut load = DVector::zeros(self.state_len());
-        let inertial = state.acceleration_offsets(td);
-        system.mass.multiply_add(-1.0, inertial.as_slice(), load.as_mut_slice());
-        if speed != 0.0 || acceleration != 0.0 {
-            let mut rate = &convected.velocity * (2.0 * speed);
-            rate.axpy(acceleration, &convected.displacement, 1.0);
-            system.convection.multiply_add(-1.0, rate.as_slice(), load.as_mut_slice());
-            let square = speed * speed;
-            system.curvature.multiply_add(square, convected.displacement.as_slice(), load.as_mut_slice());
-            if self.centrifugal {
-                load.axpy(square, &system.centrifugal, 1.0);
-            }
-        }
-        let mut free = load.clone();
-        op.solver.solve_in_place(&mut free);
-        let surface = system.on_surface(&free);
-        let momentum = self.momentum(&(free * (op.a0 * op.a0) + inertial));
-        FreeResponse { surface, momentum, load }
+        stream: Convection,
+        out: &mut FreeResponse,
+    ) {
+        motion::free_response(self, op, state, td, stream, out);
     }
 
     fn commit(
@@ -85,24 +109,24 @@ impl BodyResponse for FullBody {
         forces: &DVector<f64>,
         rigid: [f64; 3],
         td: &TimeDerivative,
-        state: &mut BodyState,
+        state: &BodyState,
+        next: &mut BodyState,
     ) {
-        let mut new = free.load.clone();
-        for (&i, force) in self.system.surface.iter().zip(forces.iter()) {
-            new[i] += force;
-        }
-        for (k, acceleration) in rigid.iter().enumerate() {
-            new.axpy(-acceleration, &self.system.rigid.column(k), 1.0);
-        }
-        op.solver.solve_in_place(&mut new);
-        state.advance(td, new);
+        motion::commit(self, op, free, forces, rigid, td, state, next);
     }
 
     fn energy(&self, state: &BodyState, _forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
+        let system = &self.system;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
-        let elastic = 0.5 * self.system.stiffness.bilinear(y, y);
-        let kinetic = 0.5 * self.system.mass.bilinear(v, v);
-        let coupling: f64 = self.momentum(&state.velocity).iter().zip(rigid_velocity).map(|(p, w)| p * w).sum();
+        let elastic = 0.5 * system.stiffness.bilinear(y, y);
+        let kinetic = 0.5 * system.mass.bilinear(v, v);
+        let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
+        let coupling: f64 = momentum.zip(rigid_velocity).map(|(p, w)| p * w).sum();
         elastic + kinetic + coupling
+    }
+
+    fn dissipation(&self, state: &BodyState) -> f64 {
+        let v = state.velocity.as_slice();
+        self.system.damping.as_ref().map_or(0.0, |damping| damping.bilinear(v, v))
     }
 }

@@ -5,8 +5,10 @@ pub mod basis;
 pub mod elasticity;
 pub mod field;
 pub mod full;
+mod motion;
 pub mod reduced;
 pub mod response;
+pub mod solver;
 pub mod system;
 #[cfg(test)]
 pub mod testing;
@@ -14,7 +16,7 @@ pub mod testing;
 pub use basis::{Basis, BasisError};
 pub use full::FullBody;
 pub use reduced::{ReducedBasis, ReducedBody};
-pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, TimeDerivative};
+pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 pub use system::BodySystem;
 
 use crate::analytic;
@@ -22,6 +24,7 @@ use crate::config::Config;
 use crate::fem::graded::GUARDS;
 use crate::fem::{self, ContactZone, FemError, Mesh};
 use crate::linalg::LinalgError;
+use crate::material::Isotropic;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -85,7 +88,7 @@ pub fn nominal_half_width(config: &Config) -> f64 {
 
 /// Contact modulus of wheel and rail [Pa].
 pub fn contact_modulus(config: &Config) -> f64 {
-    analytic::contact_modulus(config.material.youngs_modulus, config.material.poissons_ratio)
+    Isotropic::from(&config.material).contact_modulus()
 }
 
 /// Fine zone of the meshes for the nominal load.

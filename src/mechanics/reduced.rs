@@ -2,13 +2,18 @@
 //!
 //! `y = Φ q + (static answer of the truncated modes)`: with hub or base fixed, `Φᵀ M Φ = 1`, `Φᵀ K Φ = diag(Ω²)`, the
 //! surface displacement is `u = Φ_s q + F_res λ + …` with `F_res = G − Φ_s Ω⁻² Φ_sᵀ` and `G` the static compliance.
-//! The static limit is exact; the truncated modes lie above the band of interest and follow their load at once.
+//! The static limit is exact; the truncated modes lie above the band of interest and follow their load at once. Damping
+//! acts between the kept modes, `Φᵀ D Φ`; the truncated modes have neither inertia nor damping, so that they store elastic
+//! energy and dissipate none.
 //! Source: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006), ch. 17 (Rubin's method).
 
 use super::MechanicsError;
-use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, StepSolver, TimeDerivative};
+use super::motion::{self, Equations};
+use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
+use super::solver::{Dense, Diagonal, StepSolver};
 use super::system::{BodySystem, symmetrise};
 use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
+use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -30,9 +35,11 @@ pub struct ReducedBasis {
     /// Static surface answer of the truncated modes to the centrifugal load per `Ω²`, `2n`.
     pub centrifugal_residual: DVector<f64>,
     /// `Φᵀ C Φ`, `m × m`.
-    pub convection: DMatrix<f64>,
+    pub gyroscopic: DMatrix<f64>,
     /// `Φᵀ (S − B) Φ`, `m × m`.
-    pub curvature: DMatrix<f64>,
+    pub ale_inertia: DMatrix<f64>,
+    /// `Φᵀ D Φ`, `m × m` [1/s]; `None`: undamped.
+    pub damping: Option<DMatrix<f64>>,
 }
 
 impl ReducedBasis {
@@ -61,8 +68,13 @@ impl ReducedBasis {
         let basis = Self {
             rigid_residual: system.rows_on_surface(&rigid_static) - &weighted * &rigid,
             centrifugal_residual: system.on_surface(&centrifugal_static) - &weighted * &centrifugal,
-            convection: projected(&system.convection),
-            curvature: projected(&system.curvature),
+            gyroscopic: projected(&system.gyroscopic),
+            ale_inertia: projected(&system.ale_inertia),
+            damping: system.damping.as_ref().map(|damping| {
+                let mut damping = projected(damping);
+                symmetrise(&mut damping);
+                damping
+            }),
             squared_frequencies: modes.squared_frequencies,
             shapes,
             residual,
@@ -78,6 +90,11 @@ impl ReducedBasis {
         self.squared_frequencies.len()
     }
 
+    fn matrices(&self) -> impl Iterator<Item = &DMatrix<f64>> {
+        let Self { shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia, damping, .. } = self;
+        [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping)
+    }
+
     /// Whether all arrays belong to `ports` surface components and hold finite numbers.
     pub fn is_consistent(&self, ports: usize) -> bool {
         let m = self.modes();
@@ -87,11 +104,12 @@ impl ReducedBasis {
             && self.rigid_residual.shape() == (ports, 3)
             && self.centrifugal.len() == m
             && self.centrifugal_residual.len() == ports
-            && self.convection.shape() == (m, m)
-            && self.curvature.shape() == (m, m)
+            && self.gyroscopic.shape() == (m, m)
+            && self.ale_inertia.shape() == (m, m)
+            && self.damping.as_ref().is_none_or(|damping| damping.shape() == (m, m))
             && self.squared_frequencies.iter().all(|w| *w > 0.0 && w.is_finite())
-            && self.shapes.iter().chain(&self.residual).all(|x| x.is_finite())
-            && self.convection.iter().chain(&self.curvature).all(|x| x.is_finite())
+            && self.matrices().all(|matrix| matrix.iter().all(|x| x.is_finite()))
+            && self.centrifugal.iter().chain(&self.centrifugal_residual).all(|x| x.is_finite())
     }
 }
 
@@ -106,9 +124,81 @@ fn scale_columns(a: &DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
 
 /// State: modal coordinates.
 pub struct ReducedBody {
+    /// Modes and what else is constant.
     pub basis: ReducedBasis,
     /// Centrifugal load of the spinning wheel.
     pub centrifugal: bool,
+}
+
+/// What `A = a0² + a0 Φᵀ D Φ + diag(Ω²)` answers.
+struct Factorised {
+    solver: Box<dyn StepSolver>,
+    /// `Φ_s A⁻¹`.
+    weighted: DMatrix<f64>,
+    /// `A⁻¹ Φᵀ M r_k`.
+    answer: DMatrix<f64>,
+}
+
+impl ReducedBody {
+    fn factorised(&self, a0: f64) -> Result<Factorised, MechanicsError> {
+        let ReducedBasis { squared_frequencies, shapes, rigid, damping, .. } = &self.basis;
+        let square = a0 * a0;
+        let Some(damping) = damping else {
+            let inverse = squared_frequencies.map(|w| 1.0 / (square + w));
+            let weighted = scale_columns(shapes, &inverse);
+            let answer = DMatrix::from_fn(self.basis.modes(), 3, |i, k| inverse[i] * rigid[(i, k)]);
+            return Ok(Factorised { solver: Box::new(Diagonal { inverse }), weighted, answer });
+        };
+        let mut matrix = damping * a0;
+        matrix.set_diagonal(&(matrix.diagonal() + squared_frequencies.add_scalar(square)));
+        let solver = Dense::new(matrix)?;
+        let (weighted, answer) = (solver.solve(&shapes.transpose()).transpose(), solver.solve(rigid));
+        Ok(Factorised { solver: Box::new(solver), weighted, answer })
+    }
+}
+
+impl Equations for ReducedBody {
+    fn set_inertia(&self, acceleration: &DVector<f64>, load: &mut DVector<f64>) {
+        load.iter_mut().zip(acceleration).for_each(|(load, a)| *load = -a);
+    }
+
+    fn is_damped(&self) -> bool {
+        self.basis.damping.is_some()
+    }
+
+    fn subtract_damping(&self, velocity: &DVector<f64>, load: &mut DVector<f64>) {
+        if let Some(damping) = &self.basis.damping {
+            load.gemv(-1.0, damping, velocity, 1.0);
+        }
+    }
+
+    fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
+        load.gemv(-1.0, &self.basis.gyroscopic, rate, 1.0);
+    }
+
+    fn add_ale_inertia(&self, square: f64, displacement: &DVector<f64>, load: &mut DVector<f64>) {
+        load.gemv(square, &self.basis.ale_inertia, displacement, 1.0);
+    }
+
+    fn centrifugal(&self) -> Option<&DVector<f64>> {
+        self.centrifugal.then_some(&self.basis.centrifugal)
+    }
+
+    fn rigid(&self) -> &DMatrix<f64> {
+        &self.basis.rigid
+    }
+
+    fn set_surface(&self, y: &DVector<f64>, square: f64, surface: &mut DVector<f64>) {
+        fit(surface, self.basis.shapes.nrows());
+        surface.gemv(1.0, &self.basis.shapes, y, 0.0);
+        if self.centrifugal {
+            surface.axpy(square, &self.basis.centrifugal_residual, 1.0);
+        }
+    }
+
+    fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>) {
+        load.gemv_tr(1.0, &self.basis.shapes, forces, 1.0);
+    }
 }
 
 impl BodyResponse for ReducedBody {
@@ -118,51 +208,27 @@ impl BodyResponse for ReducedBody {
 
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let basis = &self.basis;
-        let square = a0 * a0;
-        let flexibility = basis.squared_frequencies.map(|w| 1.0 / (square + w));
-        let weighted = scale_columns(&basis.shapes, &flexibility);
+        let Factorised { solver, weighted, answer } = self.factorised(a0)?;
         let mut surface = basis.residual.clone();
         surface.gemm(1.0, &weighted, &basis.shapes.transpose(), 1.0);
         symmetrise(&mut surface);
         let modal = &weighted * &basis.rigid;
+        let square = a0 * a0;
         let momentum = modal.transpose() * square;
-        let loads = -(modal + &basis.rigid_residual);
-        let answer = DMatrix::from_fn(basis.modes(), 3, |i, k| flexibility[i] * basis.rigid[(i, k)]);
-        let momentum_loads = basis.rigid.tr_mul(&answer) * -square;
-        Ok(StepOperator { a0, surface, loads, momentum, momentum_loads, solver: StepSolver::Modal(flexibility) })
+        let inertial_response = -(modal + &basis.rigid_residual);
+        let deformation_inertia = basis.rigid.tr_mul(&answer) * -square;
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver })
     }
 
-    fn free(
+    fn free_response(
         &self,
         op: &StepOperator,
         state: &BodyState,
         td: &TimeDerivative,
-        convection: Convection,
-        convected: &BodyState,
-    ) -> FreeResponse {
-        let Convection { speed, acceleration } = convection;
-        let basis = &self.basis;
-        let inertial = state.acceleration_offsets(td);
-        let mut load = -&inertial;
-        let square = speed * speed;
-        if speed != 0.0 || acceleration != 0.0 {
-            let mut rate = &convected.velocity * (2.0 * speed);
-            rate.axpy(acceleration, &convected.displacement, 1.0);
-            load.gemv(-1.0, &basis.convection, &rate, 1.0);
-            load.gemv(square, &basis.curvature, &convected.displacement, 1.0);
-            if self.centrifugal {
-                load.axpy(square, &basis.centrifugal, 1.0);
-            }
-        }
-        let mut free = load.clone();
-        op.solver.solve_in_place(&mut free);
-        let mut surface = &basis.shapes * &free;
-        if self.centrifugal {
-            surface.axpy(square, &basis.centrifugal_residual, 1.0);
-        }
-        let rate = free * (op.a0 * op.a0) + inertial;
-        let momentum = std::array::from_fn(|k| basis.rigid.column(k).dot(&rate));
-        FreeResponse { surface, momentum, load }
+        stream: Convection,
+        out: &mut FreeResponse,
+    ) {
+        motion::free_response(self, op, state, td, stream, out);
     }
 
     fn commit(
@@ -172,32 +238,36 @@ impl BodyResponse for ReducedBody {
         forces: &DVector<f64>,
         rigid: [f64; 3],
         td: &TimeDerivative,
-        state: &mut BodyState,
+        state: &BodyState,
+        next: &mut BodyState,
     ) {
-        let mut new = free.load.clone();
-        new.gemv_tr(1.0, &self.basis.shapes, forces, 1.0);
-        for (k, acceleration) in rigid.iter().enumerate() {
-            new.axpy(-acceleration, &self.basis.rigid.column(k), 1.0);
-        }
-        op.solver.solve_in_place(&mut new);
-        state.advance(td, new);
+        motion::commit(self, op, free, forces, rigid, td, state, next);
     }
 
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
         let basis = &self.basis;
         let modal: f64 = (state.displacement.iter().zip(&basis.squared_frequencies)).map(|(y, w)| w * y * y).sum();
-        let residual = forces.dot(&(&basis.residual * forces));
+        let residual = quadratic_form(&basis.residual, forces);
         let kinetic = state.velocity.norm_squared();
         let coupling: f64 =
             rigid_velocity.iter().enumerate().map(|(k, w)| w * basis.rigid.column(k).dot(&state.velocity)).sum();
         0.5 * (modal + residual + kinetic) + coupling
     }
+
+    fn dissipation(&self, state: &BodyState) -> f64 {
+        self.basis.damping.as_ref().map_or(0.0, |damping| quadratic_form(damping, &state.velocity))
+    }
+}
+
+/// `xᵀ A x` without a temporary; columns of zeros in `x` (nodes out of contact) cost nothing.
+fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
+    x.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(j, value)| value * a.column(j).dot(x)).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::testing::paper_d;
+    use crate::mechanics::testing::{committed, free, paper_d};
     use crate::mechanics::{FullBody, rail_system, wheel_system};
 
     /// Wheel and rail, each reduced to `modes` and full.
@@ -228,11 +298,11 @@ mod tests {
         for (reduced, full) in pairs(12) {
             let (r, f) = (reduced.operator(0.0).unwrap(), full.operator(0.0).unwrap());
             assert!(difference(&r.surface, &f.surface) < 1e-9);
-            assert!(difference(&r.loads, &f.loads) < 1e-9 || f.loads.amax() == 0.0);
-            assert!(r.momentum.amax() == 0.0 && r.momentum_loads.amax() == 0.0);
+            assert!(difference(&r.inertial_response, &f.inertial_response) < 1e-9 || f.inertial_response.amax() == 0.0);
+            assert!(r.momentum.amax() == 0.0 && r.deformation_inertia.amax() == 0.0);
             let (td, rest) = (TimeDerivative::default(), Convection { speed: 80.0, acceleration: 0.0 });
             let (sr, sf) = (BodyState::zeros(reduced.state_len()), BodyState::zeros(full.state_len()));
-            let centrifugal = [reduced.free(&r, &sr, &td, rest, &sr), full.free(&f, &sf, &td, rest, &sf)];
+            let centrifugal = [free(&reduced, &r, &sr, &td, rest), free(&full, &f, &sf, &td, rest)];
             let error = (&centrifugal[0].surface - &centrifugal[1].surface).amax();
             assert!(error <= 1e-9 * centrifugal[1].surface.amax(), "{error:e}");
         }
@@ -245,18 +315,21 @@ mod tests {
             let (r, f) = (reduced.operator(1.5e3).unwrap(), full.operator(1.5e3).unwrap());
             let differences = [
                 difference(&r.surface, &f.surface),
-                difference(&r.loads, &f.loads),
+                difference(&r.inertial_response, &f.inertial_response),
                 difference(&r.momentum, &f.momentum),
-                difference(&r.momentum_loads, &f.momentum_loads),
+                difference(&r.deformation_inertia, &f.deformation_inertia),
             ];
             println!("{differences:?}");
-            if f.loads.amax() == 0.0 {
-                assert!(r.loads.amax() == 0.0 && differences[0] < 1e-4);
+            if f.inertial_response.amax() == 0.0 {
+                assert!(r.inertial_response.amax() == 0.0 && differences[0] < 1e-4);
             } else {
                 assert!(differences[0] < 1e-4 && differences[1] < 1e-4);
                 assert!(differences[2] < 1e-3 && differences[3] < 1e-3);
                 // Reciprocity of the ports.
-                assert!((&f.momentum + f.loads.transpose() * 1.5e3_f64.powi(2)).amax() < 1e-12 * f.momentum.amax());
+                assert!(
+                    (&f.momentum + f.inertial_response.transpose() * 1.5e3_f64.powi(2)).amax()
+                        < 1e-12 * f.momentum.amax()
+                );
             }
         }
     }
@@ -277,12 +350,13 @@ mod tests {
                     let forces = load(op.surface.nrows(), -2e4 * (t / 5e-3).min(1.0), 3e3 * (800.0 * t).sin());
                     let rigid = [2.0 * (t / 5e-3).min(1.0), 0.0, -30.0 * (t / 5e-3).min(1.0)];
                     let convection = Convection { speed: 30.0 + t, acceleration: 1.0 };
-                    let free = body.free(&op, &state, &td, convection, &state.clone());
-                    let surface = &free.surface + &op.surface * &forces + &op.loads * DVector::from_row_slice(&rigid);
+                    let free = free(body, &op, &state, &td, convection);
+                    let surface =
+                        &free.surface + &op.surface * &forces + &op.inertial_response * DVector::from_row_slice(&rigid);
                     let momentum = DVector::from_row_slice(&free.momentum)
                         + &op.momentum * &forces
-                        + &op.momentum_loads * DVector::from_row_slice(&rigid);
-                    body.commit(&op, &free, &forces, rigid, &td, &mut state);
+                        + &op.deformation_inertia * DVector::from_row_slice(&rigid);
+                    state = committed(body, &op, &free, &forces, rigid, &td, &state);
                     // The predicted rate of momentum is r_kᵀ M ÿ of the accepted state.
                     let rate = BodyState { velocity: state.acceleration.clone(), ..state.clone() };
                     let coupled = |w: [f64; 3]| body.energy(&rate, &forces, w) - body.energy(&rate, &forces, [0.0; 3]);
@@ -321,20 +395,21 @@ mod tests {
             let mut state = BodyState::zeros(body.state_len());
             let rest = Convection::default();
             let stationary = TimeDerivative::default();
-            let free = body.free(&still, &state, &stationary, rest, &state);
-            body.commit(&still, &free, &load(still.surface.nrows(), -2e4, 5e3), [0.0; 3], &stationary, &mut state);
+            let loaded = free(body, &still, &state, &stationary, rest);
+            let forces = load(still.surface.nrows(), -2e4, 5e3);
+            state = committed(body, &still, &loaded, &forces, [0.0; 3], &stationary, &state);
             assert!(state.velocity.amax() == 0.0 && state.displacement == state.displacement_before);
             // Released: without forces the acceleration is −M⁻¹ K y; one short backward Euler step supplies it.
             let start = TimeDerivative { a0: 1e6, a1: -1e6, a2: 0.0, b1: 0.0 };
             let none = DVector::zeros(still.surface.nrows());
             let op = body.operator(start.a0).unwrap();
-            let free = body.free(&op, &state, &start, rest, &state);
-            body.commit(&op, &free, &none, [0.0; 3], &start, &mut state);
+            let released = free(body, &op, &state, &start, rest);
+            state = committed(body, &op, &released, &none, [0.0; 3], &start, &state);
             let op = body.operator(td.a0).unwrap();
             let initial = body.energy(&state, &none, [0.0; 3]);
             for _ in 0..50 {
-                let free = body.free(&op, &state, &td, rest, &state);
-                body.commit(&op, &free, &none, [0.0; 3], &td, &mut state);
+                let moving = free(body, &op, &state, &td, rest);
+                state = committed(body, &op, &moving, &none, [0.0; 3], &td, &state);
             }
             let change = body.energy(&state, &none, [0.0; 3]) / initial - 1.0;
             println!("energy changes by {change:.1e}");

@@ -7,15 +7,17 @@
 //! Everything is per metre of width.
 //!
 //! Momentum balance of the wheel (Paper D, eq. 9) after discretisation in space, with `C = ρ∫ w·∂u`,
-//! `S = ρ∫ ∂w·∂u` and `∂ = v̄·∇/speed` the derivative along the streamlines (`−∂_φ` in the wheel, `−∂_x` in the rail):
+//! `S = ρ∫ ∂w·∂u`, `∂ = v̄·∇/speed` the derivative along the streamlines (`−∂_φ` in the wheel, `−∂_x` in the rail) and
+//! the damping `D`, symmetric and positive semidefinite, which is absent by default:
 //!
-//! `M ÿ + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
+//! `M ÿ + D ẏ + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
 //!
 //! The rail has the same form with `V` in place of `Ω`, no rigid ports, no centrifugal load and the in/outflow (Robin)
-//! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on a known state (`convected`).
+//! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state before the step.
 
 use super::MechanicsError;
-use crate::linalg::Cholesky;
+use super::solver::StepSolver;
+use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -27,23 +29,24 @@ pub trait BodyResponse: Send + Sync {
     /// Answer to unit port loads when `ÿ = a0² y + …` (0: static).
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError>;
 
-    /// The part of the answer known before the contact is solved.
+    /// The part of the answer known before the contact is solved; overwrites `out` and reuses its memory.
     ///
-    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms, evaluated with the
-    /// displacement and velocity of `convected`. `op` must come from this body with `a0 = td.a0`.
-    fn free(
+    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms of the `stream`, evaluated
+    /// with the displacement and velocity of `state`. `op` must come from this body with `a0 = td.a0`.
+    fn free_response(
         &self,
         op: &StepOperator,
         state: &BodyState,
         td: &TimeDerivative,
-        convection: Convection,
-        convected: &BodyState,
-    ) -> FreeResponse;
+        stream: Convection,
+        out: &mut FreeResponse,
+    );
 
-    /// Accepts a step: solves for the new coordinates and advances `state`.
+    /// Accepts a step: solves for the new coordinates and writes the state after it into `next`, whose memory is reused.
     ///
     /// `forces` are the nodal forces on this body (`2n`) [N/m], `rigid` the accelerations `V̇`, `Ü` [m/s²] and `Ω̇`
-    /// [rad/s²] (ignored by the rail).
+    /// [rad/s²] (ignored by the rail); `op`, `free`, `td` and `state` are those of [`Self::free_response`].
+    #[allow(clippy::too_many_arguments)]
     fn commit(
         &self,
         op: &StepOperator,
@@ -51,53 +54,24 @@ pub trait BodyResponse: Send + Sync {
         forces: &DVector<f64>,
         rigid: [f64; 3],
         td: &TimeDerivative,
-        state: &mut BodyState,
+        state: &BodyState,
+        next: &mut BodyState,
     );
 
     /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
     /// velocities `w = (V, U̇, Ω)` [J/m]; `forces` feed the static part of a reduced body.
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
-}
 
-/// Linear multistep formula `d_t y = a0 y_{n+1} + a1 y_n + a2 y_{n−1} + b1 (d_t y)_n`; all zero: stationary.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TimeDerivative {
-    pub a0: f64,
-    pub a1: f64,
-    pub a2: f64,
-    pub b1: f64,
-}
-
-impl TimeDerivative {
-    /// The part of `d_t y` known before the step.
-    pub fn offset(&self, now: f64, before: f64, rate: f64) -> f64 {
-        self.a1 * now + self.a2 * before + self.b1 * rate
-    }
-
-    /// [`Self::offset`] of all coordinates.
-    pub fn offsets(&self, now: &DVector<f64>, before: &DVector<f64>, rate: &DVector<f64>) -> DVector<f64> {
-        let mut sum = now * self.a1;
-        sum.axpy(self.a2, before, 1.0);
-        sum.axpy(self.b1, rate, 1.0);
-        sum
-    }
-
-    /// Impulse that the formula attributes to the force `now` in a momentum balance `d_t p = f`, after the force `before`
-    /// with the impulse `last`: the sum over all forces is the change of `p`.
-    pub fn impulse(&self, now: f64, before: f64, last: f64) -> f64 {
-        (now - self.b1 * before + self.a2 * last) / self.a0
-    }
-
-    /// No time derivative at all: every step is an equilibrium.
-    pub fn is_stationary(&self) -> bool {
-        *self == Self::default()
-    }
+    /// Power `vᵀ D v` that damping dissipates and the ends radiate [W/m]; zero without damping.
+    fn dissipation(&self, state: &BodyState) -> f64;
 }
 
 /// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Convection {
+    /// `Ω` [rad/s] or `V` [m/s].
     pub speed: f64,
+    /// `Ω̇` [rad/s²] or `V̇` [m/s²].
     pub acceleration: f64,
 }
 
@@ -129,73 +103,96 @@ impl BodyState {
         }
     }
 
-    /// The part of `d_tt y` known before the step: `a0 h_v + h_a` with the offsets of velocity and acceleration.
-    pub fn acceleration_offsets(&self, td: &TimeDerivative) -> DVector<f64> {
-        let mut sum = td.offsets(&self.velocity, &self.velocity_before, &self.acceleration);
-        sum.axpy(td.a0, &td.offsets(&self.displacement, &self.displacement_before, &self.velocity), 1.0);
-        sum
+    /// Writes the part of `d_t y` known before the step into `out`.
+    pub fn velocity_offsets(&self, td: &TimeDerivative, out: &mut DVector<f64>) {
+        let Self { displacement, displacement_before, velocity, .. } = self;
+        fit(out, displacement.len());
+        for (i, value) in out.iter_mut().enumerate() {
+            *value = td.offset(displacement[i], displacement_before[i], velocity[i]);
+        }
     }
 
-    /// Moves on to the displacement `new`; velocity and acceleration follow from `td`, the histories shift.
+    /// Writes the part of `d_tt y` known before the step into `out`: `a0 h_v + h_a` with the offsets of velocity and
+    /// acceleration.
+    pub fn acceleration_offsets(&self, td: &TimeDerivative, out: &mut DVector<f64>) {
+        let Self { displacement, velocity, acceleration, displacement_before, velocity_before } = self;
+        fit(out, displacement.len());
+        for (i, value) in out.iter_mut().enumerate() {
+            let velocity_offset = td.offset(displacement[i], displacement_before[i], velocity[i]);
+            *value = td.a0 * velocity_offset + td.offset(velocity[i], velocity_before[i], acceleration[i]);
+        }
+    }
+
+    /// Completes `next`, whose displacement is that at the end of a step from this state: velocity and acceleration follow
+    /// from `td`, the histories shift.
     ///
     /// Stationary: velocity and acceleration vanish and the history is the new displacement.
-    pub fn advance(&mut self, td: &TimeDerivative, new: DVector<f64>) {
-        let mut velocity = td.offsets(&self.displacement, &self.displacement_before, &self.velocity);
-        velocity.axpy(td.a0, &new, 1.0);
-        let mut acceleration = td.offsets(&self.velocity, &self.velocity_before, &self.acceleration);
-        acceleration.axpy(td.a0, &velocity, 1.0);
-        if td.is_stationary() {
-            self.displacement_before = new.clone();
-            self.velocity_before = velocity.clone();
-        } else {
-            self.displacement_before = std::mem::take(&mut self.displacement);
-            self.velocity_before = std::mem::take(&mut self.velocity);
+    pub fn advance(&self, td: &TimeDerivative, next: &mut Self) {
+        let n = self.displacement.len();
+        let Self { displacement, velocity, acceleration, displacement_before, velocity_before } = next;
+        for values in [&mut *velocity, &mut *acceleration, &mut *displacement_before, &mut *velocity_before] {
+            fit(values, n);
         }
-        self.displacement = new;
-        self.velocity = velocity;
-        self.acceleration = acceleration;
+        let stationary = td.is_stationary();
+        for i in 0..n {
+            let (y, v) = (self.displacement[i], self.velocity[i]);
+            velocity[i] = td.a0 * displacement[i] + td.offset(y, self.displacement_before[i], v);
+            acceleration[i] = td.a0 * velocity[i] + td.offset(v, self.velocity_before[i], self.acceleration[i]);
+            displacement_before[i] = if stationary { displacement[i] } else { y };
+            velocity_before[i] = if stationary { velocity[i] } else { v };
+        }
+    }
+}
+
+/// Gives a buffer its length; allocates at the first use only.
+pub(super) fn fit(buffer: &mut DVector<f64>, len: usize) {
+    if buffer.len() != len {
+        *buffer = DVector::zeros(len);
     }
 }
 
 /// Answer of a body to unit port loads for one value of `a0` (0: static).
 pub struct StepOperator {
+    /// Weight of the new value in the time formula [1/s].
     pub a0: f64,
     /// Surface displacement per unit nodal force, symmetric, `2n × 2n` [m/(N/m)].
     pub surface: DMatrix<f64>,
     /// Surface displacement per unit rigid acceleration (V̇, Ü, Ω̇), `2n × 3`; zero for the rail.
-    pub loads: DMatrix<f64>,
+    pub inertial_response: DMatrix<f64>,
     /// Rate of deformation momentum per unit nodal force, `3 × 2n`.
     pub momentum: DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, `3 × 3`.
-    pub momentum_loads: DMatrix<f64>,
-    /// What the implementation keeps to solve with (modal denominators or a sparse factorisation).
-    pub solver: StepSolver,
+    pub deformation_inertia: DMatrix<f64>,
+    /// Solves the equations of the step.
+    pub solver: Box<dyn StepSolver>,
 }
 
 /// Part of a body's answer that is known before the contact is solved.
+#[derive(Clone, Debug)]
 pub struct FreeResponse {
     /// Surface displacement without contact forces and rigid accelerations, `2n` [m].
     pub surface: DVector<f64>,
     /// Rate of deformation momentum (x, y, Ω) without contact forces and rigid accelerations.
     pub momentum: [f64; 3],
-    /// Right-hand side in the body's own coordinates, for `commit`.
+    /// Right-hand side in the body's own coordinates, for [`BodyResponse::commit`].
     pub load: DVector<f64>,
+    /// Scratch: what is known of acceleration and velocity, and a vector for products.
+    pub(super) acceleration: DVector<f64>,
+    pub(super) velocity: DVector<f64>,
+    pub(super) product: DVector<f64>,
 }
 
-/// How a step's equations `(a0² M + K) y = f` are solved.
-pub enum StepSolver {
-    /// `1/(a0² + Ω²)` of each mode.
-    Modal(DVector<f64>),
-    /// Sparse Cholesky factor.
-    Sparse(Cholesky),
+impl Default for BodyState {
+    fn default() -> Self {
+        Self::zeros(0)
+    }
 }
 
-impl StepSolver {
-    /// `f ← (a0² M + K)⁻¹ f`.
-    pub fn solve_in_place(&self, f: &mut DVector<f64>) {
-        match self {
-            Self::Modal(flexibility) => f.component_mul_assign(flexibility),
-            Self::Sparse(factor) => factor.solve_in_place(f.as_mut_slice()),
-        }
+impl Default for FreeResponse {
+    /// Buffers that take their size at the first use.
+    fn default() -> Self {
+        let empty = || DVector::zeros(0);
+        let (surface, load, acceleration, velocity, product) = (empty(), empty(), empty(), empty(), empty());
+        Self { surface, momentum: [0.0; 3], load, acceleration, velocity, product }
     }
 }

@@ -14,10 +14,13 @@ pub struct BodySystem {
     pub stiffness: CsrMatrix,
     /// Consistent mass `M` [kg/m].
     pub mass: CsrMatrix,
+    /// Damping `D` [N s/m per m], symmetric and positive semidefinite; it acts on the velocity relative to hub or base.
+    /// `None`: undamped.
+    pub damping: Option<CsrMatrix>,
     /// `C = ρ ∫ w·∂u` (per unit stream speed).
-    pub convection: CsrMatrix,
+    pub gyroscopic: CsrMatrix,
     /// `S − B`: minus the weak form of `ρ ∂∂u` (per unit stream speed squared); `B` is the Robin term of open ends.
-    pub curvature: CsrMatrix,
+    pub ale_inertia: CsrMatrix,
     /// `M r_k` for unit rigid accelerations in x, y and Ω (`r_Ω = (y, −x)`), hub nodes included; zero for the rail.
     pub rigid: DMatrix<f64>,
     /// Centrifugal load `M X` per `Ω²`; zero for the rail.
@@ -37,14 +40,15 @@ impl BodySystem {
             Stream::Translation => Ok(DVector::zeros(dofs.len())),
         };
         let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, load(|[x, y]| [y, -x])?];
-        let inner = assemble(mesh, &dofs, |p| stream.curvature(p, density))?;
+        let inner = assemble(mesh, &dofs, |p| stream.ale_inertia(p, density))?;
         let ends = assemble_faces(mesh, &dofs, |p| stream.outflow(p, density))?;
         let unknowns = |&node: &usize| [dofs.unknown(node, 0), dofs.unknown(node, 1)];
         Ok(Self {
             stiffness: assemble(mesh, &dofs, |p| elasticity::stiffness(p, lame))?,
             mass: assemble(mesh, &dofs, mass)?,
-            convection: assemble(mesh, &dofs, |p| stream.convection(p, density))?,
-            curvature: CsrMatrix::combination(1.0, &inner, -1.0, &ends)?,
+            damping: None,
+            gyroscopic: assemble(mesh, &dofs, |p| stream.gyroscopic(p, density))?,
+            ale_inertia: CsrMatrix::combination(1.0, &inner, -1.0, &ends)?,
             rigid: DMatrix::from_columns(&rigid),
             centrifugal: load(|x| x)?,
             surface: mesh.surface.iter().flat_map(unknowns).flatten().collect(),
@@ -178,7 +182,7 @@ mod tests {
     #[test]
     fn surface_kernel_follows_the_half_plane_beyond_the_grid_scale() {
         let config = paper_d(20);
-        let modulus = 0.5 * config.material.youngs_modulus / (1.0 - config.material.poissons_ratio.powi(2));
+        let modulus = contact_modulus(&config);
         let mut sum = nalgebra::DMatrix::<f64>::zeros(134, 134);
         for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
             sum += system.surface_compliance(&Cholesky::new(&system.stiffness).unwrap());

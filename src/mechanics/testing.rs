@@ -2,6 +2,9 @@
 
 use crate::config::{Config, presets};
 use crate::fem::Mesh;
+use crate::mechanics::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
+use crate::multistep::TimeDerivative;
+use nalgebra::DVector;
 use std::f64::consts::PI;
 
 /// The wheel and rail of Paper D with a choice of mesh.
@@ -57,4 +60,32 @@ pub fn annulus(outer: f64, inner: f64, around: usize, across: usize) -> Mesh {
         }
     }
     mesh
+}
+
+/// [`BodyResponse::free_response`] in a new buffer.
+pub fn free(
+    body: &dyn BodyResponse,
+    op: &StepOperator,
+    state: &BodyState,
+    td: &TimeDerivative,
+    stream: Convection,
+) -> FreeResponse {
+    let mut response = FreeResponse::default();
+    body.free_response(op, state, td, stream, &mut response);
+    response
+}
+
+/// [`BodyResponse::commit`] into a new state.
+pub fn committed(
+    body: &dyn BodyResponse,
+    op: &StepOperator,
+    free: &FreeResponse,
+    forces: &DVector<f64>,
+    rigid: [f64; 3],
+    td: &TimeDerivative,
+    state: &BodyState,
+) -> BodyState {
+    let mut next = BodyState::zeros(0);
+    body.commit(op, free, forces, rigid, td, state, &mut next);
+    next
 }

@@ -235,14 +235,30 @@ impl Inputs {
     }
 }
 
-/// Creepage `2 (V − V_C)/(V + V_C)` of the translational and the peripheral velocity [m/s]; braking positive, ±2 when
-/// one of them vanishes or they oppose each other, 0 at standstill (their sum below [`STANDSTILL`]).
+/// Creepage `2 (V − V_C)/(V + V_C)` of the translational and the peripheral velocity [m/s]: braking positive, 0 at
+/// standstill.
+///
+/// Where wheel and rail move against each other the quotient has a pole (`V_C = −V`) and says nothing; such a wheel slides
+/// more than a locked one, and the creepage stays at the value of the locked wheel, 2.
 pub fn creepage(v: f64, v_c: f64) -> f64 {
-    let scale = v.abs() + v_c.abs();
-    if scale < STANDSTILL {
-        return 0.0;
+    if at_rest(v, v_c) {
+        0.0
+    } else if v * v_c < 0.0 {
+        2.0
+    } else {
+        2.0 * (v - v_c) / (v + v_c)
     }
-    2.0 * (v - v_c) / scale.copysign(v + v_c)
+}
+
+/// Slide `(V − V_C)/V` of EN 15595 [1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it is
+/// given as if it travelled at the speed [`STANDSTILL`].
+pub fn slide(v: f64, v_c: f64) -> f64 {
+    if at_rest(v, v_c) { 0.0 } else { (v - v_c) / v.abs().max(STANDSTILL).copysign(v) }
+}
+
+/// The one rule of standstill: the speeds of travel and circumference [m/s] together are below [`STANDSTILL`].
+fn at_rest(v: f64, v_c: f64) -> bool {
+    v.abs() + v_c.abs() < STANDSTILL
 }
 
 /// Peripheral velocity that belongs to a velocity and a creepage above −2: `V_C = V (1 − ξ/2)/(1 + ξ/2)`.
@@ -250,8 +266,8 @@ pub fn peripheral_velocity(v: f64, creepage: f64) -> f64 {
     v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage)
 }
 
-/// Sum of translational and peripheral speed below which creepage is reported as zero [m/s]: a wheel at rest rocks on
-/// its elastic contact with some mm/s.
+/// Sum of translational and peripheral speed below which creepage and slide are reported as zero [m/s]: a wheel at rest
+/// rocks on its elastic contact with some mm/s.
 pub const STANDSTILL: f64 = 0.02;
 
 #[cfg(test)]

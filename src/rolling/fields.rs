@@ -1,6 +1,7 @@
 //! Fields of a state in the whole bodies, for pictures: in the frame of the rail's contact point, wheel above rail.
 
-use super::{Model, State};
+use super::model::Model;
+use super::state::State;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
 use crate::mechanics::field::{rail_field, wheel_field};
@@ -29,26 +30,22 @@ pub struct Fields {
     pub temperature: Option<[TemperatureField; 2]>,
 }
 
-impl Model {
-    /// Fields of a state of the full response.
-    pub fn fields(&self, state: &State) -> Result<Fields, FieldError> {
-        let config = &self.config;
-        let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
-        let mut wheel = wheel_field(config, &state.wheel, state.omega.now)?.ok_or(FieldError::Reduced)?;
-        let rail = rail_field(config, &state.rail, state.velocity.now)?.ok_or(FieldError::Reduced)?;
-        lift(&mut wheel.mesh.nodes);
-        wheel.displacement.iter_mut().for_each(|[_, y]| *y += state.height.now);
-        wheel.velocity.iter_mut().for_each(|[_, y]| *y += state.height.rate);
-        let temperature = match (&self.heat, &state.thermal) {
-            (Some(heat), Some(thermal)) => {
-                let mut fields = heat.fields(&thermal.fields)?;
-                lift(&mut fields[0].mesh.nodes);
-                let kelvin = |t: &mut f64| *t += config.thermal.reference;
-                fields.iter_mut().for_each(|field| field.temperature.iter_mut().for_each(kelvin));
-                Some(fields)
-            }
-            _ => None,
-        };
-        Ok(Fields { wheel, rail, temperature })
-    }
+/// Fields of a state of the full response.
+pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
+    let (config, motion) = (&model.config, &state.motion);
+    let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
+    let mut wheel = wheel_field(config, &state.wheel, motion.omega.now)?.ok_or(FieldError::Reduced)?;
+    let rail = rail_field(config, &state.rail, motion.velocity.now)?.ok_or(FieldError::Reduced)?;
+    lift(&mut wheel.mesh.nodes);
+    wheel.displacement.iter_mut().for_each(|[_, y]| *y += motion.height.now);
+    wheel.velocity.iter_mut().for_each(|[_, y]| *y += motion.height.rate);
+    let temperature = match (&model.thermal, &state.thermal) {
+        (Some(heat), Some(thermal)) => {
+            let mut fields = heat.fields(thermal)?;
+            lift(&mut fields[0].mesh.nodes);
+            Some(fields)
+        }
+        _ => None,
+    };
+    Ok(Fields { wheel, rail, temperature })
 }

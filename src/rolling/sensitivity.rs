@@ -8,9 +8,12 @@
 //! seven correct digits; at a kink and at the end of a range it falls back to the derivative of one side.
 
 use super::control::{Drive, Inputs};
-use super::output::Outputs;
+use super::error::StepError;
+use super::model::{Model, Workspace};
+use super::outputs::{Outputs, observe};
 use super::state::State;
-use super::{Model, StepError, Workspace};
+use super::{stationary, substeps};
+use crate::config::Tuning;
 use serde::{Deserialize, Serialize};
 
 /// What a state came from.
@@ -41,8 +44,8 @@ impl Difference {
 fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
     let config = &model.config;
     let load = config.model.nominal_load;
-    let (speed, radius) = (0.1 * state.velocity.now.abs().max(1.0), config.wheel.radius);
-    let approach = state.height.now.abs().max(1e-5);
+    let (speed, radius) = (0.1 * state.motion.velocity.now.abs().max(1.0), config.wheel.radius);
+    let approach = state.motion.height.now.abs().max(1e-5);
     Drive {
         omega: speed / radius,
         moment: load * radius,
@@ -60,52 +63,67 @@ const PERTURBATION: f64 = 1e-4;
 const REDUCTION: f64 = 0.1;
 const TRIES: usize = 4;
 
-impl Model {
-    /// Outputs a little before and behind `state` along a direction of its inputs.
-    pub fn difference(
-        &self,
-        state: &State,
-        origin: &Origin,
-        direction: &Drive,
-        workspace: &mut Workspace,
-    ) -> Result<Difference, StepError> {
-        let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
-        let scales = scales(self, inputs, state);
-        let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
-        let present = self.outputs(state);
-        if size == 0.0 {
-            return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
+/// Outputs a little before and behind `state` along a direction of its inputs; `tuning` are the tunable parameters with
+/// which it was computed.
+pub fn difference(
+    model: &Model,
+    tuning: &Tuning,
+    state: &State,
+    origin: &Origin,
+    direction: &Drive,
+    workspace: &mut Workspace,
+) -> Result<Difference, StepError> {
+    let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
+    let scales = scales(model, inputs, state);
+    let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
+    let present = observe(model, state);
+    if size == 0.0 {
+        return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
+    }
+    let mut width = PERTURBATION / size;
+    let mut one_sided = None;
+    for _ in 0..TRIES {
+        let mut beyond_range = false;
+        let mut ends = [-1.0, 1.0].map(|sign| {
+            let by = sign * width;
+            let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
+            let end = repeat(model, tuning, origin, &inputs, workspace);
+            beyond_range |= matches!(end, Err(StepError::Input(_)));
+            end.ok().filter(|end| same_branch(end, state)).map(|end| observe(model, &end))
+        });
+        match (ends[0].take(), ends[1].take()) {
+            (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),
+            (Some(low), None) => one_sided = Some(Difference { low, high: present.clone(), width }),
+            (None, Some(high)) => one_sided = Some(Difference { low: present.clone(), high, width }),
+            (None, None) => {}
         }
-        let mut width = PERTURBATION / size;
-        let mut one_sided = None;
-        for _ in 0..TRIES {
-            let mut beyond_range = false;
-            let mut ends = [-1.0, 1.0].map(|sign| {
-                let by = sign * width;
-                let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
-                let end = match origin {
-                    Origin::Stationary(_) => self.stationary(&inputs, workspace),
-                    Origin::Step { state, length, .. } => self.advance(state, &inputs, *length, workspace),
-                };
-                beyond_range |= matches!(end, Err(StepError::Input(_)));
-                end.ok().filter(|end| same_branch(end, state)).map(|end| self.outputs(&end))
-            });
-            match (ends[0].take(), ends[1].take()) {
-                (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),
-                (Some(low), None) => one_sided = Some(Difference { low, high: present.clone(), width }),
-                (None, Some(high)) => one_sided = Some(Difference { low: present.clone(), high, width }),
-                (None, None) => {}
-            }
-            if beyond_range && let Some(at_the_bound) = one_sided {
-                return Ok(at_the_bound);
-            }
-            width *= REDUCTION;
+        if beyond_range && let Some(at_the_bound) = one_sided {
+            return Ok(at_the_bound);
         }
-        one_sided.ok_or(StepError::NoDerivative { time: state.time })
+        width *= REDUCTION;
+    }
+    one_sided.ok_or(StepError::NoDerivative { time: state.time })
+}
+
+/// Computes a state anew from its origin under other inputs.
+fn repeat(
+    model: &Model,
+    tuning: &Tuning,
+    origin: &Origin,
+    inputs: &Inputs,
+    workspace: &mut Workspace,
+) -> Result<State, StepError> {
+    match origin {
+        Origin::Stationary(_) => stationary::start(model, tuning, inputs, workspace),
+        Origin::Step { state, length, .. } => {
+            let mut end = State::default();
+            substeps::advance(model, tuning, state, inputs, *length, workspace, &mut end)?;
+            Ok(end)
+        }
     }
 }
 
 /// Whether two states were computed by the same sequence of decisions.
 fn same_branch(a: &State, b: &State) -> bool {
-    a.contact.status == b.contact.status && a.internal_steps == b.internal_steps && a.iterations == b.iterations
+    a.contact.same_branch(&b.contact) && a.internal_steps == b.internal_steps && a.iterations == b.iterations
 }

@@ -1,14 +1,14 @@
-//! All that a restart needs, and nothing else. Per metre of width.
+//! All data that a restart needs, and nothing else. Per metre of width.
 
-use super::integrator::Sample;
-use super::stepping::StepControl;
-use super::thermal::ThermalState;
-use crate::contact::ContactSolution;
+use crate::contact::{ContactState, Heating};
+use crate::heat::{HeatFlows, HeatState, Temperatures};
 use crate::mechanics::response::BodyState;
+use crate::multistep::History;
+use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
 
-/// State of a wheel on its rail at a communication point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// State of a wheel on its rail.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Time since the start [s].
     pub time: f64,
@@ -18,20 +18,14 @@ pub struct State {
     pub distance: f64,
     /// Angle of rotation, forward positive [rad].
     pub angle: f64,
-    /// Translational velocity V [m/s].
-    pub velocity: Sample,
-    /// Angular velocity Ω, forward positive [rad/s].
-    pub omega: Sample,
-    /// Hub height above just touching U [m].
-    pub height: Sample,
-    /// Its rate of change [m/s].
-    pub climb: Sample,
+    /// Rigid motion of the wheel.
+    pub motion: Motion,
+    /// Deformation of the wheel.
     pub wheel: BodyState,
+    /// Deformation of the rail.
     pub rail: BodyState,
-    /// Tangential displacement difference `u_c − u_p` at the contact candidates [m].
-    pub shift: Vec<Sample>,
-    /// Contact state, forces and surface displacements: results and warm start.
-    pub contact: ContactSolution,
+    /// Contact: result of the last step and start of the next one.
+    pub contact: ContactState,
     /// Temperatures, unless the thermal part is switched off.
     pub thermal: Option<ThermalState>,
     /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
@@ -42,15 +36,109 @@ pub struct State {
     pub friction: f64,
     /// Friction coefficient that was available in the last step [1].
     pub available_friction: f64,
-    /// Length of the last internal step [s]; 0 restarts the multistep formula.
+    /// Length of the last internal step [s]; 0: the time formula starts afresh.
     pub last_step: f64,
-    /// Whether that step restarted the formula.
+    /// Whether the last internal step started the time formula afresh.
     pub restarted: bool,
+    /// Memory of the control of the step size.
     pub control: StepControl,
-    /// Internal steps and contact iterations of the last communication step.
+    /// Internal steps of the last communication step.
     pub internal_steps: u64,
+    /// Contact iterations of the last communication step.
     pub iterations: u64,
+    /// Energy balance.
     pub audit: Audit,
+}
+
+impl State {
+    /// Thermal deformation that acts on the contact.
+    pub fn deformation(&self) -> &ThermalDeformation {
+        static NONE: ThermalDeformation = ThermalDeformation::NONE;
+        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.deformation)
+    }
+}
+
+/// Rigid motion of the wheel with the history that the time formula needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// Translational velocity V [m/s].
+    pub velocity: History,
+    /// Angular velocity Ω, forward positive [rad/s].
+    pub omega: History,
+    /// Hub height above just touching U [m].
+    pub height: History,
+    /// Vertical velocity of the hub U̇ [m/s].
+    pub hub_velocity: History,
+}
+
+impl Motion {
+    /// Values of the three rigid motions (V [m/s], U [m], Ω [rad/s]).
+    pub fn values(&self) -> [f64; 3] {
+        [self.velocity.now, self.height.now, self.omega.now]
+    }
+
+    /// Velocities conjugate to the hub forces (V, U̇ [m/s], Ω [rad/s]).
+    pub fn velocities(&self) -> [f64; 3] {
+        [self.velocity.now, self.height.rate, self.omega.now]
+    }
+
+    /// Rigid accelerations (V̇, Ü [m/s²], Ω̇ [rad/s²]).
+    pub fn accelerations(&self) -> [f64; 3] {
+        [self.velocity.rate, self.hub_velocity.rate, self.omega.rate]
+    }
+}
+
+/// Temperature fields and what the last step found about them, per metre of width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThermalState {
+    /// Both temperature fields.
+    pub fields: HeatState,
+    /// Mean heat flows over the last step [W/m].
+    pub flows: HeatFlows,
+    /// Excess temperatures [K].
+    pub temperatures: Temperatures,
+    /// Mean excess temperatures of the surfaces in the patch: wheel, rail [K].
+    pub patch_mean: [f64; 2],
+    /// Mean of both over the friction coefficient [K].
+    pub heating: Heating,
+    /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included [K].
+    pub surface: [Vec<f64>; 2],
+    /// Time during which the hottest contact point was above Ac1 [s].
+    pub austenitised: f64,
+    /// Heat put in since the start [J/m].
+    pub supplied: f64,
+    /// Heat passed on or stored since the start [J/m]; its difference to the heat put in is the imbalance.
+    pub received: f64,
+    /// How the heat deforms the bodies.
+    pub deformation: ThermalDeformation,
+}
+
+/// Deformation by heat, as far as it acts on the contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThermalDeformation {
+    /// Growth of the wheel radius by the bulk temperature [m].
+    pub radius_growth: f64,
+    /// Swelling of both hot layers under the contact [m].
+    pub swelling: Piecewise,
+    /// Membrane force of the hot layers of wheel and rail [N/m].
+    pub membrane_force: [Piecewise; 2],
+}
+
+impl ThermalDeformation {
+    /// None at all.
+    pub const NONE: Self = {
+        const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
+        Self { radius_growth: 0.0, swelling: EMPTY, membrane_force: [EMPTY, EMPTY] }
+    };
+}
+
+/// What the control of the step size remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StepControl {
+    /// Largest internal step that the errors so far allow [s].
+    pub step: f64,
+    /// Controlled quantities one internal step before: contact forces x, y [N/m], highest temperature rise [K].
+    pub before: [f64; 3],
 }
 
 /// Energy balance since the start, per metre of width.
@@ -62,20 +150,20 @@ pub struct Audit {
     pub energy: f64,
     /// Work of the hub forces [J/m].
     pub work: f64,
-    /// Frictional dissipation [J/m].
+    /// Energy lost to friction, damping and radiation [J/m].
     pub dissipation: f64,
     /// Sum of the absolute work of all steps [J/m]: the scale of the round-off.
     pub throughput: f64,
-    /// Present power of friction [W/m].
-    pub friction_power: f64,
+    /// Present power of friction, damping and radiation [W/m].
+    pub dissipated_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
     pub impulse: [f64; 3],
-    /// Energy that friction dissipated in it [J/m].
+    /// Energy that was dissipated in it [J/m].
     pub dissipated: f64,
 }
 
 impl Audit {
-    /// Energy that has vanished, in the numerics [J/m].
+    /// Energy that has vanished in the numerics [J/m].
     pub fn imbalance(&self) -> f64 {
         self.work - (self.energy - self.initial_energy) - self.dissipation
     }

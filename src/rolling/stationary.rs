@@ -1,15 +1,20 @@
 //! Stationary rolling: the state in which nothing changes in the moving frame (`d_t = 0`).
+//!
+//! Contact forces, convective terms and the accelerations of unbalanced forces depend on each other; they are brought
+//! together by passes of the linear contact problem at fixed temperatures ([`settle`]). Around them, temperatures and
+//! contact follow each other until the forces no longer change ([`start`]).
 
-use super::control::{Inputs, Rotation, Translation, Vertical, peripheral_velocity};
-use super::integrator::Sample;
-use super::state::{Audit, State};
-use super::stepping::StepControl;
-use super::thermal::ThermalState;
-use super::{Model, StepError, Workspace};
-use crate::analytic;
-use crate::contact::{ContactError, ContactProblem, ContactSolution, RigidMotion, Status, SurfaceResponse};
-use crate::mechanics;
-use crate::mechanics::response::{BodyState, Convection, TimeDerivative};
+use super::audit;
+use super::contact_model::{ContactStep, friction_law};
+use super::control::{Drive, Inputs, peripheral_velocity};
+use super::error::StepError;
+use super::model::{Model, Workspace};
+use super::state::{Motion, State, ThermalState};
+use super::substeps;
+use crate::config::Tuning;
+use crate::contact::{AxisDrive, ContactError, Heating, RigidMotion};
+use crate::mechanics::response::{BodyState, Convection};
+use crate::multistep::{History, TimeDerivative};
 
 /// Passes that bring in convective terms and the accelerations of unbalanced forces.
 const MAX_PASSES: usize = 30;
@@ -22,183 +27,195 @@ const TOLERANCE: f64 = 1e-6;
 const THERMAL_TOLERANCE: f64 = 1e-9;
 /// The same where averages are all there is.
 const THERMAL_SCATTER: f64 = 1e-3;
+/// Largest change of the weights at the contact edges that counts as converged [1].
+const EDGE_TOLERANCE: f64 = 1e-5;
+/// Load relative to the nominal one below which forces do not count [1].
+const SLIGHT: f64 = 1e-9;
+/// Speed of both surfaces together below which the wheel stands [m/s].
+const AT_REST: f64 = 1e-9;
 
-impl Model {
-    /// Stationary state for inputs. Velocities that are not prescribed start from `initial.velocity` and
-    /// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
-    pub fn stationary(&self, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
-        inputs.validate()?;
-        let mut state = self.stationary_contact(inputs, None, workspace)?;
-        let Some(heat) = &self.heat else { return Ok(state) };
-        let mut change = f64::INFINITY;
-        for pass in 0..MAX_PASSES {
-            let mut thermal = self.stationary_heat(heat, &state, inputs.at(0.0).tread_heat)?;
-            if let (Some(before), Some(averaged)) = (&state.thermal, pass.checked_sub(PLAIN_PASSES)) {
-                thermal.average(before, 1.0 / (averaged + 2) as f64);
-            }
-            let force = state.contact.resultant(&self.grid);
-            state = self.stationary_contact(inputs, Some(thermal), workspace)?;
-            let settled = state.contact.resultant(&self.grid);
-            let scale = force[1].abs().max(1e-9 * self.nominal_line_load());
-            change = (0..2).map(|k| (settled[k] - force[k]).abs()).fold(0.0, f64::max) / scale;
-            if change <= THERMAL_TOLERANCE {
-                break;
-            }
+/// Stationary state for inputs. Velocities that are not prescribed start from `initial.velocity` and
+/// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
+pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
+    inputs.validate()?;
+    let goal = Goal::new(model, inputs)?;
+    let mut state = settle(model, tuning, &goal, None, workspace)?;
+    let Some(thermal) = &model.thermal else { return Ok(state) };
+    let mut change = f64::INFINITY;
+    for pass in 0..MAX_PASSES {
+        let touch = thermal.touch(&model.contact, &state.contact.traction);
+        let mut temperatures = thermal.stationary(&state, &touch, goal.drive.tread_heat)?;
+        if let (Some(before), Some(averaged)) = (&state.thermal, pass.checked_sub(PLAIN_PASSES)) {
+            thermal.average(&mut temperatures, before, 1.0 / (averaged + 2) as f64);
         }
-        let unsettled = StepError::NoEquilibrium("contact and temperatures do not settle");
-        if change <= THERMAL_SCATTER { Ok(state) } else { Err(unsettled) }
+        let force = state.contact.traction.resultant;
+        state = settle(model, tuning, &goal, Some(temperatures), workspace)?;
+        let settled = state.contact.traction.resultant;
+        change = (0..2).map(|k| (settled[k] - force[k]).abs()).fold(0.0, f64::max) / scale(model, settled);
+        if change <= THERMAL_TOLERANCE {
+            break;
+        }
     }
+    let unsettled = StepError::NoEquilibrium("contact and temperatures do not settle");
+    if change <= THERMAL_SCATTER { Ok(state) } else { Err(unsettled) }
+}
 
-    /// Stationary contact at given temperatures.
-    fn stationary_contact(
-        &self,
-        inputs: &Inputs,
-        thermal: Option<ThermalState>,
-        workspace: &mut Workspace,
-    ) -> Result<State, StepError> {
-        let width = self.config.model.contact_width;
-        let drive = inputs.at(0.0);
-        let initial = &self.config.initial;
-        let prescribed_x = inputs.translation == Translation::Velocity;
-        let prescribed_r = inputs.rotation == Rotation::Velocity;
-        let velocity = if prescribed_x { drive.velocity } else { initial.velocity };
-        let omega =
-            if prescribed_r { drive.omega } else { peripheral_velocity(velocity, initial.creepage) / self.grid.radius };
-        self.check_motion([velocity, 0.0, omega])?;
-        let load = drive.load / width;
-        let slip = velocity - self.grid.radius * omega;
-        let friction = self.friction(drive.friction, slip, thermal.as_ref(), 0.0);
-        if inputs.vertical == Vertical::Force && load <= 0.0 {
+/// Contact force that changes are compared with [N/m].
+fn scale(model: &Model, resultant: [f64; 3]) -> f64 {
+    resultant[1].abs().max(SLIGHT * model.contact.nominal_line_load())
+}
+
+/// What the stationary state has to satisfy.
+struct Goal {
+    /// Values of the inputs.
+    drive: Drive,
+    drives: [AxisDrive; 3],
+    /// V [m/s] and Ω [rad/s].
+    velocity: f64,
+    omega: f64,
+    /// The same where the wheel moves; at standstill, where slip is a direction of motion, those of slow forward rolling.
+    slip_speeds: [f64; 2],
+    moving: bool,
+}
+
+impl Goal {
+    fn new(model: &Model, inputs: &Inputs) -> Result<Self, StepError> {
+        let (drive, initial, radius) = (inputs.at(0.0), &model.config.initial, model.wheel.radius);
+        let drives = model.wheel.drives(inputs, &drive);
+        let prescribed = |k: usize| match drives[k] {
+            AxisDrive::Prescribed { target } => Some(target),
+            AxisDrive::Free { .. } => None,
+        };
+        let velocity = prescribed(0).unwrap_or(initial.velocity);
+        let omega = prescribed(2).unwrap_or(peripheral_velocity(velocity, initial.creepage) / radius);
+        model.wheel.check([velocity, 0.0, omega])?;
+        if prescribed(1).is_none() && drive.load <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }
+        let moving = velocity.abs() + (radius * omega).abs() > AT_REST;
+        let slow = [1.0, peripheral_velocity(1.0, initial.creepage) / radius];
+        let slip_speeds = if moving { [velocity, omega] } else { slow };
+        Ok(Self { drive, drives, velocity, omega, slip_speeds, moving })
+    }
 
-        // Slip is a direction of motion: at standstill use the limit of slow forward rolling.
-        let radius = self.grid.radius;
-        let moving = velocity.abs() + (radius * omega).abs() > 1e-9;
-        let (slip_v, slip_omega) =
-            if moving { (velocity, omega) } else { (1.0, peripheral_velocity(1.0, initial.creepage) / radius) };
-
-        let td = TimeDerivative::default();
-        let operators = self.operators(0.0, workspace)?;
-        let mut wheel = BodyState::zeros(self.wheel.state_len());
-        let mut rail = BodyState::zeros(self.rail.state_len());
-        let mut contact = self.hertzian_guess(load);
-        let mut acceleration = [0.0; 3];
-        let no_offset = vec![0.0; self.grid.len()];
-        let gap = self.thermal_gap(thermal.as_ref());
-        let mut hub = [0.0; 3];
-        for pass in 0..MAX_PASSES {
-            let stream_wheel = Convection { speed: omega, acceleration: acceleration[2] };
-            let stream_rail = Convection { speed: velocity, acceleration: acceleration[0] };
-            let mut free_wheel = self.wheel.free(&operators.wheel, &wheel, &td, stream_wheel, &wheel);
-            let mut free_rail = self.rail.free(&operators.rail, &rail, &td, stream_rail, &rail);
-            if let Some(thermal) = &thermal {
-                self.add_membrane(&mut free_wheel.surface, &operators.wheel.surface, &thermal.membrane[0]);
-                self.add_membrane(&mut free_rail.surface, &operators.rail.surface, &thermal.membrane[1]);
-            }
-            let vertical = RigidMotion {
-                value: if inputs.vertical == Vertical::Displacement { drive.displacement } else { contact.rigid[1] },
-                prescribed: inputs.vertical == Vertical::Displacement,
-                load: -load,
-                inertia: self.inertia[1],
-                momentum: free_wheel.momentum[1],
-                ..RigidMotion::default()
-            };
-            let fixed = |value, offset| RigidMotion { value, offset, prescribed: true, ..RigidMotion::default() };
-            let problem = ContactProblem {
-                grid: &self.grid,
-                radius: self.grid.radius + thermal.as_ref().map_or(0.0, |t| t.growth),
-                wheel: SurfaceResponse { compliance: &operators.wheel.surface, free: &free_wheel.surface },
-                rail: SurfaceResponse { compliance: &operators.rail.surface, free: &free_rail.surface },
-                wheel_loads: &operators.wheel.loads,
-                momentum: &operators.wheel.momentum,
-                momentum_loads: &operators.wheel.momentum_loads,
-                rigid: [fixed(slip_v, acceleration[0]), vertical, fixed(slip_omega, acceleration[2])],
-                slip_gain: 0.0,
-                slip_offset: &no_offset,
-                gap: &gap,
-                friction,
-                nominal_load: self.nominal_line_load(),
-                edge_tolerance: 1e-5,
-            };
-            let solved = problem.solve(&contact).map_err(|e| self.contact_failure(e, 0.0, 0.0))?;
-            let change = (&solved.forces - &contact.forces).amax();
-            contact = solved;
-            self.wheel.commit(&operators.wheel, &free_wheel, &contact.forces, acceleration, &td, &mut wheel);
-            self.rail.commit(&operators.rail, &free_rail, &(-&contact.forces), [0.0; 3], &td, &mut rail);
-
-            let force = contact.resultant(&self.grid);
-            let scale = force[1].abs().max(1e-9 * self.nominal_line_load());
-            let previous = acceleration;
-            for (k, prescribed, external) in [(0, prescribed_x, drive.force), (2, prescribed_r, drive.moment)] {
-                if prescribed {
-                    hub[k] = -force[k];
-                } else {
-                    hub[k] = external / width;
-                    acceleration[k] = (hub[k] + force[k]) / self.inertia[k];
-                }
-            }
-            hub[1] = -force[1];
-            let unsettled = (0..3).map(|k| (acceleration[k] - previous[k]).abs() * self.inertia[k]).fold(0.0, f64::max);
-            if change <= TOLERANCE * scale && unsettled <= TOLERANCE * scale {
-                break;
-            }
-            if pass + 1 == MAX_PASSES {
-                let source = ContactError::NotConverged { iterations: MAX_PASSES };
-                return Err(StepError::Contact { time: 0.0, step: 0.0, source });
-            }
-        }
-        if !moving {
-            contact.slip.fill(0.0);
-            contact.centred_slip.fill(0.0);
-        }
-        contact.rigid = [velocity, contact.rigid[1], omega];
-        let shift = (0..self.grid.len())
-            .map(|i| self.grid.dof(i))
-            .map(|d| Sample::constant(contact.wheel_surface[d] - contact.rail_surface[d]))
-            .collect();
-        let mut state = State {
-            time: 0.0,
-            pending: 0.0,
-            distance: 0.0,
-            angle: 0.0,
-            velocity: Sample { rate: acceleration[0], ..Sample::constant(velocity) },
-            omega: Sample { rate: acceleration[2], ..Sample::constant(omega) },
-            height: Sample::constant(contact.rigid[1]),
-            climb: Sample::default(),
-            wheel,
-            rail,
-            shift,
-            contact,
-            thermal,
-            hub,
-            prescribed: [prescribed_x, inputs.vertical == Vertical::Displacement, prescribed_r],
-            friction,
-            available_friction: drive.friction,
-            last_step: 0.0,
-            restarted: true,
-            control: StepControl { step: f64::INFINITY, before: [0.0; 3] },
-            internal_steps: 0,
-            iterations: 0,
-            audit: Audit::default(),
+    /// The rigid motions of the contact problem at given accelerations: only the hub height can be unknown.
+    fn motions(&self, model: &Model, acceleration: [f64; 3], height: f64, momentum: f64) -> [RigidMotion; 3] {
+        let vertical = RigidMotion {
+            drive: self.drives[1],
+            guess: height,
+            gain: 0.0,
+            offset: 0.0,
+            inertia: model.wheel.inertia[1],
+            momentum,
         };
-        state.control = StepControl::stationary(&state);
-        state.audit.energy = self.energy(&state);
-        state.audit.initial_energy = state.audit.energy;
-        state.audit.friction_power = state.contact.friction_power(&self.grid);
-        Ok(state)
+        let [v, omega] = self.slip_speeds;
+        [RigidMotion::held(v, acceleration[0]), vertical, RigidMotion::held(omega, acceleration[2])]
     }
+}
 
-    /// Contact set of the Hertzian patch under a line load (the nominal load where none is given), all stuck.
-    fn hertzian_guess(&self, load: f64) -> ContactSolution {
-        let load = if load > 0.0 { load } else { self.nominal_line_load() };
-        let half_width = analytic::hertz_half_width(load, self.grid.radius, mechanics::contact_modulus(&self.config));
-        let mut guess = ContactSolution::open(&self.grid);
-        for (status, x) in guess.status.iter_mut().zip(&self.grid.x) {
-            if x.abs() < half_width.max(0.5 * self.grid.spacing) {
-                *status = Status::Stick;
-            }
+/// Stationary contact at given temperatures.
+fn settle(
+    model: &Model,
+    tuning: &Tuning,
+    goal: &Goal,
+    thermal: Option<ThermalState>,
+    workspace: &mut Workspace,
+) -> Result<State, StepError> {
+    let heating = thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
+    let slip = goal.velocity - model.wheel.radius * goal.omega;
+    let friction = friction_law(tuning).coefficient(goal.drive.friction, slip, heating, 0.0);
+    let load = goal.drive.load / model.wheel.width;
+    let mut state = State {
+        wheel: BodyState::zeros(model.bodies.wheel.state_len()),
+        rail: BodyState::zeros(model.bodies.rail.state_len()),
+        contact: model.contact.hertzian_guess(load),
+        friction,
+        available_friction: goal.drive.friction,
+        prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
+        restarted: true,
+        thermal,
+        ..State::default()
+    };
+    let mut next = state.clone();
+    let mut accelerations = [0.0; 3];
+    let mut settled = false;
+    for _ in 0..MAX_PASSES {
+        settled = pass(model, goal, &state, &mut accelerations, workspace, &mut next)?;
+        std::mem::swap(&mut state, &mut next);
+        if settled {
+            break;
         }
-        guess
     }
+    if !settled {
+        let source = ContactError::NotConverged { iterations: MAX_PASSES };
+        return Err(StepError::Contact { time: 0.0, step: 0.0, source });
+    }
+    Ok(complete(model, goal, accelerations, state))
+}
+
+/// One pass: contact at the present deformation and accelerations, then deformation and accelerations of its forces.
+/// Returns whether nothing has changed.
+fn pass(
+    model: &Model,
+    goal: &Goal,
+    state: &State,
+    accelerations: &mut [f64; 3],
+    workspace: &mut Workspace,
+    next: &mut State,
+) -> Result<bool, StepError> {
+    let td = TimeDerivative::default();
+    let operators = model.bodies.operators(td.a0, &*model.contact.solver, &mut workspace.operators)?;
+    let streams = [
+        Convection { speed: goal.omega, acceleration: accelerations[2] },
+        Convection { speed: goal.velocity, acceleration: accelerations[0] },
+    ];
+    model.bodies.free_responses(&operators, state, &td, streams, &mut workspace.free);
+    let free = &workspace.free;
+    let height = state.contact.traction.rigid[1];
+    let contact = ContactStep {
+        operators: &operators,
+        free,
+        rigid: goal.motions(model, *accelerations, height, free[0].momentum[1]),
+        time: td,
+        place: [0.0; 2],
+        deformation: state.deformation(),
+        friction: state.friction,
+        edge_tolerance: EDGE_TOLERANCE,
+    };
+    let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+    solved.map_err(|error| model.contact.failure(error, 0.0, 0.0))?;
+    model.bodies.commit(&operators, free, *accelerations, &td, state, next, &mut workspace.opposite);
+
+    let resultant = next.contact.traction.resultant;
+    let previous = *accelerations;
+    for k in 0..3 {
+        next.hub[k] = -resultant[k];
+        if let (AxisDrive::Free { load }, true) = (goal.drives[k], k != 1) {
+            next.hub[k] = load;
+            accelerations[k] = (load + resultant[k]) / model.wheel.inertia[k];
+        }
+    }
+    let unbalanced = |k: usize| (accelerations[k] - previous[k]).abs() * model.wheel.inertia[k];
+    let (now, before) = (&next.contact.traction.port_forces, &state.contact.traction.port_forces);
+    let change = now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let tolerance = TOLERANCE * scale(model, resultant);
+    Ok(change <= tolerance && (0..3).map(unbalanced).fold(0.0, f64::max) <= tolerance)
+}
+
+/// Everything of the state that follows from the settled contact.
+fn complete(model: &Model, goal: &Goal, accelerations: [f64; 3], mut state: State) -> State {
+    if !goal.moving {
+        state.contact.rest();
+    }
+    let traction = &mut state.contact.traction;
+    traction.rigid = [goal.velocity, traction.rigid[1], goal.omega];
+    state.motion = Motion {
+        velocity: History { rate: accelerations[0], ..History::constant(goal.velocity) },
+        omega: History { rate: accelerations[2], ..History::constant(goal.omega) },
+        height: History::constant(traction.rigid[1]),
+        hub_velocity: History::default(),
+    };
+    state.control = substeps::unlimited(&state);
+    state.audit = audit::start(model, &state);
+    state
 }

@@ -1,0 +1,308 @@
+//! Exact Coulomb contact by a primal–dual active set (semi-smooth Newton) on the condensed contact problem.
+//!
+//! Unknown are the nodal forces of closed nodes and those rigid motions (V, U, Ω) that are not prescribed. Each
+//! iteration solves the linear problem of the present states and updates the states:
+//! - closed if `λ_n − c g > 0`;
+//! - a stuck node slips when `|λ_t| > μ λ_n`; a slipping node whose friction force no longer opposes the slip sticks, so
+//!   a reversal of slip always passes through stick; a node that closes takes the state of its nearest closed neighbour
+//!   and sticks where it has none. Without these rules the iteration cycles.
+//!
+//! An iteration that stalls all the same is restarted from full stick ([`RESTARTS`]), and the tolerance within which a
+//! node keeps its state grows from iteration to iteration.
+
+use super::rows::AffineRow;
+use super::streamline::upwind_rows;
+use super::{ContactGrid, GridScratch, GridState, Status};
+use crate::contact::{AxisDrive, ContactError, ContactProblem, Traction};
+use crate::linalg::DenseSystem;
+use std::ops::Range;
+
+/// Iterations allowed.
+pub const MAX_ITERATIONS: usize = 40;
+/// Iterations at which a stalled iteration restarts from full stick. Ordinary steps need one to three iterations and the
+/// start of sliding from stick up to fourteen, so that only stalled ones get there.
+const RESTARTS: [usize; 2] = [20, 31];
+/// Iterations after which the tolerance of the states grows, and its growth per iteration.
+const STRICT_ITERATIONS: usize = 8;
+const GROWTH: f64 = 3.0;
+/// Tolerance of nodal forces in mean nodal loads, at first and at most.
+const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
+/// Tolerance of slip velocities in rolling speeds, at first and at most.
+const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
+/// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
+const OVERLOAD: f64 = 3.0;
+
+/// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
+/// motions) hold the present iterate.
+pub(super) struct Iteration<'a> {
+    pub grid: &'a ContactGrid,
+    pub problem: &'a ContactProblem<'a>,
+    pub state: &'a mut GridState,
+    pub traction: &'a mut Traction,
+    pub scratch: &'a mut GridScratch,
+}
+
+impl Iteration<'_> {
+    /// Iterates from the states and forces of the start to the solution.
+    pub fn run(mut self) -> Result<(), ContactError> {
+        self.traction.rigid = self.problem.rigid.map(|motion| motion.start());
+        self.prepare();
+        let penalty = self.penalty();
+        self.update_upwind();
+        for iteration in 1..=MAX_ITERATIONS {
+            if RESTARTS.contains(&iteration) {
+                let closed = self.state.status.iter_mut().filter(|s| s.is_active());
+                closed.for_each(|s| *s = Status::Stick);
+            }
+            self.solve_linear()?;
+            self.traction.iterations = iteration;
+            let changed = self.update_states(penalty, iteration);
+            let edge_change = self.update_upwind();
+            if !changed && edge_change <= self.problem.edge_tolerance && self.sticks() {
+                return self.check_zone();
+            }
+        }
+        Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+    }
+
+    /// Nodal normal force at candidate `i` [N/m].
+    fn normal(&self, i: usize) -> f64 {
+        self.traction.port_forces[self.grid.port(i) + 1]
+    }
+
+    /// Nodal tangential force on the wheel at candidate `i` [N/m].
+    fn tangential(&self, i: usize) -> f64 {
+        self.traction.port_forces[self.grid.port(i)]
+    }
+
+    /// Mean stiffness of the nodes [N/m per m]: it compares gaps with forces.
+    fn penalty(&self) -> f64 {
+        let stiffness = |i: usize| {
+            let port = self.grid.port(i) + 1;
+            self.problem.bodies.relative[(port, port)]
+        };
+        self.grid.len() as f64 / (0..self.grid.len()).map(stiffness).sum::<f64>()
+    }
+
+    /// Sum of the speeds of both surfaces [m/s].
+    fn speed(&self) -> f64 {
+        self.traction.rigid[0].abs() + (self.problem.radius() * self.traction.rigid[2]).abs()
+    }
+
+    /// Upwind weights of the present states and pressures; returns their largest change.
+    fn update_upwind(&mut self) -> f64 {
+        let to_right = self.problem.upstream_right(&self.traction.rigid);
+        let (grid, forces) = (self.grid, &self.traction.port_forces);
+        std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
+        let pressure = |i: usize| forces[grid.port(i) + 1];
+        upwind_rows(&self.state.status, pressure, to_right, &mut self.scratch.upwind);
+        let pairs = self.scratch.upwind.iter().zip(&self.scratch.upwind_before);
+        pairs.map(|(now, before)| (now.w1 - before.w1).abs()).fold(0.0, f64::max)
+    }
+
+    /// Whether the stuck nodes do not slip, round-off apart: their rows are linearised in V and Ω.
+    fn sticks(&self) -> bool {
+        let stuck = self.state.status.iter().zip(&self.state.slip).filter(|(status, _)| **status == Status::Stick);
+        stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= 1e-9 * self.speed() + 1e-13
+    }
+
+    /// Solves the linear problem of the present states; fills forces, rigid values, displacements, slips and gaps.
+    fn solve_linear(&mut self) -> Result<(), ContactError> {
+        self.list_unknowns();
+        let singular = ContactError::Singular { closed: self.scratch.closed.len() };
+        let mut system = std::mem::take(&mut self.scratch.system);
+        self.assemble(&mut system);
+        // Nothing is unknown when a wheel with prescribed motions is off the rail.
+        let solved = system.solve().map(|x| self.accept(x));
+        self.scratch.system = system;
+        solved.ok_or(singular)?;
+        self.evaluate();
+        Ok(())
+    }
+
+    fn list_unknowns(&mut self) {
+        let status = &self.state.status;
+        let GridScratch { closed, stuck, axes, .. } = &mut *self.scratch;
+        closed.clear();
+        closed.extend((0..status.len()).filter(|&i| status[i].is_active()));
+        stuck.clear();
+        stuck.extend(closed.iter().filter(|&&i| status[i] == Status::Stick));
+        axes.clear();
+        axes.extend((0..3).filter(|&k| self.problem.rigid[k].target().is_none()));
+    }
+
+    /// Writes the equations: no gap at closed nodes, no slip at stuck ones, balances of the free axes.
+    fn assemble(&mut self, system: &mut DenseSystem) {
+        let (closed, stuck, axes) = (self.scratch.closed.len(), self.scratch.stuck.len(), self.scratch.axes.len());
+        system.reset(closed + stuck + axes);
+        for r in 0..closed {
+            let (row, forces) = self.gap_row(self.scratch.closed[r]);
+            self.write(system.row(r), &row, forces);
+        }
+        let mut forces = std::mem::take(&mut self.scratch.row);
+        let window = self.window();
+        for r in 0..stuck {
+            let row = self.slip_row(self.scratch.stuck[r], window.clone(), &mut forces);
+            self.write(system.row(closed + r), &row, &forces);
+        }
+        for r in 0..axes {
+            let axis = self.scratch.axes[r];
+            if let AxisDrive::Free { load } = self.problem.rigid[axis].drive {
+                let row = self.balance_row(axis, load, &mut forces);
+                self.write(system.row(closed + stuck + r), &row, &forces);
+            }
+        }
+        self.scratch.row = forces;
+    }
+
+    /// Ports from the first to the last closed node.
+    fn window(&self) -> Range<usize> {
+        match (self.scratch.closed.first(), self.scratch.closed.last()) {
+            (Some(&first), Some(&last)) => self.grid.port(first)..self.grid.port(last) + 2,
+            _ => 0..0,
+        }
+    }
+
+    /// Writes one equation, scaled to a largest coefficient of one.
+    fn write(&self, (target, rhs): (&mut [f64], &mut f64), row: &AffineRow, forces: &[f64]) {
+        let GridScratch { closed, stuck, axes, .. } = &*self.scratch;
+        let (normal, rest) = target.split_at_mut(closed.len());
+        let (tangential, rigid) = rest.split_at_mut(stuck.len());
+        let mut largest = 0.0f64;
+        for (value, &i) in normal.iter_mut().zip(closed) {
+            let port = self.grid.port(i);
+            let friction = self.state.status[i].friction_direction() * self.problem.friction;
+            *value = forces[port + 1] + friction * forces[port];
+            largest = largest.max(value.abs());
+        }
+        for (value, &i) in tangential.iter_mut().zip(stuck) {
+            *value = forces[self.grid.port(i)];
+            largest = largest.max(value.abs());
+        }
+        let mut constant = row.constant;
+        for (k, motion) in self.problem.rigid.iter().enumerate() {
+            constant += row.rigid[k] * motion.target().unwrap_or(0.0);
+        }
+        for (value, &k) in rigid.iter_mut().zip(axes) {
+            *value = row.rigid[k];
+            largest = largest.max(value.abs());
+        }
+        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        target.iter_mut().for_each(|value| *value *= scale);
+        *rhs = -constant * scale;
+    }
+
+    /// Takes the solution of the linear problem: port forces and free motions.
+    fn accept(&mut self, solution: &[f64]) {
+        let GridScratch { closed, stuck, axes, .. } = &*self.scratch;
+        let (normal, rest) = solution.split_at(closed.len());
+        let (tangential, rigid) = rest.split_at(stuck.len());
+        let forces = &mut self.traction.port_forces;
+        forces.fill(0.0);
+        for (force, &i) in normal.iter().zip(closed) {
+            let port = self.grid.port(i);
+            forces[port + 1] = *force;
+            forces[port] = self.state.status[i].friction_direction() * self.problem.friction * force;
+        }
+        for (force, &i) in tangential.iter().zip(stuck) {
+            forces[self.grid.port(i)] = *force;
+        }
+        for (value, &k) in rigid.iter().zip(axes) {
+            self.traction.rigid[k] = *value;
+        }
+    }
+
+    /// New states from forces, gaps and slips; returns whether any changed.
+    fn update_states(&mut self, penalty: f64, iteration: usize) -> bool {
+        let growth = GROWTH.powi(iteration.saturating_sub(STRICT_ITERATIONS) as i32);
+        let share = self.problem.nominal_load / self.grid.len() as f64;
+        let force = (FORCE_TOLERANCE[0] * growth).min(FORCE_TOLERANCE[1]) * share;
+        let slip = (SLIP_TOLERANCE[0] * growth).min(SLIP_TOLERANCE[1]) * self.speed();
+        self.scratch.status_before.clone_from(&self.state.status);
+        let overloaded = self.overloaded();
+        let mut changed = false;
+        for i in 0..self.grid.len() {
+            let old = self.scratch.status_before[i];
+            let indicator = self.normal(i) - penalty * self.state.gap[i];
+            let closed = if overloaded || indicator.abs() <= force { old.is_active() } else { indicator > 0.0 };
+            let new = match (closed, old) {
+                (false, _) => Status::Open,
+                (true, Status::Open) => self.closing_state(i, iteration),
+                (true, Status::Stick) => self.stuck_state(i, force),
+                (true, slipping) => self.slipping_state(i, slipping, slip),
+            };
+            changed |= new != old;
+            self.state.status[i] = new;
+        }
+        self.support() || changed
+    }
+
+    /// State of a node that has stuck: it slips where friction cannot hold it.
+    fn stuck_state(&self, i: usize, tolerance: f64) -> Status {
+        let (t, n, friction) = (self.tangential(i), self.normal(i), self.problem.friction);
+        if t.abs() <= friction * n + tolerance * friction.min(1.0) && friction > 0.0 {
+            Status::Stick
+        } else if t >= 0.0 {
+            Status::SlipForward
+        } else {
+            Status::SlipBackward
+        }
+    }
+
+    /// State of a node that has slipped: it sticks where friction no longer opposes the slip.
+    fn slipping_state(&self, i: usize, slipping: Status, tolerance: f64) -> Status {
+        let opposes = slipping.friction_direction() * self.state.slip[i] <= tolerance;
+        if opposes || self.problem.friction == 0.0 { slipping } else { Status::Stick }
+    }
+
+    /// Closes the nearest node where a static problem has no support; returns whether it did.
+    fn support(&mut self) -> bool {
+        let height = &self.problem.rigid[1];
+        let supported = height.gain != 0.0 || height.target().is_some();
+        if supported || self.state.status.iter().any(|s| s.is_active()) {
+            return false;
+        }
+        let gap = &self.state.gap;
+        let nearest = (0..self.grid.len()).min_by(|&a, &b| gap[a].total_cmp(&gap[b]));
+        if let Some(i) = nearest {
+            self.state.status[i] = Status::Stick;
+        }
+        nearest.is_some()
+    }
+
+    /// Whether the stuck nodes carry far more than friction allows, as happens when sliding starts from stick: normal
+    /// forces and gaps then mean nothing yet.
+    fn overloaded(&self) -> bool {
+        let nodes = 0..self.grid.len();
+        let limit: f64 = nodes.clone().map(|i| self.normal(i).max(0.0)).sum::<f64>() * self.problem.friction;
+        let stuck = nodes.filter(|&i| self.state.status[i] == Status::Stick).map(|i| self.tangential(i).abs());
+        stuck.sum::<f64>() > OVERLOAD * limit && self.problem.friction > 0.0
+    }
+
+    /// State of a node that has just closed: that of the nearest closed node, or stick where it founds a patch. Between
+    /// the two restarts it always sticks.
+    fn closing_state(&self, i: usize, iteration: usize) -> Status {
+        if (RESTARTS[0]..RESTARTS[1]).contains(&iteration) {
+            return Status::Stick;
+        }
+        let before = &self.scratch.status_before;
+        let left = before[..i].iter().rev().position(|s| s.is_active());
+        let right = before[i + 1..].iter().position(|s| s.is_active());
+        match (left, right) {
+            (Some(l), Some(r)) if r < l => before[i + 1 + r],
+            (Some(l), _) => before[i - 1 - l],
+            (None, Some(r)) => before[i + 1 + r],
+            (None, None) => Status::Stick,
+        }
+    }
+
+    fn check_zone(&self) -> Result<(), ContactError> {
+        let ends = [self.state.status.first(), self.state.status.last()];
+        if ends.iter().flatten().any(|s| s.is_active()) {
+            let zone = self.grid.x.last().copied().unwrap_or(0.0);
+            let load = self.traction.port_forces.iter().skip(1).step_by(2).sum();
+            return Err(ContactError::ZoneExceeded { zone, load });
+        }
+        Ok(())
+    }
+}

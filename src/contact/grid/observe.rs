@@ -1,0 +1,182 @@
+//! Reads the traction off a solution on the grid. What it reports varies smoothly while the contact edges move between
+//! nodes.
+
+use super::streamline::edge_offset;
+use super::{ContactGrid, GridState, Status, for_each_patch};
+use crate::contact::{ContactProblem, Traction};
+use crate::piecewise::{Interval, Piecewise};
+use nalgebra::DVector;
+use std::ops::Range;
+
+/// Share of the peak above which nodes beside it take part in the fit of the pressure maximum [1].
+const PEAK: f64 = 0.9;
+/// Least distance of the end of a profile from the outermost node of a patch [spacings].
+const MARGIN: f64 = 1e-3;
+
+/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m].
+///
+/// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
+/// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
+/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²).
+/// Derivation: `docs/theory/lever-arms.md`.
+pub(super) fn lever_arms(grid: &ContactGrid, radius: f64, gap: &[f64], wheel: &DVector<f64>, i: usize) -> [f64; 2] {
+    let port = grid.port(i);
+    let at = |k: Option<usize>| k.and_then(|k| gap.get(k)).copied().unwrap_or(0.0);
+    let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / (2.0 * grid.spacing);
+    [radius - wheel[port + 1], grid.x[i] + wheel[port] - radius * slope]
+}
+
+/// Fills everything in `traction` that follows from port forces, surfaces and rigid motions.
+pub(super) fn read_off(
+    grid: &ContactGrid,
+    problem: &ContactProblem,
+    state: &GridState,
+    centred_slip: &[f64],
+    traction: &mut Traction,
+) {
+    traction.resultant = resultant(grid, problem.radius(), state, traction);
+    let forces = &traction.port_forces;
+    let tangential = |i: usize| forces[grid.port(i)];
+    let normal = |i: usize| forces[grid.port(i) + 1];
+    traction.friction_power = -(0..grid.len()).map(|i| tangential(i) * centred_slip[i]).sum::<f64>();
+    traction.pressure_max = pressure_peak(grid, normal);
+    traction.patches.clear();
+    let (mut length, mut stuck) = (0.0, 0.0);
+    for_each_patch(&state.status, |run| {
+        traction.patches.push(edges(grid, normal, &run));
+        length += run.len() as f64;
+        let margin = |i: usize| (problem.friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
+        stuck += stick_length(&state.status, margin, run);
+    });
+    traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
+
+    let (patches, status) = (&traction.patches, &state.status);
+    over_patches(grid, status, patches, |i| normal(i) / grid.spacing, &mut traction.pressure);
+    over_patches(grid, status, patches, |i| tangential(i) / grid.spacing, &mut traction.shear);
+    over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
+    // The upwind slip knows where friction acts, the centred one how much it dissipates.
+    let density = |i: usize| (-tangential(i) * state.slip[i] / grid.spacing).max(0.0);
+    over_patches(grid, status, patches, density, &mut traction.dissipation);
+    scale_to(&mut traction.dissipation, traction.friction_power, &traction.pressure);
+}
+
+/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
+fn resultant(grid: &ContactGrid, radius: f64, state: &GridState, traction: &Traction) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for i in 0..grid.len() {
+        let port = grid.port(i);
+        let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
+        let [arm_t, arm_n] = lever_arms(grid, radius, &state.gap, &traction.surface[0], i);
+        sum[0] += t;
+        sum[1] += n;
+        sum[2] -= arm_t * t + arm_n * n;
+    }
+    sum
+}
+
+/// Scales a profile to the given integral; spreads it like the `fallback` where it is zero itself.
+fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
+    let shape = profile.integral();
+    if shape > 0.0 {
+        profile.value.iter_mut().for_each(|v| *v *= total / shape);
+        return;
+    }
+    let load = fallback.integral();
+    let factor = if load > 0.0 { total / load } else { 0.0 };
+    profile.value.iter_mut().zip(&fallback.value).for_each(|(v, f)| *v = factor * f);
+}
+
+/// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.
+fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
+    let (first, last) = (run.start, run.end - 1);
+    let offset = |edge: usize, inner: usize| {
+        let inner = if edge == inner { 0.0 } else { normal(inner) };
+        grid.spacing * edge_offset(normal(edge), inner)
+    };
+    Interval {
+        low: grid.x[first] - offset(first, (first + 1).min(last)),
+        high: grid.x[last] + offset(last, last.max(first + 1) - 1),
+    }
+}
+
+/// Writes a nodal quantity as a profile over all patches that falls to zero at their edges. An edge that lies inside the
+/// outermost node of its patch is moved just beyond it.
+fn over_patches(
+    grid: &ContactGrid,
+    status: &[Status],
+    patches: &[Interval],
+    value: impl Fn(usize) -> f64,
+    profile: &mut Piecewise,
+) {
+    profile.x.clear();
+    profile.value.clear();
+    let mut push = |x: f64, value: f64| {
+        profile.x.push(x);
+        profile.value.push(value);
+    };
+    let mut patches = patches.iter();
+    for_each_patch(status, |run| {
+        let Some(patch) = patches.next() else { return };
+        let margin = MARGIN * grid.spacing;
+        push(patch.low.min(grid.x[run.start] - margin), 0.0);
+        run.clone().for_each(|i| push(grid.x[i], value(i)));
+        push(patch.high.max(grid.x[run.end - 1] + margin), 0.0);
+    });
+}
+
+/// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one: for the elliptic
+/// pressure of a Hertzian patch it is exact, for a skewed one it sees the surroundings of the peak only.
+fn pressure_peak(grid: &ContactGrid, normal: impl Fn(usize) -> f64) -> f64 {
+    let pressure = |i: usize| normal(i) / grid.spacing;
+    let Some(top) = (0..grid.len()).max_by(|&a, &b| normal(a).total_cmp(&normal(b))) else { return 0.0 };
+    let peak = pressure(top).max(0.0);
+    let beside = |i: usize| (pressure(i) > PEAK * peak || i.abs_diff(top) <= 1) && pressure(i) > 0.0;
+    let first = (0..top).rev().take_while(|&i| beside(i)).last().unwrap_or(top);
+    let last = (top + 1..grid.len()).take_while(|&i| beside(i)).last().unwrap_or(top);
+    let samples = (first..=last).map(|i| (i as f64 - top as f64, pressure(i).powi(2)));
+    parabola_peak(samples).map_or(peak, f64::sqrt)
+}
+
+/// Maximum of the least-squares parabola through `(x, y)` if it lies between them.
+fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let mut normal = nalgebra::Matrix3::<f64>::zeros();
+    let mut rhs = nalgebra::Vector3::<f64>::zeros();
+    let (mut count, mut ends) = (0, [f64::INFINITY, f64::NEG_INFINITY]);
+    for (x, y) in samples {
+        let row = nalgebra::Vector3::new(1.0, x, x * x);
+        normal += row * row.transpose();
+        rhs += row * y;
+        ends = [ends[0].min(x), ends[1].max(x)];
+        count += 1;
+    }
+    if count < 3 {
+        return None;
+    }
+    let c = normal.lu().solve(&rhs)?;
+    let at = -0.5 * c[1] / c[2];
+    (c[2] < 0.0 && at >= ends[0] && at <= ends[1]).then(|| c[0] + 0.5 * c[1] * at).filter(|p| *p > 0.0)
+}
+
+/// Length of the stick zone of one run in cells; its boundary between stick and slip is found below grid scale from
+/// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
+fn stick_length(status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
+    let mut stuck = run.clone().filter(|&i| status[i] == Status::Stick);
+    let Some(low) = stuck.next() else { return 0.0 };
+    let high = stuck.last().unwrap_or(low);
+    let beyond = |edge: usize, inward: isize| {
+        let at_end = if inward < 0 { edge + 1 >= run.end } else { edge <= run.start };
+        if at_end || high - low < 2 {
+            return 0.5;
+        }
+        let at = |k: isize| margin((edge as isize + k * inward) as usize);
+        let (f0, f1, f2) = (at(0), at(1), at(2));
+        // f(s) = f0 + b s + c s² with s in cells towards the inside; its root lies at s in [−1, 0].
+        let (b, c) = (2.0 * f1 - 1.5 * f0 - 0.5 * f2, 0.5 * (f0 + f2) - f1);
+        let discriminant = b * b - 4.0 * c * f0;
+        if b <= 0.0 || discriminant < 0.0 {
+            return 0.5;
+        }
+        (2.0 * f0 / (b + discriminant.sqrt())).clamp(0.0, 1.0)
+    };
+    (high - low) as f64 + beyond(low, 1) + beyond(high, -1)
+}

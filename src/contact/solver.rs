@@ -1,0 +1,115 @@
+//! The seam behind which contact is solved.
+
+use super::grid::{GridScratch, GridState};
+use super::{ContactProblem, Traction};
+use crate::piecewise::Piecewise;
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+/// Finds the contact forces of one step, or of a stationary state.
+pub trait ContactSolver: Send + Sync {
+    /// Corrects the surface compliances of wheel and rail [m/(N/m)] for the way in which this solver discretises the
+    /// surface; called once for every new step size, before any [`Self::solve`] with them.
+    fn correct(&self, _wheel: &mut DMatrix<f64>, _rail: &mut DMatrix<f64>) {}
+
+    /// Elastic energy that the correction stores [J/m].
+    fn correction_energy(&self, _traction: &Traction) -> f64 {
+        0.0
+    }
+
+    /// A start for [`Self::solve`]: bodies that touch and stick within `half_width` [m] of the contact point, without
+    /// forces yet.
+    fn touching(&self, half_width: f64) -> ContactState;
+
+    /// Solves `problem` from the result `start` of the step before and writes all of `found`; on error `found` is
+    /// meaningless.
+    fn solve(
+        &self,
+        problem: &ContactProblem,
+        start: &ContactState,
+        found: &mut ContactState,
+        scratch: &mut Scratch,
+    ) -> Result<(), ContactError>;
+
+    /// Tangential strains `∂u_x/∂x` of the surfaces of wheel and rail [1]; empty where the solver does not know them.
+    fn surface_strain(&self, _traction: &Traction) -> [Piecewise; 2] {
+        Default::default()
+    }
+
+    /// Whether a state has the dimensions of this solver.
+    fn fits(&self, state: &ContactState) -> bool;
+}
+
+/// Result of a contact solution and start of the next one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactState {
+    /// What the contact is for everyone else.
+    pub traction: Traction,
+    /// What its solver remembers.
+    pub solver: SolverState,
+}
+
+/// Memory of a contact solver from step to step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum SolverState {
+    /// Nothing but the traction.
+    #[default]
+    Stateless,
+    /// Of the solver on a grid of paired nodes.
+    Grid(GridState),
+}
+
+impl ContactState {
+    /// Takes away all slip, and what it dissipates: the state of a wheel at rest.
+    pub fn rest(&mut self) {
+        self.traction.rest();
+        if let SolverState::Grid(grid) = &mut self.solver {
+            grid.slip.fill(0.0);
+        }
+    }
+
+    /// Whether both were found with the same decisions between open, stick and slip everywhere: along such states the
+    /// solution is a smooth function of the data.
+    pub fn same_branch(&self, other: &Self) -> bool {
+        match (&self.solver, &other.solver) {
+            (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status,
+            (SolverState::Stateless, SolverState::Stateless) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Buffers of the contact solvers; nothing in them outlives a solution.
+#[derive(Default)]
+pub struct Scratch {
+    /// Of the solver on a grid of paired nodes.
+    pub grid: GridScratch,
+}
+
+/// Why no contact state could be found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// The states of the contact did not settle.
+    #[error("the contact states did not settle in {iterations} iterations")]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// Loads or motions that cannot be balanced.
+    #[error("singular contact equations with {closed} closed nodes")]
+    Singular {
+        /// Nodes in contact.
+        closed: usize,
+    },
+    /// The contact is longer than the zone in which it is looked for.
+    #[error("the contact patch reached the end of the candidate zone (±{zone:.3e} m) at a line load of {load:.6e} N/m")]
+    ZoneExceeded {
+        /// Half-length of the zone [m].
+        zone: f64,
+        /// Contact force [N/m].
+        load: f64,
+    },
+    /// The start state belongs to another solver or another mesh.
+    #[error("the contact state belongs to another solver")]
+    ForeignState,
+}

@@ -1,0 +1,231 @@
+//! `modelDescription.xml` and the GUID, both made from the table of variables.
+
+use crate::config::Config;
+use crate::fmi::MODEL_IDENTIFIER;
+use crate::fmi::instance::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
+use crate::fmi::log::CATEGORIES;
+use crate::fmi::presets;
+use crate::fmi::table::enumerations;
+use crate::fmi::units::{BASE_UNITS, UNITS};
+use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
+use crate::fmi::variables::variables;
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+use std::io;
+use std::sync::OnceLock;
+use uuid::Uuid;
+
+/// End of the default experiment and its communication step [s].
+pub const DEFAULT_STOP_TIME: f64 = 1.0;
+pub const DEFAULT_STEP_SIZE: f64 = 1e-3;
+
+const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an elastic rail: plane finite elements in \
+    a moving frame, exact Coulomb friction. x in travel direction, y up, omega > 0 rolls forward; contact forces act \
+    on the wheel. Plane model: no lateral force, no spin.";
+
+type Xml = Writer<Vec<u8>>;
+
+/// Name-based UUID of the description with an empty GUID: changes with the interface and only with it.
+pub fn guid() -> &'static str {
+    static GUID: OnceLock<String> = OnceLock::new();
+    GUID.get_or_init(|| Uuid::new_v5(&Uuid::NAMESPACE_OID, write("").unwrap_or_default().as_bytes()).to_string())
+}
+
+/// The model description as it stands in the FMU.
+pub fn model_description() -> io::Result<String> {
+    write(guid())
+}
+
+fn write(guid: &str) -> io::Result<String> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let root = xml.create_element("fmiModelDescription").with_attributes([
+        ("fmiVersion", "2.0"),
+        ("modelName", "Wheel on rail"),
+        ("guid", guid),
+        ("description", DESCRIPTION),
+        ("version", env!("CARGO_PKG_VERSION")),
+        ("license", env!("CARGO_PKG_LICENSE")),
+        ("generationTool", concat!("wheelrail ", env!("CARGO_PKG_VERSION"))),
+        ("variableNamingConvention", "structured"),
+    ]);
+    root.write_inner_content(|xml| {
+        capabilities(xml)?;
+        unit_definitions(xml)?;
+        type_definitions(xml)?;
+        list(xml, "LogCategories", |xml| {
+            CATEGORIES.iter().try_for_each(|c| empty(xml, "Category", &[("name", c.0), ("description", c.1)]))
+        })?;
+        let (stop, step) = (format!("{DEFAULT_STOP_TIME:?}"), format!("{DEFAULT_STEP_SIZE:?}"));
+        empty(xml, "DefaultExperiment", &[("startTime", "0.0"), ("stopTime", &stop), ("stepSize", &step)])?;
+        list(xml, "ModelVariables", model_variables)?;
+        list(xml, "ModelStructure", model_structure)
+    })?;
+    let mut text = String::from_utf8(xml.into_inner()).map_err(io::Error::other)?;
+    text.push('\n');
+    Ok(text)
+}
+
+fn empty(xml: &mut Xml, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
+    xml.create_element(name).with_attributes(attributes.iter().copied()).write_empty().map(drop)
+}
+
+fn list(xml: &mut Xml, name: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> io::Result<()> {
+    xml.create_element(name).write_inner_content(content).map(drop)
+}
+
+/// Shortest decimal form that reads back to the same number.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+fn capabilities(xml: &mut Xml) -> io::Result<()> {
+    let output_order = OUTPUT_DERIVATIVE_ORDER.to_string();
+    let attributes = [
+        ("modelIdentifier", MODEL_IDENTIFIER),
+        ("needsExecutionTool", "false"),
+        ("canHandleVariableCommunicationStepSize", "true"),
+        ("canInterpolateInputs", if INPUT_DERIVATIVE_ORDER > 0 { "true" } else { "false" }),
+        ("maxOutputDerivativeOrder", output_order.as_str()),
+        ("canRunAsynchronuously", "false"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "true"),
+    ];
+    empty(xml, "CoSimulation", &attributes)
+}
+
+fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
+    list(xml, "UnitDefinitions", |xml| {
+        for unit in UNITS {
+            xml.create_element("Unit").with_attribute(("name", unit.name)).write_inner_content(|xml| {
+                let exponents: Vec<_> = BASE_UNITS.into_iter().zip(unit.exponents.map(|e| e.to_string())).collect();
+                let present: Vec<_> =
+                    exponents.iter().filter(|(_, e)| e != "0").map(|(name, e)| (*name, e.as_str())).collect();
+                empty(xml, "BaseUnit", &present)?;
+                for display in unit.displays {
+                    let (factor, offset) = (number(display.factor), number(display.offset));
+                    let mut attributes = vec![("name", display.name), ("factor", factor.as_str())];
+                    if display.offset != 0.0 {
+                        attributes.push(("offset", offset.as_str()));
+                    }
+                    empty(xml, "DisplayUnit", &attributes)?;
+                }
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })
+}
+
+fn type_definitions(xml: &mut Xml) -> io::Result<()> {
+    list(xml, "TypeDefinitions", |xml| {
+        for list in enumerations() {
+            let element = xml
+                .create_element("SimpleType")
+                .with_attributes([("name", list.name), ("description", list.description)]);
+            element.write_inner_content(|xml| {
+                xml.create_element("Enumeration").write_inner_content(|xml| {
+                    for (value, (name, text)) in (1..).zip(list.items) {
+                        let value: i32 = value;
+                        let attributes = [("name", *name), ("value", &value.to_string()), ("description", *text)];
+                        empty(xml, "Item", &attributes)?;
+                    }
+                    Ok(())
+                })?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })
+}
+
+/// Start value of an input or parameter under the default preset; `None` for outputs.
+pub fn start_value(variable: &Variable) -> Option<Value> {
+    let config = Config::default();
+    let parameter = variable.parameter(presets::DEFAULT, &config);
+    parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
+}
+
+/// FMI variability of a variable.
+pub fn variability(variable: &Variable) -> &'static str {
+    match variable.access {
+        Access::RealInput(_) | Access::RealOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
+            "continuous"
+        }
+        Access::ChoiceInput(..) | Access::CountOutput(_) => "discrete",
+        _ if variable.tunable => "tunable",
+        _ => "fixed",
+    }
+}
+
+fn model_variables(xml: &mut Xml) -> io::Result<()> {
+    variables().iter().try_for_each(|variable| {
+        let reference = variable.reference.to_string();
+        let (causality, initial) = match variable.causality() {
+            Causality::Parameter => ("parameter", Some("exact")),
+            Causality::Input => ("input", None),
+            Causality::Output => ("output", Some("calculated")),
+        };
+        let mut attributes = vec![
+            ("name", variable.name.as_str()),
+            ("valueReference", &reference),
+            ("description", &variable.description),
+            ("causality", causality),
+            ("variability", variability(variable)),
+        ];
+        attributes.extend(initial.map(|initial| ("initial", initial)));
+        let element = xml.create_element("ScalarVariable").with_attributes(attributes);
+        element.write_inner_content(|xml| typed(xml, variable)).map(drop)
+    })
+}
+
+/// The element inside a `ScalarVariable` that gives the type.
+fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
+    let mut attributes: Vec<(&str, String)> = Vec::new();
+    let element = match variable.kind {
+        Kind::Real { measure, min, max, nominal } => {
+            attributes.push(("unit", measure.unit.to_owned()));
+            attributes.extend(measure.display.map(|display| ("displayUnit", display.to_owned())));
+            attributes.extend(min.is_finite().then(|| ("min", number(min))));
+            attributes.extend(max.is_finite().then(|| ("max", number(max))));
+            attributes.extend((nominal != 1.0).then(|| ("nominal", number(nominal))));
+            "Real"
+        }
+        Kind::Integer { min, max } => {
+            attributes.push(("min", min.to_string()));
+            attributes.extend((max < i32::MAX).then(|| ("max", max.to_string())));
+            "Integer"
+        }
+        Kind::Boolean => "Boolean",
+        Kind::String => "String",
+        Kind::Enumeration(list) => {
+            attributes.push(("declaredType", list.name.to_owned()));
+            "Enumeration"
+        }
+    };
+    let start = start_value(variable).map(|value| value.to_string());
+    attributes.extend(start.map(|start| ("start", start)));
+    let attributes: Vec<_> = attributes.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    empty(xml, element, &attributes)
+}
+
+/// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
+/// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
+/// outputs depend on everything, too, or are zero by definition.
+fn model_structure(xml: &mut Xml) -> io::Result<()> {
+    let outputs: Vec<_> = (1usize..)
+        .zip(variables())
+        .filter(|(_, variable)| variable.causality() == Causality::Output)
+        .map(|(index, variable)| (index.to_string(), variable.start))
+        .collect();
+    list(xml, "Outputs", |xml| outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index)])))?;
+    list(xml, "InitialUnknowns", |xml| {
+        outputs.iter().try_for_each(|(index, start)| match start {
+            Start::Zero => empty(xml, "Unknown", &[("index", index), ("dependencies", "")]),
+            Start::Stationary => empty(xml, "Unknown", &[("index", index)]),
+        })
+    })
+}

@@ -1,0 +1,219 @@
+//! Closed forms that need volume sources or prescribed boundary temperatures, and the parts of the solver.
+
+use super::depth_modes::DepthModes;
+use super::loads::SurfaceLoads;
+use super::modal::{HeatBody, StageCoefficients};
+use super::stage::{Stage, StageKey};
+use super::streamline::{Streamline, Transport};
+use super::tridiagonal::TridiagonalFactor;
+use crate::fem::grading::graded;
+use crate::linalg::gmres::{Gmres, LinearSystem};
+use std::f64::consts::PI;
+
+const R: f64 = 0.5;
+const HUB: f64 = 0.05;
+const CONDUCTIVITY: f64 = 45.0;
+const HEAT_CAPACITY: f64 = 460.0 * 8000.0;
+const STATIONARY: StageCoefficients = StageCoefficients { storage: 0.0, flow: 1.0 };
+
+/// Annulus with fixed hub whose rim is held at the temperature of the air by a very large film coefficient.
+fn annulus(line: Streamline, layers: &[f64], film: f64) -> HeatBody {
+    let modes = DepthModes::new(layers, 1.0 / R, true, film / CONDUCTIVITY).unwrap();
+    HeatBody { line, modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film }
+}
+
+fn even(n: usize) -> Streamline {
+    let step = 2.0 * PI * R / n as f64;
+    Streamline::new((0..n).map(|j| (j as f64 + 0.5) * step - PI * R).collect(), 2.0 * PI * R)
+}
+
+#[test]
+fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
+    let zone: Vec<f64> = (0..=30).map(|i| f64::from(i) * 3.8e-5).collect();
+    let line = Streamline::around_contact(&zone, PI * R, 1.5, 0.15 * R, true);
+    let body = annulus(line, &graded(9e-6, 1.8, 0.15 * (R - HUB), R - HUB), 1e13);
+    let mut middle = Vec::new();
+    for omega in [0.0, 1e-3, 1.0, 27.8, 1e2, 1e3, 1e4] {
+        let mut transport = Transport::default();
+        transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
+        let mut factor = TridiagonalFactor::default();
+        factor.set(&body, &transport, STATIONARY).unwrap();
+        let mut tested = vec![0.0; body.line.len()];
+        for (e, h) in body.line.lengths.iter().enumerate() {
+            transport.add_load(&body.line, e, [*h, 0.5 * h], &mut tested);
+        }
+        let mut field: Vec<f64> =
+            tested.iter().flat_map(|w| body.modes.content.iter().map(move |c| 1000.0 * w * c)).collect();
+        factor.solve(&body, &mut field, 0);
+        let across = body.modes.at(R - 0.275);
+        let nm = across.len();
+        let values: Vec<f64> = field.chunks(nm).map(|row| row.iter().zip(&across).map(|(t, s)| t * s).sum()).collect();
+        let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
+        println!("omega {omega:e}: T = {low:.12} to {high:.12}, exact 0.611748698054");
+        assert!((high - low) / high < 1e-9);
+        middle.push(high);
+    }
+    assert!(middle.iter().all(|t| (t / middle[0] - 1.0).abs() < 1e-9), "{middle:?}");
+    assert!((middle[0] / 0.6117486980545853 - 1.0).abs() < 2e-3);
+}
+
+struct Exact<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
+
+impl LinearSystem for Exact<'_> {
+    fn apply(&mut self, x: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        self.0.multiply(self.1, STATIONARY, x, out);
+        self.0.add_curvature(STATIONARY, x, out, &mut Vec::new());
+    }
+
+    fn precondition(&mut self, x: &mut [f64]) {
+        self.2.solve(self.0, x, 0);
+    }
+}
+
+/// Amplitude at r = 0.45 of the field under a rim temperature cos φ on `n` even elements, flow towards +φ.
+fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
+    let depths: Vec<f64> = (0..=layers).map(|i| (R - HUB) * i as f64 / layers as f64).collect();
+    let body = annulus(even(n), &depths, 1e8);
+    let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
+    transport.set(&body.line, omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
+    factor.set(&body, &transport, STATIONARY).unwrap();
+    let rim = |j: usize| (body.line.nodes[j % n] / R).cos();
+    let load: Vec<f64> = (0..n)
+        .map(|i| {
+            transport.mass_lower[i] * rim(i + n - 1) + transport.mass[i] * rim(i) + transport.mass_upper[i] * rim(i + 1)
+        })
+        .map(|w| body.film * w)
+        .collect();
+    let mut field = vec![0.0; body.size()];
+    body.add_surface_load(0, &load, &mut field);
+    let iterations = Gmres::default().solve(&mut Exact(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
+    let across = body.modes.at(R - 0.45);
+    let mut c = [0.0; 2];
+    for (row, s) in field.chunks(across.len()).zip(&body.line.nodes) {
+        let t: f64 = row.iter().zip(&across).map(|(t, s)| t * s).sum();
+        c[0] += 2.0 / n as f64 * t * (s / R).cos();
+        c[1] -= 2.0 / n as f64 * t * (s / R).sin();
+    }
+    (c, iterations)
+}
+
+#[test]
+fn rotating_cosine_converges_to_the_bessel_solution_with_order_two() {
+    let cases =
+        [(1e-4, [0.8937955185079237, -0.04216981902516639]), (1e-3, [0.7261656008055898, -0.23471966025848268])];
+    for (omega, exact) in cases {
+        let error = |n: usize| {
+            let (c, iterations) = rotating_cosine(n, 36, omega);
+            let error = (c[0] - exact[0]).hypot(c[1] - exact[1]);
+            println!("omega {omega:e}, {n} elements: c = {c:?}, error {error:.2e}, {iterations} iterations");
+            error
+        };
+        let [coarse, fine] = [64, 128].map(error);
+        let order = (coarse / fine).log2();
+        println!("observed order {order:.3}");
+        assert!((order - 2.0).abs() < 0.15, "observed order {order:.3}");
+        assert!(fine < 1e-4);
+    }
+}
+
+/// `e^{z²} erfc(z) = 2/√π ∫₀^∞ e^{−t²−2zt} dt` by Simpson's rule.
+fn erfcx(z: f64) -> f64 {
+    let (n, end) = (4000, 7.0);
+    let h = end / f64::from(n);
+    let f = |t: f64| (-t * t - 2.0 * z * t).exp();
+    let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    2.0 / PI.sqrt() * h / 3.0 * (0..=n).map(|i| weight(i) * f(f64::from(i) * h)).sum::<f64>()
+}
+
+#[test]
+fn entry_into_a_conducting_contact_follows_its_closed_form() {
+    use super::{Exchange, Heat, HeatModel};
+    use crate::config::{ConductanceLaw, Config, Hub};
+    use crate::heat::{HeatConfig, Interval};
+    let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
+    let mut config: Config = serde_json::from_str(include_str!("../../../resources/paper_b.json")).unwrap();
+    (config.wheel.radius, config.wheel.hub_radius, config.rail.length, config.rail.height) = (R, HUB, 1.0, 0.1);
+    (config.material.conductivity, config.material.density, config.material.specific_heat) =
+        (CONDUCTIVITY, 8000.0, HEAT_CAPACITY / 8000.0);
+    let thermal = &mut config.thermal;
+    (thermal.max_speed, thermal.smallest_load_ratio, thermal.convection) = (v, 1.0, 0.0);
+    (thermal.hub, thermal.conductance_law, thermal.conductance) = (Hub::Fixed, ConductanceLaw::Constant, k_c);
+    let Config { wheel, rail, material, thermal, .. } = config;
+    let (half_width, zone) = (a, 1.5 * a);
+    let heat = Heat::new(&HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone })
+        .unwrap();
+    let exchange = Exchange { patches: vec![Interval { low: -a, high: a }], ..Exchange::default() };
+    let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
+    heat.set_loads(&exchange, &mut loads).unwrap();
+    stage
+        .set(&heat, &loads, StageKey { speeds: [v, v / R], coefficients: STATIONARY, rate: 0.0, curved: false })
+        .unwrap();
+    let (nodes, temperatures) = stage.rail_under_uniform_wheel(1.0);
+    let surface: Vec<[f64; 2]> = heat.zone_x()[nodes].iter().zip(temperatures).map(|(&x, t)| [x, t]).collect();
+    let effusivity = (CONDUCTIVITY * HEAT_CAPACITY).sqrt();
+    let exact = |x: f64| 1.0 - erfcx(k_c / effusivity * ((a - x) / v).sqrt());
+    let (mut worst, mut heat_flow) = (0.0_f64, 0.0);
+    for pair in surface.windows(2) {
+        let ([x, t], [next, u]) = (pair[0], pair[1]);
+        // The first two nodes oscillate (by 0.05 and 0.006): a square root starts there.
+        if x > -a && x < 0.97 * a {
+            worst = worst.max((t - exact(x)).abs());
+        }
+        heat_flow += k_c * (next - x) * (1.0 - 0.5 * (t + u));
+    }
+    let b = k_c / effusivity;
+    let z = b * (2.0 * a / v).sqrt();
+    let expected = v * k_c / (b * b) * (erfcx(z) - 1.0 + 2.0 * z / PI.sqrt());
+    println!("largest error {worst:.2e} of 1, heat {heat_flow:.6e} ({:+.3} %)", 100.0 * (heat_flow / expected - 1.0));
+    assert!(worst < 1e-2);
+    assert!((heat_flow / expected - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn surface_response_equals_solutions_for_unit_loads() {
+    let line = Streamline::around_contact(&[0.0, 1e-3, 2e-3, 3e-3], PI * R, 1.5, 0.15 * R, true);
+    for omega in [0.0, 0.01, 30.0] {
+        let modes = DepthModes::new(&graded(1e-4, 1.8, 0.1, R - HUB), 1.0 / R, true, 0.0).unwrap();
+        let body =
+            HeatBody { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
+        let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
+        transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
+        factor.set(&body, &transport, STATIONARY).unwrap();
+        let range = body.line.zone + 1..body.line.zone + 6;
+        let mut response = Vec::new();
+        factor.surface_response(&body, range.clone(), &mut response);
+        let scale = response.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+        for (k, node) in range.clone().enumerate() {
+            let mut field = vec![0.0; body.size()];
+            body.add_surface_load(node, &[1.0], &mut field);
+            let load = field.clone();
+            factor.solve(&body, &mut field, node);
+            let mut trace = Vec::new();
+            body.trace(range.clone(), &field, &mut trace);
+            let error = trace.iter().enumerate().map(|(i, t)| (t - response[i * range.len() + k]).abs());
+            assert!(error.fold(0.0, f64::max) < 1e-12 * scale);
+            let mut product = vec![0.0; body.size()];
+            body.multiply(&transport, STATIONARY, &field, &mut product);
+            let residual = product.iter().zip(&load).fold(0.0_f64, |m, (p, l)| m.max((p - l).abs()));
+            assert!(residual < 1e-8 * load.iter().fold(0.0, |m: f64, l| m.max(l.abs())), "residual {residual:.1e}");
+        }
+    }
+}
+
+#[test]
+fn modes_of_an_insulated_plate_are_cosines() {
+    let height = 0.1;
+    let modes = DepthModes::new(&graded(9e-6, 1.3, 0.05 * height, height), 0.0, false, 0.0).unwrap();
+    assert_eq!(modes.values[0], 0.0);
+    for n in 1..4 {
+        let exact = (f64::from(n) * PI / height).powi(2);
+        let error = modes.values[n as usize] / exact - 1.0;
+        println!("mode {n}: {error:+.2e}");
+        assert!(error.abs() < 1e-4);
+    }
+    // A uniform temperature is the first mode alone.
+    let height_again: f64 = modes.content.iter().map(|c| c * c).sum();
+    assert!((height_again / height - 1.0).abs() < 1e-14);
+    assert!(modes.content[1..].iter().all(|c| c.abs() < 1e-15));
+}

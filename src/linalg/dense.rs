@@ -1,0 +1,101 @@
+//! Small dense systems, solved over and over in buffers that are kept.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::{MatMut, Par};
+
+/// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
+///
+/// Once the buffers have the size of the largest system, nothing is allocated any more.
+#[derive(Default)]
+pub struct DenseSystem {
+    size: usize,
+    /// Rows of `A`, one after the other; overwritten by the factors of `Aᵀ`.
+    rows: Vec<f64>,
+    rhs: Vec<f64>,
+    permutation: [Vec<usize>; 2],
+    stack: Option<MemBuffer>,
+    /// Size for which `stack` suffices.
+    prepared: usize,
+}
+
+impl DenseSystem {
+    /// Starts a system of `size` unknowns with zero matrix and right-hand side.
+    pub fn reset(&mut self, size: usize) {
+        self.size = size;
+        self.rows.clear();
+        self.rows.resize(size * size, 0.0);
+        self.rhs.clear();
+        self.rhs.resize(size, 0.0);
+    }
+
+    /// Row `i` of the matrix, and its right-hand side.
+    pub fn row(&mut self, i: usize) -> (&mut [f64], &mut f64) {
+        (&mut self.rows[i * self.size..(i + 1) * self.size], &mut self.rhs[i])
+    }
+
+    /// Solves the system, which is used up; `None` if the matrix is singular or the solution is not finite.
+    pub fn solve(&mut self) -> Option<&[f64]> {
+        let n = self.size;
+        if n > 0 {
+            if self.stack.is_none() || self.prepared < n {
+                let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
+                let solve = solve::solve_transpose_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
+                self.stack = Some(MemBuffer::new(factor.or(solve)));
+                self.prepared = n;
+            }
+            let [forward, inverse] = &mut self.permutation;
+            forward.resize(n, 0);
+            inverse.resize(n, 0);
+            let stack = MemStack::new(self.stack.as_mut()?);
+            // Rows of A in memory are columns of Aᵀ, which faer factorises; A x = b is then the transposed solve.
+            let mut transposed = MatMut::from_column_major_slice_mut(&mut self.rows, n, n);
+            let (_, permutation) = factor::lu_in_place(
+                transposed.as_mut(),
+                &mut forward[..n],
+                &mut inverse[..n],
+                Par::Seq,
+                stack,
+                Default::default(),
+            );
+            let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, n, 1);
+            let factors = transposed.as_ref();
+            solve::solve_transpose_in_place(factors, factors, permutation, rhs, Par::Seq, stack);
+        }
+        self.rhs.iter().all(|x| x.is_finite()).then_some(&self.rhs)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Solves a system given by rows.
+    fn solve<const N: usize>(system: &mut DenseSystem, rows: [[f64; N]; N], rhs: [f64; N]) -> Option<Vec<f64>> {
+        system.reset(N);
+        for i in 0..N {
+            let (row, b) = system.row(i);
+            row.copy_from_slice(&rows[i]);
+            *b = rhs[i];
+        }
+        system.solve().map(<[f64]>::to_vec)
+    }
+
+    #[test]
+    fn systems_of_changing_size_are_solved_in_the_same_buffers() {
+        let mut system = DenseSystem::default();
+        // The first pivot is zero: rows must be exchanged.
+        let x = solve(&mut system, [[0.0, 2.0, 1.0], [1.0, -1.0, 0.0], [3.0, 0.5, -2.0]], [7.0, -1.0, -2.0]).unwrap();
+        assert!(x.iter().zip([1.0, 2.0, 3.0]).all(|(x, exact)| (x - exact).abs() < 1e-14), "{x:?}");
+        assert_eq!(solve(&mut system, [[4.0]], [2.0]), Some(vec![0.5]));
+        assert_eq!(solve(&mut system, [], []), Some(vec![]));
+        let x = solve(&mut system, [[2.0, 1.0], [1.0, 3.0]], [3.0, 5.0]).unwrap();
+        assert!((x[0] - 0.8).abs() < 1e-15 && (x[1] - 1.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_singular_system_has_no_solution() {
+        assert_eq!(solve(&mut DenseSystem::default(), [[1.0, 2.0], [2.0, 4.0]], [1.0, 1.0]), None);
+        assert_eq!(solve(&mut DenseSystem::default(), [[0.0]], [1.0]), None);
+    }
+}

@@ -1,0 +1,143 @@
+//! Constants that follow from the parameters of the material, each in one place.
+
+use crate::analytic;
+use crate::config::Material;
+
+/// An isotropic, linear elastic, heat-conducting material in plane strain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Isotropic {
+    youngs_modulus: f64,
+    poissons_ratio: f64,
+    density: f64,
+    expansion: f64,
+    conductivity: f64,
+    specific_heat: f64,
+}
+
+impl From<&Material> for Isotropic {
+    fn from(material: &Material) -> Self {
+        let &Material { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat } = material;
+        Self { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat }
+    }
+}
+
+impl Isotropic {
+    /// Lamé's first constant `λ = Eν/((1 + ν)(1 − 2ν))` [Pa].
+    pub fn lame(&self) -> f64 {
+        let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
+        e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    }
+
+    /// Shear modulus, Lamé's second constant `μ = E/(2(1 + ν))` [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        0.5 * self.youngs_modulus / (1.0 + self.poissons_ratio)
+    }
+
+    /// Modulus of pressure waves and of strain in one direction only, `λ + 2μ` [Pa].
+    pub fn wave_modulus(&self) -> f64 {
+        let nu = self.poissons_ratio;
+        2.0 * self.shear_modulus() * (1.0 - nu) / (1.0 - 2.0 * nu)
+    }
+
+    /// Modulus of uniaxial stress in plane strain, `E/(1 − ν²)` [Pa].
+    pub fn plane_strain_modulus(&self) -> f64 {
+        self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
+    }
+
+    /// Contact modulus `E*` of two bodies of this material [Pa].
+    pub fn contact_modulus(&self) -> f64 {
+        analytic::contact_modulus(self.youngs_modulus, self.poissons_ratio)
+    }
+
+    /// Speed of pressure waves `√((λ + 2μ)/ρ)` [m/s].
+    pub fn pressure_wave_speed(&self) -> f64 {
+        (self.wave_modulus() / self.density).sqrt()
+    }
+
+    /// Speed of shear waves `√(μ/ρ)` [m/s].
+    pub fn shear_wave_speed(&self) -> f64 {
+        (self.shear_modulus() / self.density).sqrt()
+    }
+
+    /// Speed of Rayleigh waves [m/s], see [`analytic::rayleigh_speed`].
+    pub fn rayleigh_speed(&self) -> f64 {
+        analytic::rayleigh_speed(self.shear_wave_speed(), self.poissons_ratio)
+    }
+
+    /// Heat capacity per volume `ρc` [J/(m³ K)].
+    pub fn heat_capacity(&self) -> f64 {
+        self.density * self.specific_heat
+    }
+
+    /// Thermal diffusivity `κ = k/(ρc)` [m²/s].
+    pub fn diffusivity(&self) -> f64 {
+        self.conductivity / self.heat_capacity()
+    }
+
+    /// Expansion in the one free direction per temperature where the other two are held, `α (1 + ν)/(1 − ν)` [1/K]: how
+    /// much a heated layer on a cold body swells.
+    pub fn layer_expansion(&self) -> f64 {
+        (1.0 + self.poissons_ratio) / (1.0 - self.poissons_ratio) * self.expansion
+    }
+
+    /// Pressure in the plane of such a layer per temperature, `Eα/(1 − ν)` [Pa/K].
+    pub fn layer_pressure(&self) -> f64 {
+        self.youngs_modulus * self.expansion / (1.0 - self.poissons_ratio)
+    }
+
+    /// Gough–Joule factor `T₀ β/(ρc)` with `β = α(3λ + 2μ) = αE/(1 − 2ν)` [K]: warming per compressive volume strain at
+    /// the absolute temperature `reference` [K] (Draganis, thesis eq. 3.6).
+    pub fn gough_joule(&self, reference: f64) -> f64 {
+        reference * self.expansion * self.youngs_modulus / (1.0 - 2.0 * self.poissons_ratio) / self.heat_capacity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEEL: Isotropic = Isotropic {
+        youngs_modulus: 2.1e11,
+        poissons_ratio: 0.3,
+        density: 7850.0,
+        expansion: 1.2e-5,
+        conductivity: 45.0,
+        specific_heat: 460.0,
+    };
+
+    fn close(a: f64, b: f64) -> bool {
+        (a / b - 1.0).abs() < 1e-12
+    }
+
+    #[test]
+    fn moduli_satisfy_the_identities_of_isotropic_elasticity() {
+        let (lame, shear) = (STEEL.lame(), STEEL.shear_modulus());
+        assert!(close(STEEL.wave_modulus(), lame + 2.0 * shear));
+        assert!(close(STEEL.poissons_ratio, lame / (2.0 * (lame + shear))));
+        assert!(close(STEEL.plane_strain_modulus(), 4.0 * shear * (lame + shear) / (lame + 2.0 * shear)));
+        assert!(close(STEEL.plane_strain_modulus(), 2.0 * STEEL.contact_modulus()));
+        let beta = STEEL.expansion * (3.0 * lame + 2.0 * shear);
+        assert!(close(STEEL.gough_joule(300.0), 300.0 * beta / (7850.0 * 460.0)));
+        assert!(close(STEEL.layer_expansion(), beta / STEEL.wave_modulus()));
+        // Stress σ_t = λ ε_n − β T of the layer with σ_n = (λ + 2μ) ε_n − β T = 0.
+        assert!(close(STEEL.layer_pressure(), beta - lame * STEEL.layer_expansion()));
+    }
+
+    /// Rayleigh's equation `(2 − q)² = 4 √(1 − q) √(1 − q c_S²/c_P²)` with `q = (c_R/c_S)²`.
+    #[test]
+    fn rayleigh_speed_solves_its_equation_within_half_a_percent() {
+        for nu in [0.0, 0.1, 0.2, 0.3, 0.4, 0.49] {
+            let material = Isotropic { poissons_ratio: nu, ..STEEL };
+            let shear = material.shear_wave_speed();
+            let squared = (shear / material.pressure_wave_speed()).powi(2);
+            let residual = |q: f64| (2.0 - q).powi(2) - 4.0 * ((1.0 - q) * (1.0 - q * squared)).sqrt();
+            let (mut low, mut high) = (0.3_f64, 1.0_f64);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if residual(middle) < 0.0 { low = middle } else { high = middle }
+            }
+            let exact = shear * low.sqrt();
+            assert!((material.rayleigh_speed() / exact - 1.0).abs() < 5e-3, "ν = {nu}");
+        }
+    }
+}

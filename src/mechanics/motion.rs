@@ -1,0 +1,265 @@
+//! One implicit step of a body, written once for modal and nodal coordinates.
+//!
+//! With `ẏ = a0 y + h_v` and `ÿ = a0² y + h` ([`BodyState::velocity_offsets`], [`BodyState::acceleration_offsets`]) the
+//! momentum balance of [`super::response`] becomes `(a0² M + a0 D + K) y = Sᵀλ − M r_k ẇ_k + load`, where
+//! `load = −M h − D h_v − 2Ω C ẏ_n − Ω̇ C y_n + Ω² S y_n + Ω² M X` is known before the contact is solved.
+
+use super::response::{BodyState, Convection, FreeResponse, StepOperator, fit};
+use crate::multistep::TimeDerivative;
+use nalgebra::{DMatrix, DVector};
+
+/// The equations of motion of a body in its own coordinates, per metre of width.
+pub(super) trait Equations {
+    /// `load ← −M a`.
+    fn set_inertia(&self, acceleration: &DVector<f64>, load: &mut DVector<f64>);
+
+    /// Whether there is a damping matrix at all.
+    fn is_damped(&self) -> bool;
+
+    /// `load ← load − D v`.
+    fn subtract_damping(&self, velocity: &DVector<f64>, load: &mut DVector<f64>);
+
+    /// `load ← load − C x`.
+    fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>);
+
+    /// `load ← load + s² (S − B) y`.
+    fn add_ale_inertia(&self, square: f64, displacement: &DVector<f64>, load: &mut DVector<f64>);
+
+    /// Centrifugal load `M X` per `Ω²`; `None` if it is switched off.
+    fn centrifugal(&self) -> Option<&DVector<f64>>;
+
+    /// `M r_k` of the rigid accelerations, three columns.
+    fn rigid(&self) -> &DMatrix<f64>;
+
+    /// Surface displacement of the coordinates `y`, with that of static remainders under the stream speed squared `square`.
+    fn set_surface(&self, y: &DVector<f64>, square: f64, surface: &mut DVector<f64>);
+
+    /// `load ← load + Sᵀ λ`.
+    fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>);
+}
+
+/// See [`super::BodyResponse::free_response`].
+pub(super) fn free_response(
+    body: &impl Equations,
+    op: &StepOperator,
+    state: &BodyState,
+    td: &TimeDerivative,
+    stream: Convection,
+    out: &mut FreeResponse,
+) {
+    let FreeResponse { surface, momentum, load, acceleration, velocity, product } = out;
+    state.acceleration_offsets(td, acceleration);
+    fit(load, acceleration.len());
+    fit(product, acceleration.len());
+    body.set_inertia(acceleration, load);
+    if body.is_damped() {
+        state.velocity_offsets(td, velocity);
+        body.subtract_damping(velocity, load);
+    }
+    let square = stream.speed * stream.speed;
+    if stream.speed != 0.0 || stream.acceleration != 0.0 {
+        let twice = 2.0 * stream.speed;
+        for (rate, (v, y)) in product.iter_mut().zip(state.velocity.iter().zip(&state.displacement)) {
+            *rate = v * twice + stream.acceleration * y;
+        }
+        body.subtract_gyroscopic(product, load);
+        body.add_ale_inertia(square, &state.displacement, load);
+        if let Some(centrifugal) = body.centrifugal() {
+            load.axpy(square, centrifugal, 1.0);
+        }
+    }
+    product.copy_from(load);
+    op.solver.solve_in_place(product);
+    body.set_surface(product, square, surface);
+    let a0_squared = op.a0 * op.a0;
+    for (value, known) in product.iter_mut().zip(acceleration.iter()) {
+        *value = *value * a0_squared + known;
+    }
+    *momentum = std::array::from_fn(|k| body.rigid().column(k).dot(product));
+}
+
+/// See [`super::BodyResponse::commit`].
+#[allow(clippy::too_many_arguments)]
+pub(super) fn commit(
+    body: &impl Equations,
+    op: &StepOperator,
+    free: &FreeResponse,
+    forces: &DVector<f64>,
+    rigid: [f64; 3],
+    td: &TimeDerivative,
+    state: &BodyState,
+    next: &mut BodyState,
+) {
+    let new = &mut next.displacement;
+    fit(new, free.load.len());
+    new.copy_from(&free.load);
+    body.add_surface_forces(forces, new);
+    for (k, acceleration) in rigid.iter().enumerate() {
+        new.axpy(-acceleration, &body.rigid().column(k), 1.0);
+    }
+    op.solver.solve_in_place(new);
+    state.advance(td, next);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::assembly::ElementMatrix;
+    use crate::fem::element::EdgePoint;
+    use crate::fem::{DofMap, assemble_faces};
+    use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
+    use crate::material::Isotropic;
+    use crate::mechanics::testing::{committed, free, paper_d};
+    use crate::mechanics::{BodyResponse, BodySystem, FullBody, ReducedBasis, ReducedBody};
+    use crate::mechanics::{rail_mesh, rail_system, wheel_system};
+
+    /// Trapezoidal rule.
+    fn trapezoidal(dt: f64) -> TimeDerivative {
+        TimeDerivative { a0: 2.0 / dt, a1: -2.0 / dt, a2: 0.0, b1: -1.0 }
+    }
+
+    /// A body reduced to `modes` and full.
+    fn pair(system: BodySystem, modes: usize) -> [Box<dyn BodyResponse>; 2] {
+        let basis = ReducedBasis::compute(&system, modes, &mut |_| {}).unwrap();
+        [Box::new(ReducedBody { basis, centrifugal: false }), Box::new(FullBody::new(system, false).unwrap())]
+    }
+
+    /// The next state under surface forces, without convection and rigid motion.
+    fn after(
+        body: &dyn BodyResponse,
+        op: &StepOperator,
+        state: &BodyState,
+        td: &TimeDerivative,
+        forces: &DVector<f64>,
+    ) -> BodyState {
+        let known = free(body, op, state, td, Convection::default());
+        committed(body, op, &known, forces, [0.0; 3], td, state)
+    }
+
+    /// Rail whose ends are closed by viscous dashpots that swallow plane waves: `ρ c_P` normal and `ρ c_S` tangential
+    /// (Lysmer & Kuhlemeyer, *J. Eng. Mech. Div. ASCE* 95 (1969) 859–877).
+    fn rail_with_quiet_ends() -> BodySystem {
+        let config = paper_d(4);
+        let (material, density) = (Isotropic::from(&config.material), config.material.density);
+        let (pressure, shear) = (material.pressure_wave_speed(), material.shear_wave_speed());
+        let dashpot = |points: &[EdgePoint; 2]| -> ElementMatrix {
+            let mut matrix = [[0.0; 8]; 8];
+            for p in points {
+                for (i, ni) in p.shape.iter().enumerate() {
+                    for (j, nj) in p.shape.iter().enumerate() {
+                        let length = p.normal[0].hypot(p.normal[1]);
+                        matrix[2 * i][2 * j] += density * pressure * ni * nj * length;
+                        matrix[2 * i + 1][2 * j + 1] += density * shear * ni * nj * length;
+                    }
+                }
+            }
+            matrix
+        };
+        let mesh = rail_mesh(&config).unwrap();
+        let damping = assemble_faces(&mesh, &DofMap::new(&mesh), dashpot).unwrap();
+        BodySystem { damping: Some(damping), ..rail_system(&config).unwrap() }
+    }
+
+    /// Wheel with one dashpot between its hub and the middle of its surface.
+    fn wheel_with_a_dashpot() -> BodySystem {
+        let system = wheel_system(&paper_d(4)).unwrap();
+        let (n, middle) = (system.unknowns(), system.surface.len() / 2);
+        let at = |component: usize| system.surface[middle / 2 * 2 + component];
+        let triplets = [0, 1].map(|component| (at(component), at(component), 3e5));
+        BodySystem { damping: Some(CsrMatrix::from_triplets(n, n, &triplets).unwrap()), ..system }
+    }
+
+    /// `D = α M` damps every mode alike: `q = e^{−αt/2} (cos ω t + α/2ω sin ω t)`, `ω² = Ω² − α²/4`. The trapezoidal rule
+    /// replaces `e^{λ Δt}`, `λ = −α/2 + iω`, by `z = (2 + λ Δt)/(2 − λ Δt)`, with the same factors of the two terms.
+    #[test]
+    fn a_damped_mode_decays_as_its_closed_form() {
+        let mut system = rail_system(&paper_d(4)).unwrap();
+        let factor = Cholesky::new(&system.stiffness).unwrap();
+        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 6, &mut |_| {}).unwrap();
+        let square = modes.squared_frequencies[0];
+        let alpha = 0.1 * square.sqrt();
+        system.damping = Some(CsrMatrix::combination(alpha, &system.mass, 0.0, &system.mass).unwrap());
+        let omega = (square - 0.25 * alpha * alpha).sqrt();
+        let dt = 0.02 / omega;
+        let td = trapezoidal(dt);
+        let shape = modes.shapes.column(0).into_owned();
+        let unit = DVector::from_fn(6, |i, _| f64::from(i == 0));
+        for (body, shape) in pair(system, 6).iter().zip([unit, shape]) {
+            let op = body.operator(td.a0).unwrap();
+            let none = DVector::zeros(op.surface.nrows());
+            let mut state = BodyState::zeros(body.state_len());
+            state.displacement = shape.clone();
+            state.acceleration = &shape * -square;
+            let (re, im) = (2.0 - 0.5 * alpha * dt, omega * dt);
+            let back = 2.0 + 0.5 * alpha * dt;
+            let size = (re * re + im * im).sqrt() / (back * back + im * im).sqrt();
+            let angle = im.atan2(re) + im.atan2(back);
+            let form = |k: f64, decay: f64, phase: f64| {
+                decay.powf(k) * ((k * phase).cos() + 0.5 * alpha / omega * (k * phase).sin())
+            };
+            let at = shape.iamax();
+            for k in 1..=1000 {
+                state = after(body.as_ref(), &op, &state, &td, &none);
+                let (found, k) = (state.displacement[at] / shape[at], f64::from(k));
+                let discrete = form(k, size, angle);
+                assert!((found - discrete).abs() < 1e-8, "step {k}: {found} against {discrete}");
+                let exact = form(k, (-0.5 * alpha * dt).exp(), omega * dt);
+                assert!((found - exact).abs() < 1e-3, "step {k}: {found} against {exact}");
+            }
+        }
+    }
+
+    /// The trapezoidal rule conserves exactly: what the energy loses in a step is `Δt` times the dissipation at the mean of
+    /// the velocities at both ends.
+    #[test]
+    fn energy_that_dashpots_take_is_what_the_body_loses() {
+        for (name, system) in [("rail", rail_with_quiet_ends()), ("wheel", wheel_with_a_dashpot())] {
+            for body in pair(system, 20) {
+                let body = body.as_ref();
+                let still = body.operator(0.0).unwrap();
+                let ports = still.surface.nrows();
+                let forces = DVector::from_fn(ports, |i, _| if i.abs_diff(ports / 2) < 4 { -2e4 } else { 0.0 });
+                let state = BodyState::zeros(body.state_len());
+                let loaded = after(body, &still, &state, &TimeDerivative::default(), &forces);
+                assert_eq!(body.dissipation(&loaded), 0.0);
+                // A short step of backward Euler supplies the acceleration after the release.
+                let (start, none) = (TimeDerivative { a0: 1e7, a1: -1e7, a2: 0.0, b1: 0.0 }, DVector::zeros(ports));
+                let mut state = after(body, &body.operator(start.a0).unwrap(), &loaded, &start, &none);
+                let dt = 2e-5;
+                let td = trapezoidal(dt);
+                let op = body.operator(td.a0).unwrap();
+                let initial = body.energy(&state, &none, [0.0; 3]);
+                let mut dissipated = 0.0;
+                for _ in 0..200 {
+                    let next = after(body, &op, &state, &td, &none);
+                    let velocity = 0.5 * (&state.velocity + &next.velocity);
+                    let step = dt * body.dissipation(&BodyState { velocity, ..next.clone() });
+                    assert!(step >= 0.0);
+                    dissipated += step;
+                    state = next;
+                }
+                let lost = initial - body.energy(&state, &none, [0.0; 3]);
+                println!(
+                    "{name}: {:.3} of the energy lost, imbalance {:.1e}",
+                    lost / initial,
+                    (lost - dissipated) / initial
+                );
+                assert!((lost - dissipated).abs() < 1e-9 * initial && lost > 0.05 * initial);
+            }
+        }
+    }
+
+    /// The modes that are left out have no damping: what a reduced body misses of a dashpot vanishes with more modes.
+    #[test]
+    fn damped_reduced_body_converges_to_the_full_one_with_its_modes() {
+        let full = FullBody::new(rail_with_quiet_ends(), false).unwrap().operator(1.5e3).unwrap();
+        let error = |modes: usize| {
+            let basis = ReducedBasis::compute(&rail_with_quiet_ends(), modes, &mut |_| {}).unwrap();
+            let reduced = ReducedBody { basis, centrifugal: false }.operator(1.5e3).unwrap();
+            (reduced.surface - &full.surface).amax() / full.surface.amax()
+        };
+        let errors = [15, 60, 240].map(error);
+        println!("errors with 15, 60 and 240 modes: {errors:?}");
+        assert!(errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1]);
+    }
+}

@@ -1,0 +1,175 @@
+//! The time formula: how the new value of a quantity, its history and its time derivative are linked in one step.
+//!
+//! All balances of momentum and the slip are discretised by the same formula ([`TimeDerivative`]); which one a step takes
+//! follows from the chosen scheme and the step before ([`formula`]).
+
+use crate::config::{SolverParameters, TimeScheme};
+use serde::{Deserialize, Serialize};
+
+/// Step ratio up to which two-step backward differences are used (they lose zero-stability at 1 + √2).
+const LARGEST_RATIO: f64 = 2.0;
+
+/// Largest relative difference of steps that are meant to be equal: masters step over differences of rounded times.
+const ROUNDING: f64 = 1e-9;
+
+/// Linear multistep formula `d_t y = a0 y_{n+1} + a1 y_n + a2 y_{n−1} + b1 (d_t y)_n`; all zero: stationary.
+///
+/// A constant has no derivative: `a0 + a1 + a2 = 0`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TimeDerivative {
+    /// Weight of the new value [1/s].
+    pub a0: f64,
+    /// Weight of the present value [1/s].
+    pub a1: f64,
+    /// Weight of the value one step earlier [1/s].
+    pub a2: f64,
+    /// Weight of the present derivative [1].
+    pub b1: f64,
+}
+
+impl TimeDerivative {
+    /// The part of `d_t y` known before the step.
+    pub fn offset(&self, now: f64, before: f64, rate: f64) -> f64 {
+        self.a1 * now + self.a2 * before + self.b1 * rate
+    }
+
+    /// Impulse [N s] that the formula attributes to the force `now` [N] at the end of a step.
+    ///
+    /// `before` is the force at its beginning and `last` the impulse of the step before [N s]. Derivation: the formula
+    /// turns the balance `d_t p = f` of a momentum `p` into `a0 p_{n+1} + a1 p_n + a2 p_{n−1} + b1 f_n = f_{n+1}`, since
+    /// the derivative known from the last step is the force that acted at its end. With `a1 = −a0 − a2` and the impulses
+    /// `J_{n+1} = p_{n+1} − p_n` this is `a0 J_{n+1} − a2 J_n + b1 f_n = f_{n+1}`, a recursion that is linear in the
+    /// force. It therefore holds for each force by itself: every one gets its own impulse, and the impulses of all forces
+    /// add up to the change of momentum exactly, whatever the size of the steps. Backward Euler gives `f_{n+1} Δt`, the
+    /// trapezoidal rule `½ (f_n + f_{n+1}) Δt`.
+    pub fn impulse(&self, now: f64, before: f64, last: f64) -> f64 {
+        (now - self.b1 * before + self.a2 * last) / self.a0
+    }
+
+    /// No time derivative at all: every step is an equilibrium.
+    pub fn is_stationary(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// The step before, if `dt` differs from it by rounding only; otherwise `dt`. Second differences would amplify the
+/// rounding, and every new step size costs new operators.
+pub fn settled(dt: f64, before: f64) -> f64 {
+    if (dt - before).abs() <= ROUNDING * dt { before } else { dt }
+}
+
+/// Formula for a step `dt` after a step `before` (0: none, e.g. at the start or after a discontinuity).
+pub fn formula(solver: &SolverParameters, dt: f64, before: f64) -> TimeDerivative {
+    match solver.time_scheme {
+        TimeScheme::Bdf2 if before > 0.0 && dt <= LARGEST_RATIO * before => {
+            let ratio = dt / before;
+            TimeDerivative {
+                a0: (1.0 + 2.0 * ratio) / (dt * (1.0 + ratio)),
+                a1: -(1.0 + ratio) / dt,
+                a2: ratio * ratio / (dt * (1.0 + ratio)),
+                b1: 0.0,
+            }
+        }
+        TimeScheme::Theta if before > 0.0 => {
+            let theta = solver.theta;
+            let a0 = 1.0 / (theta * dt);
+            TimeDerivative { a0, a1: -a0, a2: 0.0, b1: -(1.0 - theta) / theta }
+        }
+        _ => TimeDerivative { a0: 1.0 / dt, a1: -1.0 / dt, a2: 0.0, b1: 0.0 },
+    }
+}
+
+/// A scalar with the history its time discretisation needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// Present value.
+    pub now: f64,
+    /// Value one step earlier.
+    pub before: f64,
+    /// `d_t` at the present time.
+    pub rate: f64,
+}
+
+impl History {
+    /// A value at rest.
+    pub fn constant(now: f64) -> Self {
+        Self { now, before: now, rate: 0.0 }
+    }
+
+    /// Known part of `d_t` in the coming step.
+    pub fn offset(&self, td: &TimeDerivative) -> f64 {
+        td.offset(self.now, self.before, self.rate)
+    }
+
+    /// Moves on to a new value.
+    pub fn push(&mut self, td: &TimeDerivative, value: f64) {
+        let rate = td.a0 * value + self.offset(td);
+        *self = Self { now: value, before: self.now, rate };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn solver(time_scheme: TimeScheme) -> SolverParameters {
+        let response = crate::config::Response::Reduced;
+        SolverParameters { response, modes_wheel: 1, modes_rail: 1, time_scheme, theta: 0.5 }
+    }
+
+    #[test]
+    fn steps_that_differ_by_rounding_are_one_step() {
+        let differences = (1..500).map(|k| f64::from(k + 1) * 1e-3 - f64::from(k) * 1e-3);
+        assert!(differences.clone().any(|dt| dt != 1e-3));
+        assert!(differences.map(|dt| settled(dt, 1e-3)).all(|dt| dt == 1e-3));
+        for (dt, before) in [(1e-3, 0.0), (1e-3, 1.000001e-3), (5e-4, 1e-3)] {
+            assert_eq!(settled(dt, before), dt);
+        }
+    }
+
+    /// Error of `ẏ = −y` at `t = 1` with `n` steps of alternating length.
+    fn decay_error(scheme: TimeScheme, n: usize) -> f64 {
+        let solver = solver(scheme);
+        let mut y = History { now: 1.0, before: 1.0, rate: -1.0 };
+        let mut before = 0.0;
+        for k in 0..n {
+            let dt = if k % 2 == 0 { 0.8 } else { 1.2 } / n as f64;
+            let td = formula(&solver, dt, before);
+            let value = -y.offset(&td) / (td.a0 + 1.0);
+            y.push(&td, value);
+            before = dt;
+        }
+        (y.now - (-1f64).exp()).abs()
+    }
+
+    #[test]
+    fn formulas_converge_with_their_order_under_variable_steps() {
+        for (scheme, order) in [(TimeScheme::BackwardEuler, 1.0), (TimeScheme::Bdf2, 2.0), (TimeScheme::Theta, 2.0)] {
+            let observed = (decay_error(scheme, 100) / decay_error(scheme, 200)).log2();
+            assert!((observed - order).abs() < 0.1, "{scheme:?}: observed order {observed:.3}");
+        }
+    }
+
+    /// A mass under two forces in steps of alternating length.
+    #[test]
+    fn impulses_of_all_forces_add_up_to_the_change_of_momentum() {
+        for scheme in [TimeScheme::BackwardEuler, TimeScheme::Bdf2, TimeScheme::Theta] {
+            let solver = solver(scheme);
+            let forces = |t: f64| [3.0 + t * t, -(5.0 * t).sin()];
+            let mut momentum = History { now: 2.0, before: 2.0, rate: forces(0.0).iter().sum() };
+            let (mut before, mut last, mut present, mut t, mut total) = (0.0, [0.0; 2], forces(0.0), 0.0, 0.0);
+            for k in 0..40 {
+                let dt = if k % 2 == 0 { 0.02 } else { 0.03 };
+                let td = formula(&solver, dt, before);
+                t += dt;
+                let new = forces(t);
+                let impulse = [0, 1].map(|i| td.impulse(new[i], present[i], last[i]));
+                let value = (new.iter().sum::<f64>() - momentum.offset(&td)) / td.a0;
+                momentum.push(&td, value);
+                total += impulse.iter().sum::<f64>();
+                (before, last, present) = (dt, impulse, new);
+                assert!((momentum.now - 2.0 - total).abs() < 1e-13, "{scheme:?}: {} and {total}", momentum.now - 2.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! Piecewise linear functions of one variable: profiles over a surface, inputs over time, nodal values of a mesh.
+//!
+//! Free functions work on slices of ascending positions and of values there, as a mesh has them. [`Piecewise`] owns both;
+//! it is zero outside its ends, and a repeated position is a jump.
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Piecewise linear function of x, zero outside its first and last point; a repeated x is a jump.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Piecewise {
+    /// Ascending positions.
+    pub x: Vec<f64>,
+    /// Values at the positions.
+    pub value: Vec<f64>,
+}
+
+/// A stretch of the axis on which a function lives, such as a contact patch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// End at the smaller x.
+    pub low: f64,
+    /// End at the larger x.
+    pub high: f64,
+}
+
+/// Positions and values that make no piecewise linear function.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PiecewiseError {
+    /// Every position needs one value.
+    #[error("{positions} positions but {values} values")]
+    Length {
+        /// Number of positions.
+        positions: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A position or value that is infinite or no number.
+    #[error("{value} is no finite number")]
+    NotFinite {
+        /// The offending number.
+        value: f64,
+    },
+    /// Positions that do not ascend.
+    #[error("positions must ascend, {after} follows {before}")]
+    Order {
+        /// The position that comes first.
+        before: f64,
+        /// The smaller one after it.
+        after: f64,
+    },
+}
+
+/// One linear piece: both positions and both values.
+pub type Segment = ([f64; 2], [f64; 2]);
+
+impl Piecewise {
+    /// Removes all points and keeps the memory.
+    pub fn clear(&mut self) {
+        self.x.clear();
+        self.value.clear();
+    }
+
+    /// Appends a point.
+    pub fn push(&mut self, x: f64, value: f64) {
+        self.x.push(x);
+        self.value.push(value);
+    }
+
+    /// Whether there are no points: the function is zero everywhere.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Samples of a function at `count` points between `low` and `high`, denser towards both ends (cosine spacing).
+    pub fn sampled(low: f64, high: f64, count: usize, f: impl Fn(f64) -> f64) -> Self {
+        let last = count.max(2) - 1;
+        let place = |i: usize| {
+            let c = (PI * i as f64 / last as f64).cos();
+            0.5 * (low * (1.0 + c) + high * (1.0 - c))
+        };
+        let x: Vec<f64> = (0..=last).map(place).collect();
+        let value = x.iter().map(|&x| f(x)).collect();
+        Self { x, value }
+    }
+
+    /// The linear pieces in ascending order; a jump is one of zero length.
+    pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
+        segments(&self.x, &self.value)
+    }
+
+    /// `∫ f dx` over everything.
+    pub fn integral(&self) -> f64 {
+        self.segments().map(|(x, v)| 0.5 * (x[1] - x[0]) * (v[0] + v[1])).sum()
+    }
+
+    /// Mean over an interval, see [`mean`].
+    pub fn mean(&self, low: f64, high: f64) -> f64 {
+        mean(&self.x, &self.value, low, high)
+    }
+
+    /// Value at a position: zero outside the ends, at a jump the value after it.
+    pub fn at(&self, x: f64) -> f64 {
+        match (self.x.first(), self.x.last()) {
+            (Some(&first), Some(&last)) if x >= first && x <= last => interpolate(&self.x, &self.value, x),
+            _ => 0.0,
+        }
+    }
+
+    /// Multiplies all values by a factor.
+    pub fn scale(&mut self, factor: f64) {
+        self.value.iter_mut().for_each(|v| *v *= factor);
+    }
+
+    /// The same function times a factor.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.scale(factor);
+        self
+    }
+
+    /// Refuses what is no function: lengths that differ, positions that descend, anything that is not finite.
+    pub fn check(&self) -> Result<(), PiecewiseError> {
+        if self.x.len() != self.value.len() {
+            return Err(PiecewiseError::Length { positions: self.x.len(), values: self.value.len() });
+        }
+        if let Some(&value) = self.x.iter().chain(&self.value).find(|v| !v.is_finite()) {
+            return Err(PiecewiseError::NotFinite { value });
+        }
+        match self.x.windows(2).find(|w| w[1] < w[0]) {
+            Some(w) => Err(PiecewiseError::Order { before: w[0], after: w[1] }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The linear pieces between nodes with values.
+pub fn segments<'a>(x: &'a [f64], values: &'a [f64]) -> impl Iterator<Item = Segment> + 'a {
+    x.windows(2).zip(values.windows(2)).map(|(x, v)| ([x[0], x[1]], [v[0], v[1]]))
+}
+
+/// Value at a position between nodes with values, constant outside the ends; at a jump the value after it.
+///
+/// Zero without nodes.
+pub fn interpolate(x: &[f64], values: &[f64], at: f64) -> f64 {
+    between(x, values, at, x.partition_point(|&node| node <= at))
+}
+
+/// Value at a position on the piece that ends at node `next`; before the first node its value, after the last its.
+///
+/// Lets a caller decide on which side of a jump, or within which rounding, a position lies. Zero without nodes.
+pub fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
+    let last = x.len().min(values.len());
+    if next == 0 || next >= last {
+        return if last == 0 { 0.0 } else { values[next.clamp(1, last) - 1] };
+    }
+    let (from, to) = (x[next - 1], x[next]);
+    let share = ((at - from) / (to - from)).clamp(0.0, 1.0);
+    if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
+}
+
+/// Replaces `out` by the values at the positions `at`, see [`interpolate`].
+pub fn resample(x: &[f64], values: &[f64], at: &[f64], out: &mut Vec<f64>) {
+    out.clear();
+    out.extend(at.iter().map(|&at| interpolate(x, values, at)));
+}
+
+/// Mean over an interval of the function that is linear between nodes and zero outside; zero for an empty interval.
+pub fn mean(x: &[f64], values: &[f64], low: f64, high: f64) -> f64 {
+    let mut integral = 0.0;
+    for (ends, v) in segments(x, values) {
+        let (a, b) = (low.max(ends[0]), high.min(ends[1]));
+        if b > a {
+            let at = |x: f64| v[0] + (x - ends[0]) / (ends[1] - ends[0]) * (v[1] - v[0]);
+            integral += 0.5 * (b - a) * (at(a) + at(b));
+        }
+    }
+    if high > low { integral / (high - low) } else { 0.0 }
+}
+
+/// Maximum of the cubic Hermite interpolant whose slopes at the nodes are those of the parabolas through three
+/// neighbours: continuous in the values, wherever the maximum moves. Nodes are distinct; `−∞` without any.
+pub fn peak(x: &[f64], values: &[f64]) -> f64 {
+    let n = x.len().min(values.len());
+    let top = values[..n].iter().fold(f64::NEG_INFINITY, |top, v| top.max(*v));
+    let chord = |i: usize| (values[i + 1] - values[i]) / (x[i + 1] - x[i]);
+    let slope = |i: usize| {
+        let (left, right) = (x[i] - x[i - 1], x[i + 1] - x[i]);
+        (chord(i - 1) * right + chord(i) * left) / (left + right)
+    };
+    // Maxima inside the cells; the outermost cells have only a chord.
+    let inside = (1..n.saturating_sub(2)).filter_map(|i| {
+        let h = x[i + 1] - x[i];
+        let (from, to, rise) = (h * slope(i), h * slope(i + 1), values[i + 1] - values[i]);
+        // v(ξ) = v₀ + from ξ + b ξ² + c ξ³.
+        let (b, c) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+        let root = b * b - 3.0 * c * from;
+        // The zero of v′ where v″ < 0, in the form that survives c = 0.
+        let xi = from / (root.max(0.0).sqrt() - b);
+        let value = values[i] + xi * (from + xi * (b + xi * c));
+        (root >= 0.0 && xi > 0.0 && xi < 1.0).then_some(value)
+    });
+    inside.fold(top, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ramp to 2 at x = 1, a jump down to −1, level until x = 3.
+    fn ramp_and_jump() -> Piecewise {
+        Piecewise { x: vec![0.0, 1.0, 1.0, 3.0], value: vec![0.0, 2.0, -1.0, -1.0] }
+    }
+
+    #[test]
+    fn integral_and_mean_count_every_piece_and_nothing_outside() {
+        let f = ramp_and_jump();
+        assert_eq!(f.integral(), 1.0 - 2.0);
+        assert_eq!(f.mean(0.0, 1.0), 1.0);
+        assert_eq!(f.mean(0.5, 2.0), (0.75 - 1.0) / 1.5);
+        assert_eq!(f.mean(-1.0, 1.0), 0.5);
+        assert_eq!(f.mean(5.0, 6.0), 0.0);
+        assert_eq!((f.mean(1.0, 1.0), f.mean(2.0, 1.0)), (0.0, 0.0));
+        assert_eq!((Piecewise::default().integral(), Piecewise::default().mean(0.0, 1.0)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn values_are_linear_inside_zero_outside_and_those_after_a_jump() {
+        let f = ramp_and_jump();
+        let found: Vec<f64> = [-0.1, 0.0, 0.25, 1.0, 2.0, 3.0, 3.1].iter().map(|&x| f.at(x)).collect();
+        assert_eq!(found, [0.0, 0.0, 0.5, -1.0, -1.0, -1.0, 0.0]);
+        assert_eq!(Piecewise::default().at(0.0), 0.0);
+    }
+
+    #[test]
+    fn nodal_values_are_constant_outside_and_the_caller_chooses_the_side_of_a_jump() {
+        let Piecewise { x, value } = ramp_and_jump();
+        assert_eq!([-1.0, 0.5, 9.0].map(|at| interpolate(&x, &value, at)), [0.0, 1.0, -1.0]);
+        assert_eq!((between(&x, &value, 1.0, 1), between(&x, &value, 1.0, 3)), (2.0, -1.0));
+        assert_eq!((between(&x, &value, 7.0, 0), between(&x, &value, 7.0, 4)), (0.0, -1.0));
+        assert_eq!((interpolate(&[], &[], 1.0), interpolate(&[2.0], &[5.0], 1.0)), (0.0, 5.0));
+        let mut out = vec![9.0; 7];
+        resample(&x, &value, &[0.25, 2.0], &mut out);
+        assert_eq!(out, [0.5, -1.0]);
+    }
+
+    #[test]
+    fn scaling_is_linear_and_segments_ascend() {
+        let f = ramp_and_jump().scaled(-3.0);
+        assert_eq!(f.integral(), 3.0);
+        let pieces: Vec<Segment> = f.segments().collect();
+        assert_eq!(pieces[1], ([1.0, 1.0], [-6.0, 3.0]));
+        assert_eq!(pieces.len(), 3);
+    }
+
+    #[test]
+    fn cosine_samples_meet_both_ends_and_are_densest_there() {
+        let f = Piecewise::sampled(-1.0, 1.0, 201, |x| (1.0 - x * x).max(0.0).sqrt());
+        assert_eq!((f.x[0], f.x[200], f.x.len()), (-1.0, 1.0, 201));
+        assert!(f.x[1] - f.x[0] < 0.02 * (f.x[101] - f.x[100]));
+        assert!((f.integral() / (0.5 * PI) - 1.0).abs() < 1e-4, "{}", f.integral());
+    }
+
+    #[test]
+    fn what_is_no_function_is_refused_with_its_numbers() {
+        assert_eq!(ramp_and_jump().check(), Ok(()));
+        let with = |x: &[f64], value: &[f64]| Piecewise { x: x.to_vec(), value: value.to_vec() }.check();
+        assert_eq!(with(&[0.0, 1.0], &[1.0]), Err(PiecewiseError::Length { positions: 2, values: 1 }));
+        assert_eq!(with(&[0.0, -1.0], &[1.0, 1.0]), Err(PiecewiseError::Order { before: 0.0, after: -1.0 }));
+        assert!(matches!(with(&[0.0, 1.0], &[1.0, f64::NAN]), Err(PiecewiseError::NotFinite { .. })));
+        assert!(matches!(with(&[0.0, f64::INFINITY], &[1.0, 1.0]), Err(PiecewiseError::NotFinite { .. })));
+    }
+
+    #[test]
+    fn memory_is_kept_when_points_are_replaced() {
+        let mut f = ramp_and_jump();
+        let capacity = f.x.capacity();
+        f.clear();
+        assert!(f.is_empty());
+        f.push(1.0, 2.0);
+        assert_eq!((f.x.capacity(), f.at(1.0)), (capacity, 2.0));
+    }
+
+    #[test]
+    fn peak_of_a_sampled_parabola_is_its_vertex_between_the_nodes() {
+        let x: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.25 + 0.01 * f64::from(i % 3)).collect();
+        for vertex in [0.6, 0.9, 1.234] {
+            let values: Vec<f64> = x.iter().map(|x| 3.0 - (x - vertex) * (x - vertex)).collect();
+            assert!((peak(&x, &values) - 3.0).abs() < 1e-14);
+        }
+        // A maximum at the end is the value there.
+        assert_eq!(peak(&[0.0, 1.0, 2.0], &[5.0, 1.0, 0.0]), 5.0);
+        assert_eq!(peak(&[], &[]), f64::NEG_INFINITY);
+    }
+}

@@ -1,0 +1,147 @@
+//! The contact between wheel and rail: surfaces, solver, and the one place where its problem is put together.
+
+use super::bodies::Operators;
+use super::error::StepError;
+use super::state::{State, ThermalDeformation};
+use crate::config::{Config, Tuning};
+use crate::contact::{
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, FrictionLaw, Placement, RigidMotion, Scratch,
+    SurfaceResponse, Surfaces,
+};
+use crate::mechanics;
+use crate::mechanics::response::FreeResponse;
+use crate::multistep::TimeDerivative;
+
+/// Contact of the wheel with the rail.
+pub struct ContactModel {
+    /// Shapes of both surfaces.
+    pub surfaces: Surfaces,
+    /// How contact forces are found.
+    pub solver: Box<dyn ContactSolver>,
+    /// Wheel load for which the mesh is laid out [N].
+    nominal_load: f64,
+    /// Half-width of the Hertzian patch under it [m].
+    nominal_half_width: f64,
+    /// Width of the line contact [m].
+    width: f64,
+}
+
+/// Everything that distinguishes one contact problem of a model from another.
+pub struct ContactStep<'a> {
+    /// Answers of the bodies for this step size.
+    pub operators: &'a Operators,
+    /// Their answers without contact forces: wheel, rail.
+    pub free: &'a [FreeResponse; 2],
+    /// The three rigid motions.
+    pub rigid: [RigidMotion; 3],
+    /// Time formula; all zero: stationary.
+    pub time: TimeDerivative,
+    /// Distance travelled [m] and angle turned [rad].
+    pub place: [f64; 2],
+    /// How heat has deformed the bodies.
+    pub deformation: &'a ThermalDeformation,
+    /// Friction coefficient [1].
+    pub friction: f64,
+    /// Largest change of the weights at the contact edges that counts as converged [1].
+    pub edge_tolerance: f64,
+}
+
+impl ContactModel {
+    /// A round wheel on a plane rail.
+    pub fn new(config: &Config, solver: Box<dyn ContactSolver>) -> Self {
+        let surfaces = Surfaces::smooth(config.wheel.radius);
+        Self {
+            surfaces,
+            solver,
+            nominal_load: config.model.nominal_load,
+            nominal_half_width: mechanics::nominal_half_width(config),
+            width: config.model.contact_width,
+        }
+    }
+
+    /// Nominal wheel load per metre of width [N/m].
+    pub fn nominal_line_load(&self) -> f64 {
+        self.nominal_load / self.width
+    }
+
+    /// Solves for the contact forces; `start` is the result of the step before.
+    pub fn solve(
+        &self,
+        step: &ContactStep,
+        start: &ContactState,
+        found: &mut ContactState,
+        scratch: &mut Scratch,
+    ) -> Result<(), ContactError> {
+        let ThermalDeformation { radius_growth, swelling, membrane_force } = step.deformation;
+        let (operators, [wheel, rail]) = (step.operators, step.free);
+        let bodies = SurfaceResponse {
+            compliance: [&operators.wheel.surface, &operators.rail.surface],
+            relative: &operators.relative,
+            free: [&wheel.surface, &rail.surface],
+            inertial: &operators.wheel.inertial_response,
+            momentum: &operators.wheel.momentum,
+            deformation_inertia: &operators.wheel.deformation_inertia,
+        };
+        let [distance, angle] = step.place;
+        let problem = ContactProblem {
+            bodies,
+            membrane: [&membrane_force[0], &membrane_force[1]],
+            rigid: step.rigid,
+            time: step.time,
+            surfaces: &self.surfaces,
+            placement: Placement { distance, angle, growth: *radius_growth, swelling },
+            friction: step.friction,
+            nominal_load: self.nominal_line_load(),
+            edge_tolerance: step.edge_tolerance,
+        };
+        self.solver.solve(&problem, start, found, scratch)
+    }
+
+    /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck and
+    /// without forces yet.
+    pub fn hertzian_guess(&self, load: f64) -> ContactState {
+        let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
+        self.solver.touching(self.nominal_half_width * share.sqrt())
+    }
+
+    /// Whether a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
+    /// available friction coefficient from that of the last step, by more than [`JUMP`].
+    pub fn jumped(&self, state: &State, drives: &[AxisDrive; 3], friction: f64) -> bool {
+        let limit = JUMP * self.nominal_line_load();
+        let limits = [limit, limit, limit * self.surfaces.radius];
+        let available = state.available_friction;
+        let force = |k: usize| match drives[k] {
+            AxisDrive::Free { load } => (load - state.hub[k]).abs() > limits[k],
+            AxisDrive::Prescribed { .. } => false,
+        };
+        (friction - available).abs() > JUMP * available.max(friction) || (0..3).any(force)
+    }
+
+    /// Turns a failure in a step of `step` seconds at `time` into that of the step.
+    pub fn failure(&self, source: ContactError, time: f64, step: f64) -> StepError {
+        match source {
+            ContactError::ZoneExceeded { zone, load } => StepError::ZoneExceeded { zone, load: load * self.width },
+            source => StepError::Contact { time, step, source },
+        }
+    }
+
+    /// Elastic energy of the contact under the nominal load, from its Hertzian penetration `a²/2r` [J/m].
+    pub fn nominal_energy(&self) -> f64 {
+        let penetration = self.nominal_half_width.powi(2) / (2.0 * self.surfaces.radius);
+        0.5 * self.nominal_line_load() * penetration
+    }
+}
+
+/// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
+/// restarts the multistep formula.
+const JUMP: f64 = 0.02;
+
+/// The friction law with the present tunable parameters.
+pub fn friction_law(tuning: &Tuning) -> FrictionLaw {
+    FrictionLaw {
+        falling_ratio: tuning.falling_ratio,
+        falling_decay: tuning.falling_decay,
+        softening: tuning.softening,
+        softening_floor: tuning.softening_floor,
+    }
+}

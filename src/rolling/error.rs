@@ -1,0 +1,80 @@
+//! Why the rolling model has no answer.
+
+use super::control::InputError;
+use crate::contact::ContactError;
+use crate::heat::HeatError;
+use crate::mechanics::MechanicsError;
+
+/// Why a step or a stationary state could not be computed; the state before it is kept.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// The contact iteration failed.
+    #[error("no contact state found at t = {time:.6} s with an internal step of {step:.1e} s: {source}")]
+    Contact {
+        /// Time at which the step began [s].
+        time: f64,
+        /// Its length [s].
+        step: f64,
+        /// What the contact solver says.
+        source: ContactError,
+    },
+    /// The contact patch outgrew the mesh.
+    #[error("the contact patch needs more than the candidate zone of ±{zone:.3e} m at a wheel load of {load:.6e} N")]
+    ZoneExceeded {
+        /// Half-length of the zone [m].
+        zone: f64,
+        /// Contact force of the wheel [N].
+        load: f64,
+    },
+    /// Values that are infinite or not a number.
+    #[error("the motion grew beyond all numbers at t = {time:.6} s with an internal step of {step:.1e} s")]
+    NotFinite {
+        /// Time at which the step began [s].
+        time: f64,
+        /// Its length [s].
+        step: f64,
+    },
+    /// A motion outside the range of the model.
+    #[error("the motion leaves the range of the model: {0}")]
+    Motion(InputError),
+    /// Inputs without a stationary state.
+    #[error("no equilibrium: {0}")]
+    NoEquilibrium(&'static str),
+    /// An input outside its range.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A communication step outside its range.
+    #[error("communication step = {step} s is outside its range: above 0 to {longest} s")]
+    StepSize {
+        /// What was asked for [s].
+        step: f64,
+        /// Longest step [s].
+        longest: f64,
+    },
+    /// A kink of the solution: no derivative to either side.
+    #[error("no derivative at t = {time:.6} s: contact states change at once to both sides")]
+    NoDerivative {
+        /// Time of the state [s].
+        time: f64,
+    },
+    /// The temperatures have no answer.
+    #[error("heat: {0}")]
+    Heat(#[from] HeatError),
+    /// The bodies have no answer.
+    #[error("body response: {0}")]
+    Body(#[from] MechanicsError),
+    /// A state of another model.
+    #[error("the state belongs to a model with other dimensions")]
+    ForeignState,
+}
+
+/// Why a model could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum ModelError {
+    /// Meshes, matrices or modes.
+    #[error("finite-element model: {0}")]
+    Mechanics(#[from] MechanicsError),
+    /// The heat model.
+    #[error("heat model: {0}")]
+    Heat(#[from] HeatError),
+}

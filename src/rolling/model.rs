@@ -1,0 +1,91 @@
+//! The model of one parameter set: small owners side by side, immutable during a run.
+
+use super::bodies::{Bodies, OperatorCache};
+use super::contact_model::ContactModel;
+use super::error::ModelError;
+use super::rigid::RigidWheel;
+use super::state::State;
+use super::thermal::{self, ThermalModel};
+use crate::config::Config;
+use crate::contact::grid::{ContactGrid, GridSolver};
+use crate::contact::{self, ContactSolver};
+use crate::material::Isotropic;
+use crate::mechanics::Pair;
+use crate::mechanics::response::FreeResponse;
+use nalgebra::DVector;
+
+/// Everything that does not change during a run; instances with equal parameters share it.
+pub struct Model {
+    /// Parameters; the tunable ones among them play no part.
+    pub config: Config,
+    /// Deformable wheel and rail.
+    pub bodies: Bodies,
+    /// Rigid motion of the wheel.
+    pub wheel: RigidWheel,
+    /// Contact between them.
+    pub contact: ContactModel,
+    /// Temperatures, unless they are switched off.
+    pub thermal: Option<ThermalModel>,
+    /// Half-length of the zone in which contact is looked for [m].
+    pub zone: f64,
+}
+
+/// Scratch space of the computations; never part of a state.
+#[derive(Default)]
+pub struct Workspace {
+    /// Operators of recent step sizes.
+    pub operators: OperatorCache,
+    /// Answers of wheel and rail without contact forces.
+    pub free: [FreeResponse; 2],
+    /// Forces on the rail.
+    pub opposite: DVector<f64>,
+    /// Of the contact solver.
+    pub contact: contact::Scratch,
+    /// Of the heat step.
+    pub heat: thermal::Scratch,
+    /// State before and after an internal step.
+    pub states: [State; 2],
+}
+
+impl Model {
+    /// Builds the model on given bodies, with contact on the grid of their surface nodes.
+    pub fn new(config: Config, bodies: Pair) -> Result<Self, ModelError> {
+        let grid = ContactGrid {
+            x: bodies.surface_x[bodies.candidates.clone()].to_vec(),
+            spacing: bodies.spacing,
+            guard: bodies.candidates.start,
+        };
+        let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
+        let solver =
+            GridSolver::new(grid, &wheel.surface, &rail.surface, Isotropic::from(&config.material).contact_modulus());
+        Self::with_solver(config, bodies, Box::new(solver))
+    }
+
+    /// Builds the model on given bodies and a contact solver that belongs to their ports.
+    pub fn with_solver(config: Config, bodies: Pair, solver: Box<dyn ContactSolver>) -> Result<Self, ModelError> {
+        let zone = bodies.surface_x[bodies.candidates.clone()].last().copied().unwrap_or(0.0);
+        let thermal = match config.thermal.enabled {
+            true => Some(ThermalModel::new(&config, zone, bodies.spacing)?),
+            false => None,
+        };
+        Ok(Self {
+            wheel: RigidWheel::new(&config),
+            contact: ContactModel::new(&config, solver),
+            bodies: Bodies { wheel: bodies.wheel, rail: bodies.rail },
+            thermal,
+            zone,
+            config,
+        })
+    }
+
+    /// Whether a state has the dimensions of this model and only finite numbers in its contact forces.
+    pub fn fits(&self, state: &State) -> bool {
+        self.bodies.fits(state)
+            && self.contact.solver.fits(&state.contact)
+            && match (&state.thermal, &self.thermal) {
+                (Some(temperatures), Some(model)) => model.fits(temperatures),
+                (None, None) => true,
+                _ => false,
+            }
+    }
+}

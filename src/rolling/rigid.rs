@@ -1,0 +1,146 @@
+//! The rigid motion of the wheel: inertia, what drives its three axes, reactions.
+
+use super::control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
+use super::error::StepError;
+use super::state::{Motion, State};
+use crate::config::Config;
+use crate::contact::{AxisDrive, RigidMotion};
+use crate::material::Isotropic;
+use crate::mechanics;
+use crate::mechanics::response::{FreeResponse, StepOperator};
+use crate::multistep::TimeDerivative;
+use nalgebra::DVector;
+
+/// How far a motion may leave the range of the input that could prescribe it, as a factor.
+const MOTION_MARGIN: f64 = 1.05;
+
+/// The wheel as a rigid body on its axle, per metre of width.
+#[derive(Clone, Debug)]
+pub struct RigidWheel {
+    /// Cold outer radius [m].
+    pub radius: f64,
+    /// Width of the line contact [m]: forces of the wheel = width × forces per metre.
+    pub width: f64,
+    /// Inertia in x (with vehicle) and in y [kg/m], about the axle [kg m].
+    pub inertia: [f64; 3],
+    /// Speed of surface waves in its material [m/s].
+    wave_speed: f64,
+}
+
+impl RigidWheel {
+    /// From the parameters.
+    pub fn new(config: &Config) -> Self {
+        let width = config.model.contact_width;
+        let mass = mechanics::wheel_mass(config) + config.wheel.hub_mass / width;
+        let moment = mechanics::wheel_inertia(config) + config.wheel.hub_inertia / width;
+        Self {
+            radius: config.wheel.radius,
+            width,
+            inertia: [mass + config.vehicle.mass / width, mass, moment],
+            wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
+        }
+    }
+
+    /// What drives translation, hub height and rotation when the inputs have the values `target`.
+    pub fn drives(&self, inputs: &Inputs, target: &Drive) -> [AxisDrive; 3] {
+        [
+            match inputs.translation {
+                Translation::Force => AxisDrive::Free { load: target.force / self.width },
+                Translation::Velocity => AxisDrive::Prescribed { target: target.velocity },
+            },
+            match inputs.vertical {
+                Vertical::Force => AxisDrive::Free { load: -target.load / self.width },
+                Vertical::Displacement => AxisDrive::Prescribed { target: target.displacement },
+            },
+            match inputs.rotation {
+                Rotation::Moment => AxisDrive::Free { load: target.moment / self.width },
+                Rotation::Velocity => AxisDrive::Prescribed { target: target.omega },
+            },
+        ]
+    }
+
+    /// Velocity V [m/s] and angular velocity Ω [rad/s] expected after a step `dt` [s].
+    pub fn predicted_speeds(&self, motion: &Motion, drives: &[AxisDrive; 3], dt: f64) -> [f64; 2] {
+        [(&motion.velocity, drives[0]), (&motion.omega, drives[2])].map(|(history, drive)| match drive {
+            AxisDrive::Free { .. } => history.now + dt * history.rate,
+            AxisDrive::Prescribed { target } => target,
+        })
+    }
+
+    /// The three rigid motions of a step as unknowns of the contact problem; `speeds` are the predicted ones, `momentum` is
+    /// that of the free deformation.
+    pub fn motions(
+        &self,
+        motion: &Motion,
+        drives: &[AxisDrive; 3],
+        td: &TimeDerivative,
+        speeds: [f64; 2],
+        momentum: [f64; 3],
+    ) -> [RigidMotion; 3] {
+        let hub_offset = td.a0 * motion.height.offset(td) + motion.hub_velocity.offset(td);
+        let axis = |k: usize, guess: f64, gain: f64, offset: f64| RigidMotion {
+            drive: drives[k],
+            guess,
+            gain,
+            offset,
+            inertia: self.inertia[k],
+            momentum: momentum[k],
+        };
+        [
+            axis(0, speeds[0], td.a0, motion.velocity.offset(td)),
+            axis(1, motion.height.now, td.a0 * td.a0, hub_offset),
+            axis(2, speeds[1], td.a0, motion.omega.offset(td)),
+        ]
+    }
+
+    /// Forces that drive the hub (x, y, moment): those prescribed, and the reactions to prescribed motions.
+    pub fn hub_forces(
+        &self,
+        drives: &[AxisDrive; 3],
+        accelerations: [f64; 3],
+        operator: &StepOperator,
+        free: &FreeResponse,
+        forces: &DVector<f64>,
+        resultant: [f64; 3],
+    ) -> [f64; 3] {
+        std::array::from_fn(|k| match drives[k] {
+            AxisDrive::Free { load } => load,
+            AxisDrive::Prescribed { .. } => {
+                let of_forces: f64 = operator.momentum.row(k).iter().zip(forces.iter()).map(|(m, f)| m * f).sum();
+                let of_motion: f64 = (0..3).map(|l| operator.deformation_inertia[(k, l)] * accelerations[l]).sum();
+                let deformation = free.momentum[k] + of_forces + of_motion;
+                self.inertia[k] * accelerations[k] + deformation - resultant[k]
+            }
+        })
+    }
+
+    /// Kinetic energy of the rigid motion [J/m].
+    pub fn energy(&self, velocities: [f64; 3]) -> f64 {
+        (0..3).map(|k| 0.5 * self.inertia[k] * velocities[k] * velocities[k]).sum()
+    }
+
+    /// Refuses motions (V, U, Ω) well outside the ranges of the inputs that could prescribe them, and velocities at which
+    /// loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
+    pub fn check(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
+        // What is prescribed ends within its range; a free wheel that starts at its end may drift a little.
+        let motion = Drive { velocity, displacement, omega, ..Drive::default() };
+        motion.zip(&motion, |value, _| value / MOTION_MARGIN).validate().map_err(|error| {
+            let [value, low, high] = [error.value, error.low, error.high].map(|limit| limit * MOTION_MARGIN);
+            StepError::Motion(InputError { value, low, high, ..error })
+        })?;
+        let wave = self.wave_speed;
+        for (name, value, limit, unit) in
+            [("drive.velocity", velocity, wave, "m/s"), ("drive.omega", omega, wave / self.radius, "rad/s")]
+        {
+            if value.abs() >= limit {
+                return Err(StepError::Motion(InputError { name, value, low: -limit, high: limit, unit }));
+            }
+        }
+        Ok(())
+    }
+
+    /// [`Self::check`] of a state.
+    pub fn check_state(&self, state: &State) -> Result<(), StepError> {
+        self.check(state.motion.values())
+    }
+}

@@ -1,0 +1,148 @@
+//! One implicit step: predict → solve the contact → commit → audit → heat.
+
+use super::audit;
+use super::contact_model::{ContactStep, friction_law};
+use super::control::{Drive, Inputs};
+use super::error::StepError;
+use super::model::{Model, Workspace};
+use super::state::{Motion, State};
+use crate::config::Tuning;
+use crate::contact::{AxisDrive, Heating};
+use crate::mechanics::response::Convection;
+use crate::multistep::{TimeDerivative, formula, settled};
+
+/// Largest change of the weights at the contact edges that counts as converged in a step [1].
+const EDGE_TOLERANCE: f64 = 0.02;
+
+/// What is decided before anything is solved.
+struct Plan {
+    /// Length of the step [s].
+    dt: f64,
+    td: TimeDerivative,
+    /// Whether the time formula starts afresh.
+    restarted: bool,
+    drives: [AxisDrive; 3],
+    /// Predicted V [m/s] and Ω [rad/s].
+    speeds: [f64; 2],
+    /// Friction coefficient [1].
+    friction: f64,
+}
+
+/// What leads from one state to the next.
+#[derive(Clone, Copy)]
+pub struct Demand<'a> {
+    /// Which partners are prescribed.
+    pub inputs: &'a Inputs,
+    /// Values of the inputs at the end of the step.
+    pub target: &'a Drive,
+    /// Tunable parameters.
+    pub tuning: &'a Tuning,
+    /// Length of the step before [s]; 0: the time formula starts afresh.
+    pub last_step: f64,
+}
+
+/// Computes the state `next` one internal step of `dt` seconds after `state`; on error `next` is meaningless. The control of
+/// the step size and the counts of the communication step are left to [`super::substeps`].
+pub fn step(
+    model: &Model,
+    state: &State,
+    demand: &Demand,
+    dt: f64,
+    workspace: &mut Workspace,
+    next: &mut State,
+) -> Result<(), StepError> {
+    let plan = Plan::new(model, state, demand, dt);
+    solve_and_commit(model, state, demand, &plan, workspace, next)?;
+    next.audit = audit::advance(model, &plan.td, state, next);
+    let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub, [next.audit.energy; 3]];
+    if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
+        return Err(StepError::NotFinite { time: state.time, step: plan.dt });
+    }
+    model.wheel.check_state(next)?;
+    match (&model.thermal, &state.thermal) {
+        (Some(thermal), Some(before)) => {
+            let temperatures = next.thermal.take().unwrap_or_default();
+            let step = (demand.target.tread_heat, plan.dt, demand.tuning.austenitisation);
+            let touch = thermal.touch(&model.contact, &next.contact.traction);
+            let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
+            next.thermal = Some(temperatures);
+        }
+        _ => next.thermal = None,
+    }
+    Ok(())
+}
+
+impl Plan {
+    fn new(model: &Model, state: &State, demand: &Demand, dt: f64) -> Self {
+        let drives = model.wheel.drives(demand.inputs, demand.target);
+        let available = demand.target.friction;
+        let jumped = model.contact.jumped(state, &drives, available);
+        let before = if jumped { 0.0 } else { demand.last_step };
+        let dt = settled(dt, before);
+        let td = formula(&model.config.solver, dt, before);
+        let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
+        let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
+        let slip = speeds[0] - model.wheel.radius * speeds[1];
+        let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
+        let friction = friction_law(demand.tuning).coefficient(available, slip, heating, ratio);
+        Self { dt, td, restarted: before == 0.0, drives, speeds, friction }
+    }
+}
+
+/// Everything mechanical of a step but the energy balance.
+fn solve_and_commit(
+    model: &Model,
+    state: &State,
+    demand: &Demand,
+    plan: &Plan,
+    workspace: &mut Workspace,
+    next: &mut State,
+) -> Result<(), StepError> {
+    let Plan { dt, td, drives, speeds, .. } = plan;
+    let operators = model.bodies.operators(td.a0, &*model.contact.solver, &mut workspace.operators)?;
+    let streams = [
+        Convection { speed: speeds[1], acceleration: state.motion.omega.rate },
+        Convection { speed: speeds[0], acceleration: state.motion.velocity.rate },
+    ];
+    model.bodies.free_responses(&operators, state, td, streams, &mut workspace.free);
+    let free = &workspace.free;
+    let contact = ContactStep {
+        operators: &operators,
+        free,
+        rigid: model.wheel.motions(&state.motion, drives, td, *speeds, free[0].momentum),
+        time: *td,
+        place: [state.distance, state.angle],
+        deformation: state.deformation(),
+        friction: plan.friction,
+        edge_tolerance: EDGE_TOLERANCE,
+    };
+    let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+    solved.map_err(|error| model.contact.failure(error, state.time, *dt))?;
+
+    next.motion = moved(&state.motion, td, next.contact.traction.rigid);
+    let accelerations = next.motion.accelerations();
+    model.bodies.commit(&operators, free, accelerations, td, state, next, &mut workspace.opposite);
+    let traction = &next.contact.traction;
+    let (forces, resultant) = (&traction.port_forces, traction.resultant);
+    next.hub = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);
+    next.time = state.time + dt;
+    next.pending = 0.0;
+    next.distance = state.distance + 0.5 * dt * (state.motion.velocity.now + next.motion.velocity.now);
+    next.angle = state.angle + 0.5 * dt * (state.motion.omega.now + next.motion.omega.now);
+    next.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
+    next.friction = plan.friction;
+    next.available_friction = demand.target.friction;
+    next.last_step = *dt;
+    next.restarted = plan.restarted;
+    Ok(())
+}
+
+/// Rigid motion after a step that ends with the values (V, U, Ω).
+fn moved(motion: &Motion, td: &TimeDerivative, [velocity, height, omega]: [f64; 3]) -> Motion {
+    let mut next = *motion;
+    next.velocity.push(td, velocity);
+    next.height.push(td, height);
+    next.hub_velocity.push(td, next.height.rate);
+    next.omega.push(td, omega);
+    next
+}

@@ -1,0 +1,80 @@
+//! What the contact and the brake blocks do to the temperature fields.
+
+use super::{ThermalModel, Touch};
+use crate::config::Config;
+use crate::heat::{Exchange, HeatConfig, TreadHeat};
+use crate::piecewise::Piecewise;
+
+/// Arrangement of the brake blocks on the tread.
+#[derive(Clone, Debug)]
+pub struct BrakeBlocks {
+    /// Angle of the leading one from the contact point [rad], arc of each [rad].
+    angle: f64,
+    arc: f64,
+    /// One, or two mirrored ones that share the heat.
+    sides: &'static [f64],
+    /// Width of the line contact [m].
+    width: f64,
+}
+
+impl BrakeBlocks {
+    /// From the parameters.
+    pub fn new(config: &Config) -> Self {
+        let thermal = &config.thermal;
+        Self {
+            angle: thermal.tread_angle,
+            arc: thermal.tread_width,
+            sides: if thermal.tread_blocks == 2 { &[1.0, -1.0] } else { &[1.0] },
+            width: config.model.contact_width,
+        }
+    }
+
+    /// Writes the heat of all blocks together [W] as segments of the tread.
+    fn fill(&self, heat: f64, tread: &mut Vec<TreadHeat>) {
+        if heat == 0.0 {
+            return;
+        }
+        let share = heat / self.width / self.sides.len() as f64;
+        tread.extend(self.sides.iter().map(|side| TreadHeat {
+            angle: side * self.angle,
+            width: self.arc,
+            heat: share,
+        }));
+    }
+}
+
+impl ThermalModel {
+    /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Friction power and
+    /// patches of the new time act over the whole step, so that the heat flows reported with it add up to its friction
+    /// power.
+    pub(super) fn fill_exchange(&self, touch: &Touch, tread_heat: f64, exchange: &mut Exchange) {
+        let contact = touch.traction;
+        exchange.clear();
+        exchange.patches.extend(&contact.patches);
+        copy(&contact.pressure, &mut exchange.pressure);
+        copy(&contact.dissipation, &mut exchange.friction_power);
+        self.blocks.fill(tread_heat, &mut exchange.tread);
+        let [wheel, rail] = &touch.reversible;
+        for ((&x, of_wheel), of_rail) in wheel.x.iter().zip(&wheel.value).zip(&rail.value) {
+            exchange.reversible.push(x, of_wheel - of_rail);
+        }
+    }
+}
+
+fn copy(from: &Piecewise, to: &mut Piecewise) {
+    to.x.clone_from(&from.x);
+    to.value.clone_from(&from.value);
+}
+
+/// Parameters of the heat model for a configuration; `half_width` at the nominal load and `zone` [m].
+pub fn heat_config(config: &Config, half_width: f64, zone: f64) -> HeatConfig {
+    HeatConfig {
+        wheel: config.wheel.clone(),
+        rail: config.rail.clone(),
+        material: config.material.clone(),
+        thermal: config.thermal.clone(),
+        elements_per_half_width: config.mesh.elements_per_half_width,
+        half_width,
+        zone,
+    }
+}

@@ -1,0 +1,216 @@
+//! Heat of the rolling contact: what the mechanics gives to the temperature fields, and what they give back.
+//!
+//! The coupling is staggered: a mechanical step first, then one implicit heat step with its friction power, pressure and
+//! patches held over the step. Friction coefficient and thermal deformation of the next step follow from the new
+//! temperatures.
+
+mod deformation;
+mod exchange;
+mod thermoelastic;
+
+use super::contact_model::ContactModel;
+use super::error::StepError;
+use super::outputs::PROFILE_POINTS;
+use super::state::{State, ThermalDeformation, ThermalState};
+use crate::config::Config;
+use crate::contact::{Heating, Traction};
+use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
+use crate::mechanics;
+use crate::piecewise::{self, Piecewise};
+use deformation::Expansion;
+use exchange::BrakeBlocks;
+use thermoelastic::Thermoelastic;
+
+/// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
+const AT_REST: f64 = 1e-3;
+
+/// Temperatures of wheel and rail and their coupling with the contact.
+pub struct ThermalModel {
+    heat: Heat,
+    /// Temperature of hub, air and arriving rail [K].
+    reference: f64,
+    /// Excess temperature of the wheel at the start [K].
+    wheel_excess: f64,
+    radius: f64,
+    blocks: BrakeBlocks,
+    /// Unless `physics.thermal_expansion` is off.
+    expansion: Option<Expansion>,
+    /// If `physics.thermoelastic_heating` is on.
+    thermoelastic: Option<Thermoelastic>,
+    /// Positions at which the surface temperatures are reported [m].
+    points: Vec<f64>,
+}
+
+/// Memory that heat steps reuse.
+#[derive(Default)]
+pub struct Scratch {
+    heat: heat::Scratch,
+    exchange: Exchange,
+    seen: Observation,
+}
+
+/// What temperatures see of a contact.
+pub struct Touch<'a> {
+    /// Its forces.
+    pub traction: &'a Traction,
+    /// Reversible temperatures of the surfaces of wheel and rail [K]; empty if they are not computed.
+    pub reversible: [Piecewise; 2],
+}
+
+impl ThermalModel {
+    /// For contact within `zone` [m] of the contact point; the temperature is resolved up to `margin` [m] beyond.
+    pub fn new(config: &Config, zone: f64, margin: f64) -> Result<Self, HeatError> {
+        let half_width = mechanics::nominal_half_width(config);
+        let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin))?;
+        Ok(Self {
+            heat,
+            reference: config.thermal.reference,
+            wheel_excess: config.thermal.wheel_excess,
+            radius: config.wheel.radius,
+            blocks: BrakeBlocks::new(config),
+            expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
+            thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
+            points: super::outputs::profile_points(zone),
+        })
+    }
+
+    /// Absolute temperature of hub, air and arriving rail [K].
+    pub fn reference(&self) -> f64 {
+        self.reference
+    }
+
+    /// What temperatures see of a contact.
+    pub fn touch<'a>(&self, contact: &ContactModel, traction: &'a Traction) -> Touch<'a> {
+        let reversible = match &self.thermoelastic {
+            Some(thermoelastic) => {
+                contact.solver.surface_strain(traction).map(|strain| thermoelastic.temperatures(strain, traction))
+            }
+            None => Default::default(),
+        };
+        Touch { traction, reversible }
+    }
+
+    /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel on top. At
+    /// standstill, where nothing carries heat away, only the latter.
+    pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
+        let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
+        let mut thermal = ThermalState { fields: self.heat.initial(self.wheel_excess), ..ThermalState::default() };
+        if v.abs() > AT_REST || (omega * self.radius).abs() > AT_REST {
+            let mut exchange = Exchange::default();
+            self.fill_exchange(touch, tread_heat, &mut exchange);
+            let (stationary, flows) = self.heat.stationary(v, omega, &exchange)?;
+            thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
+            thermal.flows = flows;
+        }
+        self.observe(touch, state.friction, &mut thermal, &mut Observation::default())?;
+        thermal.heating.before = thermal.heating.now;
+        Ok(thermal)
+    }
+
+    /// The heat step that belongs to a mechanical step: from the temperatures `before` with the contact and the motion of
+    /// `next`. `step` holds the heat of the brake blocks [W], the length of the step [s] and Ac1 [K]; `thermal` gives its
+    /// memory for the result.
+    pub fn step(
+        &self,
+        before: &ThermalState,
+        next: &State,
+        touch: &Touch,
+        (tread_heat, dt, austenitisation): (f64, f64, f64),
+        mut thermal: ThermalState,
+        scratch: &mut Scratch,
+    ) -> Result<ThermalState, StepError> {
+        let Scratch { heat, exchange, seen } = scratch;
+        self.fill_exchange(touch, tread_heat, exchange);
+        let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
+        thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
+        self.observe(touch, next.friction, &mut thermal, seen)?;
+        thermal.heating.before = before.heating.now;
+        let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
+        let above = if hottest > austenitisation { dt } else { 0.0 };
+        thermal.austenitised = before.austenitised + above;
+        thermal.supplied = before.supplied + dt * supplied(&thermal.flows);
+        thermal.received = before.received + dt * received(&thermal.flows);
+        Ok(thermal)
+    }
+
+    /// Fills all that follows from the temperature fields.
+    fn observe(
+        &self,
+        touch: &Touch,
+        friction: f64,
+        thermal: &mut ThermalState,
+        seen: &mut Observation,
+    ) -> Result<(), StepError> {
+        let zone = self.heat.zone_x();
+        self.heat.observe(&thermal.fields, seen)?;
+        if self.thermoelastic.is_some() {
+            for (field, reversible) in seen.surface.iter_mut().zip(&touch.reversible) {
+                let rise = |x: f64| piecewise::interpolate(&reversible.x, &reversible.value, x);
+                field.iter_mut().zip(zone).for_each(|(t, &x)| *t += rise(x));
+            }
+            let (temperatures, [wheel, rail]) = (&mut seen.temperatures, &seen.surface);
+            (temperatures.wheel_max, temperatures.rail_max) =
+                (piecewise::peak(zone, wheel), piecewise::peak(zone, rail));
+            (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
+        }
+        thermal.temperatures = seen.temperatures;
+        for (surface, field) in thermal.surface.iter_mut().zip(&seen.surface) {
+            piecewise::resample(zone, field, &self.points, surface);
+        }
+        thermal.patch_mean = touch.traction.extent().map_or([0.0; 2], |patch| {
+            [0, 1].map(|body| piecewise::mean(zone, &seen.surface[body], patch.low, patch.high))
+        });
+        let mean = 0.5 * (thermal.patch_mean[0] + thermal.patch_mean[1]);
+        thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
+        match &self.expansion {
+            Some(expansion) => expansion.deform(zone, seen, &mut thermal.deformation),
+            None => thermal.deformation = ThermalDeformation::NONE,
+        }
+        Ok(())
+    }
+
+    /// Moves what acts back on the contact by `share` of the way from `before` to `thermal`.
+    pub fn average(&self, thermal: &mut ThermalState, before: &ThermalState, share: f64) {
+        let mix = |now: &mut f64, before: f64| *now = before + share * (*now - before);
+        let Heating { now, before: earlier } = &mut thermal.heating;
+        mix(now, before.heating.now);
+        mix(earlier, before.heating.before);
+        let (ours, theirs) = (&mut thermal.deformation, &before.deformation);
+        mix(&mut ours.radius_growth, theirs.radius_growth);
+        let [wheel, rail] = &mut ours.membrane_force;
+        for (now, before) in [&mut ours.swelling, wheel, rail].into_iter().zip([
+            &theirs.swelling,
+            &theirs.membrane_force[0],
+            &theirs.membrane_force[1],
+        ]) {
+            now.value.iter_mut().zip(&before.value).for_each(|(now, before)| mix(now, *before));
+        }
+    }
+
+    /// Whether temperatures have the dimensions of this model.
+    pub fn fits(&self, thermal: &ThermalState) -> bool {
+        let deformation = &thermal.deformation;
+        let profiles = deformation.membrane_force.iter().chain([&deformation.swelling]);
+        self.heat.fits(&thermal.fields)
+            && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
+            && profiles.clone().all(|profile| profile.check().is_ok())
+    }
+
+    /// Absolute temperatures in the whole bodies [K].
+    pub fn fields(&self, thermal: &ThermalState) -> Result<[TemperatureField; 2], HeatError> {
+        let mut fields = self.heat.fields(&thermal.fields)?;
+        let kelvin = |t: &mut f64| *t += self.reference;
+        fields.iter_mut().for_each(|field| field.temperature.iter_mut().for_each(kelvin));
+        Ok(fields)
+    }
+}
+
+/// Heat put in [W/m].
+fn supplied(flows: &HeatFlows) -> f64 {
+    flows.friction + flows.tread
+}
+
+/// Heat passed on or stored [W/m].
+fn received(flows: &HeatFlows) -> f64 {
+    flows.stored_wheel + flows.stored_rail + flows.to_hub + flows.outflow + flows.wheel_to_air + flows.rail_to_air
+}

@@ -1,0 +1,65 @@
+//! A step of the reduced bodies works in the memory of its buffers.
+
+mod common;
+use common::*;
+use nalgebra::DVector;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use wheelrail::mechanics::{
+    BodyResponse, BodyState, BodySystem, Convection, FreeResponse, ReducedBasis, ReducedBody, wheel_system,
+};
+use wheelrail::multistep::TimeDerivative;
+
+/// The system's allocator, with a count of the requests of each thread.
+struct Counting;
+
+thread_local! {
+    static REQUESTS: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: passes every request on to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        REQUESTS.with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: `pointer` came from `alloc` above, hence from `System`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_step_of_a_reduced_body_allocates_nothing() {
+    let config = preset("paper_d", 6);
+    let undamped = wheel_system(&config).unwrap();
+    let damped = BodySystem { damping: Some(undamped.mass.clone()), ..undamped.clone() };
+    for system in [undamped, damped] {
+        let basis = ReducedBasis::compute(&system, 12, &mut |_| {}).unwrap();
+        let body = ReducedBody { basis, centrifugal: true };
+        let td = TimeDerivative { a0: 1.5e3, a1: -2e3, a2: 0.5e3, b1: 0.0 };
+        let op = body.operator(td.a0).unwrap();
+        let forces = DVector::from_element(op.surface.nrows(), 1e3);
+        let mut states = [BodyState::zeros(body.state_len()), BodyState::zeros(0)];
+        let mut free = FreeResponse::default();
+        let mut step = |states: &mut [BodyState; 2]| {
+            let [state, next] = states;
+            body.free_response(&op, state, &td, Convection { speed: 60.0, acceleration: 1.0 }, &mut free);
+            body.commit(&op, &free, &forces, [1.0, 0.0, 2.0], &td, state, next);
+            let energy = body.energy(next, &forces, [30.0, 0.0, 60.0]) + body.dissipation(next);
+            states.swap(0, 1);
+            energy
+        };
+        // The buffers take their size.
+        step(&mut states);
+        step(&mut states);
+        let before = REQUESTS.with(Cell::get);
+        let energy: f64 = (0..20).map(|_| step(&mut states)).sum();
+        assert_eq!(REQUESTS.with(Cell::get), before);
+        assert!(energy.is_finite() && energy != 0.0);
+    }
+}
