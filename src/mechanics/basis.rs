@@ -195,7 +195,7 @@ mod tests {
             |c| c.wheel.hub_radius = 0.4,
             |c| (c.wheel.hub_radius, c.rail.height, c.rail.length) = (0.01, 0.02, 0.12),
             |c| (c.model.nominal_load, c.wheel.radius) = (4.7e6, 0.46),
-            |c| (c.rail.length, c.rail.height) = (5.0, 2.0),
+            |c| (c.rail.length, c.rail.height) = (2.0, 2.0),
         ];
         for change in changes {
             let mut config = paper_d(10);

@@ -129,10 +129,11 @@ fn erfcx(z: f64) -> f64 {
 #[test]
 fn entry_into_a_conducting_contact_follows_its_closed_form() {
     use super::{Exchange, Heat, HeatModel};
-    use crate::config::{ConductanceLaw, Config, Hub};
-    use crate::heat::{HeatConfig, Interval};
+    use crate::config::{ConductanceLaw, Config, Hub, presets};
+    use crate::heat::HeatConfig;
+    use crate::piecewise::Interval;
     let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
-    let mut config: Config = serde_json::from_str(include_str!("../../../resources/paper_b.json")).unwrap();
+    let mut config = presets::parse(include_str!("../../../resources/paper_b.json")).unwrap();
     (config.wheel.radius, config.wheel.hub_radius, config.rail.length, config.rail.height) = (R, HUB, 1.0, 0.1);
     (config.material.conductivity, config.material.density, config.material.specific_heat) =
         (CONDUCTIVITY, 8000.0, HEAT_CAPACITY / 8000.0);
