@@ -3,14 +3,15 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use wheelrail::config::{ConductanceLaw, Config, Hub};
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatState, Interval, Scratch};
+use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatState, Scratch};
+use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
 
 const HALF_WIDTH: f64 = 0.761e-3;
 const SPEED: f64 = 50.0 / 3.6;
 
 fn config() -> HeatConfig {
-    let preset: Config = wheelrail::config::presets::parse(include_str!("../resources/paper_b.json")).expect("preset");
+    let preset = wheelrail::config::presets::parse(include_str!("../resources/paper_b.json")).expect("preset");
     let Config { wheel, rail, material, thermal, .. } = preset;
     let (half_width, zone) = (HALF_WIDTH, 1.5 * HALF_WIDTH);
     let mut config = HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone };

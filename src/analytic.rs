@@ -17,6 +17,17 @@ pub fn hertz_peak_pressure(load: f64, half_width: f64) -> f64 {
     2.0 * load / (PI * half_width)
 }
 
+/// Load of a Hertzian line contact with that half-width, `P = πE*a²/(4R)` [N/m]; the inverse of [`hertz_half_width`].
+pub fn hertz_load(half_width: f64, radius: f64, contact_modulus: f64) -> f64 {
+    PI * contact_modulus * half_width * half_width / (4.0 * radius)
+}
+
+/// Speed of Rayleigh waves [m/s] from that of shear waves [m/s] (Viktorov, *Rayleigh and Lamb Waves* (1967): 0.5 % for
+/// any Poisson's ratio).
+pub fn rayleigh_speed(shear_wave_speed: f64, poissons_ratio: f64) -> f64 {
+    shear_wave_speed * (0.87 + 1.12 * poissons_ratio) / (1.0 + poissons_ratio)
+}
+
 /// Magnitude of the creepage at which Carter's contact slips fully: `μ a/R` for a cylinder on a plane of the same
 /// material with half-width `a` (Johnson, 8.3: `ξ = μ a/R · (1 − √(1 − F/μP))`).
 pub fn carter_full_slip(friction: f64, half_width: f64, radius: f64) -> f64 {

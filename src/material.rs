@@ -59,10 +59,9 @@ impl Isotropic {
         (self.shear_modulus() / self.density).sqrt()
     }
 
-    /// Speed of Rayleigh waves [m/s] (Viktorov, *Rayleigh and Lamb Waves* (1967): 0.5 % for any Poisson's ratio).
+    /// Speed of Rayleigh waves [m/s], see [`analytic::rayleigh_speed`].
     pub fn rayleigh_speed(&self) -> f64 {
-        let nu = self.poissons_ratio;
-        self.shear_wave_speed() * (0.87 + 1.12 * nu) / (1.0 + nu)
+        analytic::rayleigh_speed(self.shear_wave_speed(), self.poissons_ratio)
     }
 
     /// Heat capacity per volume `ρc` [J/(m³ K)].

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// Each room with the rooms it may import. Rooms that are missing here may not exist.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("lib", &[]),
-    ("config", &[]),
+    ("config", &["analytic"]),
     ("analytic", &[]),
     ("material", &["config", "analytic"]),
     ("multistep", &["config"]),

@@ -7,7 +7,6 @@ use slave::*;
 use std::ffi::CStr;
 use std::ptr;
 use wheelrail::config::Config;
-use wheelrail::config::Config;
 use wheelrail::simulation::{CACHE_VARIABLE, basis_file_name};
 
 /// Removes the stored basis of a coarse wheel with a change, so that it is computed with progress.

@@ -16,7 +16,14 @@ pub use table::{
 };
 pub use value::{display_number, display_outside, display_range};
 
+use crate::analytic;
 use value::{Kind, Value};
+
+/// Half-width of the contact that can still be meshed [m].
+const SMALLEST_HALF_WIDTH: f64 = 1e-6;
+/// Largest half-width relative to the wheel radius and to the length of the rail.
+const WHEEL_SHARE: f64 = 0.095;
+const RAIL_SHARE: f64 = 0.12;
 
 /// A parameter outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,15 +62,6 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 fn tail_similarity(a: &str, b: &str) -> f64 {
     let tail = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
     0.95 * strsim::normalized_damerau_levenshtein(&tail(a), &tail(b))
-}
-
-impl Material {
-    /// Speed of Rayleigh waves [m/s] (Viktorov's fit, 0.5 % for any Poisson's ratio).
-    pub fn rayleigh_speed(&self) -> f64 {
-        let nu = self.poissons_ratio;
-        let shear_wave = (0.5 * self.youngs_modulus / ((1.0 + nu) * self.density)).sqrt();
-        shear_wave * (0.87 + 1.12 * nu) / (1.0 + nu)
-    }
 }
 
 /// A check of one parameter against others: its name, value and unit, the range, and the others with their values.
@@ -109,13 +107,43 @@ impl Config {
         self.dependent().into_iter().try_for_each(Dependent::check)
     }
 
+    /// Speed of surface waves [m/s].
+    fn rayleigh_speed(&self) -> f64 {
+        let Material { youngs_modulus, poissons_ratio, density, .. } = self.material;
+        let shear_wave_speed = (0.5 * youngs_modulus / ((1.0 + poissons_ratio) * density)).sqrt();
+        analytic::rayleigh_speed(shear_wave_speed, poissons_ratio)
+    }
+
+    /// Loads for which the contact zone can be meshed and fits wheel and rail.
+    fn contact_zone(&self) -> Dependent {
+        let (Material { youngs_modulus, poissons_ratio, .. }, radius) = (&self.material, self.wheel.radius);
+        let stiffness = analytic::contact_modulus(*youngs_modulus, *poissons_ratio);
+        let load = |half_width| analytic::hertz_load(half_width, radius, stiffness) * self.model.contact_width;
+        Dependent {
+            name: "model.nominal_load",
+            value: self.model.nominal_load,
+            unit: "N",
+            low: load(SMALLEST_HALF_WIDTH),
+            high: load((WHEEL_SHARE * radius).min(RAIL_SHARE * self.rail.length)),
+            others: format!(
+                "model.contact_width = {} m, wheel.radius = {} m, rail.length = {} m and material.youngs_modulus = {} Pa \
+                 (the contact zone fits wheel and rail)",
+                display_number(self.model.contact_width),
+                display_number(radius),
+                display_number(self.rail.length),
+                display_number(*youngs_modulus)
+            ),
+        }
+    }
+
     /// Ranges that depend on other parameters.
-    fn dependent(&self) -> [Dependent; 5] {
+    fn dependent(&self) -> [Dependent; 6] {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
         let with_radius = || format!("wheel.radius = {} m", display_number(radius));
         let Initial { velocity, creepage } = self.initial;
         // The rim stays below the surface waves: |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the model.
-        let share = self.material.rayleigh_speed() / velocity.abs();
+        let wave = self.rayleigh_speed();
+        let share = wave / velocity.abs();
         [
             Dependent {
                 name: "wheel.hub_radius",
@@ -161,9 +189,10 @@ impl Config {
                 others: format!(
                     "initial.velocity = {} m/s (the rim stays slower than surface waves, {} m/s)",
                     display_number(velocity),
-                    display_number(self.material.rayleigh_speed())
+                    display_number(wave)
                 ),
             },
+            self.contact_zone(),
         ]
     }
 }
@@ -206,6 +235,15 @@ mod tests {
         refused(
             |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, -1.0, 5e9),
             &["initial.creepage = -1 ", "at least -0.78", "with initial.velocity = 200 m/s", "459.164 m/s"],
+        );
+        refused(
+            |c| (c.model.contact_width, c.model.nominal_load) = (2e-3, 2e6),
+            &[
+                "model.nominal_load = 2e6 ",
+                " N with model.contact_width = 0.002 m",
+                "wheel.radius",
+                "rail.length = 1 m",
+            ],
         );
         refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.5 to 2"]);
     }

@@ -79,6 +79,7 @@ macro_rules! parameters {
 
         impl $Config {
             /// The row of every parameter, in the order of their numbers.
+            #[allow(clippy::needless_update)] // A row may give all its limits.
             pub fn rows() -> &'static [$crate::config::row::Row<$Config>] {
                 use $crate::config::units::Measure;
                 use $crate::config::value::{Field, Limits};

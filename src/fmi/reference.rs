@@ -1,8 +1,8 @@
 //! The reference of all variables as text: cells of a row, and `docs/reference.md`.
 
-use super::v2::description::start_value;
 use super::table::{enumerations, table};
 use super::units::Measure;
+use super::v2::description::start_value;
 use super::variable::{Causality, Kind, Reference, Value, Variable};
 use crate::config::display_number;
 use std::fmt::Write;

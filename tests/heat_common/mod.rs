@@ -4,9 +4,9 @@
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{ConductanceLaw, Config, Hub};
 use wheelrail::heat::{
-    Exchange, Heat, HeatConfig, HeatFlows, HeatModel, HeatState, Interval, Observation, Scratch, Temperatures,
-    TreadHeat,
+    Exchange, Heat, HeatConfig, HeatFlows, HeatModel, HeatState, Observation, Scratch, Temperatures, TreadHeat,
 };
+pub use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
 
 pub const KMH: f64 = 1.0 / 3.6;
@@ -21,7 +21,7 @@ pub fn half_width(load: f64) -> f64 {
 
 /// Set-up of the reference values, laid out for one load [N/m] and up to `max_speed` [m/s].
 pub fn config(load: f64, max_speed: f64) -> HeatConfig {
-    let preset: Config = wheelrail::config::presets::parse(include_str!("../../resources/paper_b.json")).unwrap();
+    let preset = wheelrail::config::presets::parse(include_str!("../../resources/paper_b.json")).unwrap();
     let Config { wheel, rail, material, thermal, .. } = preset;
     let half_width = half_width(load);
     let zone = 1.5 * half_width;

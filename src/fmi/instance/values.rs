@@ -17,11 +17,10 @@ impl Instance {
         if variables.iter().any(|variable| variable.causality() == Causality::Output) {
             self.simulation()?;
         }
-        let mut config = self.config.clone();
         let mut inputs = self.effective_inputs();
         let outputs = self.simulation.as_ref().map(Simulation::outputs);
         let value = |variable: &Variable| {
-            let value = variable.parameter(&self.preset, &mut config).or_else(|| variable.input(&mut inputs));
+            let value = variable.parameter(&self.preset, &self.config).or_else(|| variable.input(&mut inputs));
             let value = value.or_else(|| variable.output(outputs?));
             value.ok_or_else(|| CallError::error(format!("{} has no value yet", variable.name)))
         };
