@@ -3,6 +3,7 @@
 
 mod random;
 
+#[allow(unused_imports)]
 pub use random::Random;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
