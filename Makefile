@@ -4,6 +4,7 @@
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make bench     speed of steps, starts and the reduced basis
 # make endurance a million steps of mixed driving: failures, memory, energy audit
+# make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make leak-check memory leaks of the FMU's C interface, with valgrind
 # make describe  regenerate modelDescription.xml from the variable table
 # make clean     remove everything that was built
@@ -27,7 +28,7 @@ MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources -type f) docs/signs.svg \
 	LICENSE-MIT LICENSE-APACHE LICENSE-THIRD-PARTY model.png
 
-.PHONY: demo test test-rust test-fmpy fmu masters bench endurance leak-check describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters bench endurance random-parameters leak-check describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -51,6 +52,9 @@ bench:
 
 endurance:
 	$(CARGO) run --release --locked --example endurance
+
+random-parameters:
+	$(CARGO) run --release --locked --example random_parameters
 
 # One master through the C functions: instantiate, steps, states saved, serialized and freed.
 LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=1

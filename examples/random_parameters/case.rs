@@ -8,8 +8,6 @@ use wheelrail::fmi::presets;
 use wheelrail::fmi::variable::{Access, Causality, Kind, Value, Variable};
 use wheelrail::fmi::variables::variables;
 
-/// Seconds after which a case counts as hanging.
-pub const PATIENCE: u64 = 30;
 /// Communication steps of a case.
 const STEPS: usize = 5;
 /// Names in messages that belong to arguments of calls instead of variables.

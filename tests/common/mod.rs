@@ -1,7 +1,7 @@
 //! Models for the physics tests; reduced bases are kept under `target/basis`, so that each is computed once.
 #![allow(dead_code)]
 
-mod random;
+pub mod random;
 
 #[allow(unused_imports)]
 pub use random::Random;
