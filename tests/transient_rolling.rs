@@ -49,9 +49,9 @@ fn creepage_ramp_converges_with_at_least_first_order_in_the_time_step() {
     let model = model(config);
     let end = |steps: usize| creepage_ramp(&model, 1e-3, steps)[9];
     let exact = end(3200);
-    let errors = [50, 100, 200, 400].map(|n| (end(n) - exact).abs());
-    let orders = [0, 1, 2].map(|k| (errors[k] / errors[k + 1]).log2());
-    println!("errors of F/μP with 50 to 400 steps {errors:?}, observed orders {orders:.2?}");
+    let errors = [50, 100, 200].map(|n| (end(n) - exact).abs());
+    let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());
+    println!("errors of F/μP with 50, 100 and 200 steps {errors:?}, observed orders {orders:.2?}");
     assert!(orders.iter().all(|order| *order > 0.9), "{orders:?}");
 }
 
