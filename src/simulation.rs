@@ -313,8 +313,8 @@ impl Simulation {
     }
 
     /// Goes back, or on, to the checkpoint of a simulation with an equal model.
-    pub fn recall(&mut self, tuning: &Tuning, checkpoint: Checkpoint) -> Result<(), StepError> {
-        let resumed = Self::resume(self.model.clone(), tuning.clone(), checkpoint)?;
+    pub fn recall(&mut self, checkpoint: Checkpoint) -> Result<(), StepError> {
+        let resumed = Self::resume(self.model.clone(), self.tuning.clone(), checkpoint)?;
         let (workspace, spare) = (std::mem::take(&mut self.workspace), std::mem::take(&mut self.spare));
         *self = Self { workspace, spare, ..resumed };
         Ok(())

@@ -35,8 +35,8 @@ fn braking_stop_balances_energy_and_does_not_depend_on_the_communication_step() 
     let fine = braking_stop(&model, 1e-3);
     println!("distance {:.5} m and {:.5} m", coarse.wheel_distance, fine.wheel_distance);
     println!("energy residual {:+.2e} and {:+.2e}", coarse.energy_residual, fine.energy_residual);
-    assert!((coarse.wheel_distance / fine.wheel_distance - 1.0).abs() < 1e-3);
-    assert!(fine.energy_residual.abs() < 0.01, "{}", fine.energy_residual);
+    assert!((coarse.wheel_distance / fine.wheel_distance - 1.0).abs() < 5e-4);
+    assert!(fine.energy_residual.abs() < 4e-3, "{}", fine.energy_residual);
 }
 
 #[test]
@@ -51,14 +51,14 @@ fn steady_creep_dissipates_what_the_drive_supplies() {
         let outputs = simulation.outputs();
         let supplied = outputs.hub_force_x * outputs.wheel_velocity + outputs.hub_moment * outputs.wheel_omega;
         println!("xi = {creepage}: supplied {supplied:.3} W, dissipated {:.3} W", outputs.friction_power);
-        assert!((supplied / outputs.friction_power - 1.0).abs() < 0.01);
-        assert!(outputs.energy_residual.abs() < 0.01);
+        assert!((supplied / outputs.friction_power - 1.0).abs() < 5e-3);
+        assert!(outputs.energy_residual.abs() < 5e-3);
     }
 }
 
 /// The driven mass moves a thousand times the energy that the contact dissipates.
 #[test]
-fn energy_is_balanced_in_coarse_steps_of_gentle_traction() {
+fn energy_residual_of_gentle_traction_falls_with_the_step() {
     let mut config = preset("railway", 20);
     config.initial.velocity = 20.0;
     let model = model(config);
@@ -71,9 +71,10 @@ fn energy_is_balanced_in_coarse_steps_of_gentle_traction() {
         }
         simulation.outputs().energy_residual
     };
-    for (step, limit) in [(2e-2, 0.05), (1e-2, 0.03), (2e-3, 0.01)] {
-        let found = residual(step);
-        println!("step {step} s: energy residual {found:+.2e}");
-        assert!(found.abs() < limit, "{found}");
-    }
+    let residuals = [2e-2, 1e-2, 5e-3, 2.5e-3].map(|step| residual(step).abs());
+    println!("residuals with steps of 20 to 2.5 ms: {residuals:?}");
+    // First order, on top of some 0.1 % of the dissipation that no step removes: the normals are those of the undeformed
+    // bodies.
+    assert!(residuals[0] < 0.04 && residuals[3] < 0.008, "{residuals:?}");
+    assert!(residuals.windows(2).all(|r| r[1] < 0.75 * r[0]), "{residuals:?}");
 }

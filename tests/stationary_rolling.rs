@@ -2,9 +2,11 @@
 
 mod common;
 use common::*;
+use std::f64::consts::PI;
+use std::sync::Arc;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::Config;
-use wheelrail::simulation::{Inputs, Simulation};
+use wheelrail::simulation::{Inputs, Model, Simulation};
 
 /// The reference values are computed without centrifugal load.
 fn without_centrifugal(name: &str, n: usize) -> Config {
@@ -39,12 +41,15 @@ fn hertz_errors(n: usize) -> (f64, f64) {
 }
 
 #[test]
-fn hertz_half_width_and_pressure_within_three_per_mille_and_converging() {
+fn hertz_half_width_and_pressure_within_one_per_mille_and_of_second_order() {
     let [coarse, middle, fine] = [5, 10, 20].map(hertz_errors);
     println!("half-width error {:.2e} {:.2e} {:.2e}", coarse.0, middle.0, fine.0);
     println!("peak pressure error {:.2e} {:.2e} {:.2e}", coarse.1, middle.1, fine.1);
-    assert!(fine.0 <= 3e-3 && fine.1 <= 3e-3, "half-width {:.2e}, pressure {:.2e}", fine.0, fine.1);
-    assert!(fine.0 < middle.0 && middle.0 < coarse.0, "half-width {coarse:?} {middle:?} {fine:?}");
+    assert!(fine.0 <= 1e-3 && fine.1 <= 1e-3, "half-width {:.2e}, pressure {:.2e}", fine.0, fine.1);
+    let order = |a: f64, b: f64| (a / b).log2();
+    let orders = [order(coarse.0, middle.0), order(middle.0, fine.0), order(coarse.1, middle.1)];
+    println!("observed orders: half-width {:.2}, {:.2}, peak pressure {:.2}", orders[0], orders[1], orders[2]);
+    assert!(orders.iter().all(|order| *order > 1.7), "{orders:?}");
 }
 
 #[test]
@@ -85,7 +90,7 @@ fn steady_force_creepage_curve_matches_the_reference() {
                 "{name} xi = {xi:9.2e}: {utilisation:.6}, reference {reference:.6}, {:+.6}",
                 utilisation - reference
             );
-            assert!((utilisation - reference).abs() <= 3e-3, "{name} at xi = {xi}: {utilisation} against {reference}");
+            assert!((utilisation - reference).abs() <= 2e-3, "{name} at xi = {xi}: {utilisation} against {reference}");
         }
     }
 }
@@ -95,7 +100,7 @@ fn centrifugal_load_shifts_the_force_as_the_reference() {
     let with = model(preset("paper_d", 20));
     let without = model(without_centrifugal("paper_d", 20));
     for (speed, shift, lift) in [(50.0, 0.0033, 4.896e-7), (100.0, 0.0132, 1.9584e-6), (300.0, 0.1147, 1.76257e-5)] {
-        let run = |model: &std::sync::Arc<wheelrail::simulation::Model>| {
+        let run = |model: &Arc<Model>| {
             let inputs = prescribed(model, speed * KMH, 0.0);
             let simulation = Simulation::new(model.clone(), &inputs).unwrap();
             (signed_utilisation(&simulation, inputs.drive.friction), simulation.outputs().contact_approach)
@@ -108,6 +113,26 @@ fn centrifugal_load_shifts_the_force_as_the_reference() {
     }
 }
 
+/// Creepage without tangential force under the nominal load.
+fn free_rolling_creepage(model: &Arc<Model>) -> f64 {
+    let force = |xi: f64| stationary_utilisation(model, &prescribed(model, 50.0 * KMH, xi));
+    // Two secants: the force is nearly linear this far from full slip.
+    let (mut a, mut b) = (-2e-6, 0.0);
+    for _ in 0..2 {
+        let (fa, fb) = (force(a), force(b));
+        (a, b) = (b, b - fb * (b - a) / (fb - fa));
+    }
+    b
+}
+
+#[test]
+fn free_rolling_creepage_matches_the_reference() {
+    let found = free_rolling_creepage(&model(without_centrifugal("paper_d", 20)));
+    println!("{found:.4e}");
+    // Error of the reference: 3e-8.
+    assert!((found + 1.0839e-6).abs() < 4e-8, "{found:e}");
+}
+
 #[test]
 fn force_is_smooth_while_the_contact_edges_pass_the_nodes() {
     let model = model(without_centrifugal("paper_d", 20));
@@ -116,8 +141,8 @@ fn force_is_smooth_while_the_contact_edges_pass_the_nodes() {
         let a = hertz_half_width(load / config.model.contact_width, config.wheel.radius, modulus(config));
         carter_full_slip(config.friction.coefficient, a, config.wheel.radius)
     };
-    // Creepage of free rolling under the nominal load: the shift of Carter's curve by the finite bodies.
-    let shift = -1.083853905715399e-6;
+    // Carter's curve is shifted by the creepage of free rolling: the finite bodies.
+    let shift = free_rolling_creepage(&model);
     for share in [0.3, 0.6, 0.8, 0.9, 0.95, -0.3, -0.6, -0.8, -0.9, -0.95] {
         let mut start: Option<Simulation> = None;
         let (mut forces, mut widths) = (Vec::new(), Vec::new());
@@ -155,5 +180,14 @@ fn driven_start_state_accelerates_as_newton_demands() {
     let outputs = simulation.outputs();
     assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9);
     assert!((outputs.hub_moment - 500.0).abs() < 1e-9);
-    assert!(outputs.wheel_angular_acceleration > 0.0);
+    let config = model.config();
+    let (outer, inner) = (config.wheel.radius, config.wheel.hub_radius);
+    let annulus = config.material.density * PI * (outer * outer - inner * inner) * config.model.contact_width;
+    let mass = annulus + config.wheel.hub_mass + config.vehicle.mass;
+    let inertia = 0.5 * annulus * (outer * outer + inner * inner) + config.wheel.hub_inertia;
+    let (force, moment) = (mass * outputs.wheel_acceleration, inertia * outputs.wheel_angular_acceleration);
+    println!("m a = {force:.6} N under {:.6} N", outputs.contact_force_x + outputs.hub_force_x);
+    println!("I α = {moment:.6} N m under {:.6} N m", outputs.contact_moment + outputs.hub_moment);
+    assert!((force - outputs.contact_force_x - outputs.hub_force_x).abs() < 1e-9 * inputs.drive.load);
+    assert!((moment - outputs.contact_moment - outputs.hub_moment).abs() < 1e-9 * inputs.drive.load);
 }

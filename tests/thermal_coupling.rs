@@ -131,7 +131,7 @@ fn flash(config: &Config, heat: f64, a: f64, v: f64) -> f64 {
 #[test]
 fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
     let mut config = preset("railway", 20);
-    (config.friction.falling_ratio, config.friction.softening) = (1.0, 0.0);
+    (config.tuning.falling_ratio, config.tuning.softening) = (1.0, 0.0);
     config.physics.thermal_expansion = false;
     config.thermal.conductance = 1e9;
     let model = model(config.clone());

@@ -41,16 +41,18 @@ fn creepage_ramps_match_the_reference() {
     }
 }
 
+/// The ramp begins with a jump of the angular acceleration, which the multistep formula takes with first order.
 #[test]
-fn creepage_ramp_converges_with_the_time_step() {
+fn creepage_ramp_converges_with_at_least_first_order_in_the_time_step() {
     let mut config = preset("paper_d", 10);
     config.physics.centrifugal = false;
     let model = model(config);
-    let end = |steps: usize| creepage_ramp(&model, 1e-2, steps)[2];
+    let end = |steps: usize| creepage_ramp(&model, 1e-3, steps)[9];
     let exact = end(3200);
-    let [coarse, fine] = [200, 400].map(|n| (end(n) - exact).abs());
-    println!("error with 200 steps {coarse:.2e}, with 400 steps {fine:.2e}");
-    assert!(fine < 0.65 * coarse, "200 steps {coarse:e}, 400 steps {fine:e}");
+    let errors = [50, 100, 200].map(|n| (end(n) - exact).abs());
+    let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());
+    println!("errors of F/μP with 50, 100 and 200 steps {errors:?}, observed orders {orders:.2?}");
+    assert!(orders.iter().all(|order| *order > 0.9), "{orders:?}");
 }
 
 /// Paper D's controlled braking from 50 km/h (section 6.2.2) with BDF2; returns end speed [km/h], peak creepage and
@@ -164,7 +166,7 @@ fn time_schemes_agree_on_a_resolved_ramp() {
     };
     let reference = run(TimeScheme::Bdf2, 1.0);
     for (scheme, theta, tolerance) in
-        [(TimeScheme::BackwardEuler, 1.0, 0.01), (TimeScheme::Theta, 1.0, 0.01), (TimeScheme::Theta, 0.55, 0.005)]
+        [(TimeScheme::BackwardEuler, 1.0, 3e-3), (TimeScheme::Theta, 1.0, 3e-3), (TimeScheme::Theta, 0.55, 5e-4)]
     {
         let worst = run(scheme, theta).iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         println!("{scheme:?} theta = {theta}: largest difference {worst:.2e}");

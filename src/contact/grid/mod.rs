@@ -7,7 +7,7 @@
 mod active_set;
 mod candidates;
 pub mod kernel;
-mod observe;
+pub mod observe;
 mod rows;
 pub mod streamline;
 
@@ -185,7 +185,8 @@ impl ContactSolver for GridSolver {
                 false => history.push(&problem.time, value),
             }
         }
-        observe::read_off(&self.grid, problem, state, &scratch.centred_slip, traction);
+        let wheel = [problem.radius(), problem.friction];
+        observe::read_off(&self.grid, wheel, state, &scratch.centred_slip, traction);
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 
 use super::streamline::edge_offset;
 use super::{ContactGrid, GridState, Status, for_each_patch};
-use crate::contact::{ContactProblem, Traction};
+use crate::contact::Traction;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use std::ops::Range;
@@ -26,15 +26,17 @@ pub(super) fn lever_arms(grid: &ContactGrid, radius: f64, gap: &[f64], wheel: &D
     [radius - wheel[port + 1], grid.x[i] + wheel[port] - radius * slope]
 }
 
-/// Fills everything in `traction` that follows from port forces, surfaces and rigid motions.
-pub(super) fn read_off(
+/// Fills everything in `traction` that follows from its port forces and surfaces under a wheel of the rolling radius
+/// `radius` [m], for the friction coefficient `friction` [1] and the slip velocities of the candidates `centred_slip`
+/// [m/s].
+pub fn read_off(
     grid: &ContactGrid,
-    problem: &ContactProblem,
+    [radius, friction]: [f64; 2],
     state: &GridState,
     centred_slip: &[f64],
     traction: &mut Traction,
 ) {
-    traction.resultant = resultant(grid, problem.radius(), state, traction);
+    traction.resultant = resultant(grid, radius, state, traction);
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
@@ -45,7 +47,7 @@ pub(super) fn read_off(
     for_each_patch(&state.status, |run| {
         traction.patches.push(edges(grid, normal, &run));
         length += run.len() as f64;
-        let margin = |i: usize| (problem.friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
+        let margin = |i: usize| (friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
         stuck += stick_length(&state.status, margin, run);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };

@@ -36,7 +36,8 @@ impl Instance {
         match (&snapshot.checkpoint, &mut self.simulation) {
             (None, _) => self.simulation = None,
             (Some(checkpoint), Some(simulation)) if simulation.model().serves(&config) => {
-                simulation.recall(&config.tuning, checkpoint.clone()).map_err(refused)?;
+                simulation.recall(checkpoint.clone()).map_err(refused)?;
+                simulation.retune(&config.tuning);
             }
             (Some(checkpoint), _) => {
                 let model = self.model(config.clone())?;

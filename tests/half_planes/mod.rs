@@ -1,0 +1,136 @@
+//! Two like elastic half-planes whose compliance is known in closed form: the discrete kernel
+//! `G_j − G_{j+1} = 2/(πE*)/(j + ½)` to which the slip rows belong. The one place of these tests that builds a contact
+//! problem.
+#![allow(dead_code)]
+
+use nalgebra::{DMatrix, DVector};
+use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
+use wheelrail::contact::grid::{ContactGrid, GridSolver, GridState};
+use wheelrail::contact::{
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Placement, RigidMotion, Scratch, SolverState,
+    SurfaceResponse, Surfaces,
+};
+use wheelrail::multistep::TimeDerivative;
+use wheelrail::piecewise::Piecewise;
+
+/// Radius of the cylinder [m].
+pub const RADIUS: f64 = 0.5;
+/// Friction coefficient [1].
+pub const FRICTION: f64 = 0.4;
+/// Nominal line load [N/m].
+pub const NOMINAL: f64 = 1e5;
+
+pub struct HalfPlanes {
+    pub grid: ContactGrid,
+    pub surfaces: Surfaces,
+    solver: GridSolver,
+    /// Compliance of each half-plane, and of both.
+    half: DMatrix<f64>,
+    relative: DMatrix<f64>,
+    free: DVector<f64>,
+    none: [DMatrix<f64>; 3],
+}
+
+pub fn modulus() -> f64 {
+    contact_modulus(200e9, 0.3)
+}
+
+impl HalfPlanes {
+    pub fn new(per_half_width: usize) -> Self {
+        let spacing = hertz_half_width(NOMINAL, RADIUS, modulus()) / per_half_width as f64;
+        let half = (3 * per_half_width).div_ceil(2) as i64;
+        let x = (-half..=half).map(|i| i as f64 * spacing).collect();
+        let grid = ContactGrid { x, spacing, guard: 3 };
+        let n = grid.ports();
+        // Relative compliance, shared equally; the constant (depth of the half-plane) is arbitrary.
+        let mut kernel = vec![10.0 / modulus()];
+        for j in 0..n {
+            kernel.push(kernel[j] - 2.0 / (std::f64::consts::PI * modulus()) / (j as f64 + 0.5));
+        }
+        let half =
+            DMatrix::from_fn(n, n, |i, j| if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 });
+        // The compliance is that of half-planes already, so that the correction vanishes.
+        let solver = GridSolver::new(grid.clone(), &half, &half, modulus());
+        let none = [DMatrix::zeros(n, 3), DMatrix::zeros(3, n), DMatrix::zeros(3, 3)];
+        let (relative, free) = (2.0 * &half, DVector::zeros(n));
+        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none }
+    }
+
+    /// Shapes the rail so that the gap at the candidates is `gap` [m].
+    pub fn with_gap(mut self, gap: impl Fn(f64) -> f64) -> Self {
+        let circle = |x: f64| x * x / (RADIUS + (RADIUS * RADIUS - x * x).sqrt());
+        let value = self.grid.x.iter().map(|&x| circle(x) - gap(x)).collect();
+        self.surfaces.rail = Piecewise { x: self.grid.x.clone(), value };
+        self
+    }
+
+    /// Stationary rolling at mean speed 10 m/s.
+    pub fn roll(&self, load: f64, creepage: f64, start: &ContactState) -> Result<ContactState, ContactError> {
+        let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
+        let v = 10.0 * (1.0 + 0.5 * creepage);
+        let omega = 10.0 * (1.0 - 0.5 * creepage) / RADIUS;
+        let flat = Piecewise::default();
+        let problem = ContactProblem {
+            bodies: SurfaceResponse {
+                compliance: [&self.half, &self.half],
+                relative: &self.relative,
+                free: [&self.free, &self.free],
+                inertial: &self.none[0],
+                momentum: &self.none[1],
+                deformation_inertia: &self.none[2],
+            },
+            membrane: [&flat, &flat],
+            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
+            time: TimeDerivative::default(),
+            surfaces: &self.surfaces,
+            placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: &flat },
+            friction: FRICTION,
+            nominal_load: NOMINAL,
+            edge_tolerance: 1e-5,
+        };
+        let mut found = ContactState::default();
+        self.solver.solve(&problem, start, &mut found, &mut Scratch::default()).map(|()| found)
+    }
+
+    /// The node in the middle touches.
+    pub fn start(&self) -> ContactState {
+        self.solver.touching(0.0)
+    }
+
+    pub fn full_slip(&self, load: f64) -> f64 {
+        carter_full_slip(FRICTION, hertz_half_width(load, RADIUS, modulus()), RADIUS)
+    }
+
+    /// Relative utilisation error against Carter.
+    pub fn carter_error(&self, load: f64, share: f64) -> f64 {
+        let xi = share * self.full_slip(load);
+        let solution = self.roll(load, xi, &self.start()).unwrap();
+        solution.traction.resultant[0] / (FRICTION * load) - carter_force(xi, self.full_slip(load))
+    }
+
+    /// Nodal normal force at a candidate [N/m].
+    pub fn normal(&self, state: &ContactState, i: usize) -> f64 {
+        state.traction.port_forces[self.grid.port(i) + 1]
+    }
+
+    /// Nodal tangential force at a candidate [N/m].
+    pub fn tangential(&self, state: &ContactState, i: usize) -> f64 {
+        state.traction.port_forces[self.grid.port(i)]
+    }
+}
+
+/// What the solver on the grid remembers.
+pub fn grid_state(state: &ContactState) -> &GridState {
+    match &state.solver {
+        SolverState::Grid(grid) => grid,
+        other => panic!("state of another solver: {other:?}"),
+    }
+}
+
+/// The same to change.
+pub fn grid_state_mut(state: &mut ContactState) -> &mut GridState {
+    match &mut state.solver {
+        SolverState::Grid(grid) => grid,
+        other => panic!("state of another solver: {other:?}"),
+    }
+}
