@@ -6,7 +6,7 @@
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make leak-check memory leaks of the FMU's C interface, with valgrind
 # make docs      HTML documentation of the library; every warning is an error
-# make describe  regenerate modelDescription.xml from the variable table
+# make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
 
 PYTHON ?= python3
@@ -69,10 +69,12 @@ docs:
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new
 	mv modelDescription.xml.new modelDescription.xml
+	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe --markdown > docs/reference.md.new
+	mv docs/reference.md.new docs/reference.md
 
 clean:
 	$(CARGO) clean
-	rm -rf target $(VENV) results modelDescription.xml.new .pytest_cache
+	rm -rf target $(VENV) results modelDescription.xml.new docs/reference.md.new .pytest_cache
 
 $(FMU): $(BUILT)
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)

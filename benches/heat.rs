@@ -2,40 +2,34 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use wheelrail::heat::{Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, Scratch};
+use wheelrail::config::{ConductanceLaw, Config, Hub};
+use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatState, Interval, Scratch};
 use wheelrail::piecewise::Piecewise;
 
 const HALF_WIDTH: f64 = 0.761e-3;
 const SPEED: f64 = 50.0 / 3.6;
 
 fn config() -> HeatConfig {
-    HeatConfig {
-        conductivity: 45.0,
-        specific_heat: 460.0,
-        density: 8000.0,
-        wheel_radius: 0.5,
-        hub_radius: 0.05,
-        rail_length: 1.0,
-        rail_height: 0.1,
-        half_width: HALF_WIDTH,
-        smallest_half_width: HALF_WIDTH,
-        zone: 1.5 * HALF_WIDTH,
-        max_speed: SPEED,
-        elements_per_half_width: 20,
-        hub: HubCondition::Fixed,
-        conductance: Conductance::Constant { value: 1e7 },
-        friction_fraction: 0.1,
-        wheel_share: 0.5,
-        convection: 0.0,
-        time_scheme: HeatTimeScheme::Sdirk2,
-    }
+    let preset: Config = serde_json::from_str(include_str!("../resources/paper_b.json")).expect("preset");
+    let Config { wheel, rail, material, thermal, .. } = preset;
+    let (half_width, zone) = (HALF_WIDTH, 1.5 * HALF_WIDTH);
+    let mut config = HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone };
+    (config.wheel.radius, config.wheel.hub_radius) = (0.5, 0.05);
+    (config.rail.length, config.rail.height) = (1.0, 0.1);
+    let material = &mut config.material;
+    (material.conductivity, material.specific_heat, material.density) = (45.0, 460.0, 8000.0);
+    let thermal = &mut config.thermal;
+    (thermal.conductance_law, thermal.conductance) = (ConductanceLaw::Constant, 1e7);
+    (thermal.heat_ratio, thermal.wheel_share, thermal.convection, thermal.hub) = (0.1, 0.5, 0.0, Hub::Fixed);
+    (thermal.max_speed, thermal.smallest_load_ratio) = (SPEED, 1.0);
+    config
 }
 
 fn heat(c: &mut Criterion) {
     c.bench_function("heat: meshes and modes", |b| b.iter(|| Heat::new(black_box(&config())).expect("meshes")));
     let heat = Heat::new(&config()).expect("meshes");
     let exchange = Exchange {
-        patches: vec![Patch { low: -HALF_WIDTH, high: HALF_WIDTH }],
+        patches: vec![Interval { low: -HALF_WIDTH, high: HALF_WIDTH }],
         friction_power: Piecewise::sampled(-HALF_WIDTH, HALF_WIDTH, 41, |x| 1e6 * (1.0 - x / HALF_WIDTH)),
         ..Exchange::default()
     };
@@ -48,7 +42,7 @@ fn heat(c: &mut Criterion) {
         ("heat: step, speeds change by percents", 1e-2, 1.0),
         ("heat: step, locked wheel", 1e-4, 0.0),
     ] {
-        let mut state = heat.initial(0.0);
+        let (mut state, mut next) = (heat.initial(0.0), HeatState::default());
         let mut scratch = Scratch::default();
         let mut k = 0_u32;
         c.bench_function(name, |b| {
@@ -56,7 +50,10 @@ fn heat(c: &mut Criterion) {
                 k += 1;
                 let factor = 1.0 + change * f64::from(k % 7);
                 let (dt, v) = (1e-3 * factor, SPEED * factor);
-                heat.step(&mut state, dt, v, rolling * v / 0.5, &exchange, &mut scratch).expect("step")
+                let omega = rolling * v / 0.5;
+                let flows = heat.step(&state, &mut next, dt, v, omega, &exchange, &mut scratch).expect("step");
+                std::mem::swap(&mut state, &mut next);
+                flows
             })
         });
     }

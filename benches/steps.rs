@@ -3,16 +3,9 @@
 //! `cargo bench` prints medians; README quotes them.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use std::path::Path;
 use std::time::{Duration, Instant};
 use wheelrail::config::{Config, Response};
-use wheelrail::simulation::{Inputs, Model, Simulation};
-
-fn railway() -> Config {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/railway.json");
-    let text = std::fs::read_to_string(path).expect("resources/railway.json");
-    serde_json::from_str(&text).expect("a complete configuration")
-}
+use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
 /// A rolling wheel under a braking moment of about half the adhesion limit.
 fn braking(model: std::sync::Arc<Model>) -> (Simulation, Inputs) {
@@ -35,23 +28,26 @@ fn resident() -> f64 {
 fn steps(c: &mut Criterion) {
     let mut quiet = |_: &str, _: f64| {};
     let start = Instant::now();
-    let model = Model::prepare(railway(), None, &mut quiet).expect("model");
+    let model = Model::prepare(Config::default(), &BasisStore::none(), &mut quiet).expect("model");
     println!("reduced basis computed in {:.2} s", start.elapsed().as_secs_f64());
-    let directory = std::env::temp_dir().join("wheelrail-bench");
-    std::fs::create_dir_all(directory.join("basis")).expect("temporary directory");
-    let (name, bytes) = model.basis_file().expect("reduced model");
+    let store = BasisStore::within(&std::env::temp_dir().join("wheelrail-bench"));
+    let (_, bytes) = model.basis_file().expect("reduced model");
     println!("stored basis: {} kB", bytes.len() / 1024);
-    std::fs::write(directory.join("basis").join(name), bytes).expect("stored basis");
+    store.keep(model.config(), &bytes).expect("stored basis");
 
+    c.bench_function("start of a second simulation with a shared model", |b| {
+        let inputs = Inputs::rolling(model.config());
+        b.iter(|| Simulation::new(model.clone(), &inputs).expect("stationary state"))
+    });
     c.bench_function("instantiate to ready with the stored basis", |b| {
         b.iter(|| {
-            let model = Model::prepare(railway(), Some(&directory), &mut |_, _| {}).expect("model");
+            let model = Model::prepare(Config::default(), &store, &mut |_, _| {}).expect("model");
             let inputs = Inputs::rolling(model.config());
             Simulation::new(model, &inputs).expect("stationary state")
         })
     });
     let before = resident();
-    let prepare = |_| braking(Model::prepare(railway(), Some(&directory), &mut |_, _| {}).expect("model"));
+    let prepare = |_| braking(Model::prepare(Config::default(), &store, &mut |_, _| {}).expect("model"));
     let several: Vec<_> = (0..20).map(prepare).collect();
     println!("memory of a reduced simulation: {:.1} MB", (resident() - before) / several.len() as f64);
     let (mut simulation, inputs) = braking(model.clone());
@@ -66,10 +62,10 @@ fn steps(c: &mut Criterion) {
     });
     println!("state: {} kB", postcard::to_stdvec(simulation.state()).expect("bytes").len() / 1024);
 
-    let mut config = railway();
+    let mut config = Config::default();
     config.solver.response = Response::Full;
     let before = resident();
-    let (mut simulation, inputs) = braking(Model::prepare(config, None, &mut quiet).expect("model"));
+    let (mut simulation, inputs) = braking(Model::prepare(config, &BasisStore::none(), &mut quiet).expect("model"));
     println!("memory of a full simulation: {:.0} MB", resident() - before);
     c.bench_function("full step 1 ms, braking", |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
 }

@@ -1,4 +1,5 @@
-"""The dependencies that the description declares are true: what is not declared has no effect, by perturbation."""
+"""The dependencies that the description declares are true: what is not declared has no effect, by perturbation, and no
+derivative."""
 
 import pytest
 
@@ -105,3 +106,17 @@ def test_initial_outputs_change_only_with_declared_knowns(start, unknowns, contr
         assert not undeclared(name, names, unknowns[1]), name
         moved |= names
     assert {"contact.force_x", "contact.force_y", "wheel.velocity", "hub.moment", "temperature.wheel_bulk"} <= moved
+
+
+def test_a_tool_that_skips_pairs_not_declared_gets_every_derivative(start, unknowns, outputs):
+    wheel = start(START, SWITCHED | {name: pair[0] for name, pair in VALUES.items()})
+    wheel.step(1e-3)
+    found = 0
+    references = [wheel.variables[output].valueReference for output in outputs]
+    for name in VALUES:
+        column = wheel.slave.getDirectionalDerivative(references, [wheel.variables[name].valueReference], [1.0])
+        for output, value in zip(outputs, column):
+            declared = unknowns[0][output]
+            assert value == 0.0 or declared is None or name in declared, (output, name, value)
+            found += value != 0.0
+    assert found > 100

@@ -15,6 +15,15 @@ pub struct Piecewise {
     pub value: Vec<f64>,
 }
 
+/// A stretch of the axis on which a function lives, such as a contact patch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// End at the smaller x.
+    pub low: f64,
+    /// End at the larger x.
+    pub high: f64,
+}
+
 /// Positions and values that make no piecewise linear function.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PiecewiseError {

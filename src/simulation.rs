@@ -4,10 +4,11 @@
 //!
 //! ```no_run
 //! use wheelrail::config::Config;
-//! use wheelrail::simulation::{Inputs, Model, Simulation};
+//! use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 //!
-//! let config: Config = serde_json::from_str(&std::fs::read_to_string("resources/railway.json")?)?;
-//! let model = Model::prepare(config, None, &mut |what, share| println!("{what}: {:.0} %", 100.0 * share))?;
+//! let store = BasisStore::of_user();
+//! let progress = &mut |what: &str, share: f64| println!("{what}: {:.0} %", 100.0 * share);
+//! let model = Model::shared(Config::default(), &store, progress)?;
 //! let mut inputs = Inputs::rolling(model.config());
 //! let mut simulation = Simulation::new(model, &inputs)?;
 //! inputs.drive.moment = -2000.0;
@@ -18,14 +19,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod advice;
+mod shared;
+mod store;
+mod validity;
+
+pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
+pub use validity::Limit;
+
 use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, substeps};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
-pub use crate::rolling::control::{INPUT_RANGES, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{
@@ -41,14 +49,19 @@ pub enum PrepareError {
     Mechanics(#[from] MechanicsError),
     #[error(transparent)]
     Model(#[from] rolling::ModelError),
-    #[error("stored basis {file}: {source}")]
-    Basis { file: String, source: BasisError },
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("computed basis: {0}")]
+    Basis(#[from] BasisError),
 }
 
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
     rolling: rolling::Model,
     basis: Option<Arc<(String, Vec<u8>)>>,
+    not_kept: Option<String>,
+    /// The stationary start computed last, with its inputs: equal instances of a process mostly start alike.
+    start: Mutex<Option<(Inputs, Checkpoint)>>,
 }
 
 impl Inputs {
@@ -67,48 +80,36 @@ impl Inputs {
     }
 }
 
-/// File name of the stored basis of a configuration, below a resource directory.
-pub fn basis_file_name(config: &Config) -> String {
-    format!("{}.bin", mechanics::basis::key(config))
-}
-
 impl Model {
-    /// Validates the configuration and makes the model ready. The reduced basis is read from `<directory>/basis/` if it is
-    /// stored there and computed otherwise; `progress` hears what is being computed and its share done.
+    /// Validates the configuration and makes the model ready. The reduced basis is read from the store if it is there, and
+    /// computed and kept there otherwise; `progress` hears what is being computed and its share done.
     pub fn prepare(
         config: Config,
-        directory: Option<&Path>,
+        store: &BasisStore,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
-        let (basis, file) = match config.solver.response {
-            Response::Full => (None, None),
-            Response::Reduced => {
-                let name = basis_file_name(&config);
-                let failed = |source| PrepareError::Basis { file: name.clone(), source };
-                let stored = directory.and_then(|d| std::fs::read(d.join("basis").join(&name)).ok());
-                let stored = stored.map(|bytes| Basis::from_bytes(&bytes).map(|basis| (basis, bytes)));
-                let stored = stored.transpose().map_err(failed)?.filter(|(basis, _)| basis.fits(&config));
-                let (basis, bytes) = match stored {
-                    Some(stored) => stored,
-                    None => {
-                        let basis = Basis::compute(&config, progress)?;
-                        let bytes = basis.to_bytes().map_err(failed)?;
-                        (basis, bytes)
-                    }
-                };
-                (Some(basis), Some((name, bytes)))
-            }
-        };
+        let (mut basis, mut file, mut not_kept) = (None, None, None);
+        if config.solver.response == Response::Reduced {
+            let (found, bytes) = match store.find(&config)? {
+                Some(stored) => stored,
+                None => {
+                    let computed = Basis::compute(&config, progress)?;
+                    let bytes = computed.to_bytes()?;
+                    not_kept = store.keep(&config, &bytes).err();
+                    (computed, bytes)
+                }
+            };
+            (basis, file) = (Some(found), Some(Arc::new((basis_file_name(&config), bytes))));
+        }
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::Model::new(config, bodies)?;
-        Ok(Arc::new(Self { rolling, basis: file.map(Arc::new) }))
+        Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default() }))
     }
 
     /// Whether the model serves a configuration: all but the tunable parameters are equal.
     pub fn serves(&self, config: &Config) -> bool {
-        let ours = self.config();
-        *ours == Config { tuning: ours.tuning.clone(), ..config.clone() }
+        same_model(self.config(), config)
     }
 
     /// Parameters of the model.
@@ -116,10 +117,20 @@ impl Model {
         &self.rolling.config
     }
 
+    /// Why the basis, which had to be computed, could not be kept for the next time.
+    pub fn not_kept(&self) -> Option<&str> {
+        self.not_kept.as_deref()
+    }
+
     /// File name and content of the reduced basis; `None` for the full response.
     pub fn basis_file(&self) -> Option<(String, Vec<u8>)> {
         self.basis.as_deref().cloned()
     }
+}
+
+/// Whether one model serves both configurations: all but the tunable parameters are equal.
+fn same_model(a: &Config, b: &Config) -> bool {
+    *a == Config { tuning: a.tuning.clone(), ..b.clone() }
 }
 
 /// All that a simulation needs to continue bit for bit, besides its model and its tunable parameters.
@@ -150,6 +161,10 @@ impl Checkpoint {
         inputs: &Inputs,
         workspace: &mut Workspace,
     ) -> Result<Self, StepError> {
+        let known = |(with, known): &(Inputs, Self)| (with == inputs && known.tuning == *tuning).then(|| known.clone());
+        if let Some(known) = shared::lock(&model.start).as_ref().and_then(known) {
+            return Ok(known);
+        }
         let state = stationary::start(&model.rolling, tuning, inputs, workspace)?;
         let mut earlier = outputs::observe(&model.rolling, &state);
         earlier.wheel_distance -= LEAD * earlier.wheel_velocity;
@@ -157,7 +172,9 @@ impl Checkpoint {
         earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
         earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
         let (before, origin) = (vec![(state.time - LEAD, earlier)], Origin::Stationary(*inputs));
-        Ok(Self { state, tuning: tuning.clone(), origin, before })
+        let checkpoint = Self { state, tuning: tuning.clone(), origin, before };
+        *shared::lock(&model.start) = Some((*inputs, checkpoint.clone()));
+        Ok(checkpoint)
     }
 }
 

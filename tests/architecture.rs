@@ -17,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("heat", &["fem", "linalg", "config", "piecewise"]),
     ("contact", &["linalg", "multistep", "piecewise"]),
     ("rolling", &["mechanics", "contact", "heat", "multistep", "config", "analytic", "piecewise", "material"]),
-    ("simulation", &["rolling", "mechanics", "contact", "heat", "config"]),
+    ("simulation", &["rolling", "mechanics", "contact", "heat", "fem", "linalg", "config"]),
     ("fmi", &["simulation", "config"]),
     ("cli", &["fmi", "simulation", "analytic", "config", "piecewise"]),
     ("main", &["cli"]),
@@ -102,7 +102,7 @@ fn unsafe_is_only_in_the_c_interface() {
     for path in sources(&src()) {
         let code = code(&path);
         let uses = code.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == "unsafe");
-        assert!(!uses || path.ends_with("fmi/c_abi.rs"), "{}", path.display());
+        assert!(!uses || path.components().any(|part| part.as_os_str() == "c_abi"), "{}", path.display());
     }
     assert!(code(&src().join("lib.rs")).contains("#![deny(unsafe_code)]"));
 }

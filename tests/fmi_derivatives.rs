@@ -6,6 +6,8 @@ use libfmi::fmi2Status::{fmi2Error, fmi2OK};
 use libfmi::{fmi2FMUstate, fmi2Status};
 use slave::{Slave, load, variable};
 use std::ptr;
+use wheelrail::fmi::variable::Causality;
+use wheelrail::fmi::variables::variables;
 
 fn references(names: &[&str]) -> Vec<u32> {
     names.iter().map(|name| variable(name).reference).collect()
@@ -154,4 +156,57 @@ fn a_ramp_to_the_end_of_a_range_is_not_refused_for_rounding() {
     assert_eq!(slave.set_rate("rail.friction", 1, -friction / h), fmi2OK);
     assert_eq!(slave.step(0.0, h), fmi2OK, "{:?}", slave.messages());
     assert_eq!(slave.real("rail.friction"), 0.0);
+}
+
+/// Declared knowns of each output by name, `None` for all, in a section of the model structure.
+fn declared(section: &str) -> Vec<(&'static str, Option<Vec<&'static str>>)> {
+    let description = wheelrail::fmi::v2::description::model_description().unwrap();
+    let inside = description.split(&format!("<{section}>")).nth(1).unwrap();
+    let inside = inside.split(&format!("</{section}>")).next().unwrap();
+    let attribute = |line: &str, name: &str| {
+        let rest = line.split(&format!(" {name}=\"")).nth(1)?;
+        Some(rest.split('"').next().unwrap().to_owned())
+    };
+    let name = |index: &str| variables()[index.parse::<usize>().unwrap() - 1].name.as_str();
+    let unknowns = inside.lines().filter(|line| line.contains("<Unknown"));
+    unknowns
+        .map(|line| {
+            let known = attribute(line, "dependencies");
+            let known = known.map(|list| list.split_whitespace().map(name).collect());
+            (name(&attribute(line, "index").unwrap()), known)
+        })
+        .collect()
+}
+
+/// Tools colour the matrix of derivatives by the declared dependencies and take all other entries for zero.
+#[test]
+fn a_tool_that_skips_pairs_not_declared_gets_every_derivative() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    for name in ["control.rotation", "control.translation"] {
+        assert_eq!(slave.set_integer(name, 1), fmi2OK);
+    }
+    let is_real = |name: &str| variable(name).kind.type_name() == "Real";
+    let inputs = variables().iter().filter(|v| v.causality() == Causality::Input && is_real(&v.name));
+    let inputs: Vec<&str> = inputs.map(|v| v.name.as_str()).collect();
+    let compare = |slave: &Slave, section: &str| {
+        let declared: Vec<_> = declared(section).into_iter().filter(|(name, _)| is_real(name)).collect();
+        let names: Vec<&str> = declared.iter().map(|(name, _)| *name).collect();
+        let mut found = 0;
+        for input in &inputs {
+            let column = directional(slave, &names, &[(input, 1.0)]).unwrap();
+            for ((name, known), value) in declared.iter().zip(column) {
+                let skipped = known.as_ref().is_some_and(|known| !known.contains(input));
+                assert!(!skipped || value == 0.0, "{section}: d {name} / d {input} = {value} is not declared");
+                found += usize::from(value != 0.0);
+            }
+        }
+        assert!(found > 100, "{section}: {found} derivatives are not zero");
+    };
+    assert_eq!(slave.setup(0.0, None), fmi2OK);
+    assert_eq!(slave.enter(), fmi2OK);
+    compare(&slave, "InitialUnknowns");
+    assert_eq!(slave.exit(), fmi2OK);
+    assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+    compare(&slave, "Outputs");
 }

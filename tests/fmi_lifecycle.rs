@@ -23,8 +23,58 @@ fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
     refused(Arguments { guid: None, ..Default::default() }, "fmuGUID");
     refused(Arguments { name: Some(""), ..Default::default() }, "instanceName");
     refused(Arguments { name: None, ..Default::default() }, "instanceName");
-    refused(Arguments { kind: fmi2Type::fmi2ModelExchange, ..Default::default() }, "fmi2CoSimulation");
+    for kind in [fmi2Type::fmi2ModelExchange as i32, 7, -1, i32::MIN] {
+        refused(Arguments { kind, ..Default::default() }, &format!("fmuType = {kind} "));
+    }
+    refused(Arguments { visible: 2, ..Default::default() }, "visible = 2 ");
+    refused(Arguments { logging: -1, ..Default::default() }, "loggingOn = -1 ");
     assert!(Slave::try_new(&dll, &Arguments { callbacks: false, ..Default::default() }).is_err());
+}
+
+#[test]
+fn c_integers_outside_an_enumeration_are_refused_by_every_status_function() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+    for kind in [-1, 4, 9, i32::MIN, i32::MAX] {
+        for status in slave.ask(kind) {
+            assert_eq!(status, fmi2Error, "{kind}");
+        }
+        let messages = slave.messages();
+        assert_eq!(messages.len(), 5);
+        for message in messages {
+            assert!(message.text.contains(&format!("fmi2StatusKind = {kind} is outside its range")), "{message:?}");
+            assert!(message.text.contains("2 (fmi2LastSuccessfulTime)"), "{message:?}");
+        }
+    }
+    // Known kinds are answered by one function each and not available through the others.
+    for (kind, answering) in [(0, Some(0)), (1, None), (2, Some(1)), (3, Some(3))] {
+        for (i, status) in slave.ask(kind).into_iter().enumerate() {
+            assert_eq!(status, if Some(i) == answering { fmi2OK } else { fmi2Discard }, "kind {kind}, function {i}");
+        }
+    }
+}
+
+#[test]
+fn booleans_other_than_zero_and_one_are_refused_wherever_they_can_be_passed() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    let c = slave.component;
+    assert_eq!(slave.set_c_boolean("thermal.enabled", 0), fmi2OK);
+    for value in [2, -1, 256, i32::MIN] {
+        let text = format!("= {value} is no fmi2Boolean: pass 0 (fmi2False) or 1 (fmi2True)");
+        slave.refused(slave.set_c_boolean("thermal.enabled", value), &["thermal.enabled", &text]);
+        unsafe {
+            slave.refused(dll.fmi2SetupExperiment(c, value, 1e-3, 0.0, 0, 0.0), &["toleranceDefined", &text]);
+            slave.refused(dll.fmi2SetupExperiment(c, 0, 0.0, 0.0, value, 1.0), &["stopTimeDefined", &text]);
+            slave.refused(dll.fmi2SetDebugLogging(c, value, 0, ptr::null()), &["loggingOn", &text]);
+        }
+    }
+    slave.initialize();
+    assert!(!slave.boolean("thermal.enabled"), "refused values change nothing");
+    let status = unsafe { dll.fmi2DoStep(c, 0.0, 1e-3, 2) };
+    slave.refused(status, &["noSetFMUStatePriorToCurrentPoint = 2"]);
+    assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
 }
 
 #[test]
@@ -196,10 +246,10 @@ fn steps_need_a_positive_length_and_the_current_time() {
     assert_eq!(slave.exit(), fmi2OK);
     let before = slave.outputs();
     for h in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e300] {
-        slave.refused(slave.step(1.0, h), &["communicationStepSize", &format!("{h}"), "range"]);
+        slave.refused(slave.step(1.0, h), &["communicationStepSize", &format!("= {h:?} s"), "range"]);
     }
     for t in [0.0, 1.001, f64::NAN] {
-        slave.refused(slave.step(t, 1e-3), &["currentCommunicationPoint", &format!("{t}"), "1 s"]);
+        slave.refused(slave.step(t, 1e-3), &["currentCommunicationPoint", &format!("= {t:?} s"), "1.0 s"]);
     }
     assert_eq!(slave.outputs(), before);
     let mut sum = 1.0;

@@ -40,6 +40,58 @@ fn a_run_from_a_saved_state_is_the_first_bit_for_bit() {
     slave.refused(slave.free_state(&mut place.clone()), &["freed"]);
 }
 
+/// fmusim up to 0.0.39 passes the state to `fmi2FreeFMUstate`, not the address of the variable that holds it.
+#[test]
+fn a_state_passed_in_place_of_its_address_is_refused_and_stays() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    let mut state = ptr::null_mut();
+    assert_eq!(slave.save(&mut state), fmi2OK);
+    let free_itself = |state: libfmi::fmi2FMUstate| unsafe { dll.fmi2FreeFMUstate(slave.component, state.cast()) };
+    slave.refused(free_itself(state), &["the address of a variable that holds a state"]);
+    assert_eq!(slave.restore(state), fmi2OK, "the state is still there");
+    let status = unsafe { dll.fmi2GetFMUstate(slave.component, state.cast()) };
+    slave.refused(status, &["the address of a variable that holds a state"]);
+    assert_eq!(slave.restore(state), fmi2OK);
+    let stale = state;
+    assert_eq!(slave.free_state(&mut state), fmi2OK);
+    slave.refused(free_itself(stale), &["the address of a variable"]);
+}
+
+#[test]
+fn handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed() {
+    let dll = load();
+    let (slave, other) = (Slave::ready(&dll), Slave::ready(&dll));
+    let (mut state, mut theirs) = (ptr::null_mut(), ptr::null_mut());
+    assert_eq!((slave.save(&mut state), other.save(&mut theirs)), (fmi2OK, fmi2OK));
+    assert_ne!(state, theirs);
+    let mut freed = ptr::null_mut();
+    assert_eq!(slave.save(&mut freed), fmi2OK);
+    assert_eq!(slave.free_state(&mut freed.clone()), fmi2OK);
+    let words = ["not a state of this instance", "freed"];
+    for handle in [theirs, freed, ptr::without_provenance_mut(0x10), ptr::without_provenance_mut(usize::MAX - 7)] {
+        slave.refused(slave.restore(handle), &words);
+        let mut place = handle;
+        slave.refused(slave.free_state(&mut place), &words);
+        slave.refused(slave.save(&mut place), &words);
+        assert_eq!(place, handle, "a refused call writes nothing");
+        let status = unsafe { dll.fmi2SerializedFMUstateSize(slave.component, handle, &mut 0) };
+        slave.refused(status, &words);
+    }
+    assert_eq!((slave.restore(state), other.restore(theirs)), (fmi2OK, fmi2OK));
+    assert_eq!(slave.free_state(&mut state), fmi2OK);
+    // Many states at once, freed in another order: each handle is one of its own.
+    let mut handles: Vec<_> = (0..50).map(|_| ptr::null_mut()).collect();
+    for handle in &mut handles {
+        assert_eq!(slave.save(handle), fmi2OK);
+    }
+    let distinct: std::collections::BTreeSet<usize> = handles.iter().map(|handle| handle.addr()).collect();
+    assert_eq!(distinct.len(), 50);
+    for handle in handles.iter_mut().rev() {
+        assert_eq!(slave.free_state(handle), fmi2OK);
+    }
+}
+
 #[test]
 fn a_serialized_state_continues_in_another_instance() {
     let dll = load();

@@ -3,6 +3,7 @@
 mod heat_common;
 use heat_common::*;
 use std::f64::consts::PI;
+use wheelrail::config::Hub;
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 
@@ -31,20 +32,16 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
     let elliptic = |xi: f64| (1.0 - xi * xi).max(0.0).sqrt();
     let parabolic = |xi: f64| (1.0 - xi * xi).max(0.0);
     let cases = [("elliptic", &elliptic as &dyn Fn(f64) -> f64, 7.101686e-7), ("parabolic", &parabolic, 6.35944e-7)];
-    let config = HeatConfig {
-        half_width: A,
-        smallest_half_width: A,
-        zone: 1.5 * A,
-        friction_fraction: 1.0,
-        wheel_share: 0.0,
-        ..config(1e5, v)
-    };
+    let config = with(config(1e5, v), |c| {
+        (c.half_width, c.zone) = (A, 1.5 * A);
+        (c.thermal.heat_ratio, c.thermal.wheel_share) = (1.0, 0.0);
+    });
     let heat = heat(&config);
     for (name, q, reference) in cases {
         let friction_power = Piecewise::sampled(-A, A, 400, |x| q(x / A));
         let exchange = Exchange { friction_power, ..Exchange::default() };
         let (state, _) = heat.stationary(v, 0.0, &exchange).unwrap();
-        let t = heat.temperatures(&state).unwrap();
+        let t = heat.temperatures(&state);
         println!("{name}: maximum {:.6e} ({:+.3} %)", t.rail_max, 100.0 * deviation(t.rail_max, reference));
         assert!(deviation(t.rail_max, reference).abs() < 2e-3);
         let mut worst = 0.0_f64;
@@ -60,16 +57,16 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
 
 #[test]
 fn a_warm_insulated_wheel_without_contact_keeps_its_temperature() {
-    let heat = heat(&HeatConfig { hub: HubCondition::Insulated, ..config(1e5, 50.0) });
+    let heat = heat(&with(config(1e5, 50.0), |c| c.thermal.hub = Hub::Insulated));
     let mut state = heat.initial(100.0);
     let mut scratch = Scratch::default();
     let content = heat.heat_content(&state).unwrap()[0];
     for (k, dt) in [1e-6, 1e-3, 1.0, 500.0].into_iter().cycle().take(40).enumerate() {
         let omega = [0.0, 30.0, -100.0][k % 3];
-        let flows = heat.step(&mut state, dt, 10.0, omega, &Exchange::default(), &mut scratch).unwrap();
+        let flows = heat.advance(&mut state, dt, 10.0, omega, &Exchange::default(), &mut scratch);
         assert!(flows.stored_wheel.abs() < 1e-6, "{flows:?}");
     }
-    let t = heat.temperatures(&state).unwrap();
+    let t = heat.temperatures(&state);
     let [surface, _] = heat.surface_temperatures(&state, 1.0).unwrap();
     println!(
         "mean {:+.1e}, contact {:+.1e}, tread {:+.1e} K off",
@@ -101,9 +98,9 @@ fn reversal_of_both_speeds_mirrors_the_temperatures() {
     let (mut one, mut two) = (heat.initial(5.0), heat.initial(5.0));
     let mut scratch = Scratch::default();
     for dt in [1e-4, 1e-2, 1.0] {
-        let f = heat.step(&mut one, dt, v, omega, &forward, &mut scratch).unwrap();
-        let b = heat.step(&mut two, dt, -v, -omega, &backward, &mut scratch).unwrap();
-        let (t, u) = (heat.temperatures(&one).unwrap(), heat.temperatures(&two).unwrap());
+        let f = heat.advance(&mut one, dt, v, omega, &forward, &mut scratch);
+        let b = heat.advance(&mut two, dt, -v, -omega, &backward, &mut scratch);
+        let (t, u) = (heat.temperatures(&one), heat.temperatures(&two));
         println!("dt = {dt}: conduction {:.12e} and {:.12e}", f.conduction, b.conduction);
         assert!((f.conduction / b.conduction - 1.0).abs() < 1e-10);
         assert!((t.wheel_max / u.wheel_max - 1.0).abs() < 1e-10 && (t.rail_max / u.rail_max - 1.0).abs() < 1e-10);

@@ -1,7 +1,8 @@
-//! Steps: order in time, any size, balances, restarts; conservative resampling; refused input.
+//! Steps: order in time, any size, balances, restored states; conservative resampling; refused input.
 
 mod heat_common;
 use heat_common::*;
+use wheelrail::config::{ConductanceLaw, Hub};
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 
@@ -16,27 +17,50 @@ fn manoeuvre(heat: &Heat, steps: usize) -> [f64; 4] {
     let mut scratch = Scratch::default();
     for k in 1..=steps {
         let t = k as f64 / steps as f64;
-        heat.step(&mut state, 1.0 / steps as f64, v(t), omega(v(t), -8e-4), &exchange(t), &mut scratch).unwrap();
+        heat.advance(&mut state, 1.0 / steps as f64, v(t), omega(v(t), -8e-4), &exchange(t), &mut scratch);
     }
-    let t = heat.temperatures(&state).unwrap();
+    let t = heat.temperatures(&state);
     [t.wheel_mean, t.rail_mean, t.wheel_max, t.rail_max]
 }
 
+/// Orders of convergence from results with n, 2n, 4n … steps.
+fn orders(results: &[f64]) -> Vec<f64> {
+    let changes: Vec<f64> = results.windows(2).map(|r| r[0] - r[1]).collect();
+    changes.windows(2).map(|c| (c[0] / c[1]).abs().log2()).collect()
+}
+
 #[test]
-fn sdirk2_converges_with_order_two_and_backward_euler_with_order_one() {
-    for (scheme, order) in [(HeatTimeScheme::Sdirk2, 2.0), (HeatTimeScheme::BackwardEuler, 1.0)] {
-        let heat = heat(&HeatConfig { time_scheme: scheme, ..config(1e5, 50.0 * KMH) });
-        let [coarse, medium, fine] = [20, 40, 80].map(|n| manoeuvre(&heat, n));
-        for (i, name) in ["wheel mean", "rail mean", "wheel maximum", "rail maximum"].into_iter().enumerate() {
-            let differences = [coarse[i] - medium[i], medium[i] - fine[i]];
-            let observed = (differences[0] / differences[1]).abs().log2();
-            println!(
-                "{scheme:?}, {name}: changes {:+.2e} {:+.2e} of {:.3e}, order {observed:.2}",
-                differences[0], differences[1], fine[i]
-            );
-            let negligible = differences[0].abs() < 5e-5 * fine[i];
-            assert!(negligible || observed > order - 0.4, "{scheme:?} {name}: observed order {observed:.2}");
+fn under_constant_exchange_the_field_converges_with_order_two() {
+    // A wheel slides locked for a second: heat soaks into it, the rail streams past.
+    let v = 50.0 * KMH;
+    let heat = heat(&config(1e5, v));
+    let exchange = carter(1e5, v, 2.0);
+    let run = |steps: u32| {
+        let (mut state, mut scratch) = (heat.initial(0.0), Scratch::default());
+        for _ in 0..steps {
+            heat.advance(&mut state, 1.0 / f64::from(steps), v, 0.0, &exchange, &mut scratch);
         }
+        let t = heat.temperatures(&state);
+        let inside = |z: f64| heat.wheel_temperature(&state, 0.0, z).unwrap();
+        [t.wheel_max, t.rail_max, inside(1e-3), inside(3e-3)]
+    };
+    // Steps of at least 10 ms, in which conduction around the standing wheel is computed exactly.
+    let results = [10, 20, 40, 80].map(run);
+    for (i, name) in ["wheel maximum", "rail maximum", "1 mm deep", "3 mm deep"].into_iter().enumerate() {
+        let observed = orders(&results.map(|r| r[i]));
+        println!("{name}: {:?}, orders {observed:.3?}", results.map(|r| r[i]));
+        assert!((observed[1] - 2.0).abs() < 0.15, "{name}: observed orders {observed:.3?}");
+    }
+}
+
+#[test]
+fn under_varying_exchange_held_over_the_steps_the_order_is_one() {
+    let heat = heat(&config(1e5, 50.0 * KMH));
+    let results = [20, 40, 80, 160].map(|n| manoeuvre(&heat, n));
+    for (i, name) in ["wheel mean", "rail mean", "wheel maximum", "rail maximum"].into_iter().enumerate() {
+        let observed = orders(&results.map(|r| r[i]));
+        println!("{name}: {:?}, orders {observed:.3?}", results.map(|r| r[i]));
+        assert!((observed[1] - 1.0).abs() < 0.1, "{name}: observed orders {observed:.3?}");
     }
 }
 
@@ -44,8 +68,8 @@ fn sdirk2_converges_with_order_two_and_backward_euler_with_order_one() {
 fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
     let configs = [
         config(1e5, 50.0 * KMH),
-        HeatConfig { hub: HubCondition::Insulated, convection: 30.0, ..config(1e5, 50.0 * KMH) },
-        HeatConfig { time_scheme: HeatTimeScheme::BackwardEuler, wheel_share: 0.8, ..config(1e4, 80.0) },
+        with(config(1e5, 50.0 * KMH), |c| (c.thermal.hub, c.thermal.convection) = (Hub::Insulated, 30.0)),
+        with(config(1e4, 80.0), |c| c.thermal.wheel_share = 0.8),
     ];
     for config in configs {
         let load = if config.half_width < 5e-4 { 1e4 } else { 1e5 };
@@ -61,16 +85,12 @@ fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
             let (v, creepage) = rolling[(k / 10 + k) % rolling.len()];
             let mut exchange = carter(load, v, creepage);
             exchange.tread = brake_blocks(200.0 * (k % 3) as f64);
-            exchange.ambient = 10.0;
             if k % 5 == 4 {
                 exchange.patches.clear();
                 exchange.friction_power = Piecewise::default();
             }
-            if k % 4 == 3 {
-                state.restart();
-            }
             let before = heat.heat_content(&state).unwrap();
-            let flows = heat.step(&mut state, dt, v, omega(v, creepage), &exchange, &mut scratch).unwrap();
+            let flows = heat.advance(&mut state, dt, v, omega(v, creepage), &exchange, &mut scratch);
             let after = heat.heat_content(&state).unwrap();
             worst = worst.max(flows.relative_imbalance());
             let stored = [flows.stored_wheel, flows.stored_rail];
@@ -78,7 +98,7 @@ fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
                 let error = (after[i] - before[i] - dt * stored[i]).abs();
                 assert!(error < 1e-12 * (after[i].abs() + before[i].abs()) + 1e-10 * dt * stored[i].abs());
             }
-            let t = heat.temperatures(&state).unwrap();
+            let t = heat.temperatures(&state);
             highest = highest.max(t.wheel_max.abs().max(t.rail_max.abs()));
             assert!(t.wheel_max.is_finite() && t.rail_max.is_finite());
         }
@@ -98,8 +118,8 @@ fn peak_temperature_of_a_sudden_lock_does_not_depend_on_the_step() {
         let mut scratch = Scratch::default();
         let mut peak = 0.0_f64;
         for _ in 0..(0.02 / dt).round() as usize {
-            heat.step(&mut state, dt, v, 0.0, &exchange, &mut scratch).unwrap();
-            peak = peak.max(heat.temperatures(&state).unwrap().wheel_max);
+            heat.advance(&mut state, dt, v, 0.0, &exchange, &mut scratch);
+            peak = peak.max(heat.temperatures(&state).wheel_max);
         }
         peak
     };
@@ -128,7 +148,7 @@ fn resampled_friction_heat_keeps_its_total() {
         let friction_power = Piecewise { x, value };
         let total = 0.1 * friction_power.integral();
         let exchange = Exchange { friction_power, ..Exchange::default() };
-        let flows = heat.step(&mut heat.initial(0.0), 1e-3, 10.0, 20.0, &exchange, &mut scratch).unwrap();
+        let flows = heat.advance(&mut heat.initial(0.0), 1e-3, 10.0, 20.0, &exchange, &mut scratch);
         println!("{count} points: {:.3e} W/m, deviation {:+.1e}", total, deviation(flows.friction, total));
         assert!(deviation(flows.friction, total).abs() < 1e-14);
     }
@@ -137,24 +157,29 @@ fn resampled_friction_heat_keeps_its_total() {
 #[test]
 fn conductance_follows_the_pressure_to_the_power_of_0_95() {
     let a = half_width(1e5);
-    let law = Conductance::Pressure { value: 1e7, reference_pressure: 1e8 };
-    let constant = heat(&config(1e5, 20.0));
-    let pressure = heat(&HeatConfig { conductance: law, ..config(1e5, 20.0) });
+    // So little conducts that the surfaces keep their temperatures: the flow is proportional to the conductance.
+    let constant = heat(&with(config(1e5, 20.0), |c| c.thermal.conductance = 1e3));
+    let pressure = heat(&with(config(1e5, 20.0), |c| {
+        let thermal = &mut c.thermal;
+        (thermal.conductance_law, thermal.conductance, thermal.reference_pressure) =
+            (ConductanceLaw::Pressure, 1e3, 1e8);
+    }));
     let flow = |heat: &Heat, p: f64| {
         let exchange = Exchange {
-            patches: vec![Patch { low: -a, high: a }],
+            patches: vec![Interval { low: -a, high: a }],
             pressure: Piecewise { x: vec![-2.0 * a, 2.0 * a], value: vec![p, p] },
             ..Exchange::default()
         };
-        heat.step(&mut heat.initial(1.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).unwrap().conduction
+        heat.advance(&mut heat.initial(1.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).conduction
     };
     let reference = flow(&constant, 0.0);
-    assert!(deviation(reference, 2.0 * a * 1e7).abs() < 0.1, "{reference}");
+    assert!(deviation(reference, 2.0 * a * 1e3).abs() < 1e-4, "{reference}");
     assert!(deviation(flow(&pressure, 1e8), reference).abs() < 1e-12);
-    // In the first nanosecond the flow is proportional to the conductance, nearly.
-    let half = flow(&pressure, 0.5e8) / reference;
-    println!("half the pressure conducts {half:.4} of the heat; 0.5^0.95 = {:.4}", 0.5_f64.powf(0.95));
-    assert!(deviation(half, 0.5_f64.powf(0.95)).abs() < 0.1);
+    for p in [1e6, 0.5e8, 1e9] {
+        let exponent = (flow(&pressure, p) / reference).ln() / (p / 1e8).ln();
+        println!("p = {p:.1e} Pa: exponent {exponent:.6}");
+        assert!((exponent - 0.95).abs() < 1e-4, "{exponent}");
+    }
 }
 
 #[test]
@@ -164,7 +189,7 @@ fn a_restored_state_continues_bit_for_bit() {
     let mut scratch = Scratch::default();
     let advance = |state: &mut HeatState, scratch: &mut Scratch, k: u32| {
         let v = 14.0 - 0.3 * f64::from(k);
-        heat.step(state, 1e-3 * f64::from(1 + k % 3), v, omega(v, -6e-4), &carter(1e5, v, -6e-4), scratch).unwrap()
+        heat.advance(state, 1e-3 * f64::from(1 + k % 3), v, omega(v, -6e-4), &carter(1e5, v, -6e-4), scratch)
     };
     (0..10).for_each(|k| _ = advance(&mut state, &mut scratch, k));
     let bytes = postcard::to_stdvec(&state).unwrap();
@@ -178,17 +203,15 @@ fn a_restored_state_continues_bit_for_bit() {
 }
 
 #[test]
-fn bad_input_is_refused_by_name_and_leaves_the_state_alone() {
+fn bad_input_is_refused_by_name_with_its_value() {
     let heat = heat(&config(1e5, 20.0));
     let good = carter(1e5, 14.0, -4e-4);
-    let mut state = heat.initial(3.0);
-    let before = state.clone();
-    let mut scratch = Scratch::default();
+    let state = heat.initial(3.0);
+    let (mut next, mut scratch) = (HeatState::default(), Scratch::default());
     let mut refuse = |dt: f64, v: f64, omega: f64, exchange: &Exchange, words: &str| {
-        let message = heat.step(&mut state, dt, v, omega, exchange, &mut scratch).unwrap_err().to_string();
+        let message = heat.step(&state, &mut next, dt, v, omega, exchange, &mut scratch).unwrap_err().to_string();
         println!("{message}");
         assert!(message.contains(words), "{message}");
-        assert_eq!(state, before);
     };
     refuse(0.0, 14.0, 28.0, &good, "step of 0 s");
     refuse(f64::NAN, 14.0, 28.0, &good, "step of NaN s");
@@ -196,46 +219,63 @@ fn bad_input_is_refused_by_name_and_leaves_the_state_alone() {
     refuse(1e-3, 14.0, f64::INFINITY, &good, "angular velocity is inf");
     let mut bad = good.clone();
     bad.friction_power.value[3] = f64::NAN;
-    refuse(1e-3, 14.0, 28.0, &bad, "friction power is NaN");
+    refuse(1e-3, 14.0, 28.0, &bad, "friction power: NaN is no finite number");
     let mut bad = good.clone();
     bad.friction_power.x.swap(3, 4);
     refuse(1e-3, 14.0, 28.0, &bad, "positions must ascend");
-    let bad = Exchange { patches: vec![Patch { low: -1.0, high: 0.0 }], ..good.clone() };
+    let bad = Exchange { patches: vec![Interval { low: -1.0, high: 0.0 }], ..good.clone() };
     refuse(1e-3, 14.0, 28.0, &bad, "contact patch reaches x = -1 m");
     let bad = Exchange { tread: vec![TreadHeat { angle: 1.0, width: 0.1, heat: f64::NAN }], ..good.clone() };
-    refuse(1e-3, 14.0, 28.0, &bad, "tread heat");
-    let bad = Exchange { ambient: f64::NAN, ..good.clone() };
-    refuse(1e-3, 14.0, 28.0, &bad, "ambient temperature is NaN");
+    refuse(1e-3, 14.0, 28.0, &bad, "tread heat is NaN");
+    let bad = Exchange { tread: vec![TreadHeat { angle: f64::INFINITY, width: 0.1, heat: 1.0 }], ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "angle of tread heat is inf");
+    let bad = Exchange { patches: vec![Interval { low: 1e-4, high: -1e-4 }], ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "contact patch from 0.0001 m to -0.0001 m");
     for (config, word) in [
-        (HeatConfig { rail_length: 1e-3, ..config(1e5, 20.0) }, "rail.length = 0.001"),
+        (with(config(1e5, 20.0), |c| c.rail.length = 1e-3), "rail.length = 0.001"),
         (HeatConfig { half_width: f64::NAN, ..config(1e5, 20.0) }, "half-width at model.nominal_load = NaN"),
-        (HeatConfig { smallest_half_width: 1e-6, ..config(1e5, 20.0) }, "thermal.smallest_load_ratio"),
+        (with(config(1e5, 20.0), |c| c.thermal.smallest_load_ratio = 1e-6), "thermal.smallest_load_ratio"),
     ] {
         let message = Heat::new(&config).unwrap_err().to_string();
         println!("{message}");
         assert!(message.contains(word), "{message}");
     }
-    // Heat without an exit has no stationary state.
-    let closed = Heat::new(&HeatConfig { hub: HubCondition::Insulated, ..config(1e5, 20.0) }).unwrap();
-    let heating = Exchange { tread: brake_blocks(60.0), patches: good.patches.clone(), ..Exchange::default() };
+}
+
+#[test]
+fn heat_without_a_way_out_has_no_stationary_state() {
+    let closed = heat(&with(config(1e5, 20.0), |c| c.thermal.hub = Hub::Insulated));
+    let a = half_width(1e5);
+    let patches = vec![Interval { low: -a, high: a }];
+    let heating = Exchange { tread: brake_blocks(60.0), patches, ..Exchange::default() };
     let refused = closed.stationary(0.0, 0.0, &heating).unwrap_err();
     println!("{refused}");
+    assert!(matches!(refused, HeatError::NoStationaryState { .. }), "{refused:?}");
+    assert!(refused.to_string().contains("thermal.hub") && refused.to_string().contains("thermal.convection"));
+}
+
+#[test]
+fn a_state_of_another_mesh_is_refused() {
+    let (ours, other) = (heat(&config(1e5, 20.0)), heat(&config(1e5, 2.0)));
+    let foreign = other.initial(0.0);
+    let refused = ours.observe(&foreign, &mut Observation::default()).unwrap_err();
+    assert!(matches!(refused, HeatError::StateSize { .. }) && !ours.fits(&foreign));
 }
 
 #[test]
 fn rail_ahead_of_the_contact_is_not_undercooled_wherever_the_edge_lies() {
     let speed = 50.0 * KMH;
-    let heat = heat(&HeatConfig { conductance: Conductance::Constant { value: 1e8 }, ..config(1e5, speed) });
+    let heat = heat(&with(config(1e5, speed), |c| c.thermal.conductance = 1e8));
     let a = half_width(1e5);
     for shift in [0.0, 0.004, 0.011, 0.023, 0.037, 0.049] {
-        let patches = vec![Patch { low: -a * (1.0 - shift), high: a * (1.0 + shift) }];
+        let patches = vec![Interval { low: -a * (1.0 - shift), high: a * (1.0 + shift) }];
         let exchange = Exchange { patches, ..Exchange::default() };
         let mut state = heat.initial(100.0);
         let mut scratch = Scratch::default();
         for _ in 0..20 {
-            heat.step(&mut state, 1e-3, speed, omega(speed, 0.0), &exchange, &mut scratch).unwrap();
+            heat.advance(&mut state, 1e-3, speed, omega(speed, 0.0), &exchange, &mut scratch);
         }
-        let (_, rail) = heat.zone_temperatures(&state).unwrap();
+        let [_, rail] = heat.observed(&state).surface;
         let (lowest, highest) = rail.iter().fold((0.0f64, 0.0f64), |(l, h), t| (l.min(*t), h.max(*t)));
         println!("edge at {:.3} a: rail from {lowest:.3} to {highest:.1} K", 1.0 + shift);
         assert!(highest > 40.0 && lowest > -2e-3 * highest);

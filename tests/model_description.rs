@@ -3,11 +3,14 @@
 use std::collections::HashSet;
 use std::path::Path;
 use wheelrail::config::Config;
-use wheelrail::fmi::description::{model_description, start_value};
 use wheelrail::fmi::presets;
+use wheelrail::fmi::reference::markdown;
+use wheelrail::fmi::table::table;
 use wheelrail::fmi::units::UNITS;
-use wheelrail::fmi::variable::{Access, Causality, Kind, Value, Variable};
+use wheelrail::fmi::v2::description::{model_description, start_value};
+use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
 use wheelrail::fmi::variables::variables;
+use wheelrail::simulation::{Outputs, PROFILE_POINTS};
 
 fn with_causality(causality: Causality) -> impl Iterator<Item = &'static Variable> {
     variables().iter().filter(move |v| v.causality() == causality)
@@ -18,6 +21,25 @@ fn committed_file_is_the_generated_one() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription.xml");
     let committed = std::fs::read_to_string(path).unwrap();
     assert!(committed == model_description().unwrap(), "run `wheelrail describe > modelDescription.xml`");
+}
+
+#[test]
+fn committed_reference_is_the_generated_one() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference.md");
+    assert!(std::fs::read_to_string(path).unwrap() == markdown(), "run `make describe`");
+}
+
+#[test]
+fn a_profile_is_one_row_and_its_points_are_scalars() {
+    let arrays: Vec<_> = table().iter().filter(|row| row.dimension.is_some()).collect();
+    assert_eq!(arrays.len(), 6);
+    assert_eq!(variables().len(), table().len() - 6 + 6 * PROFILE_POINTS);
+    let values: Vec<f64> = (0..PROFILE_POINTS).map(|k| k as f64).collect();
+    let outputs = Outputs { profile_shear: values.clone(), ..Outputs::default() };
+    let shear = arrays.iter().find(|row| row.name == "profile.shear").unwrap();
+    assert_eq!(shear.output(&outputs), Some(Value::Reals(values)));
+    let point = variables().iter().find(|v| v.name == "profile.shear[61]").unwrap();
+    assert_eq!((point.reference, point.output(&outputs)), (shear.reference + 61, Some(Value::Real(60.0))));
 }
 
 #[test]
@@ -66,14 +88,14 @@ fn every_preset_is_valid() {
         let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));
         wheelrail::simulation::Inputs::rolling(&config).validate().unwrap_or_else(|error| panic!("{name}: {error}"));
     }
-    assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(presets::default_config().unwrap()));
+    assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(Config::default()));
 }
 
 /// Every field of the configuration is a parameter of the interface and has its name there; tunable ones are together in
 /// `tuning` and keep the group of their name.
 #[test]
 fn parameters_are_the_fields_of_the_configuration() {
-    let json = serde_json::to_value(presets::default_config().unwrap()).unwrap();
+    let json = serde_json::to_value(Config::default()).unwrap();
     let mut fields: Vec<String> = Vec::new();
     for (group, content) in json.as_object().unwrap() {
         fields.extend(content.as_object().unwrap().keys().map(|name| format!("{group}.{name}")));
@@ -95,16 +117,16 @@ fn parameters_are_the_fields_of_the_configuration() {
     for variable in with_causality(Causality::Parameter).filter(|v| v.name != "preset") {
         let (group, name) = (group(variable), variable.name.split_once('.').unwrap().1);
         let field = |config: &Config| serde_json::to_value(config).unwrap()[group][name].clone();
-        let mut config = presets::default_config().unwrap();
-        let value = match variable.parameter("", &mut config).unwrap() {
+        let mut config = Config::default();
+        let value = match variable.parameter("", &config).unwrap() {
             Value::Real(v) => Value::Real(v + 1e-3),
             Value::Integer(v) => Value::Integer(v + 1),
             Value::Boolean(v) => Value::Boolean(!v),
             other => other,
         };
         variable.set_parameter(&mut config, &value);
-        assert_ne!(field(&config), field(&presets::default_config().unwrap()), "{} reaches its field", variable.name);
-        assert_eq!(variable.parameter("", &mut config), Some(value));
+        assert_ne!(field(&config), field(&Config::default()), "{} reaches its field", variable.name);
+        assert_eq!(variable.parameter("", &config), Some(value));
     }
 }
 
@@ -115,7 +137,7 @@ fn around(min: f64, max: f64) -> ([f64; 2], [f64; 2]) {
 
 #[test]
 fn declared_ranges_of_inputs_are_those_of_the_model() {
-    let inputs = wheelrail::simulation::Inputs::rolling(&presets::default_config().unwrap());
+    let inputs = wheelrail::simulation::Inputs::rolling(&Config::default());
     for variable in with_causality(Causality::Input) {
         let Kind::Real { min, max, .. } = variable.kind else {
             continue;
@@ -140,13 +162,13 @@ fn declared_ranges_of_inputs_are_those_of_the_model() {
 #[test]
 fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
     for variable in with_causality(Causality::Parameter) {
-        let values = match (variable.kind, variable.access) {
-            (Kind::Real { min, max, .. }, _) => around(min, max).0.map(Value::Real),
-            (Kind::Integer { min, max }, Access::CountParameter(_)) => [min - 1, max + 1].map(Value::Integer),
+        let values = match variable.kind {
+            Kind::Real { min, max, .. } => around(min, max).0.map(Value::Real),
+            Kind::Integer { min, max } => [min - 1, max + 1].map(Value::Integer),
             _ => continue,
         };
         for value in values {
-            let mut config = presets::default_config().unwrap();
+            let mut config = Config::default();
             variable.set_parameter(&mut config, &value);
             let error = config.validate().expect_err(&variable.name);
             assert_eq!(error.name, variable.name);
@@ -157,10 +179,10 @@ fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
 
 #[test]
 fn tunable_parameters_are_those_that_nothing_computed_in_advance_depends_on() {
-    let start = presets::default_config().unwrap();
+    let start = Config::default();
     for variable in variables().iter().filter(|v| v.causality() == Causality::Parameter) {
         let mut changed = start.clone();
-        match variable.parameter("", &mut changed) {
+        match variable.parameter("", &changed) {
             Some(Value::Real(v)) => variable.set_parameter(&mut changed, &Value::Real(0.9 * v + 0.011)),
             Some(Value::Integer(v)) => {
                 let other = if matches!(variable.kind, Kind::Enumeration(_)) { 3 - v.min(2) } else { v + 1 };

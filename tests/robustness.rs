@@ -3,7 +3,7 @@
 mod common;
 use common::*;
 use wheelrail::material::Isotropic;
-use wheelrail::simulation::{Inputs, LONGEST_STEP, Rotation, Simulation, StepError, Translation, Vertical};
+use wheelrail::simulation::{Inputs, LONGEST_STEP, Rotation, Simulation, StepError, Translation, Vertical, advice};
 
 #[test]
 fn a_thousand_random_starts_converge_without_shortening_a_step() {
@@ -235,7 +235,8 @@ fn a_load_beyond_the_candidate_zone_is_refused_and_the_run_goes_on() {
     inputs.drive.load *= 3.0;
     let error = twice.restart(&inputs).unwrap_err();
     assert!(matches!(error, StepError::ZoneExceeded { .. }), "{error}");
-    assert!(error.to_string().contains("model.nominal_load"), "{error}");
+    let advice = advice::failed_start(&error, model.config());
+    assert!(advice.contains("model.nominal_load") && advice.contains("drive.load"), "{advice}");
     let before = simulation.state().clone();
     let mut bad = Inputs::rolling(model.config());
     bad.drive.load = f64::NAN;

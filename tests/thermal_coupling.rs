@@ -2,6 +2,8 @@
 
 mod common;
 use common::*;
+use std::f64::consts::PI;
+use wheelrail::config::Config;
 use wheelrail::simulation::{Inputs, Rotation, Simulation};
 
 #[test]
@@ -54,13 +56,15 @@ fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
 fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     let mut config = preset("railway", 10);
     config.thermal.max_speed = 30.0;
-    let model = model(config);
+    let (heat_ratio, width, reference) =
+        (config.thermal.heat_ratio, config.model.contact_width, config.thermal.reference);
+    let model = model(config.clone());
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     // Wet rail, too strong a brake: the wheel locks; the rail dries after three seconds.
     inputs.drive.friction = 0.08;
     inputs.drive.moment = -8000.0;
-    let (mut hottest, mut locked) = (0.0f64, false);
+    let (mut hottest, mut most_possible, mut locked) = (0.0f64, 0.0f64, false);
     let mut time = 0.0;
     while simulation.outputs().wheel_velocity > 0.05 {
         if !locked && simulation.outputs().wheel_omega < 0.5 {
@@ -71,14 +75,80 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
         time += 2e-3;
         let o = simulation.outputs();
         hottest = hottest.max(o.temperature_wheel_max).max(o.temperature_rail_max);
+        if locked && o.wheel_velocity > 1.0 {
+            let heat = heat_ratio * o.friction_power / width;
+            let flash = flash(&config, heat, o.contact_half_width, o.wheel_velocity);
+            most_possible = most_possible.max(reference + flash);
+        }
         assert!(o.temperature_wheel_max.is_finite() && o.temperature_wheel_max > 290.0);
         assert!(time < 60.0, "still {} m/s", o.wheel_velocity);
     }
     let o = simulation.outputs();
     println!("at rest after {time:.2} s, hottest {hottest:.0} K, above Ac1 {:.2} s", o.austenitised_time);
     println!("energy residual {:+.2e}, heat residual {:+.1e}", o.energy_residual, o.heat_residual);
-    assert!(locked && hottest > 500.0 && hottest < 5000.0);
+    println!("flash temperature of a rail that takes all heat {most_possible:.0} K");
+    assert!(locked && hottest > reference);
     assert!(o.energy_residual.abs() < 0.01 && o.heat_residual.abs() < 1e-6);
+}
+
+/// Radial growth of the rim of a uniformly warm annulus in plane strain whose hub neither grows nor warms [m].
+///
+/// `u = A r + B/r` with `u(r_i) = 0` and `σ_r(r_o) = 2(λ+μ)A − 2μB/r_o² − (3λ+2μ)αT = 0` (Timoshenko & Goodier, *Theory of
+/// Elasticity*, section 150).
+fn growth_on_rigid_hub(config: &Config, warmth: f64) -> f64 {
+    let (ro, ri, m) = (config.wheel.radius, config.wheel.hub_radius, &config.material);
+    let nu = m.poissons_ratio;
+    let shear = 0.5 * m.youngs_modulus / (1.0 + nu);
+    let lambda = 2.0 * shear * nu / (1.0 - 2.0 * nu);
+    let heating = (3.0 * lambda + 2.0 * shear) * m.expansion * warmth;
+    let a = heating / (2.0 * (lambda + shear) + 2.0 * shear * ri * ri / (ro * ro));
+    a * (ro - ri * ri / ro)
+}
+
+/// Highest temperature rise that friction heat `q` [W/m] under a half-ellipse of half-width `a` [m] gives a half-space
+/// that streams past with the velocity `v` [m/s] and takes all of it, at large Péclet number (Jaeger; Carslaw & Jaeger,
+/// 2nd ed., 10.7): the largest value of `1/√(π k ρc v) ∫ q(x′)/√(x′ − x) dx′`.
+fn flash(config: &Config, heat: f64, a: f64, v: f64) -> f64 {
+    let m = &config.material;
+    let density = |x: f64| 2.0 * heat / (PI * a) * (1.0 - x * x / (a * a)).max(0.0).sqrt();
+    let rise = |x: f64| {
+        // x′ = x + t²; the sine substitution smooths the square root at the leading edge.
+        let (n, high) = (400, (a - x).sqrt());
+        let part = |i: i32| {
+            let angle = 0.5 * PI * (f64::from(i) + 0.5) / f64::from(n);
+            let t = high * angle.sin();
+            density(x + t * t) * high * angle.cos() * 0.5 * PI / f64::from(n)
+        };
+        2.0 * (0..n).map(part).sum::<f64>() / (PI * m.conductivity * m.density * m.specific_heat * v).sqrt()
+    };
+    (0..200).map(|k| rise(a * (1.0 - f64::from(k) / 100.0))).fold(0.0, f64::max)
+}
+
+#[test]
+fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
+    let mut config = preset("railway", 20);
+    (config.friction.falling_ratio, config.friction.softening) = (1.0, 0.0);
+    config.physics.thermal_expansion = false;
+    config.thermal.conductance = 1e9;
+    let model = model(config.clone());
+    // The rail streams past at 20 m/s, the tread at 10 m/s.
+    let inputs = prescribed(&model, 20.0, 2.0 / 3.0);
+    let simulation = Simulation::new(model, &inputs).unwrap();
+    let o = simulation.outputs();
+    let (rail, tread) = (o.wheel_velocity, o.wheel_omega * config.wheel.radius);
+    let heat = config.thermal.heat_ratio * o.friction_power / config.model.contact_width;
+    // Equal temperatures on both sides divide the heat in proportion to √v: √v_rail + √v_wheel act together.
+    let together = (rail.sqrt() + tread.sqrt()).powi(2);
+    let expected = flash(&config, heat, o.contact_half_width, together);
+    // The tread comes round warm from the pass before: the flash temperature is the rise over that.
+    let arriving = o.profile_temperature_wheel.last().unwrap() - config.thermal.reference;
+    let share = tread.sqrt() / (rail.sqrt() + tread.sqrt());
+    let rise = o.temperature_rail_max - config.thermal.reference - share * arriving;
+    println!(
+        "rail {rail} m/s, tread {tread:.2} m/s: {rise:.2} K over {arriving:.2} K, flash temperature {expected:.2} K ({:+.2} %)",
+        100.0 * (rise / expected - 1.0)
+    );
+    assert!((rise / expected - 1.0).abs() < 0.02);
 }
 
 #[test]
@@ -88,14 +158,12 @@ fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
     let model = model(config.clone());
     let simulation = Simulation::new(model, &Inputs::rolling(&config)).unwrap();
     let o = simulation.outputs();
-    // Uniform temperature but for the cold hub: u(ro) between free plane-strain growth (1+ν)αTr and the fixed hub's share.
-    let free = 1.3 * config.material.expansion * 60.0 * config.wheel.radius;
-    println!(
-        "growth {:.3e} m, free plane strain {free:.3e} m, bulk {:.2} K",
-        o.thermal_growth, o.temperature_wheel_bulk
-    );
-    assert!(o.thermal_growth > 0.95 * free && o.thermal_growth < free * 1.02);
-    assert!((o.temperature_wheel_bulk - 353.0).abs() < 2.0);
+    let bulk = o.temperature_wheel_bulk - config.thermal.reference;
+    let expected = growth_on_rigid_hub(&config, bulk);
+    println!("growth {:.9e} m, annulus {expected:.9e} m, bulk {bulk:.3} K over the reference", o.thermal_growth);
+    assert!((o.thermal_growth / expected - 1.0).abs() < 1e-9);
+    // Warm but for the cold hub, and a stationary contact that takes and gives a little heat.
+    assert!((bulk / 60.0 - 1.0).abs() < 0.02);
     // At the same creepage of the nominal radius the larger wheel pulls.
     let mut cold = config.clone();
     cold.thermal.wheel_excess = 0.0;
@@ -177,7 +245,7 @@ fn long_steps_neither_overshoot_nor_undershoot() {
             let points = o.profile_temperature_wheel.iter().chain(&o.profile_temperature_rail);
             lowest = points.fold(lowest, |low, t| low.min(*t));
         }
-        println!("h = {h} s: {lowest:.1} to {highest:.1} K");
+        println!("h = {h} s: {lowest:.3} to {highest:.3} K");
         (lowest, highest)
     };
     let (_, fine) = extremes(1e-3);

@@ -15,10 +15,9 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use scenario::{Drive, PHASES};
 use std::error::Error;
-use std::path::Path;
 use std::time::Instant;
 use wheelrail::config::Config;
-use wheelrail::simulation::Model;
+use wheelrail::simulation::{BasisStore, Model};
 
 /// Largest growth of the resident memory after [`WARM_UP`] steps [kB].
 const MEMORY: i64 = 1024;
@@ -40,10 +39,9 @@ struct Arguments {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let Arguments { steps, step } = Arguments::parse();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/railway.json");
-    let mut config: Config = serde_json::from_str(&std::fs::read_to_string(path)?)?;
+    let mut config = Config::default();
     config.initial.velocity = 0.0;
-    let model = Model::prepare(config, None, &mut |_, _| {})?;
+    let model = Model::shared(config, &BasisStore::of_user(), &mut |_, _| {})?;
     let mut drive = Drive::new(model, step)?;
 
     let style = "{wide_bar} {pos}/{len} steps, {msg}, {eta} left";

@@ -17,7 +17,8 @@ mod vtu;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, Write};
-use wheelrail::fmi::description;
+use wheelrail::fmi::reference;
+use wheelrail::fmi::v2::description;
 
 /// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
 ///
@@ -32,8 +33,12 @@ pub struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Pack(pack::Pack),
-    /// Print modelDescription.xml.
-    Describe,
+    /// Print modelDescription.xml, or the reference of all variables.
+    Describe {
+        /// The reference of all variables as Markdown, docs/reference.md.
+        #[arg(long)]
+        markdown: bool,
+    },
     Simulate(simulate::Simulate),
     Steady(steady::Steady),
     Export(export::Export),
@@ -43,9 +48,9 @@ impl Arguments {
     pub fn run(self) -> Result<(), Failure> {
         match self.command {
             Command::Pack(pack) => pack.run(),
-            Command::Describe => {
-                io::stdout().write_all(description::model_description()?.as_bytes())?;
-                Ok(())
+            Command::Describe { markdown } => {
+                let text = if markdown { reference::markdown() } else { description::model_description()? };
+                Ok(io::stdout().write_all(text.as_bytes())?)
             }
             Command::Simulate(simulate) => simulate.run(),
             Command::Steady(steady) => steady.run(),

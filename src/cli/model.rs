@@ -2,12 +2,10 @@
 
 use super::Failure;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::fs;
 use std::path::Path;
-use std::process;
 use std::sync::Arc;
 use wheelrail::config::Config;
-use wheelrail::simulation::{Model, PrepareError, basis_file_name};
+use wheelrail::simulation::{BasisStore, Model, PrepareError, advice};
 
 /// A progress bar on standard error with a title; invisible where that is no terminal.
 pub fn bar(title: &str, length: u64) -> ProgressBar {
@@ -19,35 +17,21 @@ pub fn bar(title: &str, length: u64) -> ProgressBar {
     bar
 }
 
-/// The model of a configuration; its basis comes from `<resources>/basis` or `<cache>/basis`, or is computed and kept in
-/// the latter if that directory exists.
+/// The model of a configuration; its basis comes from `<resources>/basis` or `<cache>/basis`, or from the cache of the user
+/// if `cache` is no directory. If it must be computed, it is kept in the cache.
 pub fn prepare(config: Config, resources: &Path, cache: &Path, bar: &ProgressBar) -> Result<Arc<Model>, Failure> {
-    let name = basis_file_name(&config);
-    let stored = resources.join("basis").join(&name).exists();
+    let store = if cache.is_dir() { BasisStore::within(cache) } else { BasisStore::of_user() };
     let mut progress = |what: &str, share: f64| {
         bar.set_message(what.to_owned());
         bar.set_position((share * bar.length().unwrap_or(0) as f64) as u64);
     };
-    let directory = if stored { resources } else { cache };
-    let model = Model::prepare(config, Some(directory), &mut progress).map_err(|error| match error {
+    let model = Model::shared(config.clone(), &store.with_packed(Some(resources)), &mut progress);
+    let model = model.map_err(|error| match error {
         PrepareError::Config(error) => Failure::Usage(error.to_string()),
-        error => Failure::Run(error.to_string()),
+        error => Failure::Run(advice::failed_preparation(&error, &config)),
     })?;
-    if let Some((name, bytes)) = model.basis_file().filter(|_| !stored && cache.is_dir()) {
-        keep(&cache.join("basis"), &name, &bytes)
-            .map_err(|error| Failure::Run(format!("basis cannot be kept in {}: {error}", cache.display())))?;
+    if let Some(why) = model.not_kept() {
+        bar.suspend(|| eprintln!("warning: {why}"));
     }
     Ok(model)
-}
-
-/// Writes a file that others may be reading or writing at the same time.
-fn keep(directory: &Path, name: &str, bytes: &[u8]) -> std::io::Result<()> {
-    let path = directory.join(name);
-    if path.exists() {
-        return Ok(());
-    }
-    fs::create_dir_all(directory)?;
-    let unfinished = directory.join(format!("{name}.{}", process::id()));
-    fs::write(&unfinished, bytes)?;
-    fs::rename(unfinished, path)
 }

@@ -1,12 +1,10 @@
 //! Variables by name and their values as text.
 
 use super::Failure;
+use wheelrail::config::nearest;
 use wheelrail::fmi::units::Measure;
 use wheelrail::fmi::variable::{Enumeration, Kind, Value, Variable};
 use wheelrail::fmi::variables::variables;
-
-/// How many names an error message suggests.
-const SUGGESTIONS: usize = 3;
 
 /// A variable and the value it is to have.
 #[derive(Clone)]
@@ -42,19 +40,9 @@ pub fn find(name: &str, allowed: impl Fn(&Variable) -> bool) -> Result<&'static 
         return Err(Failure::Usage(format!("{name} is of causality {what} and has no place here")));
     }
     // Points of profiles would crowd out everything else.
-    let mut near: Vec<_> = candidates()
-        .filter(|v| !v.name.contains('[') || name.contains('['))
-        .map(|v| (strsim::jaro_winkler(&v.name, name).max(tail_similarity(&v.name, name)), v.name.as_str()))
-        .collect();
-    near.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let names: Vec<_> = near.iter().take(SUGGESTIONS).map(|(_, name)| *name).collect();
-    Err(Failure::Usage(format!("variable \"{name}\" is unknown; nearest: {}", names.join(", "))))
-}
-
-/// Similarity of the last parts of two structured names: who forgets the group still finds the variable.
-fn tail_similarity(a: &str, b: &str) -> f64 {
-    let tail = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    0.95 * strsim::normalized_damerau_levenshtein(&tail(a), &tail(b))
+    let listed = candidates().filter(|v| !v.name.contains('[') || name.contains('['));
+    let names = nearest(name, listed.map(|v| v.name.as_str()));
+    Err(Failure::Usage(format!("variable \"{name}\" is unknown; nearest: {names}")))
 }
 
 /// A value for a variable; errors name variable, text and what is possible.
@@ -70,7 +58,8 @@ pub fn parse(variable: &Variable, text: &str) -> Result<Value, String> {
         Kind::Boolean => text.parse().map(Value::Boolean).map_err(|_| refused("true or false".to_owned()))?,
         Kind::String => Value::String(text.to_owned()),
         Kind::Enumeration(list) => item(list, text).map(Value::Integer).ok_or_else(|| {
-            let items: Vec<_> = (1..).zip(list.items).map(|(i, item)| format!("{} ({i})", item.0)).collect();
+            let items: Vec<_> =
+                list.items.iter().map(|item| item.0).zip(1..).map(|(item, i)| format!("{item} ({i})")).collect();
             refused(items.join(" or "))
         })?,
     };
@@ -79,22 +68,7 @@ pub fn parse(variable: &Variable, text: &str) -> Result<Value, String> {
 
 /// Number of an enumeration item given by name or number.
 fn item(list: &Enumeration, text: &str) -> Option<i32> {
-    let number = text.parse().ok();
-    (1..).zip(list.items).find(|(i, item)| item.0 == text || number == Some(*i)).map(|(i, _)| i)
-}
-
-/// A value as text that [`parse`] reads back exactly; enumeration items by name.
-pub fn print(variable: &Variable, value: &Value) -> String {
-    match (variable.kind, value) {
-        (_, Value::Real(v)) => format!("{v:?}"),
-        (Kind::Enumeration(list), Value::Integer(v)) => {
-            let index = usize::try_from(*v - 1).ok();
-            index.and_then(|i| list.items.get(i)).map_or_else(|| v.to_string(), |item| item.0.to_owned())
-        }
-        (_, Value::Integer(v)) => v.to_string(),
-        (_, Value::Boolean(v)) => v.to_string(),
-        (_, Value::String(v)) => v.clone(),
-    }
+    list.number(text).or_else(|| text.parse().ok().filter(|number| list.item(*number).is_some()))
 }
 
 #[cfg(test)]
@@ -112,7 +86,7 @@ mod tests {
             ("preset", "paper_d"),
         ] {
             let Setting { variable, value } = Setting::new(name, text).unwrap();
-            assert_eq!(parse(variable, &print(variable, &value)), Ok(value));
+            assert_eq!(parse(variable, &variable.kind.print(&value)), Ok(value));
         }
         assert_eq!(Setting::new("control.rotation", "1").unwrap().value, Value::Integer(1));
     }

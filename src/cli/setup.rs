@@ -4,7 +4,7 @@ use super::setting::Setting;
 use super::{Failure, model};
 use std::path::{Path, PathBuf};
 use wheelrail::fmi::instance::Instance;
-use wheelrail::fmi::log::{Log, Refusal};
+use wheelrail::fmi::log::{CallError, Log, Status};
 
 /// Default directory with the presets; `railway` works without.
 const RESOURCES: &str = "resources";
@@ -17,7 +17,8 @@ pub struct Setup {
     /// Directory with the presets.
     #[arg(long, value_name = "DIR", default_value = RESOURCES)]
     resources: PathBuf,
-    /// Directory that keeps computed bases for the next time, in its subdirectory `basis`; unused if it does not exist.
+    /// Directory that keeps computed bases for the next time, in its subdirectory `basis`; if it does not
+    /// exist, the cache of the user takes its place.
     #[arg(long, default_value = "target", value_name = "DIR")]
     cache: PathBuf,
     /// Any parameter, or the start value of an input, by its FMI name in SI units; enumeration items by name or number.
@@ -26,13 +27,20 @@ pub struct Setup {
 }
 
 /// A refusal of what the user has set.
-pub fn wrong(refusal: Refusal) -> Failure {
+pub fn wrong(refusal: CallError) -> Failure {
     Failure::Usage(refusal.message)
 }
 
 /// A refusal because the model could not do it.
-pub fn failed(refusal: Refusal) -> Failure {
+pub fn failed(refusal: CallError) -> Failure {
     Failure::Run(refusal.message)
+}
+
+/// Shows warnings on standard error; errors are returned as well.
+fn warn(status: Status, _category: &str, message: &str) {
+    if status == Status::Warning {
+        eprintln!("warning: {message}");
+    }
 }
 
 impl Setup {
@@ -50,7 +58,7 @@ impl Setup {
             return Err(Failure::Usage(format!("--resources {} is not a directory", self.resources.display())));
         }
         let resources = Some(self.resources.clone());
-        let mut instance = Instance::new(resources, Log::new(Box::new(|_, _, _| {}), false)).map_err(wrong)?;
+        let mut instance = Instance::new(resources, Log::new(Box::new(warn), false)).map_err(wrong)?;
         instance.setup_experiment(None, 0.0, stop).map_err(wrong)?;
         for Setting { variable, value } in self.settings()? {
             if fixed.iter().any(|decided| decided.variable.name == variable.name && decided.value != value) {

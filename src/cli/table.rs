@@ -1,7 +1,6 @@
 //! Values of variables as CSV and as text for people.
 
 use super::Failure;
-use super::setting::print;
 use super::setup::failed;
 use std::fs::File;
 use std::io::{self, Write};
@@ -43,7 +42,7 @@ impl Csv {
     /// One row, behind a first cell if there is one.
     pub fn row(&mut self, first: Option<f64>, variables: &[&Variable], values: &[Value]) -> Result<(), Failure> {
         let first = first.map(|number| format!("{number:?}"));
-        let cells = variables.iter().zip(values).map(|(variable, value)| print(variable, value));
+        let cells = variables.iter().zip(values).map(|(variable, value)| variable.kind.print(value));
         Ok(self.0.write_record(first.into_iter().chain(cells))?)
     }
 
@@ -77,7 +76,7 @@ pub fn shown(variable: &Variable, value: &Value) -> String {
             let display = displays.iter().find(|display| Some(display.name) == measure.display);
             significant(display.map_or(*v, |display| display.factor * v + display.offset))
         }
-        _ => print(variable, value),
+        _ => variable.kind.print(value),
     }
 }
 

@@ -17,4 +17,4 @@ pub use friction::{FrictionLaw, Heating};
 pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
 pub use solver::{ContactError, ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Surfaces};
-pub use traction::{Interval, Traction};
+pub use traction::Traction;

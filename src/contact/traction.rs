@@ -1,17 +1,8 @@
 //! What a solved contact is for everyone else: forces, patches and profiles, whatever solver found them.
 
-use crate::piecewise::Piecewise;
+use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
-
-/// A stretch of the surface where the bodies touch [m].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Interval {
-    /// Trailing edge (towards −x).
-    pub low: f64,
-    /// Leading edge (towards +x).
-    pub high: f64,
-}
 
 /// Forces between wheel and rail and what follows from them, per metre of width.
 ///
@@ -30,7 +21,7 @@ pub struct Traction {
     pub resultant: [f64; 3],
     /// Power dissipated by friction [W/m].
     pub friction_power: f64,
-    /// The contact patches, x ascending.
+    /// The contact patches between their trailing and leading edges, x ascending [m].
     pub patches: Vec<Interval>,
     /// Share of the contact length that sticks [1].
     pub stick_fraction: f64,

@@ -3,6 +3,7 @@
 pub mod assembly;
 pub mod element;
 pub mod graded;
+pub mod grading;
 pub mod mesh;
 
 pub use assembly::{DofMap, assemble, assemble_faces, assemble_vector};

@@ -1,4 +1,4 @@
-//! Messages to the master: categories, levels, and refusals of calls.
+//! Messages to the master: categories, levels, and errors of calls.
 
 /// Severity of a message and outcome of a call, in the order of `fmi2Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,24 +42,25 @@ impl Status {
 
 /// Why a call was not carried out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
+pub struct CallError {
     pub status: Status,
     pub message: String,
 }
 
-impl Refusal {
-    pub fn error(message: impl Into<String>) -> Refusal {
-        Refusal { status: Status::Error, message: message.into() }
+impl CallError {
+    pub fn error(message: impl Into<String>) -> CallError {
+        CallError { status: Status::Error, message: message.into() }
     }
-    pub fn discard(message: impl Into<String>) -> Refusal {
-        Refusal { status: Status::Discard, message: message.into() }
+    pub fn discard(message: impl Into<String>) -> CallError {
+        CallError { status: Status::Discard, message: message.into() }
     }
 }
 
 /// Receiver of messages: status, category, text.
 pub type Sink = Box<dyn Fn(Status, &str, &str)>;
 
-/// Filters messages by category. Discarded steps, errors and worse always pass; everything else must be asked for.
+/// Filters messages by category. Warnings, discarded steps, errors and worse always pass; everything else must be asked
+/// for.
 pub struct Log {
     sink: Sink,
     enabled: [bool; CATEGORIES.len()],
@@ -71,13 +72,13 @@ impl Log {
     }
 
     /// Switches all categories when none is named; otherwise only the named ones are on, or these off.
-    pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), Refusal> {
+    pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), CallError> {
         let mut enabled = if on && !categories.is_empty() { [false; CATEGORIES.len()] } else { self.enabled };
         for name in categories {
             let known = CATEGORIES.iter().position(|(category, _)| category == name);
             let index = known.ok_or_else(|| {
                 let names = CATEGORIES.map(|(category, _)| category).join(", ");
-                Refusal::error(format!("log category \"{name}\" is unknown; known categories: {names}"))
+                CallError::error(format!("log category \"{name}\" is unknown; known categories: {names}"))
             })?;
             enabled[index] = on;
         }
@@ -99,7 +100,7 @@ impl Log {
 
     fn send(&self, status: Status, category: &str, message: &str) {
         let index = CATEGORIES.iter().position(|(name, _)| *name == category);
-        if status >= Status::Discard || index.is_some_and(|i| self.enabled[i]) {
+        if status >= Status::Warning || index.is_some_and(|i| self.enabled[i]) {
             (self.sink)(status, category, message);
         }
     }
@@ -118,14 +119,14 @@ mod tests {
     }
 
     #[test]
-    fn quiet_unless_asked_except_for_failures() {
+    fn quiet_unless_asked_except_for_warnings_and_failures() {
         let (log, seen) = recorder(false);
         log.report(Status::Ok, "");
-        log.report(Status::Warning, "");
         log.progress("");
         assert!(seen.borrow().is_empty());
+        log.report(Status::Warning, "");
         log.report(Status::Error, "");
-        assert_eq!(*seen.borrow(), ["logStatusError"]);
+        assert_eq!(*seen.borrow(), ["logStatusWarning", "logStatusError"]);
     }
 
     #[test]
@@ -135,8 +136,8 @@ mod tests {
         log.report(Status::Ok, "");
         log.progress("");
         assert_eq!(*seen.borrow(), [PROGRESS]);
-        let refusal = log.switch(false, &["nonsense".to_owned()]).unwrap_err();
-        assert!(refusal.message.contains("nonsense") && refusal.message.contains(PROGRESS));
+        let error = log.switch(false, &["nonsense".to_owned()]).unwrap_err();
+        assert!(error.message.contains("nonsense") && error.message.contains(PROGRESS));
         log.progress("");
         assert_eq!(seen.borrow().len(), 2);
     }

@@ -1,24 +1,26 @@
 //! FMI 2.0 co-simulation around [`crate::simulation`]: one table of variables, everything else follows from it.
 //!
-//! `variables` (the table) → `description` (XML, GUID), `documentation` (HTML) and `instance` (the safe slave with
+//! `table` (every variable once) → `variables` (scalars) → `description` (XML, GUID), `documentation` (HTML) and `instance` (the safe slave with
 //! the rules of `lifecycle`) → `c_abi` (the exported C functions, the only `unsafe`); `package` zips the FMU.
 //!
 //! Source of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4.
 
-pub mod c_abi;
-pub mod description;
 pub mod documentation;
 pub mod instance;
 pub mod lifecycle;
 pub mod log;
 pub mod package;
 pub mod presets;
+pub mod reference;
 pub mod settings;
 pub mod snapshot;
-pub mod units;
+pub mod table;
 pub mod uri;
+pub mod v2;
 pub mod variable;
 pub mod variables;
+
+pub use crate::config::units;
 
 /// Name of the shared library and prefix of everything that belongs to this FMU.
 pub const MODEL_IDENTIFIER: &str = "wheelrail";

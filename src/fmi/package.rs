@@ -1,8 +1,8 @@
 //! The FMU as a zip archive.
 
 use super::MODEL_IDENTIFIER;
-use super::description::model_description;
 use super::documentation::index_html;
+use super::v2::description::model_description;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

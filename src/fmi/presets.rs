@@ -1,6 +1,5 @@
 //! Presets: parameter sets by name.
 
-use super::variables::variables;
 use crate::config::Config;
 use std::fs;
 use std::path::Path;
@@ -8,16 +7,7 @@ use std::path::Path;
 /// Name of the preset that holds until another is chosen.
 pub const DEFAULT: &str = "railway";
 
-/// Contents of the default preset, for the start values of the model description and for masters that do not say
-/// where the resources are.
-const DEFAULT_JSON: &str = include_str!("../../resources/railway.json");
-
-/// The default preset as compiled in.
-pub fn default_config() -> Result<Config, String> {
-    parse(DEFAULT, DEFAULT_JSON)
-}
-
-/// Reads `<resources>/<name>.json`. Without resources only the compiled-in default is known. The error text lists the
+/// Reads `<resources>/<name>.json`. Without resources only the default is known, which is `Config::default()`. The error text lists the
 /// presets that exist.
 pub fn load(resources: Option<&Path>, name: &str) -> Result<Config, String> {
     let unknown = |why: &str| {
@@ -30,11 +20,11 @@ pub fn load(resources: Option<&Path>, name: &str) -> Result<Config, String> {
     }
     let text = match resources.map(|directory| fs::read_to_string(directory.join(format!("{name}.json")))) {
         Some(Ok(text)) => text,
-        _ if name == DEFAULT => DEFAULT_JSON.to_owned(),
+        _ if name == DEFAULT => return Ok(Config::default()),
         Some(Err(error)) => return unknown(&format!("cannot be read ({error})")),
         None => return unknown("is unknown because the resources of the FMU cannot be read"),
     };
-    parse(name, &text).or_else(|why| unknown(&why))
+    crate::config::presets::parse(&text).or_else(|why| unknown(&why))
 }
 
 /// Names of the presets in the directory, sorted; the default is always among them.
@@ -49,15 +39,4 @@ pub fn available(resources: Option<&Path>) -> Vec<String> {
     names.sort();
     names.dedup();
     names
-}
-
-fn parse(name: &str, text: &str) -> Result<Config, String> {
-    let mut config: Config = serde_json::from_str(text).map_err(|error| format!("is malformed ({error})"))?;
-    for variable in variables() {
-        if let Some(value) = variable.parameter(name, &mut config) {
-            variable.check(&value).map_err(|error| format!("is invalid ({error})"))?;
-        }
-    }
-    config.validate().map_err(|error| format!("is invalid ({error})"))?;
-    Ok(config)
 }

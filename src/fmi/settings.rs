@@ -7,10 +7,10 @@ use crate::simulation::{Drive, Inputs};
 use std::collections::BTreeMap;
 
 /// Set values by value reference.
-pub type Explicit = BTreeMap<Reference, Value>;
+pub type SetValues = BTreeMap<Reference, Value>;
 
 /// The configuration `base` with explicit parameters.
-pub fn with_parameters(base: &Config, parameters: &Explicit) -> Config {
+pub fn with_parameters(base: &Config, parameters: &SetValues) -> Config {
     let mut config = base.clone();
     for (reference, value) in parameters {
         if let Some(variable) = find(*reference) {
@@ -20,11 +20,11 @@ pub fn with_parameters(base: &Config, parameters: &Explicit) -> Config {
     config
 }
 
-/// The inputs that follow from the configuration, overridden by those `taken` over when a control was switched and by
+/// The inputs that follow from the configuration, overridden by those taken over when a control was switched and by
 /// explicit ones, with their time derivatives.
-pub fn with_inputs(config: &Config, taken: &Explicit, explicit: &Explicit, rate: Drive) -> Inputs {
+pub fn with_inputs(config: &Config, bumpless: &SetValues, explicit: &SetValues, rate: Drive) -> Inputs {
     let mut inputs = Inputs::rolling(config);
-    for (reference, value) in taken.iter().chain(explicit) {
+    for (reference, value) in bumpless.iter().chain(explicit) {
         if let Some(variable) = find(*reference) {
             variable.set_input(&mut inputs, value);
         }

@@ -38,6 +38,26 @@ fn decode(text: &[u8]) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn any_text_is_a_path_or_refused_by_name(location in "(file:|file://|file:///|http://)?(localhost)?[%/a-zäC:.\\\\0-9]{0,30}|.{0,40}") {
+            match path_of(&location) {
+                Ok(path) => prop_assert!(!location.starts_with("file:") || path.has_root() || cfg!(windows) || path.to_string_lossy().contains(":/")),
+                Err(why) => prop_assert!(why.contains(&location)),
+            }
+        }
+
+        #[test]
+        fn an_encoded_path_is_found_again(name in "/[^\\x00]{0,40}") {
+            let encoded: String = name.bytes().map(|byte| format!("%{byte:02x}")).collect();
+            let drive = name.as_bytes().get(2) == Some(&b':') && name.as_bytes().get(3) == Some(&b'/');
+            prop_assume!(!drive);
+            let encoded = format!("file:///{}", &encoded[3..]);
+            prop_assert_eq!(path_of(&encoded).unwrap(), PathBuf::from(name));
+        }
+    }
 
     #[test]
     fn all_spellings_of_a_location_name_the_same_path() {

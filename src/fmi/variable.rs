@@ -1,94 +1,47 @@
-//! Kinds of interface variables: what a row of [`super::variables`] can say.
+//! Interface variables: what a row of [`super::table`] can say.
 
-use super::units::Measure;
 use crate::config::Config;
+use crate::config::row::Row;
 use crate::simulation::{Drive, Inputs, Outputs};
-use serde::{Deserialize, Serialize};
+
+pub use crate::config::value::{Enumeration, Kind, Value};
 
 /// FMI value reference.
 pub type Reference = u32;
-
-/// A value on its way through the interface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Value {
-    Real(f64),
-    /// Integers and enumeration items (counted from 1).
-    Integer(i32),
-    Boolean(bool),
-    String(String),
-}
-
-impl Value {
-    /// Name of the FMI type that carries the value.
-    pub fn type_name(&self) -> &'static str {
-        match self {
-            Value::Real(_) => "Real",
-            Value::Integer(_) => "Integer",
-            Value::Boolean(_) => "Boolean",
-            Value::String(_) => "String",
-        }
-    }
-}
-
-/// A list of named choices; item `i` of the list has the value `i + 1`.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Enumeration {
-    pub name: &'static str,
-    pub description: &'static str,
-    /// Name and meaning of every item.
-    pub items: &'static [(&'static str, &'static str)],
-}
-
-/// FMI type with its attributes. Infinite bounds are open and do not appear in the model description.
-#[derive(Clone, Copy, Debug)]
-pub enum Kind {
-    Real { measure: Measure, min: f64, max: f64, nominal: f64 },
-    Integer { min: i32, max: i32 },
-    Boolean,
-    String,
-    Enumeration(&'static Enumeration),
-}
-
-impl Kind {
-    /// Name of the functions that read and write the variable (`fmi2Get…`).
-    pub fn type_name(self) -> &'static str {
-        match self {
-            Kind::Real { .. } => "Real",
-            Kind::Integer { .. } | Kind::Enumeration(_) => "Integer",
-            Kind::Boolean => "Boolean",
-            Kind::String => "String",
-        }
-    }
-}
 
 /// Where a variable lives. Parameters are fixed or tunable, inputs and real outputs continuous, the rest discrete.
 #[derive(Clone, Copy)]
 pub enum Access {
     /// Name of the preset file; the one parameter that is not part of [`Config`].
     Preset,
-    RealParameter(fn(&mut Config) -> &mut f64),
-    CountParameter(fn(&mut Config) -> &mut usize),
-    FlagParameter(fn(&mut Config) -> &mut bool),
-    /// Item number of an enumeration: getter and setter. The setter is only called with items of the list.
-    ChoiceParameter(fn(&Config) -> i32, fn(&mut Config, i32)),
+    /// A row of the configuration.
+    Parameter(&'static Row<Config>),
+    /// A real input.
     RealInput(fn(&mut Drive) -> &mut f64),
-    ChoiceInput(fn(&Inputs) -> i32, fn(&mut Inputs, i32)),
+    /// A choice between partners: getter and setter, which ignores values of another type.
+    ChoiceInput(fn(&Inputs) -> Value, fn(&mut Inputs, &Value)),
+    /// A real output.
     RealOutput(fn(&Outputs) -> f64),
+    /// An output that counts.
     CountOutput(fn(&Outputs) -> u64),
-    /// One point of a profile across the contact patch, counted from 0.
+    /// All points of a profile across the contact patch.
+    ArrayOutput(fn(&Outputs) -> &[f64]),
+    /// One of them, counted from 0.
     ProfileOutput(fn(&Outputs) -> &[f64], usize),
 }
 
 /// FMI causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
+    /// Set before the start, or tuned during a run.
     Parameter,
+    /// Set between steps.
     Input,
+    /// Read.
     Output,
 }
 
-/// What an output depends on in Initialization Mode. Between steps it depends on nothing but the past: inputs that
-/// are set at a communication point act in the following step.
+/// What an output depends on in Initialization Mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Zero by definition.
@@ -100,46 +53,49 @@ pub enum Start {
 /// One row of the table.
 #[derive(Clone)]
 pub struct Variable {
+    /// Value reference.
     pub reference: Reference,
+    /// Name in the form `group.name`.
     pub name: String,
+    /// Type, unit and range; those of the elements of an array.
     pub kind: Kind,
+    /// Number of elements of an array; `None` for a scalar.
+    pub dimension: Option<usize>,
+    /// Where the value is.
     pub access: Access,
     /// For outputs; ignored otherwise.
     pub start: Start,
     /// Whether a parameter may change between steps.
     pub tunable: bool,
+    /// Meaning, plain text.
     pub description: String,
 }
 
 impl Variable {
+    /// FMI causality.
     pub fn causality(&self) -> Causality {
         match self.access {
+            Access::Preset | Access::Parameter(_) => Causality::Parameter,
             Access::RealInput(_) | Access::ChoiceInput(..) => Causality::Input,
-            Access::RealOutput(_) | Access::CountOutput(_) | Access::ProfileOutput(..) => Causality::Output,
-            _ => Causality::Parameter,
+            Access::RealOutput(_) | Access::CountOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
+                Causality::Output
+            }
         }
     }
 
     /// Value of a parameter; `None` for other variables.
-    pub fn parameter(&self, preset: &str, config: &mut Config) -> Option<Value> {
-        Some(match self.access {
-            Access::Preset => Value::String(preset.to_owned()),
-            Access::RealParameter(field) => Value::Real(*field(config)),
-            Access::CountParameter(field) => Value::Integer(i32::try_from(*field(config)).unwrap_or(i32::MAX)),
-            Access::FlagParameter(field) => Value::Boolean(*field(config)),
-            Access::ChoiceParameter(get, _) => Value::Integer(get(config)),
-            _ => return None,
-        })
+    pub fn parameter(&self, preset: &str, config: &Config) -> Option<Value> {
+        match self.access {
+            Access::Preset => Some(Value::String(preset.to_owned())),
+            Access::Parameter(row) => Some((row.read)(config)),
+            _ => None,
+        }
     }
 
     /// Writes a parameter. Values of another type and variables that are not part of [`Config`] are left alone.
     pub fn set_parameter(&self, config: &mut Config, value: &Value) {
-        match (self.access, value) {
-            (Access::RealParameter(field), Value::Real(v)) => *field(config) = *v,
-            (Access::CountParameter(field), Value::Integer(v)) => *field(config) = usize::try_from(*v).unwrap_or(0),
-            (Access::FlagParameter(field), Value::Boolean(v)) => *field(config) = *v,
-            (Access::ChoiceParameter(_, set), Value::Integer(v)) => set(config, *v),
-            _ => {}
+        if let Access::Parameter(row) = self.access {
+            (row.write)(config, value);
         }
     }
 
@@ -147,7 +103,7 @@ impl Variable {
     pub fn input(&self, inputs: &mut Inputs) -> Option<Value> {
         match self.access {
             Access::RealInput(field) => Some(Value::Real(*field(&mut inputs.drive))),
-            Access::ChoiceInput(get, _) => Some(Value::Integer(get(inputs))),
+            Access::ChoiceInput(get, _) => Some(get(inputs)),
             _ => None,
         }
     }
@@ -156,7 +112,7 @@ impl Variable {
     pub fn set_input(&self, inputs: &mut Inputs, value: &Value) {
         match (self.access, value) {
             (Access::RealInput(field), Value::Real(v)) => *field(&mut inputs.drive) = *v,
-            (Access::ChoiceInput(_, set), Value::Integer(v)) => set(inputs, *v),
+            (Access::ChoiceInput(_, set), value) => set(inputs, value),
             _ => {}
         }
     }
@@ -166,6 +122,7 @@ impl Variable {
         match self.access {
             Access::RealOutput(get) => Some(Value::Real(get(outputs))),
             Access::CountOutput(get) => Some(Value::Integer(i32::try_from(get(outputs)).unwrap_or(i32::MAX))),
+            Access::ArrayOutput(get) => Some(Value::Reals(get(outputs).to_vec())),
             Access::ProfileOutput(get, point) => Some(Value::Real(get(outputs).get(point).copied().unwrap_or(0.0))),
             _ => None,
         }
@@ -181,40 +138,6 @@ impl Variable {
 
     /// Refuses a value of the wrong type, not finite or outside the declared range; the text names all three.
     pub fn check(&self, value: &Value) -> Result<(), String> {
-        let name = &self.name;
-        let outside = |value: &dyn std::fmt::Display, range: String| {
-            Err(format!("{name} = {value} is outside its range: {range}"))
-        };
-        match (self.kind, value) {
-            (Kind::Real { min, max, .. }, Value::Real(v)) => {
-                if *v >= min && *v <= max && v.is_finite() {
-                    return Ok(());
-                }
-                let range = match (min.is_finite(), max.is_finite()) {
-                    (true, true) => format!("{min} to {max}"),
-                    (true, false) => format!("finite, at least {min}"),
-                    (false, true) => format!("finite, at most {max}"),
-                    (false, false) => "finite numbers".to_owned(),
-                };
-                outside(v, range)
-            }
-            (Kind::Integer { min, max }, Value::Integer(v)) => {
-                if (min..=max).contains(v) {
-                    Ok(())
-                } else {
-                    outside(v, format!("{min} to {max}"))
-                }
-            }
-            (Kind::Enumeration(list), Value::Integer(v)) => {
-                let count = list.items.len() as i32;
-                if (1..=count).contains(v) {
-                    return Ok(());
-                }
-                let items: Vec<_> = (1..).zip(list.items).map(|(i, item)| format!("{i} ({})", item.0)).collect();
-                outside(v, items.join(", "))
-            }
-            (Kind::Boolean, Value::Boolean(_)) | (Kind::String, Value::String(_)) => Ok(()),
-            (kind, value) => Err(format!("{name} is of type {}, not {}", kind.type_name(), value.type_name())),
-        }
+        self.kind.check(&self.name, value)
     }
 }

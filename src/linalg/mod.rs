@@ -1,7 +1,9 @@
 //! Linear algebra: sparse matrices with a Cholesky factorisation (over faer) and the lowest modes of a pencil.
 
 pub mod dense;
+pub mod gmres;
 pub mod modes;
+pub mod pencil;
 pub mod sparse;
 
 pub use dense::DenseSystem;

@@ -1,6 +1,6 @@
 //! Configurations and small meshes for the tests.
 
-use crate::config::Config;
+use crate::config::{Config, presets};
 use crate::fem::Mesh;
 use crate::mechanics::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 /// The wheel and rail of Paper D with a choice of mesh.
 pub fn paper_d(elements: usize) -> Config {
-    let mut config: Config = serde_json::from_str(include_str!("../../resources/paper_d.json")).unwrap();
+    let mut config = presets::parse(include_str!("../../resources/paper_d.json")).unwrap();
     config.mesh.elements_per_half_width = elements;
     config
 }

@@ -121,7 +121,7 @@ impl ContactModel {
     pub fn failure(&self, source: ContactError, time: f64, step: f64) -> StepError {
         match source {
             ContactError::ZoneExceeded { zone, load } => {
-                StepError::ZoneExceeded { zone, load: load * self.width, nominal: self.nominal_load }
+                StepError::ZoneExceeded { zone, load: load * self.width }
             }
             source => StepError::Contact { time, step, source },
         }

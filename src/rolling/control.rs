@@ -1,108 +1,200 @@
-//! Mixed control: which partner of each work-conjugate pair is prescribed, and to what.
+//! Mixed control: which partner of each work-conjugate pair is prescribed, and to what. An input is one row here, and
+//! its use in the code.
 
+use crate::config::row::Row;
+use crate::config::units::Measure;
+use crate::config::value::{Field, Limits, choice};
+use crate::config::{display_outside, display_range};
 use serde::{Deserialize, Serialize};
 
-/// Prescribed partner of (moment, angular velocity).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Rotation {
-    Velocity,
-    Moment,
+choice! {
+    /// Prescribed partner of (moment, angular velocity).
+    pub enum Rotation named "RotationControl",
+        "Which of driving moment and angular velocity is prescribed; the other is the reaction"
+    {
+        Velocity = "velocity", "drive.omega is prescribed";
+        Moment = "moment", "drive.moment is prescribed";
+    }
 }
 
-/// Prescribed partner of (horizontal force, translational velocity).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Translation {
-    Velocity,
-    Force,
+choice! {
+    /// Prescribed partner of (horizontal force, translational velocity).
+    pub enum Translation named "TranslationControl",
+        "Which of horizontal force and travel velocity is prescribed; the other is the reaction"
+    {
+        Velocity = "velocity", "drive.velocity is prescribed";
+        Force = "force", "drive.force is prescribed";
+    }
 }
 
-/// Prescribed partner of (vertical load, hub displacement).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Vertical {
-    Force,
-    Displacement,
+choice! {
+    /// Prescribed partner of (vertical load, hub displacement).
+    pub enum Vertical named "VerticalControl",
+        "Which of vertical load and hub height is prescribed; the other is the reaction"
+    {
+        Force = "force", "drive.load is prescribed";
+        Displacement = "displacement", "drive.displacement is prescribed";
+    }
 }
 
-/// Real-valued inputs of the whole wheel; used for values and for their time derivatives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Drive {
-    /// Angular velocity, forward rolling positive [rad/s].
-    pub omega: f64,
-    /// Driving moment, forward positive [N m].
-    pub moment: f64,
-    /// Translational velocity [m/s].
-    pub velocity: f64,
-    /// Horizontal driving force on the hub [N].
-    pub force: f64,
-    /// Vertical load pressing the hub down [N].
-    pub load: f64,
-    /// Hub height above just touching, up positive [m].
-    pub displacement: f64,
-    /// Friction coefficient available now [1].
-    pub friction: f64,
-    /// Brake block heat into the tread [W].
-    pub tread_heat: f64,
+/// The row of one real input.
+#[derive(Clone, Copy, Debug)]
+pub struct DriveRow {
+    /// Fixed number of the input, which survives new ones: programs may know it.
+    pub number: u32,
+    /// Name in the form `group.name`.
+    pub name: &'static str,
+    /// Name of its time derivative.
+    pub rate_name: &'static str,
+    /// Unit.
+    pub measure: Measure,
+    /// Smallest meaningful value.
+    pub low: f64,
+    /// Largest meaningful value.
+    pub high: f64,
+    /// Usual size.
+    pub nominal: f64,
+    /// Meaning, plain text.
+    pub text: &'static str,
+    /// The value.
+    pub field: fn(&mut Drive) -> &mut f64,
 }
 
-/// Everything the outside prescribes during one communication step.
-///
-/// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities and the hub displacement cannot jump:
-/// they move linearly from their present value to the input's value at the end of the communication step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Inputs {
-    pub rotation: Rotation,
-    pub translation: Translation,
-    pub vertical: Vertical,
-    /// Values at the start of the step.
-    pub drive: Drive,
-    /// First time derivatives; zero unless the master supplies them.
-    pub rate: Drive,
+impl DriveRow {
+    /// Refuses a value out of range, infinite or not a number.
+    fn check(&self, value: f64) -> Result<(), InputError> {
+        let DriveRow { name, low, high, measure, .. } = *self;
+        let refused = || InputError { name, value, low, high, unit: measure.unit };
+        if value >= low && value <= high { Ok(()) } else { Err(refused()) }
+    }
+}
+
+/// Defines the inputs: choices between partners, and real values with their group, unit, range and usual size.
+macro_rules! inputs {
+    (@display) => { None };
+    (@display $display:literal) => { Some($display) };
+    (
+        controls { $( $choice_number:literal $choice:ident: $Choice:ty, $choice_text:literal; )* }
+        values {
+            $(
+                $number:literal $field:ident of $group:literal, in $unit:literal $(as $display:literal)?,
+                    from $low:literal to $high:literal, nominal $nominal:literal, $text:literal;
+            )*
+        }
+    ) => {
+        /// Real-valued inputs of the whole wheel; used for values and for their time derivatives.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+        pub struct Drive {
+            $( #[doc = concat!($text, " [", $unit, "].")] pub $field: f64, )*
+        }
+
+        /// Number of real inputs.
+        const COUNT: usize = [$( $number ),*].len();
+
+        impl Drive {
+            /// The row of every real input.
+            pub const ROWS: [DriveRow; COUNT] = [$(
+                DriveRow {
+                    number: $number,
+                    name: concat!($group, ".", stringify!($field)),
+                    rate_name: concat!("der(", $group, ".", stringify!($field), ")"),
+                    measure: Measure { unit: $unit, display: inputs!(@display $($display)?) },
+                    low: $low,
+                    high: $high,
+                    nominal: $nominal,
+                    text: $text,
+                    field: |drive| &mut drive.$field,
+                },
+            )*];
+
+            /// The values in the order of [`Drive::ROWS`].
+            pub fn values(&self) -> [f64; COUNT] {
+                [$( self.$field ),*]
+            }
+
+            /// The inverse of [`Drive::values`].
+            fn from_values([$( $field ),*]: [f64; COUNT]) -> Self {
+                Self { $( $field ),* }
+            }
+        }
+
+        /// Everything the outside prescribes during one communication step.
+        ///
+        /// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities and the hub displacement cannot
+        /// jump: they move linearly from their present value to the input's value at the end of the communication step.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct Inputs {
+            $( #[doc = concat!($choice_text, ".")] pub $choice: $Choice, )*
+            /// Values at the start of the step.
+            pub drive: Drive,
+            /// First time derivatives; zero unless the master supplies them.
+            pub rate: Drive,
+        }
+
+        impl Inputs {
+            /// The rows of the choices between partners.
+            pub fn controls() -> Vec<Row<Inputs>> {
+                vec![$(
+                    Row {
+                        number: $choice_number,
+                        name: concat!("control.", stringify!($choice)),
+                        kind: <$Choice as Field>::kind(Limits::default()),
+                        tunable: true,
+                        text: $choice_text,
+                        read: |inputs| inputs.$choice.read(),
+                        write: |inputs, value| inputs.$choice.write(value),
+                    },
+                )*]
+            }
+        }
+    };
+}
+
+inputs! {
+    controls {
+        100 rotation: Rotation,
+            "Prescribed partner of (moment, angular velocity); switching between steps is bumpless";
+        101 translation: Translation,
+            "Prescribed partner of (horizontal force, travel velocity); switching between steps is bumpless";
+        102 vertical: Vertical, "Prescribed partner of (load, hub height); switching between steps is bumpless";
+    }
+    values {
+        200 omega of "drive", in "rad/s" as "rpm", from -2e4 to 2e4, nominal 60.0,
+            "Angular velocity, forward rolling positive; unset: from initial.velocity and initial.creepage";
+        201 moment of "drive", in "N.m" as "kN.m", from -1e9 to 1e9, nominal 1e4,
+            "Driving moment on the hub, forward positive (braking negative)";
+        202 velocity of "drive", in "m/s" as "km/h", from -200.0 to 200.0, nominal 30.0,
+            "Travel velocity of the wheel centre, positive in x; unset: initial.velocity";
+        203 force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
+            "Horizontal driving force on the hub, positive in x";
+        204 load of "drive", in "N" as "kN", from 0.0 to 1e9, nominal 1e5,
+            "Vertical load on the hub, pressing down positive; unset: model.nominal_load";
+        205 displacement of "drive", in "m" as "mm", from -0.1 to 0.1, nominal 1e-4,
+            "Hub height above just touching, up positive (pressed: negative)";
+        250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3,
+            "Friction coefficient available now; unset: friction.coefficient";
+        206 tread_heat of "drive", in "W" as "kW", from 0.0 to 1e9, nominal 1e4,
+            "Heat of the brake blocks into the tread";
+    }
 }
 
 /// An input outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} = {value} is outside its range: {low} to {high}")]
+#[error("{name} = {} is outside its range: {}", display_outside(*value, [*low, *high]), display_range([*low, *high], unit))]
 pub struct InputError {
-    /// FMI name of the input.
+    /// Name of the input.
     pub name: &'static str,
+    /// Its value.
     pub value: f64,
+    /// Smallest value allowed.
     pub low: f64,
+    /// Largest value allowed.
     pub high: f64,
+    /// Unit of all three.
+    pub unit: &'static str,
 }
 
-/// Name, smallest and largest meaningful value of each real input, in the order of [`Drive::values`].
-pub const INPUT_RANGES: [(&str, f64, f64); 8] = [
-    ("drive.omega", -2e4, 2e4),
-    ("drive.moment", -1e9, 1e9),
-    ("drive.velocity", -200.0, 200.0),
-    ("drive.force", -1e9, 1e9),
-    ("drive.load", 0.0, 1e9),
-    ("drive.displacement", -0.1, 0.1),
-    ("rail.friction", 0.0, 10.0),
-    ("drive.tread_heat", 0.0, 1e9),
-];
-
 impl Drive {
-    /// The values in the order of [`INPUT_RANGES`].
-    pub fn values(&self) -> [f64; 8] {
-        [
-            self.omega,
-            self.moment,
-            self.velocity,
-            self.force,
-            self.load,
-            self.displacement,
-            self.friction,
-            self.tread_heat,
-        ]
-    }
-
-    /// The inverse of [`Drive::values`].
-    fn from_values(values: [f64; 8]) -> Self {
-        let [omega, moment, velocity, force, load, displacement, friction, tread_heat] = values;
-        Self { omega, moment, velocity, force, load, displacement, friction, tread_heat }
-    }
-
     /// `f` of the values of both, one by one.
     pub fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.values(), other.values());
@@ -111,12 +203,7 @@ impl Drive {
 
     /// Refuses values out of range, infinite or not a number.
     pub fn validate(&self) -> Result<(), InputError> {
-        for ((name, low, high), value) in INPUT_RANGES.into_iter().zip(self.values()) {
-            if !(value >= low && value <= high) {
-                return Err(InputError { name, value, low, high });
-            }
-        }
-        Ok(())
+        Self::ROWS.iter().zip(self.values()).try_for_each(|(row, value)| row.check(value))
     }
 }
 
@@ -124,9 +211,10 @@ impl Inputs {
     /// Refuses inputs out of range, infinite or not a number; rates only need to be finite.
     pub fn validate(&self) -> Result<(), InputError> {
         self.drive.validate()?;
-        for ((name, ..), value) in INPUT_RANGES.into_iter().zip(self.rate.values()) {
+        for (row, value) in Drive::ROWS.iter().zip(self.rate.values()) {
             if !value.is_finite() {
-                return Err(InputError { name, value, low: f64::MIN, high: f64::MAX });
+                let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+                return Err(InputError { name: row.rate_name, value, low, high, unit: "1" });
             }
         }
         Ok(())
@@ -137,7 +225,7 @@ impl Inputs {
     pub fn at(&self, time: f64) -> Drive {
         let (values, rates) = (self.drive.values(), self.rate.values());
         Drive::from_values(std::array::from_fn(|k| {
-            let (_, low, high) = INPUT_RANGES[k];
+            let DriveRow { low, high, .. } = Drive::ROWS[k];
             let by = time * rates[k];
             let value = values[k] + by;
             let limited = value.clamp(low, high);
@@ -200,17 +288,26 @@ mod tests {
     fn a_ramp_to_the_end_of_a_range_does_not_leave_it_by_rounding() {
         let (start, step) = (0.007, 0.003);
         let inputs = |k: usize, slope: f64| {
-            let (mut values, mut rates) = ([0.0; 8], [0.0; 8]);
+            let (mut values, mut rates) = ([0.0; COUNT], [0.0; COUNT]);
             (values[k], rates[k]) = (start, slope);
             let (drive, rate) = (Drive::from_values(values), Drive::from_values(rates));
             let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);
             Inputs { rotation, translation, vertical, drive, rate }
         };
         assert!(start + step * (-start / step) < 0.0, "the case rounds below zero");
-        for (k, (name, low, _)) in INPUT_RANGES.into_iter().enumerate().filter(|(_, range)| range.1 == 0.0) {
-            assert_eq!(inputs(k, -start / step).at(step).values()[k], low, "{name}");
-            assert_eq!(inputs(k, -2.0 * start / step).at(step).validate().unwrap_err().name, name);
+        for (k, row) in Drive::ROWS.iter().enumerate().filter(|(_, row)| row.low == 0.0) {
+            assert_eq!(inputs(k, -start / step).at(step).values()[k], row.low, "{}", row.name);
+            assert_eq!(inputs(k, -2.0 * start / step).at(step).validate().unwrap_err().name, row.name);
         }
+    }
+
+    #[test]
+    fn a_rate_that_is_not_finite_is_refused_as_a_rate() {
+        let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);
+        let rate = Drive { load: f64::INFINITY, ..Drive::default() };
+        let inputs = Inputs { rotation, translation, vertical, drive: Drive::default(), rate };
+        let message = inputs.validate().unwrap_err().to_string();
+        assert_eq!(message, "der(drive.load) = inf is outside its range: finite numbers");
     }
 
     #[test]

@@ -19,17 +19,12 @@ pub enum StepError {
         source: ContactError,
     },
     /// The contact patch outgrew the mesh.
-    #[error(
-        "the contact patch needs more than the candidate zone of ±{zone:.3e} m at a wheel load of {load:.6e} N: raise \
-         the parameter model.nominal_load (now {nominal:.6e} N), or change prescribed velocities more gently"
-    )]
+    #[error("the contact patch needs more than the candidate zone of ±{zone:.3e} m at a wheel load of {load:.6e} N")]
     ZoneExceeded {
         /// Half-length of the zone [m].
         zone: f64,
         /// Contact force of the wheel [N].
         load: f64,
-        /// Load for which the zone was made [N].
-        nominal: f64,
     },
     /// Values that are infinite or not a number.
     #[error("the motion grew beyond all numbers at t = {time:.6} s with an internal step of {step:.1e} s")]

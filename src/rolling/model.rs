@@ -5,11 +5,10 @@ use super::contact_model::ContactModel;
 use super::error::ModelError;
 use super::rigid::RigidWheel;
 use super::state::State;
-use super::thermal::ThermalModel;
+use super::thermal::{self, ThermalModel};
 use crate::config::Config;
 use crate::contact::grid::{ContactGrid, GridSolver};
 use crate::contact::{self, ContactSolver};
-use crate::heat;
 use crate::material::Isotropic;
 use crate::mechanics::Pair;
 use crate::mechanics::response::FreeResponse;
@@ -42,8 +41,8 @@ pub struct Workspace {
     pub opposite: DVector<f64>,
     /// Of the contact solver.
     pub contact: contact::Scratch,
-    /// Of the heat solver.
-    pub heat: heat::Scratch,
+    /// Of the heat step.
+    pub heat: thermal::Scratch,
     /// State before and after an internal step.
     pub states: [State; 2],
 }

@@ -11,6 +11,9 @@ use crate::mechanics::response::{FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
 
+/// How far a motion may leave the range of the input that could prescribe it, as a factor.
+const MOTION_MARGIN: f64 = 1.05;
+
 /// The wheel as a rigid body on its axle, per metre of width.
 #[derive(Clone, Debug)]
 pub struct RigidWheel {
@@ -116,14 +119,21 @@ impl RigidWheel {
         (0..3).map(|k| 0.5 * self.inertia[k] * velocities[k] * velocities[k]).sum()
     }
 
-    /// Refuses motions (V, U, Ω) outside the ranges of the inputs that could prescribe them, and velocities at which
+    /// Refuses motions (V, U, Ω) well outside the ranges of the inputs that could prescribe them, and velocities at which
     /// loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
     pub fn check(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
-        Drive { velocity, displacement, omega, ..Drive::default() }.validate().map_err(StepError::Motion)?;
+        // What is prescribed ends within its range; a free wheel that starts at its end may drift a little.
+        let motion = Drive { velocity, displacement, omega, ..Drive::default() };
+        motion.zip(&motion, |value, _| value / MOTION_MARGIN).validate().map_err(|error| {
+            let [value, low, high] = [error.value, error.low, error.high].map(|limit| limit * MOTION_MARGIN);
+            StepError::Motion(InputError { value, low, high, ..error })
+        })?;
         let wave = self.wave_speed;
-        for (name, value, limit) in [("drive.velocity", velocity, wave), ("drive.omega", omega, wave / self.radius)] {
+        for (name, value, limit, unit) in
+            [("drive.velocity", velocity, wave, "m/s"), ("drive.omega", omega, wave / self.radius, "rad/s")]
+        {
             if value.abs() >= limit {
-                return Err(StepError::Motion(InputError { name, value, low: -limit, high: limit }));
+                return Err(StepError::Motion(InputError { name, value, low: -limit, high: limit, unit }));
             }
         }
         Ok(())

@@ -40,14 +40,22 @@ impl Difference {
     }
 }
 
-/// Sizes over which the outputs bend, in the order of [`Drive::values`]: they bend much with slip, less with forces.
-fn scales(model: &Model, inputs: &Inputs, state: &State) -> [f64; 8] {
+/// Sizes over which the outputs bend: they bend much with slip, less with forces.
+fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
     let config = &model.config;
     let load = config.model.nominal_load;
     let (speed, radius) = (0.1 * state.motion.velocity.now.abs().max(1.0), config.wheel.radius);
     let approach = state.motion.height.now.abs().max(1e-5);
-    let heat = inputs.drive.tread_heat.abs().max(1e4);
-    [speed / radius, load * radius, speed, load, load, approach, 1.0, heat]
+    Drive {
+        omega: speed / radius,
+        moment: load * radius,
+        velocity: speed,
+        force: load,
+        load,
+        displacement: approach,
+        friction: 1.0,
+        tread_heat: inputs.drive.tread_heat.abs().max(1e4),
+    }
 }
 
 /// Perturbation relative to the scales, and the factor by which it is reduced where the branch is left.
@@ -67,7 +75,7 @@ pub fn difference(
 ) -> Result<Difference, StepError> {
     let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
     let scales = scales(model, inputs, state);
-    let size = direction.values().iter().zip(scales).map(|(d, s)| (d / s).abs()).fold(0.0, f64::max);
+    let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
     let present = observe(model, state);
     if size == 0.0 {
         return Ok(Difference { low: present.clone(), high: present, width: 1.0 });

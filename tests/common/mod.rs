@@ -1,36 +1,29 @@
 //! Models for the physics tests; reduced bases are kept under `target/basis`, so that each is computed once.
 #![allow(dead_code)]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::Config;
-use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
+use wheelrail::config::{Config, presets};
+use wheelrail::simulation::{BasisStore, Inputs, Model, Rotation, Simulation, Translation};
 
 pub const KMH: f64 = 1.0 / 3.6;
 
 /// A shipped preset with another mesh density.
 pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(format!("{name}.json"));
-    let mut config: Config = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let mut config = presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap();
     config.mesh.elements_per_half_width = elements_per_half_width;
     config
 }
 
 /// The prepared model of a configuration.
 pub fn model(config: Config) -> Arc<Model> {
-    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
-    let directory: PathBuf = target.join("basis");
-    let model = Model::prepare(config, Some(&target), &mut |_, _| {}).unwrap();
-    if let Some((name, bytes)) = model.basis_file() {
-        let path = directory.join(&name);
-        if !path.exists() {
-            std::fs::create_dir_all(&directory).unwrap();
-            let unique = directory.join(format!("{name}.{}-{:?}", std::process::id(), std::thread::current().id()));
-            std::fs::write(&unique, bytes).unwrap();
-            std::fs::rename(&unique, &path).unwrap();
-        }
-    }
-    model
+    Model::shared(config, &store(), &mut |_, _| {}).unwrap()
+}
+
+/// Where the tests keep reduced bases.
+pub fn store() -> BasisStore {
+    BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"))
 }
 
 /// Inputs that prescribe velocity and creepage under the nominal load.

@@ -2,7 +2,11 @@
 #![allow(dead_code)]
 
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::heat::{Conductance, Exchange, Heat, HeatConfig, HeatTimeScheme, HubCondition, Patch, TreadHeat};
+use wheelrail::config::{ConductanceLaw, Config, Hub};
+use wheelrail::heat::{
+    Exchange, Heat, HeatConfig, HeatFlows, HeatModel, HeatState, Interval, Observation, Scratch, Temperatures,
+    TreadHeat,
+};
 use wheelrail::piecewise::Piecewise;
 
 pub const KMH: f64 = 1.0 / 3.6;
@@ -17,26 +21,68 @@ pub fn half_width(load: f64) -> f64 {
 
 /// Set-up of the reference values, laid out for one load [N/m] and up to `max_speed` [m/s].
 pub fn config(load: f64, max_speed: f64) -> HeatConfig {
+    let preset: Config = serde_json::from_str(include_str!("../../resources/paper_b.json")).unwrap();
+    let Config { wheel, rail, material, thermal, .. } = preset;
     let half_width = half_width(load);
-    HeatConfig {
-        conductivity: 45.0,
-        specific_heat: 460.0,
-        density: 8000.0,
-        wheel_radius: RADIUS,
-        hub_radius: 0.05,
-        rail_length: 1.0,
-        rail_height: 0.1,
-        half_width,
-        smallest_half_width: half_width,
-        zone: 1.5 * half_width,
-        max_speed,
-        elements_per_half_width: 20,
-        hub: HubCondition::Fixed,
-        conductance: Conductance::Constant { value: 1e7 },
-        friction_fraction: 0.1,
-        wheel_share: 0.5,
-        convection: 0.0,
-        time_scheme: HeatTimeScheme::Sdirk2,
+    let zone = 1.5 * half_width;
+    let mut config = HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone };
+    (config.wheel.radius, config.wheel.hub_radius) = (RADIUS, 0.05);
+    (config.rail.length, config.rail.height) = (1.0, 0.1);
+    let material = &mut config.material;
+    (material.conductivity, material.specific_heat, material.density) = (45.0, 460.0, 8000.0);
+    let thermal = &mut config.thermal;
+    (thermal.conductance_law, thermal.conductance) = (ConductanceLaw::Constant, 1e7);
+    (thermal.heat_ratio, thermal.wheel_share, thermal.convection, thermal.hub) = (0.1, 0.5, 0.0, Hub::Fixed);
+    (thermal.max_speed, thermal.smallest_load_ratio) = (max_speed, 1.0);
+    config
+}
+
+/// A configuration with changes.
+pub fn with(mut config: HeatConfig, change: impl FnOnce(&mut HeatConfig)) -> HeatConfig {
+    change(&mut config);
+    config
+}
+
+/// Steps and observations that must succeed.
+pub trait Run {
+    /// Replaces `state` by the state `dt` later.
+    fn advance(
+        &self,
+        state: &mut HeatState,
+        dt: f64,
+        velocity: f64,
+        omega: f64,
+        exchange: &Exchange,
+        scratch: &mut Scratch,
+    ) -> HeatFlows;
+
+    fn observed(&self, state: &HeatState) -> Observation;
+
+    fn temperatures(&self, state: &HeatState) -> Temperatures {
+        self.observed(state).temperatures
+    }
+}
+
+impl Run for Heat {
+    fn advance(
+        &self,
+        state: &mut HeatState,
+        dt: f64,
+        velocity: f64,
+        omega: f64,
+        exchange: &Exchange,
+        scratch: &mut Scratch,
+    ) -> HeatFlows {
+        let mut next = HeatState::default();
+        let flows = self.step(state, &mut next, dt, velocity, omega, exchange, scratch).unwrap();
+        *state = next;
+        flows
+    }
+
+    fn observed(&self, state: &HeatState) -> Observation {
+        let mut seen = Observation::default();
+        self.observe(state, &mut seen).unwrap();
+        seen
     }
 }
 
@@ -56,7 +102,7 @@ pub fn carter(load: f64, velocity: f64, creepage: f64) -> Exchange {
     let mean = 0.5 * (velocity + circumferential);
     let d = creepage.abs() * RADIUS / FRICTION;
     let ellipse = |x: f64, half: f64| (1.0 - x * x / (half * half)).max(0.0).sqrt();
-    let patches = vec![Patch { low: -a, high: a }];
+    let patches = vec![Interval { low: -a, high: a }];
     let friction_power = if circumferential == 0.0 {
         Piecewise::sampled(-a, a, 400, |x| FRICTION * p0 * ellipse(x, a) * velocity.abs())
     } else if d >= a {

@@ -4,7 +4,7 @@
 pub use libfmi::fmi2Status::{self, *};
 use libfmi::*;
 use std::cell::RefCell;
-use std::ffi::{CStr, CString, c_void};
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::PathBuf;
 use std::ptr;
 use wheelrail::fmi::variable::{Causality, Value, Variable};
@@ -29,7 +29,7 @@ pub const RESOURCES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/res
 pub const STORED_BASES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/target");
 
 pub fn guid() -> &'static str {
-    wheelrail::fmi::description::guid()
+    wheelrail::fmi::v2::description::guid()
 }
 
 pub fn variable(name: &str) -> &'static Variable {
@@ -47,15 +47,14 @@ pub struct Message {
 
 type Messages = RefCell<Vec<Message>>;
 
-/// The logger of the standard is variadic, which stable Rust cannot define. This one takes the first variable argument
-/// as an ordinary one, which the calling conventions of the tested platforms pass alike.
+/// The logger of the standard is variadic, which stable Rust cannot define. This one reads no variable argument, as the
+/// loggers of many masters do; callers clean up after variadic functions, so that none is missed.
 unsafe extern "C" fn record(
     environment: fmi2ComponentEnvironment,
     instance: fmi2String,
     status: fmi2Status,
     category: fmi2String,
     format: fmi2String,
-    text: fmi2String,
 ) {
     // SAFETY: the environment is the message list of the slave; the library passes strings that end with NUL.
     unsafe {
@@ -65,31 +64,53 @@ unsafe extern "C" fn record(
             status,
             category: string(category),
             format: string(format),
-            text: string(text),
+            text: printed(CStr::from_ptr(format)),
         };
         (*environment.cast::<Messages>()).borrow_mut().push(message);
     }
 }
 
+unsafe extern "C" {
+    fn snprintf(buffer: *mut c_char, size: usize, format: *const c_char, ...) -> c_int;
+}
+
+/// What `printf` of the C library makes of a format without arguments.
+fn printed(format: &CStr) -> String {
+    let mut buffer = vec![0u8; format.count_bytes() + 1];
+    // SAFETY: no text is longer than a format that asks for no arguments.
+    let length = unsafe { snprintf(buffer.as_mut_ptr().cast(), buffer.len(), format.as_ptr()) };
+    assert!((0..buffer.len() as c_int).contains(&length), "{format:?} asks for arguments");
+    CStr::from_bytes_until_nul(&buffer).unwrap().to_str().unwrap().to_owned()
+}
+
+/// A function of the library that takes C integers where the header has enumerations, as a C master calls it.
+macro_rules! plain {
+    ($dll:ident.$name:ident, ($($argument:ty),*) -> $result:ty) => {
+        std::mem::transmute::<_, unsafe extern "C" fn($($argument),*) -> $result>(*$dll.$name.as_ref().unwrap())
+    };
+}
+
 /// Arguments of `fmi2Instantiate`.
 pub struct Arguments<'a> {
     pub name: Option<&'a str>,
-    pub kind: fmi2Type,
+    pub kind: c_int,
     pub guid: Option<&'a str>,
     pub resources: Option<&'a str>,
     pub callbacks: bool,
-    pub logging: bool,
+    pub visible: c_int,
+    pub logging: c_int,
 }
 
 impl Default for Arguments<'static> {
     fn default() -> Self {
         Arguments {
             name: Some("wheel"),
-            kind: fmi2Type::fmi2CoSimulation,
+            kind: fmi2Type::fmi2CoSimulation as c_int,
             guid: Some(guid()),
             resources: Some(RESOURCES),
             callbacks: true,
-            logging: false,
+            visible: 0,
+            logging: 0,
         }
     }
 }
@@ -130,14 +151,17 @@ impl<'a> Slave<'a> {
         let pointer = |s: &Option<CString>| s.as_ref().map_or(ptr::null(), |s| s.as_ptr());
         // SAFETY: strings end with NUL; the callbacks live as long as the slave.
         let component = unsafe {
-            dll.fmi2Instantiate(
+            let instantiate = plain!(dll.fmi2Instantiate,
+                (fmi2String, c_int, fmi2String, fmi2String, *const fmi2CallbackFunctions, c_int, c_int)
+                -> fmi2Component);
+            instantiate(
                 pointer(&name),
                 arguments.kind,
                 pointer(&guid),
                 pointer(&resources),
                 if arguments.callbacks { &*callbacks } else { ptr::null() },
-                0,
-                arguments.logging.into(),
+                arguments.visible,
+                arguments.logging,
             )
         };
         if component.is_null() {
@@ -258,6 +282,10 @@ impl<'a> Slave<'a> {
     pub fn set_boolean(&self, name: &str, value: bool) -> fmi2Status {
         unsafe { self.dll.fmi2SetBoolean(self.component, &variable(name).reference, 1, &value.into()) }
     }
+    /// Any C integer for a boolean variable.
+    pub fn set_c_boolean(&self, name: &str, value: c_int) -> fmi2Status {
+        unsafe { self.dll.fmi2SetBoolean(self.component, &variable(name).reference, 1, &value) }
+    }
     pub fn set_string(&self, name: &str, value: &str) -> fmi2Status {
         let value = c(value);
         unsafe { self.dll.fmi2SetString(self.component, &variable(name).reference, 1, &value.as_ptr()) }
@@ -314,6 +342,35 @@ impl<'a> Slave<'a> {
         value == 1
     }
 
+    /// Asks each of the five status functions, in the order of the standard, the question `kind`.
+    pub fn ask(&self, kind: c_int) -> [fmi2Status; 5] {
+        let (dll, c) = (self.dll, self.component);
+        // SAFETY: as above; every value has room for the largest answer.
+        unsafe {
+            let mut status = fmi2Fatal;
+            let (mut real, mut integer, mut boolean, mut string) = (0.0, 0, 0, ptr::null());
+            [
+                plain!(dll.fmi2GetStatus, (fmi2Component, c_int, *mut fmi2Status) -> fmi2Status)(c, kind, &mut status),
+                plain!(dll.fmi2GetRealStatus, (fmi2Component, c_int, *mut f64) -> fmi2Status)(c, kind, &mut real),
+                plain!(dll.fmi2GetIntegerStatus, (fmi2Component, c_int, *mut c_int) -> fmi2Status)(
+                    c,
+                    kind,
+                    &mut integer,
+                ),
+                plain!(dll.fmi2GetBooleanStatus, (fmi2Component, c_int, *mut c_int) -> fmi2Status)(
+                    c,
+                    kind,
+                    &mut boolean,
+                ),
+                plain!(dll.fmi2GetStringStatus, (fmi2Component, c_int, *mut fmi2String) -> fmi2Status)(
+                    c,
+                    kind,
+                    &mut string,
+                ),
+            ]
+        }
+    }
+
     /// All real outputs, bit by bit.
     #[track_caller]
     pub fn outputs(&self) -> Vec<u64> {
@@ -337,7 +394,7 @@ impl<'a> Slave<'a> {
 
 /// Start value of a real variable in the model description.
 pub fn real_start(name: &str) -> f64 {
-    match wheelrail::fmi::description::start_value(variable(name)) {
+    match wheelrail::fmi::v2::description::start_value(variable(name)) {
         Some(Value::Real(value)) => value,
         other => panic!("{name} starts with {other:?}"),
     }

@@ -3,8 +3,8 @@
 
 use super::streamline::edge_offset;
 use super::{ContactGrid, GridState, Status, for_each_patch};
-use crate::contact::{ContactProblem, Interval, Traction};
-use crate::piecewise::Piecewise;
+use crate::contact::{ContactProblem, Traction};
+use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use std::ops::Range;
 

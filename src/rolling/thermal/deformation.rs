@@ -9,7 +9,7 @@
 
 use crate::analytic::annulus_growth;
 use crate::config::Config;
-use crate::heat::{Heat, HeatError, HeatState, Temperatures};
+use crate::heat::Observation;
 use crate::material::Isotropic;
 use crate::rolling::state::ThermalDeformation;
 
@@ -43,23 +43,16 @@ impl Expansion {
         annulus_growth(mean, self.swelling, self.poissons_ratio, self.outer_radius, self.hub_radius)
     }
 
-    /// Writes the deformation that belongs to temperature fields.
-    pub fn deform(
-        &self,
-        heat: &Heat,
-        fields: &HeatState,
-        temperatures: &Temperatures,
-        out: &mut ThermalDeformation,
-    ) -> Result<(), HeatError> {
-        out.radius_growth = self.radius_growth(temperatures.wheel_mean);
-        let [wheel, rail] = heat.layers(fields, heat.zone_x())?;
+    /// Writes the deformation that belongs to the temperatures `seen` at the positions `x` [m].
+    pub fn deform(&self, x: &[f64], seen: &Observation, out: &mut ThermalDeformation) {
+        out.radius_growth = self.radius_growth(seen.temperatures.wheel_mean);
+        let [wheel, rail] = &seen.layer;
         let [of_wheel, of_rail] = &mut out.membrane_force;
         [&mut out.swelling, &mut *of_wheel, &mut *of_rail].into_iter().for_each(|profile| profile.clear());
-        for (&x, (w, r)) in heat.zone_x().iter().zip(wheel.iter().zip(&rail)) {
+        for (&x, (w, r)) in x.iter().zip(wheel.iter().zip(rail)) {
             out.swelling.push(x, self.swelling * (w + r));
             of_wheel.push(x, self.membrane * w);
             of_rail.push(x, self.membrane * r);
         }
-        Ok(())
     }
 }

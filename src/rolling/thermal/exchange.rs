@@ -1,8 +1,8 @@
 //! What the contact and the brake blocks do to the temperature fields.
 
 use super::{ThermalModel, Touch};
-use crate::config::{ConductanceLaw, Config, Hub};
-use crate::heat::{Conductance, Exchange, HeatConfig, HeatTimeScheme, HubCondition, Patch, TreadHeat};
+use crate::config::Config;
+use crate::heat::{Exchange, HeatConfig, TreadHeat};
 use crate::piecewise::Piecewise;
 
 /// Arrangement of the brake blocks on the tread.
@@ -31,7 +31,6 @@ impl BrakeBlocks {
 
     /// Writes the heat of all blocks together [W] as segments of the tread.
     fn fill(&self, heat: f64, tread: &mut Vec<TreadHeat>) {
-        tread.clear();
         if heat == 0.0 {
             return;
         }
@@ -46,17 +45,15 @@ impl ThermalModel {
     /// power.
     pub(super) fn fill_exchange(&self, touch: &Touch, tread_heat: f64, exchange: &mut Exchange) {
         let contact = touch.traction;
-        exchange.patches.clear();
-        exchange.patches.extend(contact.patches.iter().map(|patch| Patch { low: patch.low, high: patch.high }));
+        exchange.clear();
+        exchange.patches.extend(&contact.patches);
         copy(&contact.pressure, &mut exchange.pressure);
         copy(&contact.dissipation, &mut exchange.friction_power);
         self.blocks.fill(tread_heat, &mut exchange.tread);
-        exchange.reversible.clear();
         let [wheel, rail] = &touch.reversible;
         for ((&x, of_wheel), of_rail) in wheel.x.iter().zip(&wheel.value).zip(&rail.value) {
             exchange.reversible.push(x, of_wheel - of_rail);
         }
-        exchange.held = true;
     }
 }
 
@@ -67,33 +64,13 @@ fn copy(from: &Piecewise, to: &mut Piecewise) {
 
 /// Parameters of the heat model for a configuration; `half_width` at the nominal load and `zone` [m].
 pub fn heat_config(config: &Config, half_width: f64, zone: f64) -> HeatConfig {
-    let (material, thermal) = (&config.material, &config.thermal);
     HeatConfig {
-        conductivity: material.conductivity,
-        specific_heat: material.specific_heat,
-        density: material.density,
-        wheel_radius: config.wheel.radius,
-        hub_radius: config.wheel.hub_radius,
-        rail_length: config.rail.length,
-        rail_height: config.rail.height,
-        half_width,
-        smallest_half_width: half_width * thermal.smallest_load_ratio.sqrt(),
-        zone,
-        max_speed: thermal.max_speed,
+        wheel: config.wheel.clone(),
+        rail: config.rail.clone(),
+        material: config.material.clone(),
+        thermal: config.thermal.clone(),
         elements_per_half_width: config.mesh.elements_per_half_width,
-        hub: match thermal.hub {
-            Hub::Fixed => HubCondition::Fixed,
-            Hub::Insulated => HubCondition::Insulated,
-        },
-        conductance: match thermal.conductance_law {
-            ConductanceLaw::Constant => Conductance::Constant { value: thermal.conductance },
-            ConductanceLaw::Pressure => {
-                Conductance::Pressure { value: thermal.conductance, reference_pressure: thermal.reference_pressure }
-            }
-        },
-        friction_fraction: thermal.heat_ratio,
-        wheel_share: thermal.wheel_share,
-        convection: thermal.convection,
-        time_scheme: HeatTimeScheme::Sdirk2,
+        half_width,
+        zone,
     }
 }

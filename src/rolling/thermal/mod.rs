@@ -14,7 +14,7 @@ use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use super::contact_model::ContactModel;
 use crate::contact::{Heating, Traction};
-use crate::heat::{Exchange, Heat, HeatError, HeatFlows, Scratch, TemperatureField};
+use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::mechanics;
 use crate::piecewise::{self, Piecewise};
 use deformation::Expansion;
@@ -39,6 +39,14 @@ pub struct ThermalModel {
     thermoelastic: Option<Thermoelastic>,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
+}
+
+/// Memory that heat steps reuse.
+#[derive(Default)]
+pub struct Scratch {
+    heat: heat::Scratch,
+    exchange: Exchange,
+    seen: Observation,
 }
 
 /// What temperatures see of a contact.
@@ -94,7 +102,7 @@ impl ThermalModel {
             thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
             thermal.flows = flows;
         }
-        self.observe(touch, state.friction, &mut thermal)?;
+        self.observe(touch, state.friction, &mut thermal, &mut Observation::default())?;
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
@@ -111,12 +119,11 @@ impl ThermalModel {
         mut thermal: ThermalState,
         scratch: &mut Scratch,
     ) -> Result<ThermalState, StepError> {
-        let mut exchange = Exchange::default();
-        self.fill_exchange(touch, tread_heat, &mut exchange);
-        let (velocity, omega) = (next.motion.velocity.now, next.motion.omega.now);
-        thermal.fields.clone_from(&before.fields);
-        thermal.flows = self.heat.step(&mut thermal.fields, dt, velocity, omega, &exchange, scratch)?;
-        self.observe(touch, next.friction, &mut thermal)?;
+        let Scratch { heat, exchange, seen } = scratch;
+        self.fill_exchange(touch, tread_heat, exchange);
+        let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
+        thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
+        self.observe(touch, next.friction, &mut thermal, seen)?;
         thermal.heating.before = before.heating.now;
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         let above = if hottest > austenitisation { dt } else { 0.0 };
@@ -127,30 +134,35 @@ impl ThermalModel {
     }
 
     /// Fills all that follows from the temperature fields.
-    fn observe(&self, touch: &Touch, friction: f64, thermal: &mut ThermalState) -> Result<(), StepError> {
-        let heat = &self.heat;
-        thermal.temperatures = heat.temperatures(&thermal.fields)?;
-        let (mut wheel, mut rail) = heat.zone_temperatures(&thermal.fields)?;
+    fn observe(
+        &self,
+        touch: &Touch,
+        friction: f64,
+        thermal: &mut ThermalState,
+        seen: &mut Observation,
+    ) -> Result<(), StepError> {
+        let zone = self.heat.zone_x();
+        self.heat.observe(&thermal.fields, seen)?;
         if self.thermoelastic.is_some() {
-            let zone = heat.zone_x();
-            for (field, reversible) in [&mut wheel, &mut rail].into_iter().zip(&touch.reversible) {
+            for (field, reversible) in seen.surface.iter_mut().zip(&touch.reversible) {
                 let rise = |x: f64| piecewise::interpolate(&reversible.x, &reversible.value, x);
                 field.iter_mut().zip(zone).for_each(|(t, &x)| *t += rise(x));
             }
-            let temperatures = &mut thermal.temperatures;
-            (temperatures.wheel_max, temperatures.rail_max) = (piecewise::peak(zone, &wheel), piecewise::peak(zone, &rail));
+            let (temperatures, [wheel, rail]) = (&mut seen.temperatures, &seen.surface);
+            (temperatures.wheel_max, temperatures.rail_max) = (piecewise::peak(zone, wheel), piecewise::peak(zone, rail));
             (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
         }
-        for (surface, field) in thermal.surface.iter_mut().zip([&wheel, &rail]) {
-            piecewise::resample(heat.zone_x(), field, &self.points, surface);
+        thermal.temperatures = seen.temperatures;
+        for (surface, field) in thermal.surface.iter_mut().zip(&seen.surface) {
+            piecewise::resample(zone, field, &self.points, surface);
         }
         thermal.patch_mean = touch.traction.extent().map_or([0.0; 2], |patch| {
-            [&wheel, &rail].map(|field| piecewise::mean(heat.zone_x(), field, patch.low, patch.high))
+            [0, 1].map(|body| piecewise::mean(zone, &seen.surface[body], patch.low, patch.high))
         });
         let mean = 0.5 * (thermal.patch_mean[0] + thermal.patch_mean[1]);
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         match &self.expansion {
-            Some(expansion) => expansion.deform(heat, &thermal.fields, &thermal.temperatures, &mut thermal.deformation)?,
+            Some(expansion) => expansion.deform(zone, seen, &mut thermal.deformation),
             None => thermal.deformation = ThermalDeformation::NONE,
         }
         Ok(())

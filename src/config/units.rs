@@ -1,4 +1,4 @@
-//! Units of the interface: their SI exponents and what people like to read instead.
+//! Units: their SI exponents and what people like to read instead.
 
 /// A unit and the unit in which a master should show the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,8 +18,6 @@ pub const PERCENT: Measure = measure("1", "%");
 pub const METRE: Measure = Measure { unit: "m", display: None };
 pub const MILLIMETRE: Measure = measure("m", "mm");
 pub const SECOND: Measure = Measure { unit: "s", display: None };
-pub const KILOGRAM: Measure = Measure { unit: "kg", display: None };
-pub const TONNE: Measure = measure("kg", "t");
 pub const DEGREE: Measure = measure("rad", "deg");
 pub const SPEED: Measure = measure("m/s", "km/h");
 pub const SLIP: Measure = measure("m/s", "mm/s");
@@ -30,19 +28,9 @@ pub const FORCE: Measure = measure("N", "kN");
 pub const NEWTON: Measure = Measure { unit: "N", display: None };
 pub const MOMENT: Measure = measure("N.m", "kN.m");
 pub const PRESSURE: Measure = measure("Pa", "MPa");
-pub const MODULUS: Measure = measure("Pa", "GPa");
 pub const POWER: Measure = measure("W", "kW");
-pub const DENSITY: Measure = Measure { unit: "kg/m3", display: None };
-pub const INERTIA: Measure = Measure { unit: "kg.m2", display: None };
 /// Absolute temperature.
 pub const TEMPERATURE: Measure = measure("K", "degC");
-/// Temperature difference.
-pub const DIFFERENCE: Measure = Measure { unit: "K", display: None };
-pub const PER_KELVIN: Measure = Measure { unit: "1/K", display: None };
-pub const CONDUCTIVITY: Measure = Measure { unit: "W/(m.K)", display: None };
-pub const CONDUCTANCE: Measure = Measure { unit: "W/(m2.K)", display: None };
-pub const SPECIFIC_HEAT: Measure = Measure { unit: "J/(kg.K)", display: None };
-pub const DECAY: Measure = Measure { unit: "s/m", display: None };
 
 /// A unit for people: `display = factor · value + offset`.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +57,7 @@ pub struct Unit {
 /// Names of the base units to which [`Unit::exponents`] belong, as the FMI schema spells them.
 pub const BASE_UNITS: [&str; 5] = ["kg", "m", "s", "rad", "K"];
 
-/// Every unit of the interface.
+/// Every unit of the tables.
 pub const UNITS: &[Unit] = &[
     Unit { name: "1", exponents: [0, 0, 0, 0, 0], displays: &[times("%", 100.0)] },
     Unit { name: "m", exponents: [0, 1, 0, 0, 0], displays: &[times("mm", 1e3)] },

@@ -1,126 +1,16 @@
-//! Direct solver of one implicit step in one body.
-//!
-//! With the fields written in the modes across the streamlines, an implicit step is one tridiagonal system per mode,
-//!
-//! ```text
-//! [μ ρc M̃ + β (k λₘ M̃ + F)] xₘ = bₘ ,
-//! ```
-//!
-//! cyclic in the wheel. Nothing is kept from one step to the next, so that step size and speeds may change every time.
-//! Fields are stored as `field[node · modes + mode]`; all recurrences run over the nodes and are vectors in the modes.
+//! Factors of the tridiagonal systems of one implicit step, one system per mode across the streamlines.
 
-use super::HeatError;
-use super::tensor::{Modes, Streamline, Transport};
+use super::modal::{HeatBody, StageCoefficients, dot};
+use super::streamline::Transport;
+use crate::heat::HeatError;
 use std::ops::Range;
-
-/// A tensor mesh with its material.
-#[derive(Clone, Debug)]
-pub(super) struct Body {
-    pub line: Streamline,
-    pub modes: Modes,
-    /// Heat capacity `ρc` [J/(m³ K)].
-    pub heat_capacity: f64,
-    /// Conductivity [W/(m K)].
-    pub conductivity: f64,
-    /// Coefficient of convection from the surface to the air [W/(m² K)].
-    pub film: f64,
-}
-
-/// Weights of storage and flow in the matrix of a step: `S = μ ρc M̃ + β A`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Blend {
-    pub storage: f64,
-    pub flow: f64,
-}
-
-impl Body {
-    /// Number of values of a field.
-    pub fn size(&self) -> usize {
-        self.line.len() * self.modes.len()
-    }
-
-    /// `out ← out + S x` with the operator of the modal solver.
-    pub fn multiply(&self, transport: &Transport, blend: Blend, x: &[f64], out: &mut [f64]) {
-        let (n, nm) = (self.line.len(), self.modes.len());
-        let row = |i: usize| &x[i * nm..(i + 1) * nm];
-        let alpha: Vec<f64> = self.alpha(blend);
-        for i in 0..n {
-            // Ends of an open streamline have no outer neighbour; the entries there are zero.
-            let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-            let (ml, md, mu) = (transport.mass_lower[i], transport.mass[i], transport.mass_upper[i]);
-            let (fl, fu) = (blend.flow * transport.flow_lower[i], blend.flow * transport.flow_upper[i]);
-            let entry = blend.flow * transport.entry(i);
-            let target = &mut out[i * nm..(i + 1) * nm];
-            let values = row(before).iter().zip(row(i)).zip(row(after));
-            for ((target, ((&a, &b), &c)), alpha) in target.iter_mut().zip(values).zip(&alpha) {
-                *target += alpha * (ml * a + md * b + mu * c) + fl * (a - b) + fu * (c - b) + entry * b;
-            }
-        }
-    }
-
-    /// `out ← out + β k K ⊗ ∫(1/g − g)NN x`: the part of the conduction along the streamlines that the modal solver
-    /// leaves out. `work` has the length of a field.
-    pub fn add_curvature(&self, blend: Blend, x: &[f64], out: &mut [f64], work: &mut Vec<f64>) {
-        if self.modes.curvature.is_empty() {
-            return;
-        }
-        let nm = self.modes.len();
-        work.clear();
-        work.resize(self.size(), 0.0);
-        for (e, h) in self.line.lengths.iter().enumerate() {
-            let (a, b) = (e * nm, self.line.after(e) * nm);
-            for m in 0..nm {
-                let flux = blend.flow * self.conductivity / h * (x[a + m] - x[b + m]);
-                work[a + m] += flux;
-                work[b + m] -= flux;
-            }
-        }
-        let columns = self.modes.curvature.as_slice();
-        for (source, target) in work.chunks_exact(nm).zip(out.chunks_exact_mut(nm)) {
-            for (value, column) in source.iter().zip(columns.chunks_exact(nm)) {
-                target.iter_mut().zip(column).for_each(|(t, c)| *t += value * c);
-            }
-        }
-    }
-
-    /// Adds a surface load given at the nodes `first..` to a right-hand side.
-    pub fn add_surface_load(&self, first: usize, load: &[f64], out: &mut [f64]) {
-        let nm = self.modes.len();
-        for (value, target) in load.iter().zip(out[first * nm..].chunks_exact_mut(nm)) {
-            target.iter_mut().zip(&self.modes.surface).for_each(|(t, s)| *t += value * s);
-        }
-    }
-
-    /// Surface values at a range of nodes.
-    pub fn trace(&self, nodes: Range<usize>, x: &[f64], out: &mut Vec<f64>) {
-        let nm = self.modes.len();
-        out.clear();
-        let rows = x[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
-        out.extend(rows.map(|row| dot(row, &self.modes.surface)));
-    }
-
-    /// `∫ x ds` of every mode.
-    pub fn integrate(&self, x: &[f64], sums: &mut Vec<f64>) {
-        let nm = self.modes.len();
-        sums.clear();
-        sums.resize(nm, 0.0);
-        for (row, w) in x.chunks_exact(nm).zip(&self.line.weights) {
-            sums.iter_mut().zip(row).for_each(|(s, v)| *s += w * v);
-        }
-    }
-
-    fn alpha(&self, blend: Blend) -> Vec<f64> {
-        let flow = blend.flow * self.conductivity;
-        self.modes.values.iter().map(|l| blend.storage * self.heat_capacity + flow * l).collect()
-    }
-}
 
 /// Factors of the tridiagonal systems of all modes.
 ///
 /// The chain of nodes (without the last one on a closed streamline, which borders it) has `T = (1 + w)(1/inverse)(1 +
 /// r)` with subdiagonal `w` and superdiagonal `r`.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Factor {
+pub(super) struct TridiagonalFactor {
     w: Vec<f64>,
     r: Vec<f64>,
     inverse: Vec<f64>,
@@ -131,16 +21,26 @@ pub(super) struct Factor {
     /// Row entries of the bordering node towards the first and the last node of the chain, and its inverse pivot.
     border: [Vec<f64>; 3],
     alpha: Vec<f64>,
+    /// Of the inverse at the nodes whose response is wanted.
+    diagonal: Vec<f64>,
+    /// One number per mode that a recurrence carries along.
     moving: Vec<f64>,
 }
 
-impl Factor {
+impl TridiagonalFactor {
     /// Factorises `S` for all modes.
-    pub fn set(&mut self, body: &Body, transport: &Transport, blend: Blend) -> Result<(), HeatError> {
+    pub fn set(
+        &mut self,
+        body: &HeatBody,
+        transport: &Transport,
+        coefficients: StageCoefficients,
+    ) -> Result<(), HeatError> {
         let nm = body.modes.len();
         let closed = body.line.closed > 0.0;
         let n = body.line.len() - usize::from(closed);
-        self.alpha = body.alpha(blend);
+        let (storage, flow) = body.alpha(coefficients);
+        self.alpha.clear();
+        self.alpha.extend(body.modes.values.iter().map(|value| storage + flow * value));
         for values in [&mut self.w, &mut self.r, &mut self.inverse] {
             values.resize(n * nm, 0.0);
         }
@@ -151,8 +51,8 @@ impl Factor {
         self.moving.resize(nm, 0.0);
         for i in 0..n {
             let (ml, mu) = (transport.mass_lower[i], transport.mass_upper[i]);
-            let (fl, fu) = (blend.flow * transport.flow_lower[i], blend.flow * transport.flow_upper[i]);
-            let (sum, entry) = (ml + transport.mass[i] + mu, blend.flow * transport.entry(i));
+            let (fl, fu) = (coefficients.flow * transport.flow_lower[i], coefficients.flow * transport.flow_upper[i]);
+            let (sum, entry) = (ml + transport.mass[i] + mu, coefficients.flow * transport.entry(i));
             let (done, rest) = self.inverse.split_at_mut(i * nm);
             let (w, r) = (&mut self.w[i * nm..(i + 1) * nm], &mut self.r[i * nm..(i + 1) * nm]);
             let (inverse, excess) = (&mut rest[..nm], &mut self.moving);
@@ -175,21 +75,26 @@ impl Factor {
             }
         }
         if closed {
-            self.set_border(transport, blend, n, nm);
+            self.set_border(transport, coefficients, n, nm);
         }
         let bordered = if closed { self.border[2].iter().sum() } else { 0.0 };
         let check = self.inverse[(n - 1) * nm..].iter().sum::<f64>() + bordered;
         if check.is_finite() { Ok(()) } else { Err(HeatError::Singular { unknowns: body.size() }) }
     }
 
-    fn set_border(&mut self, transport: &Transport, blend: Blend, n: usize, nm: usize) {
+    fn set_border(&mut self, transport: &Transport, coefficients: StageCoefficients, n: usize, nm: usize) {
         self.row.clear();
         self.row.resize(n * nm, 0.0);
         // Rows 0 and n − 1 of the chain see the bordering node as their outer neighbour, and it sees them.
-        let entry =
-            |mass: f64, flow: f64| -> Vec<f64> { self.alpha.iter().map(|a| a * mass + blend.flow * flow).collect() };
-        let to_first = entry(transport.mass_upper[n], transport.flow_upper[n]);
-        let to_last = entry(transport.mass_lower[n], transport.flow_lower[n]);
+        let mut border = std::mem::take(&mut self.border);
+        let [to_first, to_last, pivot] = &mut border;
+        for (entries, mass, flow) in [
+            (&mut *to_first, transport.mass_upper[n], transport.flow_upper[n]),
+            (&mut *to_last, transport.mass_lower[n], transport.flow_lower[n]),
+        ] {
+            entries.clear();
+            entries.extend(self.alpha.iter().map(|a| a * mass + coefficients.flow * flow));
+        }
         let last = (n - 1) * nm;
         for m in 0..nm {
             self.row[m] += to_first[m];
@@ -204,11 +109,13 @@ impl Factor {
             column.extend(self.alpha.iter().map(|a| a * sum));
         }
         self.solve_chain(&mut column, 0, n, nm);
-        let pivot: Vec<f64> = (0..nm)
-            .map(|m| 1.0 / (self.alpha[m] * sum(n) - to_first[m] * column[m] - to_last[m] * column[last + m]))
-            .collect();
+        pivot.clear();
+        pivot.extend(
+            (0..nm).map(|m| 1.0 / (self.alpha[m] * sum(n) - to_first[m] * column[m] - to_last[m] * column[last + m])),
+        );
         column.iter_mut().for_each(|y| *y -= 1.0);
         self.column = column;
+        self.border = border;
         // Tᵀ = (1 + r)ᵀ (1/inverse) (1 + w)ᵀ.
         for i in 1..n {
             let (done, rest) = self.row.split_at_mut(i * nm);
@@ -223,7 +130,6 @@ impl Factor {
                 done[i * nm + m] -= self.w[(i + 1) * nm + m] * rest[m];
             }
         }
-        self.border = [to_first, to_last, pivot];
     }
 
     /// `x ← T⁻¹ x`; `x` is zero before node `first`.
@@ -244,7 +150,7 @@ impl Factor {
     }
 
     /// `x ← S⁻¹ x`; `x` is zero before node `first`.
-    pub fn solve(&self, body: &Body, x: &mut [f64], first: usize) {
+    pub fn solve(&self, body: &HeatBody, x: &mut [f64], first: usize) {
         let nm = body.modes.len();
         if body.line.closed == 0.0 {
             return self.solve_chain(x, first, body.line.len(), nm);
@@ -266,30 +172,15 @@ impl Factor {
     ///
     /// Entries of the inverse of a tridiagonal matrix follow from its factors, `X_jj = 1/d_j + r_j w_{j+1} X_{j+1,j+1}`,
     /// `X_ij = −w_{j+1} X_{i,j+1}` for `j < i`, `X_ij = −r_i X_{i+1,j}` for `i < j` (Takahashi, Fagan & Chin 1973).
-    pub fn surface_response(&mut self, body: &Body, range: Range<usize>, out: &mut Vec<f64>) {
+    pub fn surface_response(&mut self, body: &HeatBody, range: Range<usize>, out: &mut Vec<f64>) {
         let nm = body.modes.len();
-        let n = body.line.len() - usize::from(body.line.closed > 0.0);
         let count = range.len();
         out.clear();
         out.resize(count * count, 0.0);
-        // Diagonal of the inverse, weighted with φₘ(0)², from the end of the chain to the first node of the range.
-        let mut diagonal = vec![0.0; count * nm];
-        let mut below = vec![0.0; nm];
-        for i in (range.start..n).rev() {
-            for (m, below) in below.iter_mut().enumerate() {
-                let next = if i + 1 < n { self.r[i * nm + m] * self.w[(i + 1) * nm + m] * *below } else { 0.0 };
-                *below = self.inverse[i * nm + m] + next;
-            }
-            if i < range.end {
-                diagonal[(i - range.start) * nm..(i - range.start + 1) * nm].copy_from_slice(&below);
-            }
-        }
-        for row in diagonal.chunks_exact_mut(nm) {
-            row.iter_mut().zip(&body.modes.surface).for_each(|(x, s)| *x *= s * s);
-        }
+        self.set_diagonal(body, &range);
         self.moving.resize(nm, 0.0);
         for k in 0..count {
-            let start = &diagonal[k * nm..(k + 1) * nm];
+            let start = &self.diagonal[k * nm..(k + 1) * nm];
             out[k * count + k] = start.iter().sum();
             self.moving.copy_from_slice(start);
             // The influence dies out within a few nodes against the stream, and along it in short steps.
@@ -315,21 +206,48 @@ impl Factor {
             }
         }
         if body.line.closed > 0.0 {
-            // Once around the wheel.
-            let mut scaled = vec![0.0; nm];
-            let row = largest(&self.row[range.start * nm..range.end * nm]);
-            for i in 0..count {
-                let at = (range.start + i) * nm;
-                for (m, (scaled, s)) in scaled.iter_mut().zip(&body.modes.surface).enumerate() {
-                    *scaled = self.column[at + m] * self.border[2][m] * s * s;
-                }
-                if largest(&scaled) * row <= NEGLIGIBLE * out[i * count + i] {
-                    continue;
-                }
-                for j in 0..count {
-                    let at = (range.start + j) * nm;
-                    out[i * count + j] += dot(&scaled, &self.row[at..at + nm]);
-                }
+            self.add_round_trip(body, &range, out);
+        }
+    }
+
+    /// Diagonal of the inverse of the chain at the nodes `range`, weighted with `φₘ(0)²`.
+    fn set_diagonal(&mut self, body: &HeatBody, range: &Range<usize>) {
+        let nm = body.modes.len();
+        let n = body.line.len() - usize::from(body.line.closed > 0.0);
+        self.diagonal.clear();
+        self.diagonal.resize(range.len() * nm, 0.0);
+        self.moving.clear();
+        self.moving.resize(nm, 0.0);
+        for i in (range.start..n).rev() {
+            for (m, below) in self.moving.iter_mut().enumerate() {
+                let next = if i + 1 < n { self.r[i * nm + m] * self.w[(i + 1) * nm + m] * *below } else { 0.0 };
+                *below = self.inverse[i * nm + m] + next;
+            }
+            if i < range.end {
+                self.diagonal[(i - range.start) * nm..(i - range.start + 1) * nm].copy_from_slice(&self.moving);
+            }
+        }
+        for row in self.diagonal.chunks_exact_mut(nm) {
+            row.iter_mut().zip(&body.modes.surface).for_each(|(x, s)| *x *= s * s);
+        }
+    }
+
+    /// Adds the influence that goes once around the wheel to the response at the nodes `range`.
+    fn add_round_trip(&mut self, body: &HeatBody, range: &Range<usize>, out: &mut [f64]) {
+        let nm = body.modes.len();
+        let count = range.len();
+        let row = largest(&self.row[range.start * nm..range.end * nm]);
+        for i in 0..count {
+            let at = (range.start + i) * nm;
+            for (m, (scaled, s)) in self.moving.iter_mut().zip(&body.modes.surface).enumerate() {
+                *scaled = self.column[at + m] * self.border[2][m] * s * s;
+            }
+            if largest(&self.moving) * row <= NEGLIGIBLE * out[i * count + i] {
+                continue;
+            }
+            for j in 0..count {
+                let at = (range.start + j) * nm;
+                out[i * count + j] += dot(&self.moving, &self.row[at..at + nm]);
             }
         }
     }
@@ -364,15 +282,4 @@ fn decay(x: &mut [f64], f: &[f64]) -> f64 {
         sums[l] += *x;
     }
     ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]))
-}
-
-/// Scalar product of vectors whose length is a multiple of four.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
-        for l in 0..4 {
-            sums[l] += a[l] * b[l];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }

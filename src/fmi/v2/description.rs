@@ -1,23 +1,19 @@
 //! `modelDescription.xml` and the GUID, both made from the table of variables.
 
-use super::MODEL_IDENTIFIER;
-use super::log::CATEGORIES;
-use super::presets;
-use super::units::{BASE_UNITS, UNITS};
-use super::variable::{Access, Causality, Kind, Start, Value, Variable};
-use super::variables::{ENUMERATIONS, variables};
 use crate::config::Config;
+use crate::fmi::MODEL_IDENTIFIER;
+use crate::fmi::instance::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
+use crate::fmi::log::CATEGORIES;
+use crate::fmi::presets;
+use crate::fmi::table::enumerations;
+use crate::fmi::units::{BASE_UNITS, UNITS};
+use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
+use crate::fmi::variables::variables;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
-
-/// Highest order of input derivatives that masters may set, so that inputs are ramps within a step.
-pub const INPUT_DERIVATIVE_ORDER: i32 = 1;
-
-/// Highest order of output derivatives that masters may get.
-pub const OUTPUT_DERIVATIVE_ORDER: i32 = 1;
 
 /// End of the default experiment and its communication step [s].
 pub const DEFAULT_STOP_TIME: f64 = 1.0;
@@ -126,7 +122,7 @@ fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
 
 fn type_definitions(xml: &mut Xml) -> io::Result<()> {
     list(xml, "TypeDefinitions", |xml| {
-        for list in ENUMERATIONS {
+        for list in enumerations() {
             let element = xml
                 .create_element("SimpleType")
                 .with_attributes([("name", list.name), ("description", list.description)]);
@@ -148,16 +144,17 @@ fn type_definitions(xml: &mut Xml) -> io::Result<()> {
 
 /// Start value of an input or parameter under the default preset; `None` for outputs.
 pub fn start_value(variable: &Variable) -> Option<Value> {
-    static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
-    let mut config = CONFIG.get_or_init(|| presets::default_config().ok()).clone()?;
-    let parameter = variable.parameter(presets::DEFAULT, &mut config);
+    let config = Config::default();
+    let parameter = variable.parameter(presets::DEFAULT, &config);
     parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
 }
 
 /// FMI variability of a variable.
 pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
-        Access::RealInput(_) | Access::RealOutput(_) | Access::ProfileOutput(..) => "continuous",
+        Access::RealInput(_) | Access::RealOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
+            "continuous"
+        }
         Access::ChoiceInput(..) | Access::CountOutput(_) => "discrete",
         _ if variable.tunable => "tunable",
         _ => "fixed",
@@ -209,28 +206,22 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
             "Enumeration"
         }
     };
-    let start = start_value(variable).map(|value| match value {
-        Value::Real(v) => number(v),
-        Value::Integer(v) => v.to_string(),
-        Value::Boolean(v) => v.to_string(),
-        Value::String(v) => v,
-    });
+    let start = start_value(variable).map(|value| value.to_string());
     attributes.extend(start.map(|start| ("start", start)));
     let attributes: Vec<_> = attributes.iter().map(|(name, value)| (*name, value.as_str())).collect();
     empty(xml, element, &attributes)
 }
 
-/// Outputs depend on no input at the same communication point (inputs act in the step that follows); initially they
-/// depend on everything, which the standard expresses by leaving the list out, or are zero by definition.
+/// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
+/// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
+/// outputs depend on everything, too, or are zero by definition.
 fn model_structure(xml: &mut Xml) -> io::Result<()> {
     let outputs: Vec<_> = (1usize..)
         .zip(variables())
         .filter(|(_, variable)| variable.causality() == Causality::Output)
         .map(|(index, variable)| (index.to_string(), variable.start))
         .collect();
-    list(xml, "Outputs", |xml| {
-        outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index), ("dependencies", "")]))
-    })?;
+    list(xml, "Outputs", |xml| outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index)])))?;
     list(xml, "InitialUnknowns", |xml| {
         outputs.iter().try_for_each(|(index, start)| match start {
             Start::Zero => empty(xml, "Unknown", &[("index", index), ("dependencies", "")]),

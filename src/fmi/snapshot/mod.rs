@@ -1,11 +1,14 @@
 //! Everything an instance must remember to continue bit for bit, and its form as bytes.
 
-use super::description::guid;
+mod schema;
+
 use super::lifecycle::Phase;
-use super::settings::Explicit;
+use super::settings::SetValues;
+use super::variables::variables;
 use crate::config::Config;
 use crate::simulation::{Checkpoint, Drive};
 use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
 use uuid::Uuid;
 
 /// Memory of an instance without its model, which follows from `config`.
@@ -15,9 +18,9 @@ pub struct Snapshot {
     pub preset: String,
     /// Parameters of the preset before explicit ones override them.
     pub base: Config,
-    pub parameters: Explicit,
-    pub inputs: Explicit,
-    pub taken: Explicit,
+    pub parameters: SetValues,
+    pub inputs: SetValues,
+    pub bumpless: SetValues,
     pub rates: Drive,
     /// Current communication point [s].
     pub time: f64,
@@ -30,18 +33,22 @@ pub struct Snapshot {
 const MAGIC: &[u8; 8] = b"WRSTATE\x01";
 const CHECKSUM: usize = 16;
 
-/// Digest of the names of all fields of a snapshot in their order: the bytes carry no names. A test tells the new value
-/// when the fields have changed.
-const LAYOUT: &str = "f52ac265-38f5-5ebe-ae6b-c900feb2faaa";
-
-/// What identifies bytes as ours: version of the program, variable table, layout.
-fn identity() -> String {
-    format!("{} {} {LAYOUT}", env!("CARGO_PKG_VERSION"), guid())
+/// What identifies bytes as ours: version of the program, and a digest of the layout of a snapshot and of the variables
+/// that its value references stand for.
+fn identity() -> Result<&'static str, String> {
+    static IDENTITY: OnceLock<Result<String, String>> = OnceLock::new();
+    let compute = || {
+        let layout = schema::layout::<Snapshot>().map_err(|error| format!("states have no layout: {error}"))?;
+        let rows = variables().iter().map(|row| format!("{} {} {}", row.reference, row.name, row.kind.type_name()));
+        let text = rows.chain([layout]).collect::<Vec<_>>().join("\n");
+        Ok(format!("{} {}", env!("CARGO_PKG_VERSION"), Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes())))
+    };
+    IDENTITY.get_or_init(compute).as_deref().map_err(Clone::clone)
 }
 
 /// A 128-bit digest (SHA-1, truncated as UUID version 5) of the identity and the payload.
-fn checksum(payload: &[u8]) -> [u8; CHECKSUM] {
-    let namespace = Uuid::new_v5(&Uuid::NAMESPACE_OID, identity().as_bytes());
+fn checksum(identity: &str, payload: &[u8]) -> [u8; CHECKSUM] {
+    let namespace = Uuid::new_v5(&Uuid::NAMESPACE_OID, identity.as_bytes());
     *Uuid::new_v5(&namespace, payload).as_bytes()
 }
 
@@ -49,9 +56,9 @@ impl Snapshot {
     /// Layout: magic, length of the identity (one byte), identity, checksum of the payload, payload (postcard).
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         let payload = postcard::to_stdvec(self).map_err(|error| format!("state cannot be serialized: {error}"))?;
-        let identity = identity();
+        let identity = identity()?;
         let length = u8::try_from(identity.len()).map_err(|error| error.to_string())?;
-        Ok([MAGIC, [length].as_slice(), identity.as_bytes(), &checksum(&payload), &payload].concat())
+        Ok([MAGIC, [length].as_slice(), identity.as_bytes(), &checksum(identity, &payload), &payload].concat())
     }
 
     /// Refuses bytes that are damaged, cut, lengthened or written by another version.
@@ -59,13 +66,13 @@ impl Snapshot {
         let rest = bytes.strip_prefix(MAGIC).ok_or("serialized state is not from this FMU")?;
         let (length, rest) = rest.split_first().ok_or("serialized state is cut short")?;
         let (theirs, rest) = rest.split_at_checked(*length as usize).ok_or("serialized state is cut short")?;
-        let ours = identity();
+        let ours = identity()?;
         if theirs != ours.as_bytes() {
             let theirs = String::from_utf8_lossy(theirs);
             return Err(format!("serialized state is of version \"{theirs}\", this FMU is \"{ours}\""));
         }
         let (sum, payload) = rest.split_at_checked(CHECKSUM).ok_or("serialized state is cut short")?;
-        if sum != checksum(payload) {
+        if sum != checksum(ours, payload) {
             return Err("serialized state is damaged: checksum does not match".to_owned());
         }
         postcard::from_bytes(payload).map_err(|error| format!("serialized state is damaged: {error}"))
@@ -78,7 +85,6 @@ mod tests {
     use crate::fmi::instance::Instance;
     use crate::fmi::log::Log;
     use crate::fmi::variable::Value;
-    use crate::fmi::variables::variables;
 
     /// A coarse wheel after one step, with everything a snapshot can hold.
     fn snapshot() -> Snapshot {
@@ -97,19 +103,15 @@ mod tests {
 
     #[test]
     fn the_layout_of_states_is_part_of_their_identity() {
-        let snapshot = snapshot();
-        let text = serde_json::to_string(&snapshot).unwrap();
-        // Names in quotes before a colon; keys of maps are numbers.
-        let named = text.split("\":").filter_map(|part| part.rsplit('"').next());
-        let names: Vec<&str> = named.filter(|name| name.starts_with(char::is_alphabetic)).collect();
-        assert!(names.contains(&"internal_steps") && names.contains(&"membrane"));
-        let layout = Uuid::new_v5(&Uuid::NAMESPACE_OID, names.join(" ").as_bytes()).to_string();
-        assert_eq!(layout, LAYOUT, "the fields of a state have changed: this is the new LAYOUT");
-
-        let bytes = snapshot.to_bytes().unwrap();
-        let at = bytes.windows(LAYOUT.len()).position(|window| window == LAYOUT.as_bytes()).unwrap();
+        let layout = schema::layout::<Snapshot>().unwrap();
+        // Names of every storey: interface, checkpoint, state, heat.
+        for name in ["Snapshot phase", "internal_steps visit_u64", "membrane", "Origin:Stationary|Step variant 1"] {
+            assert!(layout.contains(name), "{name} is missing in {layout}");
+        }
+        let (identity, bytes) = (identity().unwrap(), snapshot().to_bytes().unwrap());
+        let at = bytes.windows(identity.len()).position(|window| window == identity.as_bytes()).unwrap();
         let mut other = bytes.clone();
-        other[at] ^= 1;
+        other[at + identity.len() - 1] ^= 1;
         assert!(Snapshot::from_bytes(&bytes).is_ok());
         assert!(Snapshot::from_bytes(&other).err().unwrap().contains("version"));
     }

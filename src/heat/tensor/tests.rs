@@ -1,20 +1,25 @@
 //! Closed forms that need volume sources or prescribed boundary temperatures, and the parts of the solver.
 
-use super::krylov::{self, System};
-use super::modal::{Blend, Body, Factor};
-use super::tensor::{Modes, Streamline, Transport, graded};
+use super::depth_modes::DepthModes;
+use super::loads::SurfaceLoads;
+use super::modal::{HeatBody, StageCoefficients};
+use super::stage::{Stage, StageKey};
+use super::streamline::{Streamline, Transport};
+use super::tridiagonal::TridiagonalFactor;
+use crate::fem::grading::graded;
+use crate::linalg::gmres::{Gmres, LinearSystem};
 use std::f64::consts::PI;
 
 const R: f64 = 0.5;
 const HUB: f64 = 0.05;
 const CONDUCTIVITY: f64 = 45.0;
 const HEAT_CAPACITY: f64 = 460.0 * 8000.0;
-const STATIONARY: Blend = Blend { storage: 0.0, flow: 1.0 };
+const STATIONARY: StageCoefficients = StageCoefficients { storage: 0.0, flow: 1.0 };
 
 /// Annulus with fixed hub whose rim is held at the temperature of the air by a very large film coefficient.
-fn annulus(line: Streamline, layers: &[f64], film: f64) -> Body {
-    let modes = Modes::new(layers, 1.0 / R, true, film / CONDUCTIVITY).unwrap();
-    Body { line, modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film }
+fn annulus(line: Streamline, layers: &[f64], film: f64) -> HeatBody {
+    let modes = DepthModes::new(layers, 1.0 / R, true, film / CONDUCTIVITY).unwrap();
+    HeatBody { line, modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film }
 }
 
 fn even(n: usize) -> Streamline {
@@ -31,7 +36,7 @@ fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
     for omega in [0.0, 1e-3, 1.0, 27.8, 1e2, 1e3, 1e4] {
         let mut transport = Transport::default();
         transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
-        let mut factor = Factor::default();
+        let mut factor = TridiagonalFactor::default();
         factor.set(&body, &transport, STATIONARY).unwrap();
         let mut tested = vec![0.0; body.line.len()];
         for (e, h) in body.line.lengths.iter().enumerate() {
@@ -52,9 +57,9 @@ fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
     assert!((middle[0] / 0.6117486980545853 - 1.0).abs() < 2e-3);
 }
 
-struct Exact<'a>(&'a Body, &'a Transport, &'a Factor);
+struct Exact<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
 
-impl System for Exact<'_> {
+impl LinearSystem for Exact<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
         out.fill(0.0);
         self.0.multiply(self.1, STATIONARY, x, out);
@@ -70,7 +75,7 @@ impl System for Exact<'_> {
 fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
     let depths: Vec<f64> = (0..=layers).map(|i| (R - HUB) * i as f64 / layers as f64).collect();
     let body = annulus(even(n), &depths, 1e8);
-    let (mut transport, mut factor) = (Transport::default(), Factor::default());
+    let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
     transport.set(&body.line, omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
     factor.set(&body, &transport, STATIONARY).unwrap();
     let rim = |j: usize| (body.line.nodes[j % n] / R).cos();
@@ -82,7 +87,7 @@ fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
         .collect();
     let mut field = vec![0.0; body.size()];
     body.add_surface_load(0, &load, &mut field);
-    let iterations = krylov::solve(&mut Exact(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
+    let iterations = Gmres::default().solve(&mut Exact(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
     let across = body.modes.at(R - 0.45);
     let mut c = [0.0; 2];
     for (row, s) in field.chunks(across.len()).zip(&body.line.nodes) {
@@ -123,31 +128,29 @@ fn erfcx(z: f64) -> f64 {
 
 #[test]
 fn entry_into_a_conducting_contact_follows_its_closed_form() {
-    use super::{Conductance, Exchange, Heat, Patch};
+    use super::{Exchange, Heat, HeatModel};
+    use crate::config::{ConductanceLaw, Config, Hub};
+    use crate::heat::{HeatConfig, Interval};
     let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
-    let config = super::HeatConfig {
-        conductivity: CONDUCTIVITY,
-        specific_heat: 460.0,
-        density: 8000.0,
-        wheel_radius: R,
-        hub_radius: HUB,
-        rail_length: 1.0,
-        rail_height: 0.1,
-        half_width: a,
-        smallest_half_width: a,
-        zone: 1.5 * a,
-        max_speed: v,
-        elements_per_half_width: 20,
-        hub: super::HubCondition::Fixed,
-        conductance: Conductance::Constant { value: k_c },
-        friction_fraction: 0.0,
-        wheel_share: 0.5,
-        convection: 0.0,
-        time_scheme: super::HeatTimeScheme::Sdirk2,
-    };
-    let heat = Heat::new(&config).unwrap();
-    let exchange = Exchange { patches: vec![Patch { low: -a, high: a }], ..Exchange::default() };
-    let surface = heat.rail_under_uniform_wheel(v, &exchange, 1.0).unwrap();
+    let mut config: Config = serde_json::from_str(include_str!("../../../resources/paper_b.json")).unwrap();
+    (config.wheel.radius, config.wheel.hub_radius, config.rail.length, config.rail.height) = (R, HUB, 1.0, 0.1);
+    (config.material.conductivity, config.material.density, config.material.specific_heat) =
+        (CONDUCTIVITY, 8000.0, HEAT_CAPACITY / 8000.0);
+    let thermal = &mut config.thermal;
+    (thermal.max_speed, thermal.smallest_load_ratio, thermal.convection) = (v, 1.0, 0.0);
+    (thermal.hub, thermal.conductance_law, thermal.conductance) = (Hub::Fixed, ConductanceLaw::Constant, k_c);
+    let Config { wheel, rail, material, thermal, .. } = config;
+    let (half_width, zone) = (a, 1.5 * a);
+    let heat = Heat::new(&HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone })
+        .unwrap();
+    let exchange = Exchange { patches: vec![Interval { low: -a, high: a }], ..Exchange::default() };
+    let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
+    heat.set_loads(&exchange, &mut loads).unwrap();
+    stage
+        .set(&heat, &loads, StageKey { speeds: [v, v / R], coefficients: STATIONARY, rate: 0.0, curved: false })
+        .unwrap();
+    let (nodes, temperatures) = stage.rail_under_uniform_wheel(1.0);
+    let surface: Vec<[f64; 2]> = heat.zone_x()[nodes].iter().zip(temperatures).map(|(&x, t)| [x, t]).collect();
     let effusivity = (CONDUCTIVITY * HEAT_CAPACITY).sqrt();
     let exact = |x: f64| 1.0 - erfcx(k_c / effusivity * ((a - x) / v).sqrt());
     let (mut worst, mut heat_flow) = (0.0_f64, 0.0);
@@ -171,10 +174,10 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
 fn surface_response_equals_solutions_for_unit_loads() {
     let line = Streamline::around_contact(&[0.0, 1e-3, 2e-3, 3e-3], PI * R, 1.5, 0.15 * R, true);
     for omega in [0.0, 0.01, 30.0] {
-        let modes = Modes::new(&graded(1e-4, 1.8, 0.1, R - HUB), 1.0 / R, true, 0.0).unwrap();
+        let modes = DepthModes::new(&graded(1e-4, 1.8, 0.1, R - HUB), 1.0 / R, true, 0.0).unwrap();
         let body =
-            Body { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
-        let (mut transport, mut factor) = (Transport::default(), Factor::default());
+            HeatBody { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
+        let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
         transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
         factor.set(&body, &transport, STATIONARY).unwrap();
         let range = body.line.zone + 1..body.line.zone + 6;
@@ -201,7 +204,7 @@ fn surface_response_equals_solutions_for_unit_loads() {
 #[test]
 fn modes_of_an_insulated_plate_are_cosines() {
     let height = 0.1;
-    let modes = Modes::new(&graded(9e-6, 1.3, 0.05 * height, height), 0.0, false, 0.0).unwrap();
+    let modes = DepthModes::new(&graded(9e-6, 1.3, 0.05 * height, height), 0.0, false, 0.0).unwrap();
     assert_eq!(modes.values[0], 0.0);
     for n in 1..4 {
         let exact = (f64::from(n) * PI / height).powi(2);

@@ -1,0 +1,212 @@
+//! Parameters of a run: the [`table`] of all of them, their check and the presets.
+//!
+//! Everything is SI. Masses, inertias and forces are those of the *whole wheel*; the two-dimensional model works per
+//! metre of width and [`ModelParameters::contact_width`] maps one to the other. `Config::default()` is the preset
+//! `railway`; other presets say in what they differ from it, see [`presets`].
+
+pub mod presets;
+pub mod row;
+pub mod table;
+pub mod units;
+pub mod value;
+
+pub use table::{
+    ConductanceLaw, Config, Friction, Hub, Initial, Material, MeshParameters, ModelParameters, Physics, Rail, Response,
+    SolverParameters, Thermal, TimeScheme, Tuning, Vehicle, Wheel,
+};
+pub use value::{display_number, display_outside, display_range};
+
+use value::{Kind, Value};
+
+/// A parameter outside its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name} = {} is outside its range: {range}", display_number(*value))]
+pub struct ConfigError {
+    /// Name of the parameter, or what follows from parameters.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Allowed range in words, and the other parameters that it depends on.
+    pub range: String,
+}
+
+/// Smallest and largest value of the numeric parameter of that name; without limits if there is none.
+pub fn parameter_range(name: &str) -> [f64; 2] {
+    match Config::rows().iter().find(|row| row.name == name).map(|row| row.kind) {
+        Some(Kind::Real { min, max, .. }) => [min, max],
+        Some(Kind::Integer { min, max }) => [f64::from(min), f64::from(max)],
+        _ => [f64::NEG_INFINITY, f64::INFINITY],
+    }
+}
+
+/// How many names an error message suggests.
+const SUGGESTIONS: usize = 3;
+
+/// The names most like `name`, for messages.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    let similarity = |candidate: &str| strsim::jaro_winkler(candidate, name).max(tail_similarity(candidate, name));
+    let mut near: Vec<_> = candidates.into_iter().map(|candidate| (similarity(candidate), candidate)).collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let names: Vec<_> = near.iter().take(SUGGESTIONS).map(|(_, name)| *name).collect();
+    names.join(", ")
+}
+
+/// Similarity of the last parts of two structured names: who forgets the group still finds the variable.
+fn tail_similarity(a: &str, b: &str) -> f64 {
+    let tail = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
+    0.95 * strsim::normalized_damerau_levenshtein(&tail(a), &tail(b))
+}
+
+impl Material {
+    /// Speed of Rayleigh waves [m/s] (Viktorov's fit, 0.5 % for any Poisson's ratio).
+    pub fn rayleigh_speed(&self) -> f64 {
+        let nu = self.poissons_ratio;
+        let shear_wave = (0.5 * self.youngs_modulus / ((1.0 + nu) * self.density)).sqrt();
+        shear_wave * (0.87 + 1.12 * nu) / (1.0 + nu)
+    }
+}
+
+/// A check of one parameter against others: its name, value and unit, the range, and the others with their values.
+struct Dependent {
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    low: f64,
+    high: f64,
+    others: String,
+}
+
+impl Dependent {
+    fn check(self) -> Result<(), ConfigError> {
+        let Self { name, value, unit, low, high, others } = self;
+        if value >= low && value <= high {
+            return Ok(());
+        }
+        let range = display_range([low, high], unit);
+        Err(ConfigError { name, value, range: format!("{range} with {others}") })
+    }
+}
+
+impl Config {
+    /// This configuration with the tuning of another one.
+    pub fn tuned_like(&self, other: &Config) -> Config {
+        Config { tuning: other.tuning.clone(), ..self.clone() }
+    }
+
+    /// Refuses values for which the model has no meaning; the message names parameter, value and range, and the other
+    /// parameter where the range depends on one.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        for row in Self::rows() {
+            let value = match (row.read)(self) {
+                Value::Real(value) => value,
+                Value::Integer(value) => f64::from(value),
+                _ => continue,
+            };
+            if row.kind.check(row.name, &(row.read)(self)).is_err() {
+                return Err(ConfigError { name: row.name, value, range: row.kind.range() });
+            }
+        }
+        self.dependent().into_iter().try_for_each(Dependent::check)
+    }
+
+    /// Ranges that depend on other parameters.
+    fn dependent(&self) -> [Dependent; 5] {
+        let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
+        let with_radius = || format!("wheel.radius = {} m", display_number(radius));
+        let Initial { velocity, creepage } = self.initial;
+        // The rim stays below the surface waves: |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the model.
+        let share = self.material.rayleigh_speed() / velocity.abs();
+        [
+            Dependent {
+                name: "wheel.hub_radius",
+                value: self.wheel.hub_radius,
+                unit: "m",
+                low: 0.02 * radius,
+                high: 0.9 * radius,
+                others: with_radius(),
+            },
+            Dependent {
+                name: "rail.length",
+                value: self.rail.length,
+                unit: "m",
+                low: 0.2 * radius,
+                high: infinity,
+                others: with_radius(),
+            },
+            Dependent {
+                name: "rail.height",
+                value: self.rail.height,
+                unit: "m",
+                low: 0.02 * radius,
+                high: infinity,
+                others: with_radius(),
+            },
+            Dependent {
+                name: "thermal.wheel_excess",
+                value: self.thermal.wheel_excess,
+                unit: "K",
+                low: 1.0 - self.thermal.reference,
+                high: infinity,
+                others: format!(
+                    "thermal.reference = {} K (the wheel stays above absolute zero)",
+                    display_number(self.thermal.reference)
+                ),
+            },
+            Dependent {
+                name: "initial.creepage",
+                value: creepage,
+                unit: "1",
+                low: if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 },
+                high: infinity,
+                others: format!(
+                    "initial.velocity = {} m/s (the rim stays slower than surface waves, {} m/s)",
+                    display_number(velocity),
+                    display_number(self.material.rayleigh_speed())
+                ),
+            },
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(change: impl Fn(&mut Config), words: &[&str]) {
+        let mut config = Config::default();
+        change(&mut config);
+        let message = config.validate().unwrap_err().to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+    }
+
+    #[test]
+    fn the_default_is_valid() {
+        assert_eq!(Config::default().validate(), Ok(()));
+    }
+
+    #[test]
+    fn ranges_that_depend_on_another_parameter_name_both_values_and_the_range() {
+        refused(
+            |c| (c.wheel.radius, c.wheel.hub_radius) = (1.0, 0.01),
+            &["wheel.hub_radius = 0.01 ", "0.02 to 0.9 m with wheel.radius = 1 m"],
+        );
+        refused(|c| c.wheel.radius = 0.05, &["wheel.radius = 0.05 ", "0.1 to 2 m"]);
+        refused(
+            |c| (c.wheel.radius, c.rail.length) = (2.0, 0.2),
+            &["rail.length = 0.2 ", "at least 0.4 m with wheel.radius = 2 m"],
+        );
+        refused(
+            |c| (c.wheel.radius, c.rail.height) = (2.0, 0.03),
+            &["rail.height = 0.03 ", "at least 0.04 m with wheel.radius = 2 m"],
+        );
+        refused(
+            |c| (c.thermal.reference, c.thermal.wheel_excess) = (100.0, -150.0),
+            &["thermal.wheel_excess = -150 ", "at least -99 K with thermal.reference = 100 K"],
+        );
+        refused(
+            |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, -1.0, 5e9),
+            &["initial.creepage = -1 ", "at least -0.78", "with initial.velocity = 200 m/s", "459.164 m/s"],
+        );
+        refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.5 to 2"]);
+    }
+}

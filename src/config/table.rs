@@ -1,0 +1,171 @@
+//! The table of parameters: a parameter is one row here, and its use in the code.
+//!
+//! Struct field with documentation, default (the preset `railway`), range check, access by name, the interface and the
+//! reference pages follow from the row. Ranges are what the model accepts when everything else keeps its default; some
+//! values depend on others besides, see [`Config::validate`].
+
+use super::row::parameters;
+use super::value::choice;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+parameters! {
+    /// All parameters of one wheel on one rail.
+    pub struct Config {
+        /// Map between the two-dimensional model and the whole wheel, and size of the contact zone.
+        model: ModelParameters fixed {
+            1010 contact_width: f64 = 0.014, in "m" as "mm", from 2e-3 to 10.0,
+                "Width of the line contact: forces of the wheel = width x forces of the plane model";
+            1011 nominal_load: f64 = 100e3, in "N" as "kN", from 10.0 to 5e6,
+                "Wheel load for which the mesh is laid out; the candidate contact zone carries at least twice this load";
+        }
+        /// Deformable annulus on a rigid hub.
+        wheel: Wheel fixed {
+            1020 radius: f64 = 0.46, in "m", from 0.1 to 2.0, "Outer radius of the wheel";
+            1021 hub_radius: f64 = 0.046, in "m", from 0.01 to 0.4,
+                "Radius of the rigid hub, 0.02 to 0.9 of wheel.radius";
+            1022 hub_mass: f64 = 250.0, in "kg", from 0.0 to 1e6, "Unsprung mass fixed to the hub, moving in x and y";
+            1023 hub_inertia: f64 = 15.0, in "kg.m2", from 0.0 to 1e6, "Moment of inertia of that mass about the axle";
+        }
+        /// What the wheel pulls along; the suspension carries it vertically.
+        vehicle: Vehicle fixed {
+            1030 mass: f64 = 9872.0, in "kg" as "t", from 0.0 to 1e9,
+                "The wheel's share of the vehicle, moving in x only";
+        }
+        /// Plate below the wheel, fixed at its base.
+        rail: Rail fixed {
+            1040 length: f64 = 1.0, in "m", from 0.12 to 5.0, "Modelled length of the rail, at least 0.2 wheel.radius";
+            1041 height: f64 = 0.1, in "m", from 0.02 to 2.0,
+                "Height of the rail, at least 0.02 wheel.radius; its base is fixed";
+        }
+        /// Isotropic linear elastic material of both bodies.
+        material: Material fixed {
+            1050 youngs_modulus: f64 = 210e9, in "Pa" as "GPa", from 5e9 to 1e12, "Young's modulus of both bodies";
+            1051 poissons_ratio: f64 = 0.3, from 0.0 to 0.49, "Poisson's ratio of both bodies";
+            1052 density: f64 = 7850.0, in "kg/m3", from 1.0 to 1e5, "Density of both bodies";
+            1053 expansion: f64 = 1.2e-5, in "1/K", from 0.0 to 1e-3,
+                "Coefficient of linear thermal expansion of both bodies";
+            1054 conductivity: f64 = 50.0, in "W/(m.K)", from 1e-3 to 1e5, "Thermal conductivity of both bodies";
+            1055 specific_heat: f64 = 470.0, in "J/(kg.K)", from 1.0 to 1e5, "Specific heat capacity of both bodies";
+        }
+        /// Coulomb friction; the law that lowers the coefficient is part of [`Tuning`].
+        friction: Friction fixed {
+            1060 coefficient: f64 = 0.3, from 0.0 to 10.0, "Friction coefficient; default of the input rail.friction";
+        }
+        /// Heat in wheel, rail and contact.
+        thermal: Thermal fixed {
+            1110 enabled: bool = true, "Whether temperatures are computed";
+            1111 reference: f64 = 293.0, in "K" as "degC", from 1.0 to 1e4,
+                "Absolute temperature of hub, air and arriving rail";
+            1112 wheel_excess: f64 = 0.0, in "K", from -200.0 to 5e3,
+                "Excess temperature of the whole wheel over the reference at the start (a warm wheel)";
+            1113 conductance: f64 = 1e8, in "W/(m2.K)", from 0.0 to 1e12, "Contact conductance between wheel and rail";
+            1114 conductance_law: ConductanceLaw = ConductanceLaw::Constant,
+                "How the contact conductance depends on pressure";
+            1115 reference_pressure: f64 = 500e6, in "Pa" as "MPa", from 1.0 to 1e12,
+                "Pressure at which the pressure-dependent conductance is thermal.conductance";
+            1116 heat_ratio: f64 = 1.0, from 0.0 to 1.0, "Fraction of the friction power that heats wheel and rail";
+            1117 wheel_share: f64 = 0.5, from 0.0 to 1.0,
+                "Share of that heat first put into the wheel; conduction decides where it goes";
+            1118 hub: Hub = Hub::Fixed, "Thermal boundary condition of the hub";
+            1119 convection: f64 = 0.0, in "W/(m2.K)", from 0.0 to 1e5,
+                "Coefficient of convection from tread and rail head to air at the reference temperature";
+            1120 max_speed: f64 = 60.0, in "m/s" as "km/h", from 0.1 to 200.0,
+                "Largest speed at which the thermal layer is resolved";
+            1121 smallest_load_ratio: f64 = 0.5, from 0.05 to 1.0,
+                "Smallest load over model.nominal_load at which the patch is thermally resolved";
+            1122 tread_angle: f64 = FRAC_PI_2, in "rad" as "deg", from -3.2 to 3.2,
+                "Angle of a brake block from the contact point, leading side positive";
+            1123 tread_width: f64 = FRAC_PI_4, in "rad" as "deg", from 1e-3 to 6.2, "Arc covered by a brake block";
+            1124 tread_blocks: usize = 2, from 1 to 2,
+                "Brake blocks: one, or two mirrored ones that share drive.tread_heat";
+        }
+        /// Switches for parts of the physics.
+        physics: Physics fixed {
+            1070 centrifugal: bool = true, "Centrifugal load of the spinning wheel";
+            1071 thermal_expansion: bool = true, "Thermal expansion and stress act back on the contact";
+            1072 thermoelastic_heating: bool = false, "Reversible (Gough-Joule) heating of compressed material";
+        }
+        /// Layout of the graded meshes.
+        mesh: MeshParameters fixed {
+            1080 elements_per_half_width: usize = 20, from 4 to 80,
+                "Elements per Hertzian half-width at model.nominal_load";
+        }
+        /// Numerical choices.
+        solver: SolverParameters fixed {
+            1090 response: Response = Response::Reduced, "How the bodies answer contact tractions";
+            1091 modes_wheel: usize = 80, from 1 to 200, "Vibration modes kept for the wheel (reduced response)";
+            1092 modes_rail: usize = 40, from 1 to 200, "Vibration modes kept for the rail (reduced response)";
+            1093 time_scheme: TimeScheme = TimeScheme::Bdf2, "Implicit time discretisation of momentum and slip";
+            1094 theta: f64 = 0.5, from 0.5 to 1.0,
+                "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)";
+        }
+        /// Stationary rolling state from which the run starts.
+        initial: Initial fixed {
+            1100 velocity: f64 = 100.0 / 3.6, in "m/s" as "km/h", from -200.0 to 200.0,
+                "Travel velocity of the stationary rolling state at the start";
+            1101 creepage: f64 = 0.0, in "1" as "%", from -1.5 to 2.0, "Its creepage 2 (V - r omega)/(V + r omega)";
+        }
+        /// What may change during a run: nothing that is computed in advance depends on it.
+        ///
+        /// The friction coefficient of a step is
+        ///
+        /// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|V − rω|}) · max(m, 1 − K (T − T_ref))`
+        ///
+        /// with `A` the falling ratio, `B` the falling decay, `K` the softening and `m` the softening floor, nominal slip
+        /// velocity `V − rω` and mean contact temperature `T` (O. Polach, *Wear* 258 (2005), for the falling part). Both
+        /// are predicted for the coming step: the slip velocity from its rate, the temperature as `T − T_ref = θ μ` with
+        /// the heating θ extrapolated, which makes the last factor `1/(1 + K θ · rail.friction · (…))`. Within a step the
+        /// friction cone is exact.
+        tuning: Tuning tunable {
+            1061 falling_ratio: f64 = 1.0, of "friction", from 0.0 to 1.0,
+                "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant";
+            1062 falling_decay: f64 = 0.0, of "friction", in "s/m", from 0.0 to 1e3,
+                "Decay of the rest with the slip velocity V - r omega (Polach's B)";
+            1063 softening: f64 = 0.001, of "friction", in "1/K", from 0.0 to 1.0,
+                "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; \
+                 0: constant";
+            1064 softening_floor: f64 = 0.1, of "friction", from 0.0 to 1.0,
+                "Share of the friction coefficient that remains in a hot contact";
+            1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 1.0,
+                "Largest internal time step; longer communication steps are divided evenly";
+            1096 tolerance: f64 = 0.0, of "solver", from 0.0 to 1.0,
+                "Error that halves an internal step: contact force over model.nominal_load, contact temperature over \
+                 its rise or 100 K; 0: no error control";
+            1125 austenitisation: f64 = 1000.0, of "thermal", in "K" as "degC", from 1.0 to 1e4,
+                "Austenitisation temperature Ac1";
+        }
+    }
+}
+
+choice! {
+    /// Body response behind the contact.
+    pub enum Response named "Response", "How the bodies answer contact tractions" {
+        Reduced = "reduced", "vibration modes plus residual flexibility";
+        Full = "full", "all finite-element equations";
+    }
+}
+
+choice! {
+    /// Implicit time discretisation of momentum and slip; `theta` is the thesis's family (Paper D, section 5.3.2).
+    pub enum TimeScheme named "TimeScheme", "Implicit time discretisation of momentum and slip" {
+        Bdf2 = "bdf2", "second-order backward differences, restarted by backward Euler";
+        BackwardEuler = "backward_euler", "backward Euler";
+        Theta = "theta", "theta family with weight solver.theta";
+    }
+}
+
+choice! {
+    /// Contact conductance law.
+    pub enum ConductanceLaw named "ConductanceLaw", "How the contact conductance depends on pressure" {
+        Constant = "constant", "independent of pressure";
+        Pressure = "pressure", "proportional to pressure^0.95";
+    }
+}
+
+choice! {
+    /// Thermal boundary condition of the hub.
+    pub enum Hub named "Hub", "Thermal boundary condition of the hub" {
+        Fixed = "fixed", "held at thermal.reference";
+        Insulated = "insulated", "no heat passes";
+    }
+}

@@ -1,0 +1,315 @@
+//! Values, the kinds of values a row of a table can have, and how they read as text.
+
+use super::units::Measure;
+use serde::{Deserialize, Serialize};
+
+/// A value of a parameter, an input or an output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Value {
+    /// A number in the SI unit of its row.
+    Real(f64),
+    /// Whole numbers, and items of an enumeration counted from 1.
+    Integer(i32),
+    /// A switch.
+    Boolean(bool),
+    /// A text.
+    String(String),
+    /// An array of numbers.
+    Reals(Vec<f64>),
+}
+
+impl Value {
+    /// Name of the type.
+    pub fn type_name(&self) -> &'static str {
+        match self {
+            Value::Real(_) | Value::Reals(_) => "Real",
+            Value::Integer(_) => "Integer",
+            Value::Boolean(_) => "Boolean",
+            Value::String(_) => "String",
+        }
+    }
+}
+
+/// The shortest text that reads back to the same value; elements of an array stand between blanks.
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Value::Real(value) => write!(f, "{value:?}"),
+            Value::Integer(value) => write!(f, "{value}"),
+            Value::Boolean(value) => write!(f, "{value}"),
+            Value::String(value) => write!(f, "{value}"),
+            Value::Reals(values) => {
+                let elements: Vec<_> = values.iter().map(|value| format!("{value:?}")).collect();
+                write!(f, "{}", elements.join(" "))
+            }
+        }
+    }
+}
+
+/// A list of named choices; item `i` of the list has the value `i + 1`.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Enumeration {
+    /// Name of the list.
+    pub name: &'static str,
+    /// What is chosen.
+    pub description: &'static str,
+    /// Name and meaning of every item.
+    pub items: &'static [(&'static str, &'static str)],
+}
+
+impl Enumeration {
+    /// Number of the item with that name.
+    pub fn number(&self, name: &str) -> Option<i32> {
+        (1..).zip(self.items).find(|(_, item)| item.0 == name).map(|(number, _)| number)
+    }
+
+    /// Name of the item with that number.
+    pub fn item(&self, number: i32) -> Option<&'static str> {
+        let index = usize::try_from(number).ok()?.checked_sub(1)?;
+        self.items.get(index).map(|item| item.0)
+    }
+}
+
+/// What values a row admits. Infinite bounds are open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Numbers with a unit; `nominal` is their usual size.
+    Real { measure: Measure, min: f64, max: f64, nominal: f64 },
+    /// Whole numbers.
+    Integer { min: i32, max: i32 },
+    /// Switches.
+    Boolean,
+    /// Texts.
+    String,
+    /// Named choices.
+    Enumeration(&'static Enumeration),
+}
+
+impl Kind {
+    /// Name of the type of the values.
+    pub fn type_name(self) -> &'static str {
+        match self {
+            Kind::Real { .. } => "Real",
+            Kind::Integer { .. } | Kind::Enumeration(_) => "Integer",
+            Kind::Boolean => "Boolean",
+            Kind::String => "String",
+        }
+    }
+
+    /// A value as text: items of an enumeration by name, everything else as it reads back exactly.
+    pub fn print(self, value: &Value) -> String {
+        let item = match (self, value) {
+            (Kind::Enumeration(list), Value::Integer(number)) => list.item(*number),
+            _ => None,
+        };
+        item.map_or_else(|| value.to_string(), str::to_owned)
+    }
+
+    /// The admitted values in words.
+    pub fn range(self) -> String {
+        match self {
+            Kind::Real { measure, min, max, .. } => display_range([min, max], measure.unit),
+            Kind::Integer { min, max: i32::MAX } => format!("whole numbers from {min}"),
+            Kind::Integer { min, max } => format!("{min} to {max}"),
+            Kind::Boolean => "true or false".to_owned(),
+            Kind::String => "text".to_owned(),
+            Kind::Enumeration(list) => {
+                let items: Vec<_> = (1..).zip(list.items).map(|(i, item)| format!("{i} ({})", item.0)).collect();
+                items.join(", ")
+            }
+        }
+    }
+
+    /// Refuses a value of the wrong type, not finite or outside the range; the text gives `name`, value and range.
+    pub fn check(self, name: &str, value: &Value) -> Result<(), String> {
+        let outside = |value: String| Err(format!("{name} = {value} is outside its range: {}", self.range()));
+        match (self, value) {
+            (Kind::Real { min, max, .. }, Value::Real(v)) if !(*v >= min && *v <= max && v.is_finite()) => {
+                outside(display_outside(*v, [min, max]))
+            }
+            (Kind::Integer { min, max }, Value::Integer(v)) if !(min..=max).contains(v) => outside(v.to_string()),
+            (Kind::Enumeration(list), Value::Integer(v)) if list.item(*v).is_none() => outside(v.to_string()),
+            (Kind::Real { .. }, Value::Real(_))
+            | (Kind::Integer { .. } | Kind::Enumeration(_), Value::Integer(_))
+            | (Kind::Boolean, Value::Boolean(_))
+            | (Kind::String, Value::String(_)) => Ok(()),
+            (kind, value) => Err(format!("{name} is of type {}, not {}", kind.type_name(), value.type_name())),
+        }
+    }
+}
+
+/// A number with at most six significant digits, for messages.
+pub fn display_number(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
+    plain(rounded)
+}
+
+/// A range in words; infinite bounds are open.
+pub fn display_range([min, max]: [f64; 2], unit: &str) -> String {
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let [low, high] = [min, max].map(display_number);
+    match (min.is_finite(), max.is_finite()) {
+        (true, true) => format!("{low} to {high}{unit}"),
+        (true, false) => format!("finite, at least {low}{unit}"),
+        (false, true) => format!("finite, at most {high}{unit}"),
+        (false, false) => "finite numbers".to_owned(),
+    }
+}
+
+/// A number outside the range `bounds`, with as many digits as it takes to see that.
+pub fn display_outside(value: f64, bounds: [f64; 2]) -> String {
+    let shown = display_number(value);
+    if bounds.iter().any(|&bound| display_number(bound) == shown) { plain(value) } else { shown }
+}
+
+/// Shortest form that reads back to the same number, with an exponent for large and small ones.
+fn plain(value: f64) -> String {
+    let ordinary = value == 0.0 || !value.is_finite() || (1e-4..1e6).contains(&value.abs());
+    if ordinary { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// What a row says about its values besides their type; a kind takes from it what it knows.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Unit of numbers.
+    pub measure: Measure,
+    /// Smallest value.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+    /// Usual size.
+    pub nominal: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        let measure = Measure { unit: "1", display: None };
+        Self { measure, low: f64::NEG_INFINITY, high: f64::INFINITY, nominal: 1.0 }
+    }
+}
+
+/// A type that a row can have.
+pub trait Field {
+    /// Kind of its values.
+    fn kind(limits: Limits) -> Kind;
+    /// The present value.
+    fn read(&self) -> Value;
+    /// Takes a value; one of another type changes nothing.
+    fn write(&mut self, value: &Value);
+}
+
+impl Field for f64 {
+    fn kind(Limits { measure, low: min, high: max, nominal }: Limits) -> Kind {
+        Kind::Real { measure, min, max, nominal }
+    }
+    fn read(&self) -> Value {
+        Value::Real(*self)
+    }
+    fn write(&mut self, value: &Value) {
+        if let Value::Real(value) = value {
+            *self = *value;
+        }
+    }
+}
+
+impl Field for usize {
+    fn kind(limits: Limits) -> Kind {
+        Kind::Integer { min: limits.low.max(0.0) as i32, max: limits.high as i32 }
+    }
+    fn read(&self) -> Value {
+        Value::Integer(i32::try_from(*self).unwrap_or(i32::MAX))
+    }
+    fn write(&mut self, value: &Value) {
+        if let Value::Integer(value) = value {
+            *self = usize::try_from(*value).unwrap_or(0);
+        }
+    }
+}
+
+impl Field for bool {
+    fn kind(_: Limits) -> Kind {
+        Kind::Boolean
+    }
+    fn read(&self) -> Value {
+        Value::Boolean(*self)
+    }
+    fn write(&mut self, value: &Value) {
+        if let Value::Boolean(value) = value {
+            *self = *value;
+        }
+    }
+}
+
+impl Field for String {
+    fn kind(_: Limits) -> Kind {
+        Kind::String
+    }
+    fn read(&self) -> Value {
+        Value::String(self.clone())
+    }
+    fn write(&mut self, value: &Value) {
+        if let Value::String(value) = value {
+            self.clone_from(value);
+        }
+    }
+}
+
+/// Defines an enumeration with the names and meanings of its items, once: the type and its [`Field`].
+macro_rules! choice {
+    (
+        $(#[$about:meta])*
+        pub enum $Name:ident named $name:literal, $text:literal {
+            $( $Item:ident = $item:literal, $meaning:literal; )*
+        }
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        pub enum $Name {
+            $( #[doc = concat!("`", $item, "`: ", $meaning, ".")] #[serde(rename = $item)] $Item, )*
+        }
+
+        impl $crate::config::value::Field for $Name {
+            fn kind(_: $crate::config::value::Limits) -> $crate::config::value::Kind {
+                const LIST: $crate::config::value::Enumeration = $crate::config::value::Enumeration {
+                    name: $name,
+                    description: $text,
+                    items: &[$( ($item, $meaning) ),*],
+                };
+                $crate::config::value::Kind::Enumeration(&LIST)
+            }
+            fn read(&self) -> $crate::config::value::Value {
+                $crate::config::value::Value::Integer(*self as i32 + 1)
+            }
+            fn write(&mut self, value: &$crate::config::value::Value) {
+                let $crate::config::value::Value::Integer(number) = value else { return };
+                if let Some((_, item)) = (1..).zip([$( $Name::$Item ),*]).find(|(i, _)| i == number) {
+                    *self = item;
+                }
+            }
+        }
+    };
+}
+pub(crate) use choice;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_messages_are_short_and_show_that_they_are_outside() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-27.777_777_777, "-27.7778"),
+            (1e300 / 3.0, "3.33333e299"),
+            (200.0, "200"),
+            (1e9, "1e9"),
+            (1e-5, "1e-5"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(display_number(value), text);
+        }
+        assert_eq!(display_outside(1.0_f64.next_up(), [0.0, 1.0]), "1.0000000000000002");
+        assert_eq!(display_outside(1.123_456_789, [0.0, 1.0]), "1.12346");
+    }
+}

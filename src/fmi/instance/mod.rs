@@ -1,0 +1,261 @@
+//! One slave: parameters, inputs, communication points and the simulation, without a word of C.
+//!
+//! Every refused call leaves the instance as it was, so a master may report the error and go on.
+
+mod derivatives;
+mod running;
+mod values;
+
+pub use derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
+
+use super::lifecycle::{Call, Phase};
+use super::log::{CallError, Log, Status};
+use super::presets;
+use super::settings::{SetValues, with_inputs};
+use super::variable::{Access, Value};
+use super::variables::variables;
+use crate::config::Config;
+use crate::simulation::{Drive, Inputs, LONGEST_STEP, Limit, Model, Simulation, advice};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Largest mismatch of a communication point, relative to the step, besides rounding.
+const POINT_TOLERANCE: f64 = 1e-3;
+/// How far a step may end past the stop time, relative to its length, besides rounding: sums of many steps are off.
+const STOP_TOLERANCE: f64 = 0.1;
+
+/// A slave between `fmi2Instantiate` and `fmi2FreeInstance`.
+pub struct Instance {
+    log: Log,
+    resources: Option<PathBuf>,
+    phase: Phase,
+    preset: String,
+    /// Parameters of the preset.
+    base: Config,
+    /// Explicitly set parameters, which override the preset.
+    parameters: SetValues,
+    /// `base` with `parameters`.
+    config: Config,
+    /// Explicitly set inputs; the others follow from the parameters.
+    inputs: SetValues,
+    /// Present values that inputs took over when a control was switched to them; explicit ones override them.
+    bumpless: SetValues,
+    /// Time derivatives of the inputs during the next step.
+    rates: Drive,
+    time: f64,
+    stop: Option<f64>,
+    /// Kept over changes of parameters and resets, and reused when its parameters are wanted again.
+    model: Option<Arc<Model>>,
+    /// `None` until outputs are wanted, and again when an input or parameter changes in Initialization Mode.
+    simulation: Option<Simulation>,
+    last_step: Status,
+    /// Communication point, length and inputs of the last discarded step.
+    failure: Option<(f64, f64, Inputs)>,
+    hopeless: bool,
+    /// Limits of the model that the user has been warned of in this run.
+    warned: Vec<Limit>,
+}
+
+type Outcome<T = ()> = Result<T, CallError>;
+
+impl Instance {
+    /// `resources` is the directory `resources` of the unpacked FMU, if known.
+    pub fn new(resources: Option<PathBuf>, log: Log) -> Outcome<Instance> {
+        let base = presets::load(resources.as_deref(), presets::DEFAULT).map_err(CallError::error)?;
+        Ok(Instance {
+            log,
+            resources,
+            phase: Phase::Instantiated,
+            preset: presets::DEFAULT.to_owned(),
+            config: base.clone(),
+            base,
+            parameters: SetValues::new(),
+            inputs: SetValues::new(),
+            bumpless: SetValues::new(),
+            rates: Drive::default(),
+            time: 0.0,
+            stop: None,
+            model: None,
+            simulation: None,
+            last_step: Status::Ok,
+            failure: None,
+            hopeless: false,
+            warned: Vec::new(),
+        })
+    }
+
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+    /// Status of the last step.
+    pub fn last_step(&self) -> Status {
+        self.last_step
+    }
+    /// Communication point up to which the instance has simulated [s].
+    pub fn last_successful_time(&self) -> f64 {
+        self.time
+    }
+    /// Whether repeating the last, discarded step is pointless: the same step has failed twice.
+    pub fn terminated(&self) -> bool {
+        self.hopeless
+    }
+
+    /// Parameters that hold now.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Offers a prepared model, which is used while the parameters are its own.
+    pub fn offer_model(&mut self, model: Arc<Model>) {
+        self.model = Some(model);
+    }
+
+    /// Marks the instance as beyond repair, after a panic.
+    pub fn give_up(&mut self) {
+        self.phase = Phase::Fatal;
+    }
+
+    /// Refuses calls that are illegal in the present phase.
+    pub fn allow(&self, call: Call) -> Outcome {
+        if call.legal(self.phase) {
+            return Ok(());
+        }
+        let status = if self.phase == Phase::Fatal { Status::Fatal } else { Status::Error };
+        Err(CallError { status, message: format!("{call:?} is not allowed in phase {:?}", self.phase) })
+    }
+
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[String]) -> Outcome {
+        self.allow(Call::SetDebugLogging)?;
+        self.log.switch(on, categories)
+    }
+
+    /// Times [s]; the solver chooses its own tolerances, so that of the master is only checked.
+    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Outcome {
+        self.allow(Call::SetupExperiment)?;
+        if let Some(tolerance) = tolerance
+            && !(tolerance.is_finite() && tolerance > 0.0)
+        {
+            return Err(CallError::error(format!("tolerance = {tolerance:?} is outside its range: positive numbers")));
+        }
+        if !start.is_finite() {
+            return Err(CallError::error(format!("startTime = {start:?} s is outside its range: finite numbers")));
+        }
+        if let Some(stop) = stop
+            && !(stop.is_finite() && stop >= start)
+        {
+            return Err(CallError::error(format!("stopTime = {stop:?} s is outside its range: at least {start:?} s")));
+        }
+        (self.time, self.stop) = (start, stop);
+        Ok(())
+    }
+
+    pub fn enter_initialization(&mut self) -> Outcome {
+        self.allow(Call::EnterInitializationMode)?;
+        self.phase = Phase::Initialization;
+        Ok(())
+    }
+
+    /// Ends Initialization Mode. If parameters and inputs do not go together, it stays, so that they can be corrected.
+    pub fn exit_initialization(&mut self) -> Outcome {
+        self.allow(Call::ExitInitializationMode)?;
+        self.simulation()?;
+        self.phase = Phase::StepComplete;
+        self.warn_of_limits();
+        self.log.report(Status::Ok, &format!("initialized at t = {} s", self.time));
+        Ok(())
+    }
+
+    pub fn terminate(&mut self) -> Outcome {
+        self.allow(Call::Terminate)?;
+        self.phase = Phase::Terminated;
+        self.log.report(Status::Ok, &format!("terminated at t = {} s", self.time));
+        Ok(())
+    }
+
+    /// Back to the state after instantiation; only the model is kept for reuse.
+    pub fn reset(&mut self) -> Outcome {
+        self.allow(Call::Reset)?;
+        let base = presets::load(self.resources.as_deref(), presets::DEFAULT).map_err(CallError::error)?;
+        self.phase = Phase::Instantiated;
+        self.preset = presets::DEFAULT.to_owned();
+        self.config = base.clone();
+        self.base = base;
+        self.parameters.clear();
+        self.inputs.clear();
+        self.bumpless.clear();
+        self.rates = Drive::default();
+        (self.time, self.stop) = (0.0, None);
+        self.simulation = None;
+        self.last_step = Status::Ok;
+        (self.failure, self.hopeless) = (None, false);
+        self.warned.clear();
+        self.log.report(Status::Ok, "reset");
+        Ok(())
+    }
+
+    /// Simulates from the communication point `start` over `h` [s]; inputs are those set now, ramped by their
+    /// derivatives, and hold their final values afterwards.
+    pub fn do_step(&mut self, start: f64, h: f64) -> Outcome {
+        self.allow(Call::DoStep)?;
+        if !(h > 0.0 && h <= LONGEST_STEP) {
+            let range = format!("more than 0, at most {LONGEST_STEP} s");
+            return Err(CallError::error(format!("communicationStepSize = {h:?} s is outside its range: {range}")));
+        }
+        let rounding = |t: f64| 16.0 * f64::EPSILON * t.abs();
+        let current = (start - self.time).abs() <= POINT_TOLERANCE * h + rounding(self.time);
+        if !current {
+            let expected = self.time;
+            let message = format!("currentCommunicationPoint = {start:?} s is outside its range: {expected:?} s");
+            return Err(CallError::error(message));
+        }
+        if let Some(stop) = self.stop
+            && start + h > stop + STOP_TOLERANCE * h + rounding(stop)
+        {
+            let message = format!("step from {start:?} s over {h:?} s ends after stopTime = {stop:?} s");
+            return Err(CallError::error(message));
+        }
+        let inputs = self.effective_inputs();
+        let end = inputs.at(h);
+        end.validate().map_err(|error| CallError::error(format!("at the end of the step {error}")))?;
+        match self.simulation()?.advance(&inputs, h) {
+            Ok(()) => {
+                self.hold(end);
+                self.time = start + h;
+                (self.phase, self.last_step) = (Phase::StepComplete, Status::Ok);
+                (self.failure, self.hopeless) = (None, false);
+                self.warn_of_limits();
+                Ok(())
+            }
+            Err(error) => {
+                self.hopeless =
+                    self.failure.is_some_and(|(t, length, with)| t == start && h >= length && with == inputs);
+                self.failure = Some((start, h, inputs));
+                (self.phase, self.last_step) = (Phase::StepFailed, Status::Discard);
+                let why = advice::failed_step(&error, &self.config);
+                Err(CallError::discard(format!("step from {start:?} s over {h:?} s failed: {why}")))
+            }
+        }
+    }
+
+    fn effective_inputs(&self) -> Inputs {
+        with_inputs(&self.config, &self.bumpless, &self.inputs, self.rates)
+    }
+
+    /// Keeps the values at the end of a ramp as the new inputs.
+    fn hold(&mut self, mut end: Drive) {
+        if self.rates == Drive::default() {
+            return;
+        }
+        for variable in variables() {
+            if let Access::RealInput(field) = variable.access
+                && *field(&mut self.rates) != 0.0
+            {
+                self.inputs.insert(variable.reference, Value::Real(*field(&mut end)));
+            }
+        }
+        self.rates = Drive::default();
+    }
+}

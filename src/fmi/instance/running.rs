@@ -1,0 +1,140 @@
+//! The simulation behind an instance: prepared when it is needed, saved and restored.
+
+use super::{Instance, Outcome};
+use crate::config::Config;
+use crate::fmi::lifecycle::Call;
+use crate::fmi::log::{CallError, Status};
+use crate::fmi::settings::with_parameters;
+use crate::fmi::snapshot::Snapshot;
+use crate::fmi::variables::find;
+use crate::simulation::{BasisStore, Limit, Model, Simulation, advice};
+use std::sync::Arc;
+
+impl Instance {
+    /// Copy of everything that is needed to continue from here.
+    pub fn snapshot(&self) -> Outcome<Snapshot> {
+        self.allow(Call::FmuState)?;
+        Ok(Snapshot {
+            phase: self.phase,
+            preset: self.preset.clone(),
+            base: self.base.clone(),
+            parameters: self.parameters.clone(),
+            inputs: self.inputs.clone(),
+            bumpless: self.bumpless.clone(),
+            rates: self.rates,
+            time: self.time,
+            stop: self.stop,
+            checkpoint: self.simulation.as_ref().map(|simulation| simulation.checkpoint().clone()),
+        })
+    }
+
+    /// Continues from a snapshot, of this instance or another; on failure nothing changes.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Outcome {
+        self.allow(Call::FmuState)?;
+        let config = with_parameters(&snapshot.base, &snapshot.parameters);
+        let refused = |error| CallError::error(format!("state cannot be set: {error}"));
+        match (&snapshot.checkpoint, &mut self.simulation) {
+            (None, _) => self.simulation = None,
+            (Some(checkpoint), Some(simulation)) if simulation.model().serves(&config) => {
+                simulation.recall(&config.tuning, checkpoint.clone()).map_err(refused)?;
+            }
+            (Some(checkpoint), _) => {
+                let model = self.model(config.clone())?;
+                let resumed = Simulation::resume(model, config.tuning.clone(), checkpoint.clone());
+                self.simulation = Some(resumed.map_err(refused)?);
+            }
+        }
+        self.phase = snapshot.phase;
+        self.preset.clone_from(&snapshot.preset);
+        self.base.clone_from(&snapshot.base);
+        self.parameters.clone_from(&snapshot.parameters);
+        self.config = config;
+        self.inputs.clone_from(&snapshot.inputs);
+        self.bumpless.clone_from(&snapshot.bumpless);
+        self.rates = snapshot.rates;
+        (self.time, self.stop) = (snapshot.time, snapshot.stop);
+        // A master may restore and repeat a discarded step for ever: the failure is remembered.
+        (self.last_step, self.hopeless) = (Status::Ok, false);
+        Ok(())
+    }
+
+    /// The simulation, brought up to date with parameters and inputs if it is not running yet.
+    pub fn simulation(&mut self) -> Outcome<&mut Simulation> {
+        if self.simulation.is_none() {
+            self.check_settings()?;
+            let model = self.model(self.config.clone())?;
+            let inputs = self.effective_inputs();
+            let failed = |error| {
+                let why = advice::failed_start(&error, &self.config);
+                CallError::error(format!("no stationary state for these inputs: {why}"))
+            };
+            let tuning = self.config.tuning.clone();
+            self.simulation = Some(Simulation::start(model, tuning, &inputs).map_err(failed)?);
+        }
+        self.simulation.as_mut().ok_or_else(|| CallError::error("no simulation"))
+    }
+
+    /// Refuses parameters and inputs that do not go together. Each is within its own range since it was set; what follows
+    /// from several can only be judged when all have been set, in whatever order.
+    fn check_settings(&self) -> Outcome {
+        self.config.validate().map_err(|error| {
+            let set = self.parameters.keys().filter_map(|reference| find(*reference));
+            let names: Vec<_> = set.filter(|row| row.name != error.name).map(|row| row.name.as_str()).collect();
+            let own = match names.as_slice() {
+                [] => String::new(),
+                names => format!("; with preset \"{}\" and {} as you have set them", self.preset, names.join(", ")),
+            };
+            CallError::error(format!("{error}{own}"))
+        })?;
+        self.effective_inputs().validate().map_err(|error| {
+            let set = self.inputs.keys().filter_map(|reference| find(*reference)).any(|row| row.name == error.name);
+            let initial = &self.config.initial;
+            let source = match error.name {
+                _ if set => return CallError::error(error.to_string()),
+                "drive.omega" => format!(
+                    "initial.velocity = {:?} m/s and initial.creepage = {:?} with wheel.radius = {:?} m",
+                    initial.velocity, initial.creepage, self.config.wheel.radius
+                ),
+                "drive.velocity" => format!("initial.velocity = {:?} m/s", initial.velocity),
+                "drive.load" => format!("model.nominal_load = {:?} N", self.config.model.nominal_load),
+                "rail.friction" => format!("friction.coefficient = {:?}", self.config.friction.coefficient),
+                _ => return CallError::error(error.to_string()),
+            };
+            CallError::error(format!("{error}; it follows from {source} unless it is set"))
+        })
+    }
+
+    /// Warns of limits of the model that the run is beyond now, of each once in a run.
+    pub(super) fn warn_of_limits(&mut self) {
+        let Some(simulation) = &self.simulation else { return };
+        let new: Vec<Limit> = simulation.exceeded_limits().filter(|limit| !self.warned.contains(limit)).collect();
+        for limit in new {
+            self.warned.push(limit);
+            let text = simulation.describe_limit(limit);
+            self.log.report(Status::Warning, &format!("t = {:?} s: {text}", self.time));
+        }
+    }
+
+    /// The model with these parameters; prepared now, with logged progress, unless it is the present one.
+    fn model(&mut self, config: Config) -> Outcome<Arc<Model>> {
+        if let Some(model) = self.model.as_ref().filter(|model| model.serves(&config)) {
+            return Ok(model.clone());
+        }
+        let log = &self.log;
+        let mut last = (String::new(), 0.0);
+        let mut progress = |what: &str, share: f64| {
+            if what != last.0 || share >= last.1 + 0.1 {
+                log.progress(&format!("{what}: {:.0} %", 100.0 * share));
+                last = (what.to_owned(), share);
+            }
+        };
+        let store = BasisStore::of_user().with_packed(self.resources.as_deref());
+        let failed = |error| CallError::error(advice::failed_preparation(&error, &config));
+        let model = Model::shared(config.clone(), &store, &mut progress).map_err(failed)?;
+        if let Some(why) = model.not_kept() {
+            self.log.report(Status::Warning, why);
+        }
+        self.model = Some(model.clone());
+        Ok(model)
+    }
+}

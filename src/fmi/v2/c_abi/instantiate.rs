@@ -1,0 +1,110 @@
+//! Birth and death of a component.
+
+use super::logger::sink;
+use super::marshal::{Outcome, boolean, co_simulation, text};
+use super::states::States;
+use super::{Component, panic_text};
+use crate::fmi::instance::Instance;
+use crate::fmi::log::{CallError, Log, Status};
+use crate::fmi::uri::path_of;
+use crate::fmi::v2::description::guid;
+use libfmi::*;
+use std::ffi::c_int;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::ptr;
+
+/// Arguments of `fmi2Instantiate` but for the functions.
+struct Arguments {
+    name: fmi2String,
+    kind: c_int,
+    guid: fmi2String,
+    resources: fmi2String,
+    visible: fmi2Boolean,
+    logging: fmi2Boolean,
+}
+
+/// The directory `resources` of the unpacked FMU. A location that is unknown or does not exist only means that there
+/// are no presets but the default.
+fn resources(location: Option<String>, log: &Log) -> Option<PathBuf> {
+    let path = path_of(&location?).map_err(|error| log.report(Status::Warning, &error)).ok()?;
+    if path.is_dir() {
+        return Some(path);
+    }
+    let message = format!("resources {} do not exist: only defaults are known", path.display());
+    log.report(Status::Warning, &message);
+    None
+}
+
+impl Arguments {
+    /// The instance, or why there is none.
+    unsafe fn instance(&self, functions: &fmi2CallbackFunctions) -> Outcome<Instance> {
+        // SAFETY: see the module: NULL or strings.
+        let (name, theirs) = unsafe { (text(self.name, "instanceName"), text(self.guid, "fmuGUID")) };
+        let name = name?;
+        if name.is_empty() {
+            return Err(CallError::error("instanceName is empty"));
+        }
+        co_simulation(self.kind)?;
+        boolean(self.visible, "visible")?;
+        let log = Log::new(sink(&name, functions), boolean(self.logging, "loggingOn")?);
+        let theirs = theirs?;
+        if theirs != guid() {
+            return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{}\"", guid())));
+        }
+        // SAFETY: see the module: a string, unless it is NULL.
+        let location = (!self.resources.is_null()).then(|| unsafe { text(self.resources, "fmuResourceLocation") });
+        let location = location.transpose().unwrap_or_else(|error| {
+            log.report(Status::Warning, &error.message);
+            None
+        });
+        let resources = resources(location, &log);
+        Instance::new(resources, log)
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instanceName: fmi2String,
+    fmuType: c_int,
+    fmuGUID: fmi2String,
+    fmuResourceLocation: fmi2String,
+    functions: *const fmi2CallbackFunctions,
+    visible: fmi2Boolean,
+    loggingOn: fmi2Boolean,
+) -> fmi2Component {
+    // SAFETY: see the module: NULL or the master's functions.
+    let Some(functions) = (unsafe { functions.as_ref() }) else {
+        return ptr::null_mut();
+    };
+    let arguments = Arguments {
+        name: instanceName,
+        kind: fmuType,
+        guid: fmuGUID,
+        resources: fmuResourceLocation,
+        visible,
+        logging: loggingOn,
+    };
+    // SAFETY: see the module.
+    let error = match catch_unwind(AssertUnwindSafe(|| unsafe { arguments.instance(functions) })) {
+        Ok(Ok(instance)) => {
+            let component = Component { instance, strings: Vec::new(), states: States::default() };
+            return Box::into_raw(Box::new(component)).cast();
+        }
+        Ok(Err(error)) => error,
+        Err(panic) => CallError { status: Status::Fatal, message: format!("internal error: {}", panic_text(panic)) },
+    };
+    // SAFETY: see the module: NULL or a string.
+    let name = unsafe { text(instanceName, "instanceName") }.unwrap_or_else(|_| "unnamed".to_owned());
+    Log::new(sink(&name, functions), false).report(error.status, &format!("fmi2Instantiate: {}", error.message));
+    ptr::null_mut()
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
+    if !c.is_null() {
+        // SAFETY: see the module: `c` came from `Box::into_raw` in `fmi2Instantiate` and is not used afterwards.
+        let component = unsafe { Box::from_raw(c.cast::<Component>()) };
+        let _ = catch_unwind(AssertUnwindSafe(|| drop(component)));
+    }
+}

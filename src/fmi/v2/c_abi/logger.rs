@@ -1,0 +1,33 @@
+//! Messages to the logger of the master.
+
+use super::marshal::c_string;
+use crate::fmi::log::{Sink, Status};
+use libfmi::*;
+
+/// The status of the standard.
+pub fn status_code(status: Status) -> fmi2Status {
+    match status {
+        Status::Ok => fmi2Status::fmi2OK,
+        Status::Warning => fmi2Status::fmi2Warning,
+        Status::Discard => fmi2Status::fmi2Discard,
+        Status::Error => fmi2Status::fmi2Error,
+        Status::Fatal => fmi2Status::fmi2Fatal,
+    }
+}
+
+/// Passes messages to the master's logger.
+///
+/// The logger is declared like `printf`, but many masters (ctypes, JNA, P/Invoke) cannot read variable arguments and show
+/// the format. So the message itself is the format, there are no arguments, and each `%` is doubled: a master that uses
+/// `printf` shows the message, any other one the message with `%%` for `%`.
+pub fn sink(name: &str, functions: &fmi2CallbackFunctions) -> Sink {
+    let (name, logger, environment) = (c_string(name), functions.logger, functions.componentEnvironment);
+    Box::new(move |status, category, message| {
+        let Some(logger) = logger else { return };
+        let (status, category) = (status_code(status), c_string(category));
+        let format = c_string(&message.replace('%', "%%"));
+        // SAFETY: the master's own function with the master's own environment; all strings end with NUL, and the format
+        // asks for no argument.
+        unsafe { logger(environment, name.as_ptr(), status, category.as_ptr(), format.as_ptr()) };
+    })
+}

@@ -1,0 +1,101 @@
+//! Values on their way through the C interface: pointers are checked, C integers matched, never trusted.
+
+use crate::fmi::log::CallError;
+use crate::fmi::variables::find;
+use libfmi::*;
+use std::ffi::{CStr, CString, c_int};
+
+pub type Outcome<T = ()> = Result<T, CallError>;
+
+/// The array a master passed; an empty one may be NULL.
+///
+/// # Safety
+/// `first` is NULL or the first of `count` elements that outlive the call.
+pub unsafe fn slice<'a, T>(first: *const T, count: usize, name: &str) -> Outcome<&'a [T]> {
+    match (count, first.is_null()) {
+        (0, _) => Ok(&[]),
+        (_, true) => Err(CallError::error(format!("{name} is NULL"))),
+        // SAFETY: the condition of this function.
+        _ => Ok(unsafe { std::slice::from_raw_parts(first, count) }),
+    }
+}
+
+/// Writes `values` to the array at `first`.
+///
+/// # Safety
+/// `first` is NULL or has room for as many elements as there are values.
+pub unsafe fn store<T>(first: *mut T, values: Vec<T>, name: &str) -> Outcome {
+    if first.is_null() && !values.is_empty() {
+        return Err(CallError::error(format!("{name} is NULL")));
+    }
+    for (i, value) in values.into_iter().enumerate() {
+        // SAFETY: the condition of this function.
+        unsafe { first.add(i).write(value) };
+    }
+    Ok(())
+}
+
+/// A string of the master, copied.
+///
+/// # Safety
+/// `string` is NULL or ends with NUL.
+pub unsafe fn text(string: fmi2String, name: &str) -> Outcome<String> {
+    if string.is_null() {
+        return Err(CallError::error(format!("{name} is NULL")));
+    }
+    // SAFETY: the condition of this function.
+    let bytes = unsafe { CStr::from_ptr(string) };
+    let text = bytes.to_str().map_err(|_| CallError::error(format!("{name} is not UTF-8: {bytes:?}")))?;
+    Ok(text.to_owned())
+}
+
+/// The text as a C string; NUL inside becomes a space.
+pub fn c_string(text: &str) -> CString {
+    CString::new(text.replace('\0', " ")).unwrap_or_default()
+}
+
+/// The value of a C boolean. Only 0 and 1 are values of `fmi2Boolean`: another number is a mistake of the master, for
+/// example an integer variable taken for a boolean one.
+pub fn boolean(value: fmi2Boolean, name: &str) -> Outcome<bool> {
+    match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(CallError::error(format!("{name} = {value} is no fmi2Boolean: pass 0 (fmi2False) or 1 (fmi2True)"))),
+    }
+}
+
+/// Values for boolean variables; the message about a wrong one names the variable.
+pub fn booleans(references: &[fmi2ValueReference], values: &[fmi2Boolean]) -> Outcome<Vec<bool>> {
+    let name = |reference: &fmi2ValueReference| {
+        find(*reference).map_or_else(|| format!("value reference {reference}"), |variable| variable.name.clone())
+    };
+    references.iter().zip(values).map(|(reference, value)| boolean(*value, &name(reference))).collect()
+}
+
+/// Refuses every type of simulation but co-simulation.
+pub fn co_simulation(kind: c_int) -> Outcome {
+    const CO_SIMULATION: c_int = fmi2Type::fmi2CoSimulation as c_int;
+    match kind {
+        CO_SIMULATION => Ok(()),
+        _ => {
+            let only = format!("{CO_SIMULATION} (fmi2CoSimulation), the only type of this FMU");
+            Err(CallError::error(format!("fmuType = {kind} is outside its range: {only}")))
+        }
+    }
+}
+
+/// The question about the last step that a master asks by a number.
+pub fn question(kind: c_int) -> Outcome<fmi2StatusKind> {
+    use fmi2StatusKind::*;
+    const KINDS: [fmi2StatusKind; 4] = [fmi2DoStepStatus, fmi2PendingStatus, fmi2LastSuccessfulTime, fmi2Terminated];
+    KINDS.into_iter().find(|known| *known as c_int == kind).ok_or_else(|| {
+        let known: Vec<_> = KINDS.into_iter().map(|known| format!("{} ({known:?})", known as c_int)).collect();
+        CallError::error(format!("fmi2StatusKind = {kind} is outside its range: {}", known.join(", ")))
+    })
+}
+
+/// The functions take `c_int` where the header has an enumeration: both are passed alike.
+const _: () = {
+    assert!(size_of::<fmi2StatusKind>() == size_of::<c_int>() && align_of::<fmi2StatusKind>() == align_of::<c_int>());
+    assert!(size_of::<fmi2Type>() == size_of::<c_int>() && align_of::<fmi2Type>() == align_of::<c_int>());
+};

@@ -1,0 +1,61 @@
+//! States that a master holds as `fmi2FMUstate`.
+//!
+//! A handle is the address of a word of memory that belongs to the instance, and the key under which the state is found.
+//! The library never follows a handle. Some masters, however, pass the handle itself where the address of the handle is
+//! asked for (fmusim up to 0.0.39 in `fmi2FreeFMUstate`): the library then reads that word as if it were a handle. It is
+//! none, so the call is refused. Words of freed states are kept for new ones, so that this holds for stale handles, too.
+
+use super::marshal::Outcome;
+use crate::fmi::log::CallError;
+use crate::fmi::snapshot::Snapshot;
+use libfmi::fmi2FMUstate;
+use std::collections::BTreeMap;
+use std::ptr;
+
+/// What every handle points to: odd, so never the address of a word.
+const NO_HANDLE: usize = 1;
+
+/// All states of one instance.
+#[derive(Default)]
+pub struct States {
+    held: BTreeMap<usize, (Box<usize>, Snapshot)>,
+    /// Words without a state.
+    spare: Vec<Box<usize>>,
+}
+
+impl States {
+    /// The state behind a handle; refuses what is no handle of this instance.
+    pub fn find(&self, handle: fmi2FMUstate) -> Outcome<&Snapshot> {
+        match self.held.get(&handle.addr()) {
+            Some((_, snapshot)) => Ok(snapshot),
+            None => Err(unknown(handle)),
+        }
+    }
+
+    /// Keeps a snapshot under `handle`, or under a new handle if that is NULL; returns the handle.
+    pub fn keep(&mut self, handle: fmi2FMUstate, snapshot: Snapshot) -> Outcome<fmi2FMUstate> {
+        if !handle.is_null() {
+            let (_, held) = self.held.get_mut(&handle.addr()).ok_or_else(|| unknown(handle))?;
+            *held = snapshot;
+            return Ok(handle);
+        }
+        let mut word = self.spare.pop().unwrap_or_else(|| Box::new(NO_HANDLE));
+        let handle = ptr::from_mut(&mut *word);
+        self.held.insert(handle.addr(), (word, snapshot));
+        Ok(handle.cast())
+    }
+
+    /// Forgets the state behind a handle.
+    pub fn free(&mut self, handle: fmi2FMUstate) -> Outcome {
+        let (word, _) = self.held.remove(&handle.addr()).ok_or_else(|| unknown(handle))?;
+        self.spare.push(word);
+        Ok(())
+    }
+}
+
+fn unknown(handle: fmi2FMUstate) -> CallError {
+    CallError::error(match handle.addr() {
+        NO_HANDLE => "FMUstate is a state where the address of a variable that holds a state is asked for",
+        _ => "FMUstate is not a state of this instance, or has been freed",
+    })
+}

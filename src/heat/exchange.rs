@@ -1,0 +1,43 @@
+//! What acts on the surfaces during a step: patches, pressure, frictional heat, heat on the tread.
+
+use crate::piecewise::{Interval, Piecewise};
+use serde::{Deserialize, Serialize};
+
+/// Prescribed heat on an arc of the tread that is fixed in space (a brake block).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TreadHeat {
+    /// Angle of its middle from the contact point, positive on the leading side [rad].
+    pub angle: f64,
+    /// Its extent [rad].
+    pub width: f64,
+    /// Heat into the wheel [W/m], uniform over the arc.
+    pub heat: f64,
+}
+
+/// What acts on the bodies per metre of width, held over a step.
+///
+/// It may be refilled for every step without new memory, see [`Exchange::clear`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Exchange {
+    /// Where the bodies touch, without overlap; none: lifted off.
+    pub patches: Vec<Interval>,
+    /// Contact pressure over x [Pa]; used by the pressure-dependent conductance only.
+    pub pressure: Piecewise,
+    /// Friction power per area `|τ s|` over x [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
+    pub friction_power: Piecewise,
+    /// Heat on the tread of the wheel.
+    pub tread: Vec<TreadHeat>,
+    /// Reversible temperatures over x that conduct besides those of the fields: wheel less rail [K].
+    pub reversible: Piecewise,
+}
+
+impl Exchange {
+    /// Removes everything and keeps the memory.
+    pub fn clear(&mut self) {
+        self.patches.clear();
+        self.pressure.clear();
+        self.friction_power.clear();
+        self.tread.clear();
+        self.reversible.clear();
+    }
+}

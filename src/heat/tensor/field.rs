@@ -1,0 +1,86 @@
+//! Temperature of whole bodies at the nodes of their meshes.
+
+use super::Heat;
+use super::modal::{HeatBody, dot};
+use crate::fem::Mesh;
+use crate::heat::{HeatError, HeatState};
+
+/// Temperature of one body.
+#[derive(Clone, Debug)]
+pub struct TemperatureField {
+    /// The wheel about its centre, the rail with the contact point at the origin; cells between all nodes, those in the
+    /// middle of the quadratic layers included.
+    pub mesh: Mesh,
+    /// At the nodes, over the reference [K].
+    pub temperature: Vec<f64>,
+}
+
+impl Heat {
+    /// Surface temperatures of wheel and rail at x [m] within the contact zone, linear between nodes [K].
+    pub fn surface_temperatures(&self, state: &HeatState, x: f64) -> Result<[f64; 2], HeatError> {
+        Ok([self.wheel_temperature(state, x, 0.0)?, self.rail_temperature(state, x, 0.0)?])
+    }
+
+    /// Temperature of the wheel at the distance `s` along the tread from the contact point and the depth `z` below it,
+    /// both in [m], over the reference [K].
+    pub fn wheel_temperature(&self, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
+        self.check_state(state)?;
+        Ok(evaluate(&self.wheel, self.split(state).0, s, z))
+    }
+
+    /// Temperature of the rail at `x` and the depth `z`, both in [m], over the reference [K].
+    pub fn rail_temperature(&self, state: &HeatState, x: f64, z: f64) -> Result<f64, HeatError> {
+        self.check_state(state)?;
+        Ok(evaluate(&self.rail, self.split(state).1, x, z))
+    }
+
+    /// Fields of wheel and rail.
+    pub fn fields(&self, state: &HeatState) -> Result<[TemperatureField; 2], HeatError> {
+        self.check_state(state)?;
+        let radius = self.config.wheel.radius;
+        let polar = |s: f64, z: f64| [(radius - z) * (s / radius).sin(), -(radius - z) * (s / radius).cos()];
+        let (wheel, rail) = self.split(state);
+        Ok([field(&self.wheel, wheel, polar), field(&self.rail, rail, |s, z| [s, -z])])
+    }
+}
+
+/// Nodal temperatures, where `place` puts the distance along the surface and the depth into the plane.
+fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> TemperatureField {
+    let HeatBody { line, modes: across, .. } = body;
+    let (along, depths) = (line.len(), across.depths.len());
+    let mut mesh = Mesh::default();
+    let mut temperature = Vec::with_capacity(along * depths);
+    for (&s, values) in line.nodes.iter().zip(modes.chunks_exact(across.len())) {
+        for (i, &z) in across.depths.iter().enumerate() {
+            mesh.nodes.push(place(s, z));
+            // A fixed last node has no row.
+            let free = i < across.shapes.nrows();
+            let shape: Vec<f64> = if free { across.shapes.row(i).iter().copied().collect() } else { Vec::new() };
+            temperature.push(dot(values, &shape));
+        }
+    }
+    for element in 0..line.lengths.len() {
+        let (from, to) = (element * depths, line.after(element) * depths);
+        // Counter-clockwise: below the contact point depth points down in the rail, up in the wheel.
+        let wheel = line.closed > 0.0;
+        let cell = |(upper, lower): (usize, usize)| [from + lower, to + lower, to + upper, from + upper];
+        mesh.cells.extend((1..depths).map(|i| cell(if wheel { (i, i - 1) } else { (i - 1, i) })));
+    }
+    TemperatureField { mesh, temperature }
+}
+
+/// Temperature at one point; outside an open streamline that of its end.
+fn evaluate(body: &HeatBody, field: &[f64], s: f64, z: f64) -> f64 {
+    let line = &body.line;
+    let n = line.len();
+    let mut s = s;
+    if line.closed > 0.0 {
+        s = line.nodes[0] + (s - line.nodes[0]).rem_euclid(line.closed);
+    }
+    let element = line.nodes.partition_point(|&x| x <= s).saturating_sub(1).min(line.lengths.len() - 1);
+    let xi = ((s - line.nodes[element]) / line.lengths[element]).clamp(0.0, 1.0);
+    let across = body.modes.at(z);
+    let nm = across.len();
+    let value = |node: usize| dot(&field[node * nm..(node + 1) * nm], &across);
+    (1.0 - xi) * value(element) + xi * value((element + 1) % n)
+}

@@ -1,0 +1,368 @@
+//! The matrix of an implicit stage: applied exactly, inverted mode by mode, coupled through the contact.
+
+use super::loads::SurfaceLoads;
+use super::modal::{HeatBody, StageCoefficients, dot};
+use super::streamline::Transport;
+use super::tridiagonal::TridiagonalFactor;
+use super::{Heat, HeatFlows};
+use crate::heat::HeatError;
+use crate::linalg::gmres::{Gmres, LinearSystem};
+use nalgebra::linalg::LU;
+use nalgebra::{DMatrix, DVectorViewMut, Dyn};
+use std::ops::Range;
+
+/// Relative residual of the exact operator at which its correction stops, in steps and in the stationary state, and at
+/// which it is accepted where round-off stops it. In steps the heat balance holds at any residual: what the modal solver
+/// leaves out moves heat along the streamlines only.
+const STEP_TOLERANCE: f64 = 1e-10;
+const STATIONARY_TOLERANCE: f64 = 1e-13;
+const ACCEPTED: f64 = 1e-9;
+
+/// Stream, factors and coupling matrices of one body, and its buffers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BodyOperator {
+    transport: Transport,
+    factor: TridiagonalFactor,
+    /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal, upper.
+    contact: Vec<[f64; 3]>,
+    response: Vec<f64>,
+    work: Vec<f64>,
+    trace: Vec<f64>,
+    /// Load at surface nodes.
+    load: Vec<f64>,
+    sums: [Vec<f64>; 2],
+}
+
+/// Speeds, conductance and coefficients that a matrix belongs to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StageKey {
+    /// Velocity of the wheel's centre [m/s] and angular velocity [rad/s].
+    pub speeds: [f64; 2],
+    pub coefficients: StageCoefficients,
+    /// Inverse of the step that upwinding sees [1/s].
+    pub rate: f64,
+    /// Whether conduction along the streamlines of the wheel is exact.
+    pub curved: bool,
+}
+
+/// Everything needed to apply and to invert the matrix of an implicit stage.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stage {
+    /// What the operators below were made for; `None` if there are none.
+    speeds: [f64; 2],
+    conductance: Vec<[f64; 3]>,
+    coefficients: Option<StageCoefficients>,
+    curved: bool,
+    wheel: BodyOperator,
+    rail: BodyOperator,
+    /// Contact elements and nodes, counted from the first of the zone.
+    elements: Range<usize>,
+    nodes: Range<usize>,
+    coupling: Option<LU<f64, Dyn, Dyn>>,
+    /// Temperature of the wheel less that of the rail at the contact nodes.
+    jump: Vec<f64>,
+    gmres: Gmres,
+}
+
+impl BodyOperator {
+    /// `∫ k_c Nⱼ w̃ᵢ` on the contact nodes `first..` from the moments of the elements between them.
+    fn set_contact(&mut self, moments: &[[f64; 3]], element: usize) {
+        self.contact.clear();
+        self.contact.resize(moments.len() + 1, [0.0; 3]);
+        for (i, c) in moments.iter().enumerate() {
+            let sigma = self.transport.upwind_of(element + i, [c[0], c[1]]);
+            let (left, right) = (c[0] - c[1], c[1]);
+            self.contact[i][1] += left - right + c[2] - sigma * left;
+            self.contact[i][2] += right - c[2] - sigma * right;
+            self.contact[i + 1][0] += right - c[2] + sigma * left;
+            self.contact[i + 1][1] += c[2] + sigma * right;
+        }
+    }
+
+    /// Replaces `load` by `factor · ∫ k_c d w̃`, `d` given at the contact nodes.
+    fn set_contact_load(&mut self, factor: f64, jump: &[f64]) {
+        let last = jump.len().saturating_sub(1);
+        self.load.clear();
+        self.load.extend(self.contact.iter().enumerate().map(|(i, c)| {
+            let before = if i > 0 { c[0] * jump[i - 1] } else { 0.0 };
+            let after = if i < last { c[2] * jump[i + 1] } else { 0.0 };
+            factor * (before + c[1] * jump[i] + after)
+        }));
+    }
+
+    /// Adds `β G C̃` to the coupling matrix.
+    fn add_coupling(&self, flow: f64, matrix: &mut DMatrix<f64>) {
+        let n = self.contact.len();
+        for (j, mut column) in matrix.column_iter_mut().enumerate() {
+            let above = if j > 0 { self.contact[j - 1][2] } else { 0.0 };
+            let below = if j + 1 < n { self.contact[j + 1][0] } else { 0.0 };
+            let (first, last) = (j.saturating_sub(1), (j + 1).min(n - 1));
+            for (value, row) in column.iter_mut().zip(self.response.chunks_exact(n)) {
+                *value += flow * (above * row[first] + self.contact[j][1] * row[j] + below * row[last]);
+            }
+        }
+    }
+}
+
+impl Stage {
+    /// Prepares the operators; does nothing where they have not changed.
+    pub fn set(&mut self, heat: &Heat, loads: &SurfaceLoads, key: StageKey) -> Result<(), HeatError> {
+        let StageKey { speeds, coefficients, rate, curved } = key;
+        if self.coefficients == Some(coefficients)
+            && self.curved == curved
+            && self.speeds == speeds
+            && self.conductance == loads.conductance
+        {
+            return Ok(());
+        }
+        self.coefficients = None;
+        (self.speeds, self.curved) = (speeds, curved);
+        self.conductance.clone_from(&loads.conductance);
+        self.elements = loads.contact();
+        self.nodes = if self.elements.is_empty() { 0..0 } else { self.elements.start..self.elements.end + 1 };
+        let [velocity, omega] = speeds;
+        for (body, operator, speed) in
+            [(&heat.wheel, &mut self.wheel, -omega * heat.config.wheel.radius), (&heat.rail, &mut self.rail, -velocity)]
+        {
+            operator.transport.set(&body.line, speed, rate, body.heat_capacity, body.conductivity);
+            operator.factor.set(body, &operator.transport, coefficients)?;
+            if !self.elements.is_empty() {
+                let first = body.line.zone;
+                operator.set_contact(&self.conductance[self.elements.clone()], first + self.elements.start);
+                let range = first + self.nodes.start..first + self.nodes.end;
+                operator.factor.surface_response(body, range, &mut operator.response);
+            }
+        }
+        self.coupling = None;
+        if !self.elements.is_empty() {
+            let n = self.nodes.len();
+            let mut matrix = DMatrix::identity(n, n);
+            self.wheel.add_coupling(coefficients.flow, &mut matrix);
+            self.rail.add_coupling(coefficients.flow, &mut matrix);
+            let factors = matrix.lu();
+            if !factors.is_invertible() {
+                return Err(HeatError::Singular { unknowns: n });
+            }
+            self.coupling = Some(factors);
+        }
+        self.coefficients = Some(coefficients);
+        Ok(())
+    }
+
+    /// Contact nodes counted in a body.
+    fn contact_nodes(&self, body: &HeatBody) -> Range<usize> {
+        let first = body.line.zone;
+        first + self.nodes.start..first + self.nodes.end
+    }
+
+    /// Replaces `load` by everything that does not depend on the temperature.
+    pub fn set_loads(&mut self, heat: &Heat, loads: &SurfaceLoads, load: &mut Vec<f64>) {
+        let size = heat.wheel.size();
+        load.clear();
+        load.resize(size + heat.rail.size(), 0.0);
+        let (wheel, rail) = load.split_at_mut(size);
+        let share = heat.config.thermal.wheel_share;
+        for (body, operator, share, sign, out) in
+            [(&heat.wheel, &mut self.wheel, share, -1.0, wheel), (&heat.rail, &mut self.rail, 1.0 - share, 1.0, rail)]
+        {
+            let BodyOperator { transport, load: surface, .. } = operator;
+            surface.clear();
+            surface.resize(body.line.len(), 0.0);
+            let first = body.line.zone;
+            for (e, q) in loads.friction.iter().enumerate() {
+                transport.add_load(&body.line, first + e, q.map(|q| share * q), surface);
+            }
+            for (e, q) in loads.reversible.iter().enumerate() {
+                transport.add_load(&body.line, first + e, q.map(|q| sign * q), surface);
+            }
+            if body.line.closed > 0.0 {
+                for (e, q) in loads.tread.iter().enumerate() {
+                    transport.add_load(&body.line, e, *q, surface);
+                }
+            }
+            body.add_surface_load(0, surface, out);
+        }
+    }
+
+    /// `out ← out + S x` with the exact operator, both bodies one after the other in `x`.
+    pub fn multiply(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
+        let size = heat.wheel.size();
+        let (x_wheel, x_rail) = x.split_at(size);
+        let (wheel, rail) = out.split_at_mut(size);
+        heat.wheel.multiply(&self.wheel.transport, coefficients, x_wheel, wheel);
+        heat.rail.multiply(&self.rail.transport, coefficients, x_rail, rail);
+        if self.curved {
+            heat.wheel.add_curvature(coefficients, x_wheel, wheel, &mut self.wheel.work);
+        }
+        if self.coupling.is_some() {
+            self.set_jump(heat, x);
+            for (body, operator, factor, out) in [
+                (&heat.wheel, &mut self.wheel, coefficients.flow, wheel),
+                (&heat.rail, &mut self.rail, -coefficients.flow, rail),
+            ] {
+                operator.set_contact_load(factor, &self.jump);
+                body.add_surface_load(body.line.zone + self.nodes.start, &operator.load, out);
+            }
+        }
+    }
+
+    /// Takes the temperature of the wheel less that of the rail at the contact nodes.
+    fn set_jump(&mut self, heat: &Heat, x: &[f64]) {
+        let (wheel, rail) = x.split_at(heat.wheel.size());
+        let (at_wheel, at_rail) = (self.contact_nodes(&heat.wheel), self.contact_nodes(&heat.rail));
+        heat.wheel.trace(at_wheel, wheel, &mut self.wheel.trace);
+        heat.rail.trace(at_rail, rail, &mut self.rail.trace);
+        self.jump.clear();
+        self.jump.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
+    }
+
+    /// `x ← P⁻¹ x` with the operator of the modal solver.
+    fn invert(&mut self, heat: &Heat, x: &mut [f64]) {
+        let (Some(coefficients), size) = (self.coefficients, heat.wheel.size()) else { return };
+        let (wheel, rail) = x.split_at_mut(size);
+        self.wheel.factor.solve(&heat.wheel, wheel, 0);
+        self.rail.factor.solve(&heat.rail, rail, 0);
+        if self.coupling.is_none() {
+            return;
+        }
+        self.set_jump(heat, x);
+        if let Some(coupling) = &self.coupling {
+            let n = self.jump.len();
+            coupling.solve_mut(&mut DVectorViewMut::from_slice(&mut self.jump, n));
+        }
+        let (wheel, rail) = x.split_at_mut(size);
+        for (body, operator, factor, x) in [
+            (&heat.wheel, &mut self.wheel, -coefficients.flow, wheel),
+            (&heat.rail, &mut self.rail, coefficients.flow, rail),
+        ] {
+            operator.set_contact_load(factor, &self.jump);
+            let BodyOperator { factor, load, work, .. } = operator;
+            work.clear();
+            work.resize(body.size(), 0.0);
+            let first = body.line.zone + self.nodes.start;
+            body.add_surface_load(first, load, work);
+            factor.solve(body, work, first);
+            x.iter_mut().zip(&*work).for_each(|(x, dx)| *x += dx);
+        }
+    }
+
+    /// `x ← S⁻¹ x` with the exact operator where it matters; iterations of its correction.
+    pub fn solve(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &mut [f64]) -> Result<usize, HeatError> {
+        if !self.curved {
+            self.invert(heat, x);
+            return Ok(0);
+        }
+        let tolerance = if coefficients.storage > 0.0 { STEP_TOLERANCE } else { STATIONARY_TOLERANCE };
+        let mut gmres = std::mem::take(&mut self.gmres);
+        let solved = gmres.solve(&mut Exact { stage: self, heat, coefficients }, x, tolerance, ACCEPTED);
+        self.gmres = gmres;
+        solved.map_err(|stopped| HeatError::NotConverged { residual: stopped.residual, iterations: stopped.iterations })
+    }
+
+    /// Adds `weight` times the heat flows at the temperatures `x`, changing at the rates `rate` (`None`: not at all).
+    pub fn add_flows(
+        &mut self,
+        heat: &Heat,
+        loads: &SurfaceLoads,
+        x: &[f64],
+        rate: Option<&[f64]>,
+        weight: f64,
+        flows: &mut HeatFlows,
+    ) {
+        flows.friction += weight * loads.friction.iter().map(|q| q[0]).sum::<f64>();
+        flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
+        if self.coupling.is_some() {
+            self.set_jump(heat, x);
+            let moments = &loads.conductance[self.elements.clone()];
+            let through = moments.iter().zip(self.jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);
+            let reversible = loads.reversible.iter().map(|q| q[0]);
+            flows.conduction += weight * (through.sum::<f64>() + reversible.sum::<f64>());
+        }
+        let share = heat.config.thermal.wheel_share;
+        flows.to_wheel = share * flows.friction - flows.conduction;
+        flows.to_rail = (1.0 - share) * flows.friction + flows.conduction;
+        let size = heat.wheel.size();
+        let wheel = self.wheel.flows(&heat.wheel, &x[..size], rate.map(|rate| &rate[..size]));
+        flows.stored_wheel += weight * wheel.stored;
+        flows.wheel_to_air += weight * wheel.air;
+        flows.to_hub += if heat.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
+        let rail = self.rail.flows(&heat.rail, &x[size..], rate.map(|rate| &rate[size..]));
+        flows.stored_rail += weight * rail.stored;
+        flows.rail_to_air += weight * rail.air;
+        flows.outflow += weight * rail.out;
+    }
+}
+
+/// Heat flows of one body [W/m].
+struct BodyFlows {
+    stored: f64,
+    air: f64,
+    /// Into the fixed nodes.
+    fixed: f64,
+    /// With the stream.
+    out: f64,
+}
+
+impl BodyOperator {
+    /// Flows at the temperatures `x` that change at the rates `rate`.
+    fn flows(&mut self, body: &HeatBody, x: &[f64], rate: Option<&[f64]>) -> BodyFlows {
+        let modes = &body.modes;
+        let [now, change] = &mut self.sums;
+        body.integrate(x, now);
+        match rate {
+            Some(rate) => body.integrate(rate, change),
+            None => {
+                change.clear();
+                change.resize(modes.len(), 0.0);
+            }
+        }
+        let (mut stored, mut air, mut fixed) = (0.0, 0.0, 0.0);
+        for m in 0..modes.len() {
+            stored += body.heat_capacity * modes.content[m] * change[m];
+            let film = body.film * modes.surface[m] * now[m];
+            air += film;
+            // Residual of the energy balance tested with 1 at the free nodes: what reaches the fixed ones.
+            fixed += body.conductivity * modes.values[m] * modes.free[m] * now[m]
+                - film
+                - body.heat_capacity * (modes.content[m] - modes.free[m]) * change[m];
+        }
+        let out = self.transport.exit.map_or(0.0, |(node, flux)| {
+            let nm = modes.len();
+            flux * dot(&x[node * nm..(node + 1) * nm], &modes.content)
+        });
+        BodyFlows { stored, air, fixed, out }
+    }
+}
+
+/// The exact operator with the modal solver as its preconditioner.
+struct Exact<'a> {
+    stage: &'a mut Stage,
+    heat: &'a Heat,
+    coefficients: StageCoefficients,
+}
+
+impl LinearSystem for Exact<'_> {
+    fn apply(&mut self, x: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        self.stage.multiply(self.heat, self.coefficients, x, out);
+    }
+
+    fn precondition(&mut self, x: &mut [f64]) {
+        self.stage.invert(self.heat, x);
+    }
+}
+
+#[cfg(test)]
+impl Stage {
+    /// Surface temperatures of the rail at the contact nodes under a wheel at a uniform temperature; the nodes.
+    pub fn rail_under_uniform_wheel(&self, wheel: f64) -> (Range<usize>, Vec<f64>) {
+        use nalgebra::DVector;
+        let n = self.nodes.len();
+        let mut matrix = DMatrix::identity(n, n);
+        self.rail.add_coupling(1.0, &mut matrix);
+        let gain = &matrix - DMatrix::identity(n, n);
+        let mut surface = gain * DVector::from_element(n, wheel);
+        matrix.lu().solve_mut(&mut surface);
+        (self.nodes.clone(), surface.as_slice().to_vec())
+    }
+}

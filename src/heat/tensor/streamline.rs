@@ -1,0 +1,153 @@
+//! The factor of the tensor meshes along the streamlines: nodes, and the matrices of one stream velocity.
+
+use crate::fem::grading::graded;
+
+/// Linear elements along the streamlines.
+///
+/// Element `e` joins node `e` to node `e + 1`; on a closed streamline the last one joins the last node to the first.
+#[derive(Clone, Debug)]
+pub(super) struct Streamline {
+    /// Node positions along the surface, ascending [m].
+    pub nodes: Vec<f64>,
+    /// Element lengths [m].
+    pub lengths: Vec<f64>,
+    /// Circumference of a closed streamline [m]; zero: open.
+    pub closed: f64,
+    /// `∫ Nᵢ ds` [m].
+    pub weights: Vec<f64>,
+    /// First node (and element) of the contact zone.
+    pub zone: usize,
+}
+
+impl Streamline {
+    /// Nodes of an open streamline, or of a closed one of the given circumference.
+    pub fn new(nodes: Vec<f64>, closed: f64) -> Self {
+        let mut lengths: Vec<f64> = nodes.windows(2).map(|w| w[1] - w[0]).collect();
+        if closed > 0.0
+            && let (Some(first), Some(last)) = (nodes.first(), nodes.last())
+        {
+            lengths.push(first + closed - last);
+        }
+        let n = nodes.len();
+        let mut weights = vec![0.0; n];
+        for (e, h) in lengths.iter().enumerate() {
+            weights[e] += 0.5 * h;
+            weights[(e + 1) % n] += 0.5 * h;
+        }
+        Self { nodes, lengths, closed, weights, zone: 0 }
+    }
+
+    /// Nodes `zone` (from zero on) and growing elements beyond to the distance `half`, mirrored.
+    ///
+    /// On a closed streamline the two far ends are the same node, which comes last.
+    pub fn around_contact(zone: &[f64], half: f64, growth: f64, largest: f64, closed: bool) -> Self {
+        let (reach, cells) = (zone.last().copied().unwrap_or(0.0), zone.len().saturating_sub(1));
+        let spacing = if cells > 0 { reach - zone[cells - 1] } else { largest };
+        let mut side = zone.to_vec();
+        side.extend(graded(spacing * growth, growth, largest, half - reach).iter().skip(1).map(|s| reach + s));
+        let skipped = usize::from(closed);
+        let mut nodes: Vec<f64> = side.iter().rev().skip(skipped).map(|s| -s).collect();
+        nodes.pop();
+        let first = nodes.len().saturating_sub(cells);
+        nodes.extend(&side);
+        Self { zone: first, ..Self::new(nodes, if closed { 2.0 * half } else { 0.0 }) }
+    }
+
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Node after an element's first one.
+    pub fn after(&self, element: usize) -> usize {
+        (element + 1) % self.len()
+    }
+}
+
+/// Tridiagonal matrices of one stream velocity: `M̃` and `F = ρc v D̃ + k K`, with `D̃ = D + τvK`, `M̃ = M + τv Dᵀ`.
+///
+/// `M = ∫NN`, `D = ∫N N′`, `K = ∫N′N′` along `s`: the streamline-upwind test function `w + τ v w′` in every term
+/// (Brooks & Hughes, *Comput. Methods Appl. Mech. Eng.* 32 (1982)). Row sums of `F` vanish but for the entry of the
+/// stream, so that a uniform temperature is not touched by round-off: `F T` is evaluated from differences.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Transport {
+    pub mass_lower: Vec<f64>,
+    pub mass: Vec<f64>,
+    pub mass_upper: Vec<f64>,
+    pub flow_lower: Vec<f64>,
+    pub flow_upper: Vec<f64>,
+    /// Node where cold material enters and `ρc|v|` there (Danckwerts' condition: the flux enters, not the temperature).
+    pub entry: Option<(usize, f64)>,
+    /// Node where material leaves and `ρc|v|` there.
+    pub exit: Option<(usize, f64)>,
+    /// `τ v / h` per element [1].
+    pub upwind: Vec<f64>,
+}
+
+impl Transport {
+    /// Matrices for the stream velocity `speed` [m/s] and a step whose implicit coefficient is `1/rate` [s].
+    pub fn set(&mut self, line: &Streamline, speed: f64, rate: f64, heat_capacity: f64, conductivity: f64) {
+        let n = line.len();
+        for values in
+            [&mut self.mass_lower, &mut self.mass, &mut self.mass_upper, &mut self.flow_lower, &mut self.flow_upper]
+        {
+            values.clear();
+            values.resize(n, 0.0);
+        }
+        self.upwind.clear();
+        let advection = heat_capacity * speed;
+        for (e, &h) in line.lengths.iter().enumerate() {
+            let (a, b) = (e, line.after(e));
+            let sigma = upwind(speed, h, conductivity / heat_capacity, rate);
+            self.upwind.push(sigma);
+            let shift = sigma * h;
+            self.mass[a] += h / 3.0 - 0.5 * shift;
+            self.mass_upper[a] += h / 6.0 - 0.5 * shift;
+            self.mass_lower[b] += h / 6.0 + 0.5 * shift;
+            self.mass[b] += h / 3.0 + 0.5 * shift;
+            self.flow_upper[a] += advection * (0.5 - sigma) - conductivity / h;
+            self.flow_lower[b] += -advection * (0.5 + sigma) - conductivity / h;
+        }
+        let ends = if speed > 0.0 { (0, n - 1) } else { (n - 1, 0) };
+        let open = line.closed == 0.0 && speed != 0.0;
+        self.entry = open.then_some((ends.0, advection.abs()));
+        self.exit = open.then_some((ends.1, advection.abs()));
+    }
+
+    /// Row sum of `F`: what enters with the stream.
+    pub fn entry(&self, row: usize) -> f64 {
+        self.entry.map_or(0.0, |(node, value)| if node == row { value } else { 0.0 })
+    }
+
+    /// Adds the load `∫ q w̃ ds` of an element with the moments `∫ q ds` and `∫ q ξ ds`, ξ from 0 to 1.
+    pub fn add_load(&self, line: &Streamline, element: usize, moments: [f64; 2], load: &mut [f64]) {
+        let shifted = self.upwind[element] * moments[0];
+        load[element] += moments[0] - moments[1] - shifted;
+        load[line.after(element)] += moments[1] + shifted;
+    }
+
+    /// Upwinding of the test functions for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds` on an element.
+    ///
+    /// Where the contact begins or ends within the element, full upwinding would give the node upstream a share below
+    /// zero, and its temperature would undershoot: both shares keep the sign of the whole.
+    pub fn upwind_of(&self, element: usize, [whole, first]: [f64; 2]) -> f64 {
+        let sigma = self.upwind[element];
+        let centroid = first / whole;
+        if centroid.is_finite() { sigma.max(-centroid).min(1.0 - centroid) } else { sigma }
+    }
+}
+
+/// `τ v / h` with `τ⁻² = [h/(2|v|)(coth Pe − 1/Pe)]⁻² + (2/Δt)²`, `Pe = |v|h/2κ`; zero at `v = 0`.
+///
+/// Shakib, Hughes & Johan, *Comput. Methods Appl. Mech. Eng.* 89 (1991), with the exact one-dimensional parameter.
+fn upwind(speed: f64, length: f64, diffusivity: f64, rate: f64) -> f64 {
+    let peclet = 0.5 * speed.abs() * length / diffusivity;
+    let magic =
+        if peclet < 0.05 { peclet / 3.0 * (1.0 - peclet * peclet / 15.0) } else { 1.0 / peclet.tanh() - 1.0 / peclet };
+    let steady = 0.5 * magic;
+    if steady == 0.0 {
+        return 0.0;
+    }
+    // In units of h/|v|: τ = 1/√(1/steady² + (2 rate h/|v|)²).
+    let transient = 2.0 * rate * length / speed.abs() * steady;
+    (steady / 1.0_f64.hypot(transient)).copysign(speed)
+}

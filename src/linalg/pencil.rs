@@ -1,0 +1,212 @@
+//! All eigenpairs of a small dense symmetric pencil with 32 digits.
+//!
+//! For pencils whose eigenvalues span so many decades that the smallest drown in the round-off of the largest. Only the
+//! scalar type is faer's: its routines multiply matrices in blocks, and version 0.24.4 panics there for this type.
+
+use super::LinalgError;
+
+/// A number of 32 digits.
+pub use faer::fx128 as Wide;
+
+/// A double as a number of 32 digits.
+pub fn wide(value: f64) -> Wide {
+    Wide::from_f64(value)
+}
+
+/// The nearest double.
+pub fn narrow(value: Wide) -> f64 {
+    value.0 + value.1
+}
+
+/// Eigenpairs `K φ = λ M φ` with `Φᵀ M Φ = 1`, λ ascending.
+#[derive(Clone, Debug)]
+pub struct WideModes {
+    /// Eigenvalues λ, ascending.
+    pub values: Vec<Wide>,
+    /// Row-major, one eigenvector per column.
+    pub shapes: Vec<Wide>,
+}
+
+/// All eigenpairs of `K φ = λ M φ`: `mass` is positive definite, both are symmetric, row-major and of `size` rows.
+///
+/// With the Cholesky factor `M = L Lᵀ` they are those of `L⁻¹ K L⁻ᵀ`. Fails for an indefinite mass, and if the iteration
+/// does not converge.
+pub fn wide_modes(mass: &[Wide], stiffness: &[Wide], size: usize) -> Result<WideModes, LinalgError> {
+    let factor = cholesky(mass, size)?;
+    let mut matrix = stiffness.to_vec();
+    // L⁻¹ K, then the same on the transposed result.
+    for _ in 0..2 {
+        solve_lower(&factor, &mut matrix, size);
+        for i in 0..size {
+            for j in 0..i {
+                matrix.swap(i * size + j, j * size + i);
+            }
+        }
+    }
+    let mut shapes = jacobi(&mut matrix, size).ok_or(LinalgError::Eigen { size })?;
+    solve_upper(&factor, &mut shapes, size);
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by(|&i, &j| matrix[i * size + i].0.total_cmp(&matrix[j * size + j].0));
+    let sorted = |row: &[Wide]| -> Vec<Wide> { order.iter().map(|&column| row[column]).collect() };
+    Ok(WideModes {
+        values: order.iter().map(|&i| matrix[i * size + i]).collect(),
+        shapes: shapes.chunks_exact(size).flat_map(sorted).collect(),
+    })
+}
+
+/// `L` of `M = L Lᵀ`.
+fn cholesky(mass: &[Wide], size: usize) -> Result<Vec<Wide>, LinalgError> {
+    let mut factor = vec![Wide::ZERO; size * size];
+    for i in 0..size {
+        for j in 0..=i {
+            let mut sum = mass[i * size + j];
+            for l in 0..j {
+                sum -= factor[i * size + l] * factor[j * size + l];
+            }
+            if i != j {
+                factor[i * size + j] = sum / factor[j * size + j];
+            } else if sum.0 > 0.0 {
+                factor[i * size + i] = sum.sqrt();
+            } else {
+                let reason = format!("pivot {i} is {:e}", sum.0);
+                return Err(LinalgError::NotPositiveDefinite { size, reason });
+            }
+        }
+    }
+    Ok(factor)
+}
+
+/// `X ← L⁻¹ X`.
+fn solve_lower(factor: &[Wide], matrix: &mut [Wide], size: usize) {
+    for column in 0..size {
+        for i in 0..size {
+            let mut sum = matrix[i * size + column];
+            for l in 0..i {
+                sum -= factor[i * size + l] * matrix[l * size + column];
+            }
+            matrix[i * size + column] = sum / factor[i * size + i];
+        }
+    }
+}
+
+/// `X ← L⁻ᵀ X`.
+fn solve_upper(factor: &[Wide], matrix: &mut [Wide], size: usize) {
+    for column in 0..size {
+        for i in (0..size).rev() {
+            let mut sum = matrix[i * size + column];
+            for l in i + 1..size {
+                sum -= factor[l * size + i] * matrix[l * size + column];
+            }
+            matrix[i * size + column] = sum / factor[i * size + i];
+        }
+    }
+}
+
+/// Cyclic Jacobi iteration (Golub & Van Loan, *Matrix Computations*, 4th ed., 8.5): leaves the eigenvalues on the
+/// diagonal of `a` and returns the eigenvectors as columns; `None` without convergence.
+fn jacobi(a: &mut [Wide], n: usize) -> Option<Vec<Wide>> {
+    const SWEEPS: usize = 60;
+    let mut v = vec![Wide::ZERO; n * n];
+    for i in 0..n {
+        v[i * n + i] = Wide::ONE;
+    }
+    // Entries at the round-off of the matrix are zero, whatever the diagonal (eigenvalue zero of an insulated body).
+    let floor = 1e-31 * (0..n).map(|i| a[i * n + i].0).fold(0.0, f64::max);
+    for _ in 0..SWEEPS {
+        let mut largest: f64 = 0.0;
+        for p in 0..n {
+            for q in p + 1..n {
+                let (app, aqq, apq) = (a[p * n + p], a[q * n + q], a[p * n + q]);
+                let scale = (app.0.abs() * aqq.0.abs()).sqrt();
+                if apq.0.abs() <= floor.max(1e-28 * scale) {
+                    continue;
+                }
+                let relative = apq.0.abs() / scale.max(floor);
+                largest = largest.max(relative);
+                let theta = (aqq - app) / (wide(2.0) * apq);
+                let root = (theta * theta + Wide::ONE).sqrt();
+                let t = if theta.0 >= 0.0 { Wide::ONE / (theta + root) } else { Wide::ONE / (theta - root) };
+                let c = Wide::ONE / (t * t + Wide::ONE).sqrt();
+                let s = t * c;
+                for l in 0..n {
+                    let (x, y) = (a[l * n + p], a[l * n + q]);
+                    (a[l * n + p], a[l * n + q]) = (c * x - s * y, s * x + c * y);
+                }
+                for l in 0..n {
+                    let (x, y) = (a[p * n + l], a[q * n + l]);
+                    (a[p * n + l], a[q * n + l]) = (c * x - s * y, s * x + c * y);
+                    let (x, y) = (v[l * n + p], v[l * n + q]);
+                    (v[l * n + p], v[l * n + q]) = (c * x - s * y, s * x + c * y);
+                }
+                (a[p * n + q], a[q * n + p]) = (Wide::ZERO, Wide::ZERO);
+            }
+        }
+        if largest.is_nan() {
+            return None;
+        }
+        if largest < 1e-20 {
+            return Some(v);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn matrix(n: usize, entry: impl Fn(usize, usize) -> Wide) -> Vec<Wide> {
+        (0..n * n).map(|at| entry(at / n, at % n)).collect()
+    }
+
+    fn product(n: usize, a: &[Wide], b: &[Wide]) -> Vec<Wide> {
+        matrix(n, |i, j| (0..n).fold(Wide::ZERO, |sum, l| sum + a[i * n + l] * b[l * n + j]))
+    }
+
+    #[test]
+    fn eigenvalues_over_twelve_decades_keep_the_digits_of_a_double() {
+        // K = Q D Q with a Householder reflection Q, M = 1: the eigenvalues are D.
+        let n = 40;
+        let exact: Vec<f64> = (0..n).map(|i| 10f64.powf(-2.0 + 12.0 * i as f64 / (n - 1) as f64)).collect();
+        let v: Vec<Wide> = (0..n).map(|i| wide(1.0 + (i as f64).sin())).collect();
+        let length = v.iter().fold(Wide::ZERO, |sum, v| sum + *v * *v);
+        let unit = |i: usize, j: usize| wide(f64::from(u8::from(i == j)));
+        let q = matrix(n, |i, j| unit(i, j) - wide(2.0) * v[i] * v[j] / length);
+        let d = matrix(n, |i, j| wide(exact[i]) * unit(i, j));
+        let modes = wide_modes(&matrix(n, unit), &product(n, &product(n, &q, &d), &q), n).unwrap();
+        for (found, exact) in modes.values.iter().zip(&exact) {
+            assert!((narrow(*found) / exact - 1.0).abs() < 1e-14, "{} for {exact}", narrow(*found));
+        }
+    }
+
+    #[test]
+    fn shapes_are_orthonormal_in_the_mass_and_diagonalise_the_stiffness() {
+        let n = 25;
+        let band = |main: f64, side: f64| {
+            matrix(n, |i, j| match i.abs_diff(j) {
+                0 => wide(main * (1.0 + i as f64)),
+                1 => wide(side),
+                _ => Wide::ZERO,
+            })
+        };
+        let (mass, stiffness) = (band(4.0, 1.0), band(2.0, -1.0));
+        let modes = wide_modes(&mass, &stiffness, n).unwrap();
+        let transposed = matrix(n, |i, j| modes.shapes[j * n + i]);
+        let unit = product(n, &product(n, &transposed, &mass), &modes.shapes);
+        let ritz = product(n, &product(n, &transposed, &stiffness), &modes.shapes);
+        for i in 0..n {
+            for j in 0..n {
+                let one = if i == j { 1.0 } else { 0.0 };
+                assert!((unit[i * n + j] - wide(one)).0.abs() < 1e-29);
+                assert!((ritz[i * n + j] - modes.values[i] * wide(one)).0.abs() < 1e-19);
+            }
+        }
+        assert!(modes.values.windows(2).all(|v| v[0].0 <= v[1].0));
+    }
+
+    #[test]
+    fn an_indefinite_mass_is_refused() {
+        let mass = matrix(2, |i, j| wide(if i == j { 1.0 - 2.0 * i as f64 } else { 0.0 }));
+        assert!(matches!(wide_modes(&mass, &mass, 2), Err(LinalgError::NotPositiveDefinite { .. })));
+    }
+}

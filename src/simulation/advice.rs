@@ -1,0 +1,178 @@
+//! What a user can do about a failure: the one place for the advice that follows a message.
+
+use super::{PrepareError, StepError};
+use crate::config::Config;
+use crate::fem::FemError;
+use crate::heat::HeatError;
+use crate::linalg::LinalgError;
+use crate::mechanics::MechanicsError;
+use crate::rolling::ModelError;
+
+/// Load that the candidate zone carries in any case, over the nominal load.
+const ZONE_LOAD: f64 = 2.0;
+
+/// The message of a step that failed, with advice.
+pub fn failed_step(error: &StepError, config: &Config) -> String {
+    let shorter = format!(
+        "take shorter communication steps, lower solver.max_step (now {:?} s) or set solver.tolerance, for example to \
+         0.01, and change prescribed velocities and loads more gently",
+        config.tuning.max_step
+    );
+    let advice = match error {
+        StepError::ZoneExceeded { load, .. } => zone(*load, config).unwrap_or(shorter),
+        StepError::Contact { .. } | StepError::NotFinite { .. } => shorter,
+        StepError::Heat(HeatError::Input { .. }) => shorter,
+        StepError::Heat(error) => heat(error, config),
+        StepError::Motion(_) => {
+            "check drive.force, drive.moment and drive.load, or the prescribed velocities".to_owned()
+        }
+        StepError::Body(_) => body(config),
+        _ => return error.to_string(),
+    };
+    format!("{error}: {advice}")
+}
+
+/// The message of a stationary start that failed, with advice.
+pub fn failed_start(error: &StepError, config: &Config) -> String {
+    let advice = match error {
+        StepError::ZoneExceeded { load, .. } => zone(*load, config).unwrap_or_else(|| {
+            format!(
+                "the load is one that the zone carries, so a higher model.nominal_load does not help: check \
+                 drive.displacement, initial.creepage (now {:?}), thermal.wheel_excess (now {:?} K) and rail.length (now \
+                 {:?} m)",
+                config.initial.creepage, config.thermal.wheel_excess, config.rail.length
+            )
+        }),
+        StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::NoEquilibrium(_) => {
+            "start from a gentler state (drive.load near model.nominal_load, initial.creepage near 0, moderate \
+             initial.velocity) and bring the inputs to their values in the first steps"
+                .to_owned()
+        }
+        StepError::Motion(_) => format!(
+            "choose initial.velocity (now {:?} m/s) and initial.creepage (now {:?}), or the prescribed velocities, within \
+             it",
+            config.initial.velocity, config.initial.creepage
+        ),
+        StepError::Heat(error) => heat(error, config),
+        StepError::Body(_) => body(config),
+        _ => return error.to_string(),
+    };
+    format!("{error}: {advice}")
+}
+
+/// The message of a model that could not be prepared, with advice.
+pub fn failed_preparation(error: &PrepareError, config: &Config) -> String {
+    let advice = match error {
+        PrepareError::Mechanics(error) | PrepareError::Model(ModelError::Mechanics(error)) => mechanics(error, config),
+        PrepareError::Model(ModelError::Heat(source)) if !matches!(source, HeatError::Config(_)) => {
+            heat(source, config)
+        }
+        _ => return error.to_string(),
+    };
+    format!("{error}: {advice}")
+}
+
+/// Advice where the candidate zone is too short for the load; `None` where the load is not the reason.
+fn zone(load: f64, config: &Config) -> Option<String> {
+    let nominal = config.model.nominal_load;
+    (load > ZONE_LOAD * nominal).then(|| {
+        format!(
+            "the zone is laid out for {ZONE_LOAD} x model.nominal_load (now {nominal:?} N); lower drive.load, or raise \
+             model.nominal_load and set drive.load, which follows it unless set"
+        )
+    })
+}
+
+fn heat(error: &HeatError, config: &Config) -> String {
+    let thermal = &config.thermal;
+    match error {
+        HeatError::Eigen { .. } => format!(
+            "change the layers of the thermal mesh by thermal.max_speed (now {:?} m/s) or thermal.smallest_load_ratio \
+             (now {:?})",
+            thermal.max_speed, thermal.smallest_load_ratio
+        ),
+        _ => format!(
+            "take shorter steps, or more usual values of thermal.conductance (now {:?} W/(m2 K)), thermal.convection \
+             (now {:?} W/(m2 K)) and material.conductivity (now {:?} W/(m K)); thermal.enabled = false runs without \
+             temperatures",
+            thermal.conductance, thermal.convection, config.material.conductivity
+        ),
+    }
+}
+
+fn mechanics(error: &MechanicsError, config: &Config) -> String {
+    match error {
+        MechanicsError::Fem(FemError::ZoneTooLarge { .. }) => format!(
+            "the contact is too wide for the bodies; lower model.nominal_load (now {:?} N), or raise model.contact_width \
+             (now {:?} m), material.youngs_modulus (now {:?} Pa), rail.length (now {:?} m) or rail.height (now {:?} m), \
+             or lower wheel.hub_radius (now {:?} m)",
+            config.model.nominal_load,
+            config.model.contact_width,
+            config.material.youngs_modulus,
+            config.rail.length,
+            config.rail.height,
+            config.wheel.hub_radius
+        ),
+        MechanicsError::Linalg(LinalgError::ModesNotConverged { .. } | LinalgError::TooManyModes { .. }) => {
+            body(config)
+        }
+        _ => format!(
+            "choose more usual proportions of wheel.radius (now {:?} m), wheel.hub_radius (now {:?} m), rail.length (now \
+             {:?} m), rail.height (now {:?} m) and model.nominal_load (now {:?} N)",
+            config.wheel.radius,
+            config.wheel.hub_radius,
+            config.rail.length,
+            config.rail.height,
+            config.model.nominal_load
+        ),
+    }
+}
+
+fn body(config: &Config) -> String {
+    format!(
+        "change solver.modes_wheel (now {}) and solver.modes_rail (now {}), or choose solver.response = full",
+        config.solver.modes_wheel, config.solver.modes_rail
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::ContactError;
+
+    fn config() -> Config {
+        let text = include_str!("../../resources/railway.json");
+        serde_json::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_higher_nominal_load_is_advised_only_where_the_load_is_the_reason() {
+        let config = config();
+        let nominal = config.model.nominal_load;
+        let text = |load| failed_step(&StepError::ZoneExceeded { zone: 0.018, load }, &config);
+        assert!(text(2.1 * nominal).contains("raise model.nominal_load and set drive.load"));
+        let wound_up = text(0.9 * nominal);
+        assert!(!wound_up.contains("model.nominal_load") && wound_up.contains("solver.max_step"), "{wound_up}");
+        let start = failed_start(&StepError::ZoneExceeded { zone: 0.018, load: 0.9 * nominal }, &config);
+        assert!(start.contains("does not help") && start.contains("rail.length"), "{start}");
+    }
+
+    #[test]
+    fn every_failure_of_the_numerics_names_a_parameter() {
+        let config = config();
+        let source = ContactError::NotConverged { iterations: 40 };
+        let heat = HeatError::NotConverged { residual: 1e-3, iterations: 50 };
+        let modes = LinalgError::ModesNotConverged { wanted: 40, converged: 0, space: 80, residual: 1.0 };
+        let zone = FemError::ZoneTooLarge { zone: 0.2, half_width: 0.1, limit: 0.115, what: "a quarter" };
+        for (text, name) in [
+            (failed_step(&StepError::Contact { time: 0.0, step: 1e-3, source }, &config), "solver.max_step"),
+            (failed_step(&StepError::NotFinite { time: 0.0, step: 1e-3 }, &config), "solver.max_step"),
+            (failed_step(&StepError::Heat(heat), &config), "thermal.conductance"),
+            (failed_start(&StepError::NoEquilibrium("none"), &config), "initial.creepage"),
+            (failed_preparation(&PrepareError::Mechanics(modes.into()), &config), "solver.modes_wheel"),
+            (failed_preparation(&PrepareError::Mechanics(zone.into()), &config), "model.nominal_load"),
+        ] {
+            assert!(text.contains(name) && text.contains("(now ") | text.contains("gentler"), "{text}");
+        }
+    }
+}

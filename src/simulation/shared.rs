@@ -1,0 +1,52 @@
+//! Models shared by all simulations of a process: the one global of the crate.
+//!
+//! A model is prepared by the first who asks for it; others who ask meanwhile wait for it. Nobody keeps a model but its
+//! users: with the last of them it is gone.
+
+use super::{BasisStore, Model, PrepareError};
+use crate::config::Config;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+
+/// A model that exists, existed or is being prepared.
+struct Entry {
+    config: Config,
+    model: Mutex<Weak<Model>>,
+}
+
+static ENTRIES: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
+
+/// The lock of data that are whole at any time, whatever happened to those who held it before.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The entry of a configuration, a new one if there is none. Models that nobody uses or prepares are forgotten.
+fn entry(config: &Config) -> Arc<Entry> {
+    let mut entries = lock(&ENTRIES);
+    entries.retain(|entry| Arc::strong_count(entry) > 1 || lock(&entry.model).strong_count() > 0);
+    if let Some(known) = entries.iter().find(|entry| super::same_model(&entry.config, config)) {
+        return known.clone();
+    }
+    let entry = Arc::new(Entry { config: config.clone(), model: Mutex::default() });
+    entries.push(entry.clone());
+    entry
+}
+
+impl Model {
+    /// The model that others of this process use for a configuration equal but for tunable parameters, or one prepared now
+    /// (see [`Model::prepare`]).
+    pub fn shared(
+        config: Config,
+        store: &BasisStore,
+        progress: &mut dyn FnMut(&str, f64),
+    ) -> Result<Arc<Self>, PrepareError> {
+        let entry = entry(&config);
+        let mut place = lock(&entry.model);
+        if let Some(model) = place.upgrade() {
+            return Ok(model);
+        }
+        let model = Model::prepare(config, store, progress)?;
+        *place = Arc::downgrade(&model);
+        Ok(model)
+    }
+}

@@ -1,0 +1,136 @@
+//! Where computed bases are kept: beside the presets in the FMU, in the cache of the user, or where a caller says.
+
+use crate::config::Config;
+use crate::mechanics::{self, Basis, BasisError};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+use std::{env, fs, io, process, thread};
+
+/// Names the directory that takes the place of the user's cache; empty: no cache.
+pub const CACHE_VARIABLE: &str = "WHEELRAIL_CACHE";
+/// Folder of the bases in every place.
+const FOLDER: &str = "basis";
+/// Number of bases kept in the cache of a user, about 1 MB each; the oldest give way.
+const KEPT_BASES: usize = 200;
+
+/// Places of stored bases. Those to be read only come first; one more may be written, too.
+#[derive(Clone, Debug, Default)]
+pub struct BasisStore {
+    packed: Vec<PathBuf>,
+    cache: Option<PathBuf>,
+    /// Largest number of bases in the cache.
+    capacity: Option<usize>,
+}
+
+/// A stored basis that is not one.
+#[derive(Debug, thiserror::Error)]
+#[error("stored basis {}: {source}", path.display())]
+pub struct StoreError {
+    path: PathBuf,
+    source: BasisError,
+}
+
+/// File name of the stored basis of a configuration.
+pub fn basis_file_name(config: &Config) -> String {
+    format!("{}.bin", mechanics::basis::key(config))
+}
+
+impl BasisStore {
+    /// Knows no place: every basis is computed and none is kept.
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// Reads and keeps bases in `<directory>/basis`.
+    pub fn within(directory: &Path) -> Self {
+        Self { packed: Vec::new(), cache: Some(directory.join(FOLDER)), capacity: None }
+    }
+
+    /// Keeps bases in the user's cache: `$WHEELRAIL_CACHE/basis`, else `wheelrail/basis` in `$XDG_CACHE_HOME` or
+    /// `~/.cache` (Windows: `%LOCALAPPDATA%`). Where the cache directory does not exist, nothing is kept.
+    pub fn of_user() -> Self {
+        let variable = |name| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let own = env::var_os(CACHE_VARIABLE).map(PathBuf::from);
+        let usual = || {
+            let home = || variable("HOME").map(|home| home.join(".cache"));
+            let cache = if cfg!(windows) { variable("LOCALAPPDATA") } else { variable("XDG_CACHE_HOME").or_else(home) };
+            cache.filter(|directory| directory.is_dir()).map(|directory| directory.join("wheelrail"))
+        };
+        let (directory, capacity) = match own {
+            Some(own) => (Some(own).filter(|directory| directory.is_dir()), None),
+            None => (usual(), Some(KEPT_BASES)),
+        };
+        Self { packed: Vec::new(), cache: directory.map(|directory| directory.join(FOLDER)), capacity }
+    }
+
+    /// Reads bases in `<directory>/basis`, too, and before all others.
+    pub fn with_packed(mut self, directory: Option<&Path>) -> Self {
+        self.packed.extend(directory.map(|directory| directory.join(FOLDER)));
+        self
+    }
+
+    /// The stored basis of a configuration, with its file; a file of the cache that is damaged counts as none.
+    pub fn find(&self, config: &Config) -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
+        let name = basis_file_name(config);
+        let read = |directory: &PathBuf| -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
+            let path = directory.join(&name);
+            let Ok(bytes) = fs::read(&path) else { return Ok(None) };
+            let basis = Basis::from_bytes(&bytes).map_err(|source| StoreError { path, source })?;
+            Ok(Some((basis, bytes)).filter(|(basis, _)| basis.fits(config)))
+        };
+        for directory in &self.packed {
+            if let Some(found) = read(directory)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(self.cache.as_ref().and_then(|directory| read(directory).ok().flatten()))
+    }
+
+    /// Keeps the file of a basis in the cache, if there is one; others may be reading and writing there. An error means
+    /// no more than that the basis must be computed again next time.
+    pub fn keep(&self, config: &Config, bytes: &[u8]) -> Result<(), String> {
+        let Some(directory) = &self.cache else { return Ok(()) };
+        let write = || -> io::Result<()> {
+            fs::create_dir_all(directory)?;
+            let path = directory.join(basis_file_name(config));
+            let unfinished = path.with_extension(format!("{}-{:?}", process::id(), thread::current().id()));
+            fs::write(&unfinished, bytes).and_then(|()| fs::rename(&unfinished, path)).inspect_err(|_| {
+                let _ = fs::remove_file(&unfinished);
+            })?;
+            self.capacity.map_or(Ok(()), |capacity| shrink(directory, capacity))
+        };
+        write().map_err(|error| format!("the computed basis cannot be kept in {}: {error}", directory.display()))
+    }
+}
+
+/// Removes the oldest files until `capacity` are left.
+fn shrink(directory: &Path, capacity: usize) -> io::Result<()> {
+    let entries = fs::read_dir(directory)?.filter_map(Result::ok).map(|entry| entry.path());
+    let bases = entries.filter(|path| path.extension().is_some_and(|e| e == "bin"));
+    let age = |path: &PathBuf| fs::metadata(path).and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
+    let mut files: Vec<_> = bases.map(|path| (age(&path), path)).collect();
+    files.sort();
+    let surplus = files.len().saturating_sub(capacity);
+    files.iter().take(surplus).try_for_each(|(_, path)| fs::remove_file(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_cache_gives_up_its_oldest_bases() {
+        let directory = env::temp_dir().join(format!("wheelrail cache {}", process::id()));
+        fs::create_dir_all(&directory).unwrap();
+        for (i, name) in ["a.bin", "b.bin", "other", "c.bin"].into_iter().enumerate() {
+            fs::write(directory.join(name), "").unwrap();
+            let time = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(i as u64);
+            fs::File::options().write(true).open(directory.join(name)).unwrap().set_modified(time).unwrap();
+        }
+        shrink(&directory, 2).unwrap();
+        let mut left: Vec<_> = fs::read_dir(&directory).unwrap().map(|e| e.unwrap().file_name()).collect();
+        left.sort();
+        fs::remove_dir_all(&directory).unwrap();
+        assert_eq!(left, ["b.bin", "c.bin", "other"]);
+    }
+}

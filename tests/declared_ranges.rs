@@ -1,0 +1,105 @@
+//! Declared ranges are accepted ranges: a model starts and steps with every parameter at each end of its range, alone.
+
+mod common;
+
+use std::path::Path;
+use wheelrail::config::value::{Kind, Value};
+use wheelrail::config::{Config, Response, presets};
+use wheelrail::simulation::{Inputs, Model, Simulation};
+
+const PRESETS: [&str; 5] = ["railway", "paper_a", "paper_b", "paper_c", "paper_d"];
+
+/// A preset on the coarsest mesh with few modes.
+fn coarse(name: &str) -> Config {
+    let mut config = common::preset(name, 4);
+    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 5);
+    config
+}
+
+/// The configuration with each parameter at each end of its range, with name and value.
+fn ends(config: &Config) -> Vec<(&'static str, f64, Config)> {
+    let mut found = Vec::new();
+    for row in Config::rows() {
+        let ends = match row.kind {
+            Kind::Real { min, max, .. } => [min, max].map(Value::Real),
+            Kind::Integer { min, max } => [min, max].map(Value::Integer),
+            _ => continue,
+        };
+        for value in ends {
+            let mut changed = config.clone();
+            (row.write)(&mut changed, &value);
+            assert_eq!((row.read)(&changed), value);
+            let number = match value {
+                Value::Real(number) => number,
+                Value::Integer(number) => f64::from(number),
+                _ => unreachable!("numeric rows only"),
+            };
+            found.push((row.name, number, changed));
+        }
+    }
+    found
+}
+
+/// Start and two steps of free rolling.
+fn rolls(config: &Config) -> Result<(), String> {
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
+    let model = Model::prepare(config.clone(), Some(&target), &mut |_, _| {}).map_err(|error| error.to_string())?;
+    let inputs = Inputs::rolling(config);
+    let mut simulation = Simulation::new(model, &inputs).map_err(|error| error.to_string())?;
+    (0..2).try_for_each(|_| simulation.advance(&inputs, 1e-3)).map_err(|error| error.to_string())
+}
+
+#[test]
+fn the_default_rolls_with_every_parameter_at_each_end_of_its_range() {
+    common::model(coarse("railway"));
+    let mut refused = Vec::new();
+    for (name, value, config) in ends(&coarse("railway")) {
+        if let Err(why) = rolls(&config) {
+            refused.push(format!("{name} = {value}: {why}"));
+        }
+    }
+    assert!(refused.is_empty(), "{}", refused.join("\n"));
+}
+
+/// Other presets may meet a range that depends on another parameter; the refusal then names both.
+#[test]
+fn every_preset_accepts_the_ends_of_ranges_or_names_the_other_parameter() {
+    let mut wrong = Vec::new();
+    for preset in &PRESETS[1..] {
+        for (name, value, config) in ends(&coarse(preset)) {
+            let Err(error) = config.validate() else { continue };
+            let text = error.to_string();
+            let others = Config::rows().iter().filter(|row| row.name != error.name && text.contains(row.name)).count();
+            if !text.contains(name) || others == 0 {
+                wrong.push(format!("{preset}: {name} = {value}: {text}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn shipped_presets_say_only_what_differs_from_the_default() {
+    let resources = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources");
+    for name in PRESETS {
+        let text = std::fs::read_to_string(resources.join(format!("{name}.json"))).unwrap();
+        let config = presets::parse(&text).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let named = |row: &str| row.split_once('.').is_some_and(|(group, field)| json[group].get(field).is_some());
+        for row in Config::rows() {
+            let differs = (row.read)(&config) != (row.read)(&Config::default());
+            assert_eq!(named(row.name), differs, "{name}: {}", row.name);
+        }
+    }
+    assert_eq!(common::preset("railway", 20), Config::default());
+}
+
+#[test]
+fn full_bodies_accept_the_ends_of_geometry() {
+    for (name, value, mut config) in ends(&coarse("railway")) {
+        if ["wheel.radius", "wheel.hub_radius", "rail.height", "material.poissons_ratio"].contains(&name) {
+            config.solver.response = Response::Full;
+            assert_eq!(rolls(&config), Ok(()), "{name} = {value}");
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Setting up a run through the compiled library: in any order, judged as a whole, corrected where it was refused.
+
+mod slave;
+
+use slave::*;
+use wheelrail::fmi::variable::{Causality, Kind};
+use wheelrail::fmi::variables::variables;
+
+#[test]
+fn the_order_of_sets_does_not_matter() {
+    let dll = load();
+    // Alone, this creepage at the initial velocity of the preset is beyond the range of drive.omega.
+    let settings = [("initial.creepage", -1.99), ("initial.velocity", 0.1), ("wheel.radius", 0.05)];
+    let hub = ("wheel.hub_radius", 0.02);
+    let run = |settings: &[(&str, f64)]| {
+        let slave = Slave::coarse(&dll);
+        for (name, value) in settings {
+            assert_eq!(slave.set_real(name, *value), fmi2OK, "{:?}", slave.messages());
+        }
+        assert_eq!(slave.set_real("model.nominal_load", 2e3), fmi2OK);
+        slave.initialize();
+        slave.outputs()
+    };
+    let first = run(&[settings[0], settings[1], settings[2], hub]);
+    assert_eq!(run(&[settings[2], settings[0], hub, settings[1]]), first);
+    assert_eq!(run(&[hub, settings[1], settings[2], settings[0]]), first);
+}
+
+#[test]
+fn what_does_not_go_together_is_refused_with_the_variables_that_were_set_and_can_be_corrected() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    assert_eq!(slave.set_real("initial.creepage", -1.99), fmi2OK);
+    assert_eq!(slave.enter(), fmi2OK);
+    let words = ["drive.omega", "initial.velocity = 27.7", "initial.creepage = -1.99", "wheel.radius"];
+    slave.refused(slave.get_reals(&[variable("contact.force_y").reference]).unwrap_err(), &words);
+    slave.refused(slave.exit(), &words);
+    slave.refused(slave.step(0.0, 1e-3), &["Initialization"]);
+    assert_eq!(slave.set_real("initial.creepage", 1e-4), fmi2OK);
+    assert!(slave.real("contact.force_y") > 0.0);
+    assert_eq!(slave.set_real("wheel.radius", 0.05), fmi2OK);
+    let words = ["wheel.hub_radius", "0.001 to 0.045", "preset \"railway\"", "wheel.radius", "initial.creepage"];
+    slave.refused(slave.exit(), &words);
+    assert_eq!(slave.set_real("wheel.radius", 0.46), fmi2OK);
+    assert_eq!(slave.exit(), fmi2OK);
+    assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+}
+
+/// Numbers are short, and no word of a programming language comes through.
+#[test]
+fn a_value_that_is_no_value_is_refused_with_a_short_message_for_every_variable() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    for variable in variables().iter().filter(|v| v.causality() != Causality::Output) {
+        let name = &variable.name;
+        match variable.kind {
+            Kind::Real { .. } => {
+                for (value, text) in [(1e300, "1e300"), (-1e300, "-1e300"), (f64::NAN, "NaN"), (5e-324, "5e-324")] {
+                    let status = slave.set_real(name, value);
+                    if status != fmi2OK {
+                        slave.refused(status, &[&format!("{name} = {text} is outside its range")]);
+                    }
+                    assert!(status == fmi2Error || text == "5e-324", "{name} = {text}");
+                }
+            }
+            Kind::Integer { .. } | Kind::Enumeration(_) => {
+                let text = format!("{name} = {} is outside its range", i32::MIN);
+                slave.refused(slave.set_integer(name, i32::MIN), &[&text]);
+            }
+            Kind::Boolean => slave.refused(slave.set_c_boolean(name, 7), &[&format!("{name} = 7 ")]),
+            Kind::String => slave.refused(slave.set_string(name, "x y"), &[name, "x y"]),
+        }
+    }
+    let slave = Slave::coarse(&dll);
+    let status = unsafe { dll.fmi2SetupExperiment(slave.component, 1, -1.0, 0.0, 0, 0.0) };
+    assert_eq!(status, fmi2Error);
+    assert_eq!(
+        slave.messages()[0].text,
+        "fmi2SetupExperiment: tolerance = -1.0 is outside its range: positive numbers"
+    );
+}
+
+#[test]
+fn limits_of_the_model_are_told_once_with_both_numbers_although_no_log_was_asked_for() {
+    let dll = load();
+    let warnings = |settings: &[(&str, f64)]| {
+        let slave = Slave::coarse(&dll);
+        for (name, value) in settings {
+            assert_eq!(slave.set_real(name, *value), fmi2OK);
+        }
+        slave.initialize();
+        slave.brake(0);
+        let messages = slave.messages();
+        assert!(messages.iter().all(|m| m.status == fmi2Warning && m.category == "logStatusWarning"), "{messages:?}");
+        messages.into_iter().map(|message| message.text).collect::<Vec<_>>()
+    };
+    assert_eq!(warnings(&[]), [""; 0]);
+    let one = |settings: &[(&str, f64)], words: &[&str]| {
+        let found = warnings(settings);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(words.iter().all(|word| found[0].contains(word)), "{found:?}");
+    };
+    one(&[("thermal.max_speed", 20.0)], &["t = 0.0 s", "speed 27.8 m/s", "thermal.max_speed = 20.0 m/s", "raise"]);
+    let load = [("drive.load", 40e3), ("thermal.smallest_load_ratio", 0.5)];
+    one(&load, &["load 40000 N", "thermal.smallest_load_ratio x model.nominal_load = 50000 N", "lower"]);
+    one(&[("drive.load", 205e3)], &["load 205", "2 x model.nominal_load = 200000 N", "drive.load"]);
+    let found = warnings(&[("drive.load", 10e3), ("thermal.smallest_load_ratio", 0.09)]);
+    assert!(found.len() == 1 && found[0].contains("mesh.elements_per_half_width"), "{found:?}");
+}
+
+#[test]
+fn a_limit_passed_during_the_run_is_told_then_and_again_in_the_next_run() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    for _ in 0..2 {
+        slave.initialize();
+        assert_eq!(slave.messages(), []);
+        for k in 0..5 {
+            assert_eq!(slave.set_real("drive.load", 100e3 - 20e3 * k as f64), fmi2OK);
+            assert_eq!(slave.step(0.01 * k as f64, 0.01), fmi2OK);
+        }
+        let messages = slave.messages();
+        let told = messages.iter().filter(|m| m.text.contains("thermal.smallest_load_ratio")).count();
+        assert_eq!(told, 1, "{messages:?}");
+        assert_eq!(slave.reset(), fmi2OK);
+        slave.coarsen();
+    }
+}

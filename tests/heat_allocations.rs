@@ -1,0 +1,77 @@
+//! Memory requests of a heat step and its observation.
+
+mod heat_common;
+use heat_common::*;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use wheelrail::heat::*;
+
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that ends has no counter any more.
+    let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+}
+
+// SAFETY: every request goes to the system's allocator unchanged; the counter allocates nothing.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.dealloc(memory, layout) }
+    }
+
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.realloc(memory, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
+    let v = 50.0 * KMH;
+    let heat = heat(&config(1e5, 1.1 * v));
+    let rolling = Exchange { tread: brake_blocks(60.0), ..carter(1e5, v, -8e-4) };
+    let mut exchange = rolling.clone();
+    let (mut state, mut next) = (heat.initial(20.0), HeatState::default());
+    let (mut seen, mut scratch) = (Observation::default(), Scratch::default());
+    // Nothing changes; speeds and step change; the wheel is locked and conduction around it corrected.
+    for (name, vary, turning, dt, largest) in
+        [("held", 0.0, 1.0, 1e-3, 0), ("changing", 1e-3, 1.0, 1e-3, 2), ("locked", 1e-3, 0.0, 2e-2, 2)]
+    {
+        let mut most = 0;
+        for k in 0..24 {
+            let wave = 1.0 + vary * f64::from(k % 5);
+            let before = COUNT.get();
+            exchange.clear();
+            exchange.patches.extend_from_slice(&rolling.patches);
+            exchange.tread.extend_from_slice(&rolling.tread);
+            for (&x, &value) in rolling.friction_power.x.iter().zip(&rolling.friction_power.value) {
+                exchange.friction_power.push(x, value * wave);
+            }
+            let omega = turning * omega(v * wave, -8e-4);
+            heat.step(&state, &mut next, dt * wave, v * wave, omega, &exchange, &mut scratch).unwrap();
+            heat.observe(&next, &mut seen).unwrap();
+            std::mem::swap(&mut state, &mut next);
+            // The first steps of each kind lay out the buffers.
+            if k >= 12 {
+                most = most.max(COUNT.get() - before);
+            }
+        }
+        println!("{name}: at most {most} requests per step");
+        assert!(most <= largest, "{name}: {most} requests");
+    }
+}
