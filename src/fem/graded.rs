@@ -26,14 +26,14 @@ const UNIFORM_DEPTH: f64 = 0.5;
 /// Where the mesh is fine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactZone {
-    /// Half-width of the contact for which the mesh is laid out [m].
+    /// Half-width of the contact for which the mesh is laid out \[m].
     pub half_width: f64,
     /// Elements per half-width.
     pub elements: usize,
 }
 
 impl ContactZone {
-    /// Distance of surface nodes `h` [m].
+    /// Distance of surface nodes `h` \[m].
     pub fn spacing(&self) -> f64 {
         self.half_width / self.elements.max(1) as f64
     }
@@ -43,7 +43,7 @@ impl ContactZone {
         2 * (ZONE * self.elements as f64).ceil() as usize + 1
     }
 
-    /// x of candidates and guards, ascending, symmetric about zero [m].
+    /// x of candidates and guards, ascending, symmetric about zero \[m].
     pub fn surface_x(&self) -> Vec<f64> {
         let half = (self.candidates() / 2 + GUARDS) as isize;
         (-half..=half).map(|i| i as f64 * self.spacing()).collect()
@@ -174,7 +174,7 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
 
 /// Rectangle `|x| ≤ length/2`, `−height ≤ y ≤ 0` with the contact point at the origin, base fixed, free ends.
 ///
-/// `largest` bounds the cell size [m].
+/// `largest` bounds the cell size \[m].
 pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<Mesh, FemError> {
     positive(length, "rail length")?;
     positive(height, "rail height")?;

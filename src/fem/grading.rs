@@ -1,7 +1,7 @@
 //! Grading of one-dimensional meshes: cells that grow from one end.
 
 /// Positions from zero to `length` whose cells have the sizes `first·growth^k`, at most `largest`, all shrunk by one factor
-/// so that they fill `length` [m].
+/// so that they fill `length` \[m].
 pub fn graded(first: f64, growth: f64, largest: f64, length: f64) -> Vec<f64> {
     let mut positions = vec![0.0];
     let (mut size, mut end) = (first.min(largest), 0.0);

@@ -2,7 +2,7 @@
 //!
 //! Both fields live on tensor meshes of their own (streamlines × depth), graded from the thermal boundary layer
 //! `δ = √(2κa/V)` (tens of micrometres) to the size of the bodies. Everything is per metre of width; temperatures are
-//! excess temperatures over the reference [K]. Forward rolling is positive: at the contact the material of both bodies
+//! excess temperatures over the reference \[K]. Forward rolling is positive: at the contact the material of both bodies
 //! flows towards −x.
 //!
 //! ```text
@@ -57,9 +57,9 @@ pub enum HeatError {
     /// An interval of the surface without meaning.
     #[error("contact patch from {low} m to {high} m: its ends must be numbers and ascend")]
     Patch {
-        /// First end [m].
+        /// First end \[m].
         low: f64,
-        /// Second end [m].
+        /// Second end \[m].
         high: f64,
     },
     /// Something that acts beyond the finely meshed surface.
@@ -67,15 +67,15 @@ pub enum HeatError {
     OutsideZone {
         /// What acts there.
         name: &'static str,
-        /// Where it ends [m].
+        /// Where it ends \[m].
         x: f64,
-        /// Half-length of the zone [m].
+        /// Half-length of the zone \[m].
         zone: f64,
     },
     /// A step too short or too long to compute.
     #[error("heat step of {dt} s is outside {SMALLEST_STEP} to {LARGEST_STEP} s")]
     StepSize {
-        /// Its size [s].
+        /// Its size \[s].
         dt: f64,
     },
     /// A state of another model.
@@ -110,7 +110,7 @@ pub enum HeatError {
          thermal.hub = fixed, thermal.convection > 0 or a rail that moves under the contact lets heat out"
     )]
     NoStationaryState {
-        /// Relative residual reached [1].
+        /// Relative residual reached \[1].
         residual: f64,
         /// Iterations done.
         iterations: usize,
@@ -122,7 +122,7 @@ pub enum HeatError {
         tensor::CURVED_STEP
     )]
     NotConverged {
-        /// Relative residual reached [1].
+        /// Relative residual reached \[1].
         residual: f64,
         /// Iterations done.
         iterations: usize,
@@ -130,7 +130,7 @@ pub enum HeatError {
     /// Temperatures beyond the range of numbers.
     #[error("temperatures are not finite after a step of {dt} s at V = {velocity} m/s, ω = {omega} rad/s")]
     NotFinite {
-        /// Step [s].
+        /// Step \[s].
         dt: f64,
         /// Velocity [m/s].
         velocity: f64,

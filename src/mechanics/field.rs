@@ -8,7 +8,7 @@ use crate::config::{Config, Material};
 use crate::fem::{DofMap, Mesh, element};
 use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, RowVector3};
 
-/// Plane-strain stress [Pa].
+/// Plane-strain stress \[Pa].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stress {
     pub xx: f64,
@@ -19,7 +19,7 @@ pub struct Stress {
 }
 
 impl Stress {
-    /// Equivalent stress of von Mises [Pa].
+    /// Equivalent stress of von Mises \[Pa].
     pub fn von_mises(&self) -> f64 {
         let Self { xx, yy, xy, zz } = *self;
         (0.5 * ((xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2)) + 3.0 * xy * xy).sqrt()
@@ -33,7 +33,7 @@ impl Stress {
 pub struct BodyField {
     /// Undeformed; the wheel about its centre, the rail with the contact point at the origin.
     pub mesh: Mesh,
-    /// Relative to hub or base [m].
+    /// Relative to hub or base \[m].
     pub displacement: Vec<[f64; 2]>,
     /// Of the material, `v̄ + d_t u + v̄·∇u` with the stream `v̄` [m/s].
     pub velocity: Vec<[f64; 2]>,

@@ -250,7 +250,7 @@ pub fn creepage(v: f64, v_c: f64) -> f64 {
     }
 }
 
-/// Slide `(V − V_C)/V` of EN 15595 [1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it is
+/// Slide `(V − V_C)/V` of EN 15595 \[1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it is
 /// given as if it travelled at the speed [`STANDSTILL`].
 pub fn slide(v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) { 0.0 } else { (v - v_c) / v.abs().max(STANDSTILL).copysign(v) }

@@ -8,9 +8,9 @@ use crate::heat::{Exchange, HeatConfig, HeatError, HeatFlows};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Shortest step [s].
+/// Shortest step \[s].
 pub const SMALLEST_STEP: f64 = 1e-9;
-/// Longest step [s].
+/// Longest step \[s].
 pub const LARGEST_STEP: f64 = 1e6;
 /// Storage that keeps the preconditioner of the stationary state regular, relative to `κ/r_o²` [1].
 const REGULARISATION: f64 = 1e-3;
