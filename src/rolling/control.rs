@@ -85,7 +85,7 @@ macro_rules! inputs {
         /// Real-valued inputs of the whole wheel; used for values and for their time derivatives.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Drive {
-            $( #[doc = concat!($text, " [", $unit, "].")] pub $field: f64, )*
+            $( #[doc = concat!($text, " \\[", $unit, "].")] pub $field: f64, )*
         }
 
         /// Number of real inputs.
