@@ -7,12 +7,12 @@ use slave::*;
 use std::ffi::CStr;
 use std::ptr;
 use wheelrail::config::Config;
-use wheelrail::fmi::presets::default_config;
+use wheelrail::config::Config;
 use wheelrail::simulation::{CACHE_VARIABLE, basis_file_name};
 
 /// Removes the stored basis of a coarse wheel with a change, so that it is computed with progress.
 fn forget_basis(change: impl Fn(&mut Config)) {
-    let mut config = default_config().unwrap();
+    let mut config = Config::default();
     config.mesh.elements_per_half_width = 4;
     (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     change(&mut config);

@@ -55,7 +55,8 @@ impl FrictionLaw {
 mod tests {
     use super::*;
 
-    const LAW: FrictionLaw = FrictionLaw { falling_ratio: 0.4, falling_decay: 1.5, softening: 1e-3, softening_floor: 0.1 };
+    const LAW: FrictionLaw =
+        FrictionLaw { falling_ratio: 0.4, falling_decay: 1.5, softening: 1e-3, softening_floor: 0.1 };
 
     #[test]
     fn friction_falls_from_the_available_coefficient_to_the_remaining_share() {

@@ -79,7 +79,10 @@ mod tests {
         let none = Piecewise::default();
         let rail = Surfaces { rail: bump(2.0), ..Surfaces::smooth(0.5) };
         assert!((rail.gap(0.0, &place(2.0, 0.0, 0.0, &none)) + 1e-4).abs() < 1e-15);
-        assert!((rail.gap(0.005, &place(1.995, 0.0, 0.0, &none)) - rail.gap(0.005, &place(0.0, 0.0, 0.0, &none))).abs() > 9e-5);
+        assert!(
+            (rail.gap(0.005, &place(1.995, 0.0, 0.0, &none)) - rail.gap(0.005, &place(0.0, 0.0, 0.0, &none))).abs()
+                > 9e-5
+        );
         assert_eq!(rail.gap(0.0, &place(1.9, 0.0, 0.0, &none)), 0.0);
         let wheel = Surfaces { wheel: bump(1.0), ..Surfaces::smooth(0.5) };
         for turns in [0.0, 3.0] {

@@ -40,6 +40,7 @@ impl DofMap {
         self.len
     }
 
+    /// Whether every component is fixed.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

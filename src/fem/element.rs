@@ -23,8 +23,11 @@ pub struct Point {
 /// Shape functions and gradients at one quadrature point of an edge.
 #[derive(Clone, Copy, Debug)]
 pub struct EdgePoint {
+    /// Position \[m].
     pub position: [f64; 2],
+    /// `N_i` \[1].
     pub shape: [f64; 4],
+    /// `∇N_i` [1/m].
     pub gradient: [[f64; 2]; 4],
     /// Outward normal times `ds` \[m].
     pub normal: [f64; 2],

@@ -3,6 +3,7 @@
 //! Surface nodes of both bodies lie at `x_i = i h` in and around the contact zone and are paired one to one. Away from
 //! it the cell size grows by a constant factor per cell.
 
+use super::grading::Grading;
 use super::{Face, FemError, Mesh};
 use std::f64::consts::PI;
 
@@ -43,6 +44,11 @@ impl ContactZone {
         2 * (ZONE * self.elements as f64).ceil() as usize + 1
     }
 
+    /// Number of surface nodes of each body: candidates and guards.
+    pub fn surface_nodes(&self) -> usize {
+        self.candidates() + 2 * GUARDS
+    }
+
     /// x of candidates and guards, ascending, symmetric about zero \[m].
     pub fn surface_x(&self) -> Vec<f64> {
         let half = (self.candidates() / 2 + GUARDS) as isize;
@@ -54,13 +60,27 @@ impl ContactZone {
         (self.candidates() / 2 + GUARDS) as f64 * self.spacing()
     }
 
+    /// Number of uniform layers below the surface.
+    fn layers(&self) -> usize {
+        (UNIFORM_DEPTH * self.elements as f64).ceil() as usize
+    }
+
+    /// Depth of the uniform layers [m].
+    fn uniform_depth(&self) -> f64 {
+        self.layers() as f64 * self.spacing()
+    }
+
     /// Depths of the uniform layers and the graded ones below them, 0 to `thickness` [m].
     fn depths(&self, thickness: f64, grading: Grading) -> Vec<f64> {
-        let layers = (UNIFORM_DEPTH * self.elements as f64).ceil() as usize;
-        let uniform = layers as f64 * self.spacing();
-        let mut depths: Vec<f64> = (0..layers).map(|i| i as f64 * self.spacing()).collect();
+        let uniform = self.uniform_depth();
+        let mut depths: Vec<f64> = (0..self.layers()).map(|i| i as f64 * self.spacing()).collect();
         depths.extend(grading.positions(thickness - uniform).iter().map(|s| uniform + s));
         depths
+    }
+
+    /// Number of layers of cells that [`Self::depths`] separates.
+    fn rows(&self, thickness: f64, grading: Grading) -> f64 {
+        self.layers() as f64 + grading.cells(thickness - self.uniform_depth())
     }
 
     fn check(&self, limit: f64, what: &'static str) -> Result<(), FemError> {
@@ -78,79 +98,71 @@ fn positive(value: f64, what: &'static str) -> Result<(), FemError> {
     if value > 0.0 && value.is_finite() { Ok(()) } else { Err(FemError::BadLength { what, value }) }
 }
 
-/// Cell size along a line: `min(first·growth^k, largest, last·growth_last^k from the far end)`.
-#[derive(Clone, Copy, Debug)]
-struct Grading {
-    first: f64,
-    growth: f64,
-    largest: f64,
-    last: f64,
-    growth_last: f64,
+/// Gradings of a mesh, before any node is placed.
+struct Layout {
+    /// Along the surface, from the contact zone on.
+    side: Grading,
+    /// Length that it fills on each side [rad] or [m].
+    side_length: f64,
+    /// Into the depth, below the uniform layers.
+    depth: Grading,
 }
 
-impl Grading {
-    /// Growth by [`GROWTH`] from the start only.
-    fn one_sided(first: f64, largest: f64) -> Self {
-        Self { first, growth: GROWTH, largest, last: largest, growth_last: GROWTH }
-    }
-
-    /// Nodes on `[0, length]`, both ends included.
-    ///
-    /// Equidistributes the cell count `∫ ds / h(s)` with `h` the minimum of `first + α s`, `largest` and
-    /// `last + β (length − s)`, α and β the logarithms of the growth factors; the ends are met exactly.
-    fn positions(&self, length: f64) -> Vec<f64> {
-        let (first, last) = (self.first.min(self.largest), self.last.min(self.largest));
-        let (alpha, beta, top) = (self.growth.ln(), self.growth_last.ln(), self.largest);
-        let crossing = (last + beta * length - first) / (alpha + beta);
-        let rising = ((top - first) / alpha).min(crossing).clamp(0.0, length);
-        let falling = (length - (top - last) / beta).max(crossing).clamp(rising, length);
-        let rise = (alpha * rising / first).ln_1p() / alpha;
-        let flat = (falling - rising) / top;
-        let fall = (beta * (length - falling) / last).ln_1p() / beta;
-        let total = rise + flat + fall;
-        let cells = (total - 1e-9).ceil().max(1.0);
-        let place = |k: f64| {
-            let t = total * k / cells;
-            if t <= rise {
-                first * (alpha * t).exp_m1() / alpha
-            } else if t <= rise + flat {
-                rising + (t - rise) * top
-            } else {
-                length - last * (beta * (total - t)).exp_m1() / beta
-            }
-        };
-        let cells = cells as usize;
-        (0..=cells)
-            .map(|k| {
-                if k == 0 {
-                    0.0
-                } else if k == cells {
-                    length
-                } else {
-                    place(k as f64)
-                }
-            })
-            .collect()
-    }
-}
-
-/// Annulus about the origin, contact point at the bottom `(0, −radius)`, inner circle fixed.
-pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, FemError> {
+/// Checks the dimensions of a wheel and lays out its mesh.
+fn wheel_layout(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Layout, FemError> {
     positive(hub_radius, "hub radius")?;
     positive(radius - hub_radius, "radius − hub radius")?;
     zone.check(0.25 * radius, "a quarter of the wheel radius")?;
     let thickness = radius - hub_radius;
     zone.check(2.0 * thickness, "twice the depth of the wheel's rim")?;
+    let largest = (LARGEST * radius).min(0.25 * thickness);
+    let last = (HUB * hub_radius).min(thickness / 12.0);
+    Ok(Layout {
+        side: Grading::one_sided(zone.spacing() / radius, GROWTH, LARGEST_ANGLE),
+        side_length: PI - (zone.reach() / radius).asin(),
+        depth: Grading { first: zone.spacing(), growth: DEPTH_GROWTH, largest, last, growth_last: HUB_GROWTH },
+    })
+}
+
+/// Checks the dimensions of a rail and lays out its mesh.
+fn rail_layout(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<Layout, FemError> {
+    positive(length, "rail length")?;
+    positive(height, "rail height")?;
+    positive(largest, "largest cell")?;
+    zone.check(0.45 * length, "0.45 rail lengths")?;
+    zone.check(2.0 * height, "twice the rail height")?;
+    let depth = Grading::one_sided(zone.spacing(), GROWTH, largest.min(0.25 * height));
+    Ok(Layout {
+        side: Grading::one_sided(zone.spacing(), GROWTH, largest.min(0.25 * length)),
+        side_length: 0.5 * length - zone.reach(),
+        depth: Grading { growth: DEPTH_GROWTH, ..depth },
+    })
+}
+
+/// Number of unknown displacements on the mesh that [`wheel`] makes, without making it.
+pub fn wheel_unknowns(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<f64, FemError> {
+    let layout = wheel_layout(radius, hub_radius, zone)?;
+    let around = zone.surface_nodes() as f64 + 2.0 * layout.side.cells(layout.side_length) - 1.0;
+    Ok(2.0 * around * zone.rows(radius - hub_radius, layout.depth))
+}
+
+/// Number of unknown displacements on the mesh that [`rail`] makes, without making it.
+pub fn rail_unknowns(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<f64, FemError> {
+    let layout = rail_layout(length, height, largest, zone)?;
+    let along = zone.surface_nodes() as f64 + 2.0 * layout.side.cells(layout.side_length);
+    Ok(2.0 * along * zone.rows(height, layout.depth))
+}
+
+/// Annulus about the origin, contact point at the bottom `(0, −radius)`, inner circle fixed; lengths in \[m].
+pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, FemError> {
+    let layout = wheel_layout(radius, hub_radius, zone)?;
     let surface_x = zone.surface_x();
     let mut angles: Vec<f64> = surface_x.iter().map(|x| (x / radius).asin()).collect();
     let edge = (zone.reach() / radius).asin();
-    let side = Grading::one_sided(zone.spacing() / radius, LARGEST_ANGLE).positions(PI - edge);
+    let side = layout.side.positions(layout.side_length);
     angles.extend(side.iter().skip(1).map(|s| edge + s));
     angles.extend(side.iter().rev().skip(1).take(side.len() - 2).map(|s| -edge - s));
-    let largest = (LARGEST * radius).min(0.25 * thickness);
-    let last = (HUB * hub_radius).min(thickness / 12.0);
-    let grading = Grading { first: zone.spacing(), growth: DEPTH_GROWTH, largest, last, growth_last: HUB_GROWTH };
-    let depths = zone.depths(thickness, grading);
+    let depths = zone.depths(radius - hub_radius, layout.depth);
     let (rows, around) = (depths.len(), angles.len());
     let mut mesh = Mesh::default();
     for depth in &depths {
@@ -174,22 +186,17 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
 
 /// Rectangle `|x| ≤ length/2`, `−height ≤ y ≤ 0` with the contact point at the origin, base fixed, free ends.
 ///
-/// `largest` bounds the cell size \[m].
+/// Lengths in \[m]; `largest` bounds the cell size.
 pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<Mesh, FemError> {
-    positive(length, "rail length")?;
-    positive(height, "rail height")?;
-    positive(largest, "largest cell")?;
-    zone.check(0.45 * length, "0.45 rail lengths")?;
-    zone.check(2.0 * height, "twice the rail height")?;
+    let layout = rail_layout(length, height, largest, zone)?;
     let surface_x = zone.surface_x();
     let edge = zone.reach();
-    let side = Grading::one_sided(zone.spacing(), largest.min(0.25 * length)).positions(0.5 * length - edge);
+    let side = layout.side.positions(layout.side_length);
     let mut xs: Vec<f64> = side.iter().rev().take(side.len() - 1).map(|s| -edge - s).collect();
     let first = xs.len();
     xs.extend(&surface_x);
     xs.extend(side.iter().skip(1).map(|s| edge + s));
-    let grading = Grading { growth: DEPTH_GROWTH, ..Grading::one_sided(zone.spacing(), largest.min(0.25 * height)) };
-    let depths = zone.depths(height, grading);
+    let depths = zone.depths(height, layout.depth);
     let (rows, along) = (depths.len(), xs.len());
     let mut mesh = Mesh::default();
     for depth in &depths {
@@ -224,17 +231,6 @@ mod tests {
     }
 
     #[test]
-    fn grading_meets_both_ends_and_grows_by_the_given_factor() {
-        let grading = Grading { last: 0.01, growth_last: 1.1, ..Grading::one_sided(1e-4, 0.05) };
-        let s = grading.positions(1.0);
-        let h: Vec<f64> = s.windows(2).map(|w| w[1] - w[0]).collect();
-        assert_eq!((s[0], s[s.len() - 1]), (0.0, 1.0));
-        assert!(h[0] < 1.1e-4 && h[h.len() - 1] < 0.0105 && h.iter().all(|h| *h > 0.0 && *h <= 0.05));
-        assert!(h.windows(2).all(|w| w[1] / w[0] < GROWTH + 1e-6 && w[0] / w[1] < 1.1 + 1e-6));
-        assert_eq!(Grading::one_sided(2.0, 3.0).positions(1.0), [0.0, 1.0]);
-    }
-
-    #[test]
     fn surface_nodes_of_both_bodies_are_paired() {
         let zone = ContactZone { half_width: 7.6e-4, elements: 20 };
         let (w, r) = (wheel(0.5, 0.05, zone).unwrap(), rail(1.0, 0.1, 0.025, zone).unwrap());
@@ -251,6 +247,16 @@ mod tests {
             .map(|p| p.normal[0].abs())
             .sum();
         assert!((ends - 0.2).abs() < 1e-14);
+    }
+
+    #[test]
+    fn number_of_unknowns_is_known_before_the_mesh_is_made() {
+        for (half_width, elements) in [(7.6e-4, 20), (1e-4, 4), (1.1e-2, 31)] {
+            let zone = ContactZone { half_width, elements };
+            let count = |mesh: &Mesh| (2 * (mesh.nodes.len() - mesh.fixed.len())) as f64;
+            assert_eq!(count(&wheel(0.5, 0.05, zone).unwrap()), wheel_unknowns(0.5, 0.05, zone).unwrap());
+            assert_eq!(count(&rail(1.0, 0.1, 0.025, zone).unwrap()), rail_unknowns(1.0, 0.1, 0.025, zone).unwrap());
+        }
     }
 
     #[test]

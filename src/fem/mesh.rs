@@ -18,7 +18,9 @@ pub struct Mesh {
 /// Edge `edge` of a cell, from corner `edge` to corner `edge + 1`; its outward normal lies to the right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Face {
+    /// Index of the cell.
     pub cell: usize,
+    /// Its edge, 0 to 3.
     pub edge: usize,
 }
 

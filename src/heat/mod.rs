@@ -24,6 +24,7 @@ mod model;
 mod parameters;
 mod tensor;
 
+pub use crate::piecewise::Interval;
 pub use exchange::{Exchange, TreadHeat};
 pub use model::{HeatFlows, HeatModel, Observation, Temperatures};
 pub use parameters::HeatConfig;

@@ -1,4 +1,9 @@
-//! Linear algebra: sparse matrices with a Cholesky factorisation (over faer) and the lowest modes of a pencil.
+//! Linear algebra: sparse matrices with a Cholesky factorisation (over faer), the lowest modes of a pencil,
+//! small dense systems and GMRES.
+//!
+//! Two libraries share the work. faer factorises and multiplies large matrices. nalgebra holds the small dense ones of the
+//! bodies and solves the dense symmetric eigenproblems of the modes, because the divide and conquer of faer 0.24.4 loses
+//! nine digits there (also faer-rs issue 273); a test in [`modes`] tells when that has changed.
 
 pub mod dense;
 pub mod gmres;
@@ -7,7 +12,7 @@ pub mod pencil;
 pub mod sparse;
 
 pub use dense::DenseSystem;
-pub use modes::{Modes, lowest_modes};
+pub use modes::{VibrationModes, lowest_modes};
 pub use sparse::{Cholesky, CholeskyPattern, CsrMatrix};
 
 /// A linear-algebra operation that has no answer.

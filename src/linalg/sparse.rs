@@ -57,10 +57,12 @@ impl CsrMatrix {
         Ok(Self { rows, columns, starts, indices, values })
     }
 
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
+    /// Number of columns.
     pub fn columns(&self) -> usize {
         self.columns
     }

@@ -3,15 +3,15 @@
 //! Layout of the bytes: 8 of magic, 16 of checksum (UUID version 5 of the rest), then the postcard form of [`Basis`],
 //! whose first field is its key.
 
-use super::reduced::ReducedBasis;
-use super::{MechanicsError, contact_zone, rail_system, wheel_system};
+use super::reduction::ReducedBasis;
+use super::{BodySystem, MechanicsError, check_size, contact_zone, rail_system, wheel_system};
 use crate::config::Config;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
 const MAGIC: &[u8; 8] = b"WHLRAIL1";
 /// Digest of the code that the data depend on (meshes, elements, reduction), from the build script.
-const CODE: &str = env!("BASIS_CODE");
+pub const CODE: &str = env!("BASIS_CODE");
 /// Name space of keys and checksums.
 const NAMESPACE: Uuid = Uuid::from_u128(0x6f1d_2d0a_5c1e_4f0e_9b57_1f0c_7a5e_33d1);
 
@@ -20,7 +20,9 @@ const NAMESPACE: Uuid = Uuid::from_u128(0x6f1d_2d0a_5c1e_4f0e_9b57_1f0c_7a5e_33d
 pub struct Basis {
     /// [`key`] of the configuration it was computed for.
     pub key: String,
+    /// The wheel.
     pub wheel: ReducedBasis,
+    /// The rail.
     pub rail: ReducedBasis,
 }
 
@@ -53,17 +55,32 @@ pub fn key(config: &Config) -> String {
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()
 }
 
+/// One body, reduced to the number of `modes` that `parameter` gives.
+fn reduced(
+    parameter: &'static str,
+    modes: usize,
+    system: impl Fn() -> Result<BodySystem, MechanicsError>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<ReducedBasis, MechanicsError> {
+    progress(0.0);
+    ReducedBasis::compute(&system()?, modes, progress).map_err(|error| match error {
+        MechanicsError::Linalg(source) => MechanicsError::Modes { parameter, modes, source },
+        other => other,
+    })
+}
+
 impl Basis {
     /// Meshes, assembles and reduces both bodies (seconds); `progress` receives the activity and its share done.
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
-        let what = "vibration modes of the wheel";
-        progress(what, 0.0);
-        let system = wheel_system(config)?;
-        let wheel = ReducedBasis::compute(&system, config.solver.modes_wheel, &mut |share| progress(what, share))?;
-        let what = "vibration modes of the rail";
-        progress(what, 0.0);
-        let system = rail_system(config)?;
-        let rail = ReducedBasis::compute(&system, config.solver.modes_rail, &mut |share| progress(what, share))?;
+        check_size(config)?;
+        let (parameter, modes) = ("solver.modes_wheel", config.solver.modes_wheel);
+        let wheel = reduced(parameter, modes, || wheel_system(config), &mut |share| {
+            progress("vibration modes of the wheel", share);
+        })?;
+        let (parameter, modes) = ("solver.modes_rail", config.solver.modes_rail);
+        let rail = reduced(parameter, modes, || rail_system(config), &mut |share| {
+            progress("vibration modes of the rail", share);
+        })?;
         Ok(Self { key: key(config), wheel, rail })
     }
 
@@ -133,6 +150,50 @@ mod tests {
         assert!(matches!(Basis::from_bytes(&bytes[..bytes.len() - 5]), Err(BasisError::Corrupt { .. })));
         assert_eq!(Basis::from_bytes(b"PK\x03\x04 something else"), Err(BasisError::Foreign { length: 19 }));
         assert_eq!(Basis::from_bytes(&bytes[..10]), Err(BasisError::Foreign { length: 10 }));
+    }
+
+    /// Bytes behind a valid checksum, changed at random places: single bits, bytes, lengths and shapes of arrays, cuts,
+    /// repetitions.
+    #[test]
+    fn altered_payloads_with_a_valid_checksum_are_refused_or_consistent() {
+        let bytes = Basis::compute(&small(), &mut |_, _| {}).unwrap().to_bytes().unwrap();
+        let payload = &bytes[24..];
+        let mut state = 1_u64;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % below
+        };
+        // Places of small numbers: lengths and shapes, among the bytes of floating-point numbers.
+        let small_numbers: Vec<usize> = (0..payload.len()).filter(|&i| payload[i] < 64).collect();
+        let (mut refused, mut read) = (0, 0);
+        for round in 0..3000 {
+            let mut altered = payload.to_vec();
+            let at = if round % 2 == 0 { small_numbers[random(small_numbers.len())] } else { random(payload.len()) };
+            match round % 5 {
+                0 => altered[at] ^= 1 << random(8),
+                1 => altered[at] = random(256) as u8,
+                2 => altered.truncate(at),
+                3 => drop(altered.splice(at..at, [0xff; 9].into_iter().chain([1]).take(1 + random(10)))),
+                _ => drop(altered.drain(at..(at + 1 + random(16)).min(payload.len()))),
+            }
+            let mut file = MAGIC.to_vec();
+            file.extend(Uuid::new_v5(&NAMESPACE, &altered).as_bytes());
+            file.extend(&altered);
+            match Basis::from_bytes(&file) {
+                Ok(basis) => {
+                    read += 1;
+                    for body in [basis.wheel, basis.rail] {
+                        assert!(body.is_consistent(body.shapes.nrows()));
+                        let _ =
+                            ReducedBody { basis: body, centrifugal: true }.operator(1e3).map(|op| op.surface.amax());
+                    }
+                }
+                Err(BasisError::Encoding(_) | BasisError::Inconsistent { .. }) => refused += 1,
+                Err(other) => panic!("{other}"),
+            }
+        }
+        println!("{refused} refused, {read} read");
+        assert!(refused > 1000 && read > 100);
     }
 
     #[test]

@@ -11,8 +11,11 @@ use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, RowVector3};
 /// Plane-strain stress \[Pa].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stress {
+    /// `σ_xx` \[Pa].
     pub xx: f64,
+    /// `σ_yy` \[Pa].
     pub yy: f64,
+    /// `σ_xy` \[Pa].
     pub xy: f64,
     /// Out of plane, `ν (σ_xx + σ_yy)`.
     pub zz: f64,

@@ -7,7 +7,9 @@ pub mod field;
 pub mod full;
 mod motion;
 pub mod reduced;
+pub mod reduction;
 pub mod response;
+pub mod size;
 pub mod solver;
 pub mod system;
 #[cfg(test)]
@@ -15,8 +17,10 @@ pub mod testing;
 
 pub use basis::{Basis, BasisError};
 pub use full::FullBody;
-pub use reduced::{ReducedBasis, ReducedBody};
+pub use reduced::ReducedBody;
+pub use reduction::ReducedBasis;
 pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
+pub use size::check_size;
 pub use system::BodySystem;
 
 use crate::analytic;
@@ -31,15 +35,37 @@ use std::ops::Range;
 /// The deformable bodies cannot be set up or factorised.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MechanicsError {
+    /// A mesh with more unknowns than can be dealt with.
+    #[error(
+        "the mesh of the {body} would have {unknowns:.0} unknowns, more than {limit:.0}: {causes}; choose dimensions of \
+         similar size, lower mesh.elements_per_half_width or raise model.nominal_load"
+    )]
+    TooLarge { body: &'static str, unknowns: f64, limit: f64, causes: String },
+    /// Vibration modes that need more memory than can be given.
+    #[error(
+        "{parameter} = {modes} modes on a mesh of {unknowns:.0} unknowns would need {memory:.1e} bytes, more than \
+         {limit:.1e}: lower {parameter} or mesh.elements_per_half_width"
+    )]
+    TooManyModes { parameter: &'static str, modes: usize, unknowns: f64, memory: f64, limit: f64 },
+    /// Vibration modes that could not be computed.
+    #[error("no vibration modes for {parameter} = {modes}: {source}; lower it, or change mesh.elements_per_half_width")]
+    Modes { parameter: &'static str, modes: usize, source: LinalgError },
+    /// Dimensions on which no mesh can be laid out.
+    #[error("no mesh of the {body}: {source}; {advice}")]
+    Mesh { body: &'static str, source: FemError, advice: &'static str },
+    /// A cell or an assembled matrix without meaning.
     #[error(transparent)]
     Fem(#[from] FemError),
+    /// A system of equations without a solution.
     #[error(transparent)]
     Linalg(#[from] LinalgError),
 }
 
 /// Both bodies behind their common interface, and the contact grid they share.
 pub struct Pair {
+    /// The wheel.
     pub wheel: Box<dyn BodyResponse>,
+    /// The rail.
     pub rail: Box<dyn BodyResponse>,
     /// x of the paired surface nodes, ascending \[m].
     pub surface_x: Vec<f64>,
@@ -107,23 +133,32 @@ pub fn wheel_inertia(config: &Config) -> f64 {
     0.5 * config.material.density * PI * (config.wheel.radius.powi(4) - config.wheel.hub_radius.powi(4))
 }
 
-/// Mesh of the wheel.
-pub fn wheel_mesh(config: &Config) -> Result<Mesh, FemError> {
-    fem::graded::wheel(config.wheel.radius, config.wheel.hub_radius, contact_zone(config))
+/// Mesh of the wheel; an error that names parameters if it were too large, see [`check_size`].
+pub fn wheel_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
+    check_size(config)?;
+    let mesh = fem::graded::wheel(config.wheel.radius, config.wheel.hub_radius, contact_zone(config));
+    mesh.map_err(|source| size::unmeshable("wheel", source))
 }
 
-/// Mesh of the rail; its largest cells are those of the wheel, or 1/150 of a very long rail.
-pub fn rail_mesh(config: &Config) -> Result<Mesh, FemError> {
-    let largest = (0.05 * config.wheel.radius).max(config.rail.length / 150.0);
-    fem::graded::rail(config.rail.length, config.rail.height, largest, contact_zone(config))
+/// Mesh of the rail; an error that names parameters if it were too large, see [`check_size`].
+pub fn rail_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
+    check_size(config)?;
+    let rail = &config.rail;
+    let mesh = fem::graded::rail(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
+    mesh.map_err(|source| size::unmeshable("rail", source))
+}
+
+/// Largest cells of the rail [m]: as large as those of the wheel, or 1/150 of a very long rail.
+pub(super) fn largest_rail_cell(config: &Config) -> f64 {
+    (0.05 * config.wheel.radius).max(config.rail.length / 150.0)
 }
 
 /// Finite-element matrices of the wheel.
-pub fn wheel_system(config: &Config) -> Result<BodySystem, FemError> {
-    BodySystem::assemble(&wheel_mesh(config)?, &config.material, ale::Stream::Rotation)
+pub fn wheel_system(config: &Config) -> Result<BodySystem, MechanicsError> {
+    Ok(BodySystem::assemble(&wheel_mesh(config)?, &config.material, ale::Stream::Rotation)?)
 }
 
 /// Finite-element matrices of the rail.
-pub fn rail_system(config: &Config) -> Result<BodySystem, FemError> {
-    BodySystem::assemble(&rail_mesh(config)?, &config.material, ale::Stream::Translation)
+pub fn rail_system(config: &Config) -> Result<BodySystem, MechanicsError> {
+    Ok(BodySystem::assemble(&rail_mesh(config)?, &config.material, ale::Stream::Translation)?)
 }

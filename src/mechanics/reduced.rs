@@ -9,118 +9,12 @@
 
 use super::MechanicsError;
 use super::motion::{self, Equations};
+use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::solver::{Dense, Diagonal, StepSolver};
-use super::system::{BodySystem, symmetrise};
-use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
+use super::system::symmetrise;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
-
-/// Constant data of a reduced body with `m` modes and `n` surface nodes, per metre of width.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ReducedBasis {
-    /// `Ω²` [rad²/s²], ascending, `m`.
-    pub squared_frequencies: DVector<f64>,
-    /// Modes on the surface `Φ_s`, `2n × m` [√(m/kg)].
-    pub shapes: DMatrix<f64>,
-    /// Residual flexibility `F_res`, `2n × 2n` [m/(N/m)].
-    pub residual: DMatrix<f64>,
-    /// `Φᵀ M r_k`, `m × 3` (zero for the rail).
-    pub rigid: DMatrix<f64>,
-    /// Static surface answer of the truncated modes to unit rigid accelerations, `2n × 3`.
-    pub rigid_residual: DMatrix<f64>,
-    /// `Φᵀ M X`, `m`.
-    pub centrifugal: DVector<f64>,
-    /// Static surface answer of the truncated modes to the centrifugal load per `Ω²`, `2n`.
-    pub centrifugal_residual: DVector<f64>,
-    /// `Φᵀ C Φ`, `m × m`.
-    pub gyroscopic: DMatrix<f64>,
-    /// `Φᵀ (S − B) Φ`, `m × m`.
-    pub ale_inertia: DMatrix<f64>,
-    /// `Φᵀ D Φ`, `m × m` [1/s]; `None`: undamped.
-    pub damping: Option<DMatrix<f64>>,
-}
-
-impl ReducedBasis {
-    /// Reduces a body to its `count` lowest modes; `progress` receives the share of the work done.
-    pub fn compute(system: &BodySystem, count: usize, progress: &mut dyn FnMut(f64)) -> Result<Self, MechanicsError> {
-        let factor = Cholesky::new(&system.stiffness)?;
-        let mut modes_progress = |share: f64| progress(0.8 * share);
-        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, count, &mut modes_progress)?;
-        let phi = &modes.shapes;
-        let flexibility = modes.squared_frequencies.map(f64::recip);
-        let shapes = system.rows_on_surface(phi);
-        let weighted = scale_columns(&shapes, &flexibility);
-        let mut residual = system.surface_compliance(&factor);
-        residual.gemm(-1.0, &weighted, &shapes.transpose(), 1.0);
-        symmetrise(&mut residual);
-        let rigid = phi.tr_mul(&system.rigid);
-        let centrifugal = phi.tr_mul(&system.centrifugal);
-        let mut rigid_static = system.rigid.clone();
-        factor.solve_columns(&mut rigid_static);
-        let mut centrifugal_static = system.centrifugal.clone();
-        factor.solve_in_place(centrifugal_static.as_mut_slice());
-        let projected = |matrix: &CsrMatrix| {
-            let phi_t = phi.transpose();
-            &phi_t * matrix.multiply_columns(phi)
-        };
-        let basis = Self {
-            rigid_residual: system.rows_on_surface(&rigid_static) - &weighted * &rigid,
-            centrifugal_residual: system.on_surface(&centrifugal_static) - &weighted * &centrifugal,
-            gyroscopic: projected(&system.gyroscopic),
-            ale_inertia: projected(&system.ale_inertia),
-            damping: system.damping.as_ref().map(|damping| {
-                let mut damping = projected(damping);
-                symmetrise(&mut damping);
-                damping
-            }),
-            squared_frequencies: modes.squared_frequencies,
-            shapes,
-            residual,
-            rigid,
-            centrifugal,
-        };
-        progress(1.0);
-        Ok(basis)
-    }
-
-    /// Number of modes.
-    pub fn modes(&self) -> usize {
-        self.squared_frequencies.len()
-    }
-
-    fn matrices(&self) -> impl Iterator<Item = &DMatrix<f64>> {
-        let Self { shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia, damping, .. } = self;
-        [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping)
-    }
-
-    /// Whether all arrays belong to `ports` surface components and hold finite numbers.
-    pub fn is_consistent(&self, ports: usize) -> bool {
-        let m = self.modes();
-        self.shapes.shape() == (ports, m)
-            && self.residual.shape() == (ports, ports)
-            && self.rigid.shape() == (m, 3)
-            && self.rigid_residual.shape() == (ports, 3)
-            && self.centrifugal.len() == m
-            && self.centrifugal_residual.len() == ports
-            && self.gyroscopic.shape() == (m, m)
-            && self.ale_inertia.shape() == (m, m)
-            && self.damping.as_ref().is_none_or(|damping| damping.shape() == (m, m))
-            && self.squared_frequencies.iter().all(|w| *w > 0.0 && w.is_finite())
-            && self.matrices().all(|matrix| matrix.iter().all(|x| x.is_finite()))
-            && self.centrifugal.iter().chain(&self.centrifugal_residual).all(|x| x.is_finite())
-    }
-}
-
-/// Columns of `a` times the entries of `factors`.
-fn scale_columns(a: &DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
-    let mut scaled = a.clone();
-    for (mut column, factor) in scaled.column_iter_mut().zip(factors.iter()) {
-        column *= *factor;
-    }
-    scaled
-}
 
 /// State: modal coordinates.
 pub struct ReducedBody {

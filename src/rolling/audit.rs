@@ -30,8 +30,7 @@ pub fn start(model: &Model, state: &State) -> Audit {
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
 pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) -> Audit {
     let before = &state.audit;
-    let impulse: [f64; 3] =
-        std::array::from_fn(|k| td.impulse(next.hub[k], state.hub[k], before.impulse[k]));
+    let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.hub[k], state.hub[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
     let power = dissipated_power(model, next);

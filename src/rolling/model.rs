@@ -56,7 +56,8 @@ impl Model {
             guard: bodies.candidates.start,
         };
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
-        let solver = GridSolver::new(grid, &wheel.surface, &rail.surface, Isotropic::from(&config.material).contact_modulus());
+        let solver =
+            GridSolver::new(grid, &wheel.surface, &rail.surface, Isotropic::from(&config.material).contact_modulus());
         Self::with_solver(config, bodies, Box::new(solver))
     }
 

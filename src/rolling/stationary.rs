@@ -36,12 +36,7 @@ const AT_REST: f64 = 1e-9;
 
 /// Stationary state for inputs. Velocities that are not prescribed start from `initial.velocity` and
 /// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
-pub fn start(
-    model: &Model,
-    tuning: &Tuning,
-    inputs: &Inputs,
-    workspace: &mut Workspace,
-) -> Result<State, StepError> {
+pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
     inputs.validate()?;
     let goal = Goal::new(model, inputs)?;
     let mut state = settle(model, tuning, &goal, None, workspace)?;

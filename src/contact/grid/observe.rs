@@ -162,7 +162,7 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
 fn stick_length(status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
     let mut stuck = run.clone().filter(|&i| status[i] == Status::Stick);
     let Some(low) = stuck.next() else { return 0.0 };
-    let high = stuck.last().unwrap_or(low);
+    let high = stuck.next_back().unwrap_or(low);
     let beyond = |edge: usize, inward: isize| {
         let at_end = if inward < 0 { edge + 1 >= run.end } else { edge <= run.start };
         if at_end || high - low < 2 {

@@ -130,7 +130,8 @@ fn erfcx(z: f64) -> f64 {
 fn entry_into_a_conducting_contact_follows_its_closed_form() {
     use super::{Exchange, Heat, HeatModel};
     use crate::config::{ConductanceLaw, Config, Hub};
-    use crate::heat::{HeatConfig, Interval};
+    use crate::heat::HeatConfig;
+    use crate::piecewise::Interval;
     let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
     let mut config: Config = serde_json::from_str(include_str!("../../../resources/paper_b.json")).unwrap();
     (config.wheel.radius, config.wheel.hub_radius, config.rail.length, config.rail.height) = (R, HUB, 1.0, 0.1);

@@ -35,7 +35,11 @@ impl BrakeBlocks {
             return;
         }
         let share = heat / self.width / self.sides.len() as f64;
-        tread.extend(self.sides.iter().map(|side| TreadHeat { angle: side * self.angle, width: self.arc, heat: share }));
+        tread.extend(self.sides.iter().map(|side| TreadHeat {
+            angle: side * self.angle,
+            width: self.arc,
+            heat: share,
+        }));
     }
 }
 

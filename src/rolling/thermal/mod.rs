@@ -8,11 +8,11 @@ mod deformation;
 mod exchange;
 mod thermoelastic;
 
+use super::contact_model::ContactModel;
 use super::error::StepError;
 use super::outputs::PROFILE_POINTS;
 use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
-use super::contact_model::ContactModel;
 use crate::contact::{Heating, Traction};
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::mechanics;
@@ -149,7 +149,8 @@ impl ThermalModel {
                 field.iter_mut().zip(zone).for_each(|(t, &x)| *t += rise(x));
             }
             let (temperatures, [wheel, rail]) = (&mut seen.temperatures, &seen.surface);
-            (temperatures.wheel_max, temperatures.rail_max) = (piecewise::peak(zone, wheel), piecewise::peak(zone, rail));
+            (temperatures.wheel_max, temperatures.rail_max) =
+                (piecewise::peak(zone, wheel), piecewise::peak(zone, rail));
             (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
         }
         thermal.temperatures = seen.temperatures;

@@ -1,0 +1,125 @@
+//! How large the finite-element model of a body may become, checked before any memory is taken.
+
+use super::{MechanicsError, contact_zone, largest_rail_cell, nominal_half_width};
+use crate::config::{Config, Response};
+use crate::fem::{FemError, graded};
+
+/// Largest number of unknown displacements of one body. With 80 and 40 modes, bodies of 84,480 and 48,762 unknowns (60
+/// elements per half-width) took 22 s and 0.67 GB to prepare.
+pub const LARGEST_UNKNOWNS: f64 = 150e3;
+/// Largest memory for the vectors from which the vibration modes of one body are computed \[bytes], of which about half is
+/// used. With 200 and 100 modes, bodies of 51,840 and 24,766 unknowns (0.52 GB by this count) took 25 s and 0.77 GB.
+pub const LARGEST_KRYLOV: f64 = 0.8e9;
+
+/// Refuses a configuration whose meshes or vibration modes need more memory and time than is sensible; the error names
+/// the parameters that drive the size.
+pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
+    let reduced = config.solver.response == Response::Reduced;
+    let check = |body, parameter, unknowns: f64, modes: usize| {
+        if unknowns > LARGEST_UNKNOWNS {
+            return Err(MechanicsError::TooLarge { body, unknowns, limit: LARGEST_UNKNOWNS, causes: causes(config) });
+        }
+        let memory = 8.0 * unknowns * crate::linalg::modes::largest_space(modes) as f64;
+        if reduced && memory > LARGEST_KRYLOV {
+            return Err(MechanicsError::TooManyModes { parameter, modes, unknowns, memory, limit: LARGEST_KRYLOV });
+        }
+        Ok(())
+    };
+    check("wheel", "solver.modes_wheel", wheel_unknowns(config)?, config.solver.modes_wheel)?;
+    check("rail", "solver.modes_rail", rail_unknowns(config)?, config.solver.modes_rail)
+}
+
+/// Values of the parameters from which the number of unknowns follows.
+fn causes(config: &Config) -> String {
+    let half_width = nominal_half_width(config);
+    format!(
+        "cells grow from the half-width of the nominal contact, {half_width:.3e} m, over mesh.elements_per_half_width = {} \
+         to 1/20 of wheel.radius = {} m, or 1/150 of a longer rail, and fill rail.length = {} m times rail.height = {} m",
+        config.mesh.elements_per_half_width, config.wheel.radius, config.rail.length, config.rail.height
+    )
+}
+
+fn wheel_unknowns(config: &Config) -> Result<f64, MechanicsError> {
+    let unknowns = graded::wheel_unknowns(config.wheel.radius, config.wheel.hub_radius, contact_zone(config));
+    unknowns.map_err(|source| unmeshable("wheel", source))
+}
+
+fn rail_unknowns(config: &Config) -> Result<f64, MechanicsError> {
+    let rail = &config.rail;
+    let unknowns = graded::rail_unknowns(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
+    unknowns.map_err(|source| unmeshable("rail", source))
+}
+
+/// A failed mesh in words of the parameters.
+pub(super) fn unmeshable(body: &'static str, source: FemError) -> MechanicsError {
+    let advice = match (&source, body) {
+        (FemError::ZoneTooLarge { .. }, "wheel") => {
+            "lower model.nominal_load, or raise model.contact_width, material.youngs_modulus or wheel.radius, or lower \
+             wheel.hub_radius"
+        }
+        (FemError::ZoneTooLarge { .. }, _) => {
+            "lower model.nominal_load, or raise model.contact_width, material.youngs_modulus, rail.length or rail.height"
+        }
+        (_, "wheel") => "check wheel.radius and wheel.hub_radius",
+        _ => "check rail.length and rail.height",
+    };
+    MechanicsError::Mesh { body, source, advice }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::testing::paper_d;
+    use crate::mechanics::{Basis, bodies, rail_mesh, wheel_mesh};
+    use std::time::Instant;
+
+    /// Valid parameters whose rail would have millions of cells.
+    fn far_too_large() -> Config {
+        let mut config = paper_d(4);
+        (config.wheel.radius, config.wheel.hub_radius) = (0.01, 0.0017);
+        (config.rail.length, config.rail.height) = (0.0045, 10.0);
+        (config.model.nominal_load, config.model.contact_width) = (9.1, 10.0);
+        config.material.youngs_modulus = 1e13;
+        config
+    }
+
+    #[test]
+    fn meshes_beyond_the_limit_are_refused_at_once_and_by_name() {
+        let config = far_too_large();
+        assert_eq!(config.validate(), Ok(()));
+        let start = Instant::now();
+        let errors = [
+            check_size(&config).unwrap_err(),
+            Basis::compute(&config, &mut |_, _| {}).unwrap_err(),
+            bodies(&config, None, &mut |_, _| {}).err().unwrap(),
+            rail_mesh(&config).unwrap_err(),
+        ];
+        assert!(start.elapsed().as_millis() < 100);
+        for error in errors {
+            let MechanicsError::TooLarge { body: "rail", unknowns, .. } = error else { panic!("{error}") };
+            assert!(unknowns > 1e6);
+            let text = error.to_string();
+            let names = ["rail.height = 10 m", "wheel.radius = 0.01 m", "mesh.elements_per_half_width = 4"];
+            assert!(names.iter().all(|name| text.contains(name)), "{text}");
+        }
+    }
+
+    #[test]
+    fn more_modes_than_memory_are_refused_by_name() {
+        let mut config = paper_d(60);
+        config.solver.modes_wheel = 200;
+        let error = check_size(&config).unwrap_err();
+        assert!(matches!(error, MechanicsError::TooManyModes { parameter: "solver.modes_wheel", .. }), "{error}");
+        config.solver.response = Response::Full;
+        assert_eq!(check_size(&config), Ok(()));
+    }
+
+    #[test]
+    fn contact_zones_that_do_not_fit_are_refused_by_name() {
+        let mut config = paper_d(8);
+        config.material.youngs_modulus = 1e7;
+        for error in [wheel_mesh(&config).unwrap_err(), rail_mesh(&config).unwrap_err()] {
+            assert!(error.to_string().contains("lower model.nominal_load"), "{error}");
+        }
+    }
+}
