@@ -2,17 +2,17 @@
 
 use std::f64::consts::PI;
 
-/// Contact modulus `E* = E/(2(1 − ν²))` of two bodies of the same material [Pa] (Johnson, *Contact Mechanics*, 4.2).
+/// Contact modulus `E* = E/(2(1 − ν²))` of two bodies of the same material \[Pa] (Johnson, *Contact Mechanics*, 4.2).
 pub fn contact_modulus(youngs_modulus: f64, poissons_ratio: f64) -> f64 {
     0.5 * youngs_modulus / (1.0 - poissons_ratio * poissons_ratio)
 }
 
-/// Half-width of the Hertzian line contact `a = √(4PR/(πE*))` [m]; `load` [N/m] (Johnson, 4.43).
+/// Half-width of the Hertzian line contact `a = √(4PR/(πE*))` \[m]; `load` [N/m] (Johnson, 4.43).
 pub fn hertz_half_width(load: f64, radius: f64, contact_modulus: f64) -> f64 {
     (4.0 * load * radius / (PI * contact_modulus)).sqrt()
 }
 
-/// Peak pressure of the Hertzian line contact `p0 = 2P/(πa)` [Pa] (Johnson, 4.44).
+/// Peak pressure of the Hertzian line contact `p0 = 2P/(πa)` \[Pa] (Johnson, 4.44).
 pub fn hertz_peak_pressure(load: f64, half_width: f64) -> f64 {
     2.0 * load / (PI * half_width)
 }
@@ -40,10 +40,10 @@ pub fn carter_force(creepage: f64, full_slip: f64) -> f64 {
     -(1.0 - rest * rest).copysign(creepage)
 }
 
-/// Growth of the radius [m] of an annulus in plane strain, fixed at its inner radius, by a temperature with the mean
-/// `temperature` [K] over its area.
+/// Growth of the radius \[m] of an annulus in plane strain, fixed at its inner radius, by a temperature with the mean
+/// `temperature` \[K] over its area.
 ///
-/// `expansion` is `α (1 + ν)/(1 − ν)` [1/K], Poisson's ratio ν, the radii `outer` and `inner` [m]. From the radial
+/// `expansion` is `α (1 + ν)/(1 − ν)` [1/K], Poisson's ratio ν, the radii `outer` and `inner` \[m]. From the radial
 /// displacement `u = expansion · m(r)/r + c (r − r_i²/r)` with `m(r) = ∫ T r dr` from `r_i`; free of stress at the rim
 /// (Timoshenko & Goodier, *Theory of Elasticity*, 3rd ed., section 150).
 pub fn annulus_growth(temperature: f64, expansion: f64, poissons_ratio: f64, outer: f64, inner: f64) -> f64 {

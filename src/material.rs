@@ -22,29 +22,29 @@ impl From<&Material> for Isotropic {
 }
 
 impl Isotropic {
-    /// Lamé's first constant `λ = Eν/((1 + ν)(1 − 2ν))` [Pa].
+    /// Lamé's first constant `λ = Eν/((1 + ν)(1 − 2ν))` \[Pa].
     pub fn lame(&self) -> f64 {
         let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
         e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
     }
 
-    /// Shear modulus, Lamé's second constant `μ = E/(2(1 + ν))` [Pa].
+    /// Shear modulus, Lamé's second constant `μ = E/(2(1 + ν))` \[Pa].
     pub fn shear_modulus(&self) -> f64 {
         0.5 * self.youngs_modulus / (1.0 + self.poissons_ratio)
     }
 
-    /// Modulus of pressure waves and of strain in one direction only, `λ + 2μ` [Pa].
+    /// Modulus of pressure waves and of strain in one direction only, `λ + 2μ` \[Pa].
     pub fn wave_modulus(&self) -> f64 {
         let nu = self.poissons_ratio;
         2.0 * self.shear_modulus() * (1.0 - nu) / (1.0 - 2.0 * nu)
     }
 
-    /// Modulus of uniaxial stress in plane strain, `E/(1 − ν²)` [Pa].
+    /// Modulus of uniaxial stress in plane strain, `E/(1 − ν²)` \[Pa].
     pub fn plane_strain_modulus(&self) -> f64 {
         self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
     }
 
-    /// Contact modulus `E*` of two bodies of this material [Pa].
+    /// Contact modulus `E*` of two bodies of this material \[Pa].
     pub fn contact_modulus(&self) -> f64 {
         analytic::contact_modulus(self.youngs_modulus, self.poissons_ratio)
     }
@@ -85,8 +85,8 @@ impl Isotropic {
         self.youngs_modulus * self.expansion / (1.0 - self.poissons_ratio)
     }
 
-    /// Gough–Joule factor `T₀ β/(ρc)` with `β = α(3λ + 2μ) = αE/(1 − 2ν)` [K]: warming per compressive volume strain at
-    /// the absolute temperature `reference` [K] (Draganis, thesis eq. 3.6).
+    /// Gough–Joule factor `T₀ β/(ρc)` with `β = α(3λ + 2μ) = αE/(1 − 2ν)` \[K]: warming per compressive volume strain at
+    /// the absolute temperature `reference` \[K] (Draganis, thesis eq. 3.6).
     pub fn gough_joule(&self, reference: f64) -> f64 {
         reference * self.expansion * self.youngs_modulus / (1.0 - 2.0 * self.poissons_ratio) / self.heat_capacity()
     }

@@ -23,7 +23,7 @@ pub struct TimeDerivative {
     pub a1: f64,
     /// Weight of the value one step earlier [1/s].
     pub a2: f64,
-    /// Weight of the present derivative [1].
+    /// Weight of the present derivative \[1].
     pub b1: f64,
 }
 
@@ -33,7 +33,7 @@ impl TimeDerivative {
         self.a1 * now + self.a2 * before + self.b1 * rate
     }
 
-    /// Impulse [N s] that the formula attributes to the force `now` [N] at the end of a step.
+    /// Impulse [N s] that the formula attributes to the force `now` \[N] at the end of a step.
     ///
     /// `before` is the force at its beginning and `last` the impulse of the step before [N s]. Derivation: the formula
     /// turns the balance `d_t p = f` of a momentum `p` into `a0 p_{n+1} + a1 p_n + a2 p_{n−1} + b1 f_n = f_{n+1}`, since

@@ -144,7 +144,7 @@ pub struct Checkpoint {
     pub tuning: Tuning,
     /// What the state came from, for derivatives by inputs.
     pub origin: Origin,
-    /// Times [s] and outputs of the communication points before, latest first, for derivatives in time.
+    /// Times \[s] and outputs of the communication points before, latest first, for derivatives in time.
     pub before: Vec<(f64, Outputs)>,
 }
 
@@ -320,7 +320,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Time since the start [s].
+    /// Time since the start \[s].
     pub fn time(&self) -> f64 {
         self.checkpoint.state.time + self.checkpoint.state.pending
     }

@@ -67,7 +67,7 @@ macro_rules! parameters {
             $(#[$doc])*
             #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
             pub struct $Group {
-                $( #[doc = concat!($text, $(" [", $unit, "]",)? ".")] pub $field: $type, )*
+                $( #[doc = concat!($text, $(" \\[", $unit, "]",)? ".")] pub $field: $type, )*
             }
 
             impl Default for $Group {

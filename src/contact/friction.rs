@@ -10,17 +10,17 @@ use serde::{Deserialize, Serialize};
 /// Polach, *Wear* 258 (2005) 992–1000, for the falling part).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionLaw {
-    /// `A`: share of the coefficient that remains at high slip velocity [1]; 1: constant.
+    /// `A`: share of the coefficient that remains at high slip velocity \[1]; 1: constant.
     pub falling_ratio: f64,
     /// `B`: decay with the slip velocity [s/m].
     pub falling_decay: f64,
     /// `K`: decay with the contact temperature [1/K]; 0: constant.
     pub softening: f64,
-    /// `m`: share of the coefficient that remains in a hot contact [1].
+    /// `m`: share of the coefficient that remains in a hot contact \[1].
     pub softening_floor: f64,
 }
 
-/// Rise of the mean contact temperature per unit of friction coefficient [K], at the end of the last step and of the one
+/// Rise of the mean contact temperature per unit of friction coefficient \[K], at the end of the last step and of the one
 /// before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Heating {
@@ -38,7 +38,7 @@ impl Heating {
 }
 
 impl FrictionLaw {
-    /// Coefficient of the coming step from the `available` one [1] and the nominal `slip` velocity [m/s]; `ratio` is the
+    /// Coefficient of the coming step from the `available` one \[1] and the nominal `slip` velocity [m/s]; `ratio` is the
     /// length of the step over that of the one before, 0 if that says nothing.
     ///
     /// The flash temperature follows the friction within microseconds, `T − T_ref = θ μ`. Solving `μ = cold (1 − K θ μ)`

@@ -12,7 +12,7 @@ pub struct SurfaceResponse<'a> {
     pub compliance: [&'a DMatrix<f64>; 2],
     /// Sum of both compliances [m/(N/m)].
     pub relative: &'a DMatrix<f64>,
-    /// Displacement of wheel and rail without contact forces and rigid accelerations [m].
+    /// Displacement of wheel and rail without contact forces and rigid accelerations \[m].
     pub free: [&'a DVector<f64>; 2],
     /// Displacement of the wheel surface per unit rigid acceleration, three columns (x, y, rotation).
     pub inertial: &'a DMatrix<f64>,
@@ -27,12 +27,12 @@ pub struct SurfaceResponse<'a> {
 pub enum AxisDrive {
     /// A force or moment acts, the motion follows.
     Free {
-        /// External force [N/m] or moment [N].
+        /// External force [N/m] or moment \[N].
         load: f64,
     },
     /// The motion is prescribed, the force is a reaction.
     Prescribed {
-        /// V [m/s], U [m] or Ω [rad/s] at the end of the step.
+        /// V [m/s], U \[m] or Ω [rad/s] at the end of the step.
         target: f64,
     },
 }
@@ -42,7 +42,7 @@ pub enum AxisDrive {
 pub struct RigidMotion {
     /// What drives it.
     pub drive: AxisDrive,
-    /// Where the search for a free motion starts: V [m/s], U [m], Ω [rad/s].
+    /// Where the search for a free motion starts: V [m/s], U \[m], Ω [rad/s].
     pub guess: f64,
     /// The acceleration is `gain · value + offset`.
     pub gain: f64,
@@ -102,16 +102,16 @@ pub struct ContactProblem<'a> {
     pub surfaces: &'a Surfaces,
     /// Where on them the wheel stands, and how heat has changed them.
     pub placement: Placement<'a>,
-    /// Friction coefficient [1].
+    /// Friction coefficient \[1].
     pub friction: f64,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
-    /// Largest change of the weights at the contact edges that counts as converged [1].
+    /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
 }
 
 impl ContactProblem<'_> {
-    /// Rolling radius of the wheel [m], thermal growth included.
+    /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
     }

@@ -17,7 +17,7 @@ pub trait ContactSolver: Send + Sync {
         0.0
     }
 
-    /// A start for [`Self::solve`]: bodies that touch and stick within `half_width` [m] of the contact point, without
+    /// A start for [`Self::solve`]: bodies that touch and stick within `half_width` \[m] of the contact point, without
     /// forces yet.
     fn touching(&self, half_width: f64) -> ContactState;
 
@@ -31,7 +31,7 @@ pub trait ContactSolver: Send + Sync {
         scratch: &mut Scratch,
     ) -> Result<(), ContactError>;
 
-    /// Tangential strains `∂u_x/∂x` of the surfaces of wheel and rail [1]; empty where the solver does not know them.
+    /// Tangential strains `∂u_x/∂x` of the surfaces of wheel and rail \[1]; empty where the solver does not know them.
     fn surface_strain(&self, _traction: &Traction) -> [Piecewise; 2] {
         Default::default()
     }
@@ -104,7 +104,7 @@ pub enum ContactError {
     /// The contact is longer than the zone in which it is looked for.
     #[error("the contact patch reached the end of the candidate zone (±{zone:.3e} m) at a line load of {load:.6e} N/m")]
     ZoneExceeded {
-        /// Half-length of the zone [m].
+        /// Half-length of the zone \[m].
         zone: f64,
         /// Contact force [N/m].
         load: f64,

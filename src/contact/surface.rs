@@ -5,24 +5,24 @@ use crate::piecewise::Piecewise;
 /// Undeformed surfaces of wheel and rail.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surfaces {
-    /// Radius of the round wheel [m].
+    /// Radius of the round wheel \[m].
     pub radius: f64,
-    /// Material-fixed deviation of the wheel from the circle over the angle [rad], outward positive [m].
+    /// Material-fixed deviation of the wheel from the circle over the angle \[rad], outward positive \[m].
     pub wheel: Piecewise,
-    /// Material-fixed deviation of the rail from the plane over the distance [m], upward positive [m].
+    /// Material-fixed deviation of the rail from the plane over the distance \[m], upward positive \[m].
     pub rail: Piecewise,
 }
 
 /// Where the wheel stands on its surfaces, and how heat has changed them.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement<'a> {
-    /// Distance travelled by the wheel centre [m].
+    /// Distance travelled by the wheel centre \[m].
     pub distance: f64,
-    /// Angle of rotation, forward positive [rad].
+    /// Angle of rotation, forward positive \[rad].
     pub angle: f64,
-    /// Thermal growth of the wheel radius [m].
+    /// Thermal growth of the wheel radius \[m].
     pub growth: f64,
-    /// Swelling of the hot layers of both bodies under the contact [m].
+    /// Swelling of the hot layers of both bodies under the contact \[m].
     pub swelling: &'a Piecewise,
 }
 
@@ -32,7 +32,7 @@ impl Surfaces {
         Self { radius, ..Self::default() }
     }
 
-    /// Distance [m] at `x` [m] from the contact point between the bodies, undeformed and with the hub at the height at which
+    /// Distance \[m] at `x` \[m] from the contact point between the bodies, undeformed and with the hub at the height at which
     /// the cold, smooth bodies just touch: `r − √(r² − x²)` less everything that has grown into it.
     ///
     /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below its

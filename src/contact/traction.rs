@@ -13,23 +13,23 @@ pub struct Traction {
     /// Forces on the ports of the wheel (the surface displacements of its body, x and y of every node) [N/m]; the ports of
     /// the rail receive the opposite.
     pub port_forces: DVector<f64>,
-    /// Displacements of the ports of wheel and rail [m].
+    /// Displacements of the ports of wheel and rail \[m].
     pub surface: [DVector<f64>; 2],
-    /// Rigid motions (V [m/s], U [m], Ω [rad/s]) with which they were found.
+    /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which they were found.
     pub rigid: [f64; 3],
-    /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre [N].
+    /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N].
     pub resultant: [f64; 3],
     /// Power dissipated by friction [W/m].
     pub friction_power: f64,
-    /// The contact patches between their trailing and leading edges, x ascending [m].
+    /// The contact patches between their trailing and leading edges, x ascending \[m].
     pub patches: Vec<Interval>,
-    /// Share of the contact length that sticks [1].
+    /// Share of the contact length that sticks \[1].
     pub stick_fraction: f64,
-    /// Largest pressure [Pa].
+    /// Largest pressure \[Pa].
     pub pressure_max: f64,
-    /// Contact pressure [Pa].
+    /// Contact pressure \[Pa].
     pub pressure: Piecewise,
-    /// Friction traction on the wheel, forward positive [Pa].
+    /// Friction traction on the wheel, forward positive \[Pa].
     pub shear: Piecewise,
     /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the friction
     /// power.
@@ -46,7 +46,7 @@ impl Traction {
         Some(Interval { low: self.patches.first()?.low, high: self.patches.last()?.high })
     }
 
-    /// Half of the distance between the outermost contact edges [m]; zero without contact.
+    /// Half of the distance between the outermost contact edges \[m]; zero without contact.
     pub fn half_width(&self) -> f64 {
         self.extent().map_or(0.0, |patch| 0.5 * (patch.high - patch.low))
     }

@@ -10,26 +10,26 @@ const GAUSS: f64 = 0.577_350_269_189_625_8;
 /// Shape functions and their gradients at one quadrature point.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// Position [m].
+    /// Position \[m].
     pub position: [f64; 2],
-    /// `N_i` [1].
+    /// `N_i` \[1].
     pub shape: [f64; 4],
     /// `∇N_i` [1/m].
     pub gradient: [[f64; 2]; 4],
-    /// `|J| w` [m²].
+    /// `|J| w` \[m²].
     pub dv: f64,
 }
 
 /// Shape functions and gradients at one quadrature point of an edge.
 #[derive(Clone, Copy, Debug)]
 pub struct EdgePoint {
-    /// Position [m].
+    /// Position \[m].
     pub position: [f64; 2],
-    /// `N_i` [1].
+    /// `N_i` \[1].
     pub shape: [f64; 4],
     /// `∇N_i` [1/m].
     pub gradient: [[f64; 2]; 4],
-    /// Outward normal times `ds` [m].
+    /// Outward normal times `ds` \[m].
     pub normal: [f64; 2],
 }
 

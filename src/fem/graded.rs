@@ -27,14 +27,14 @@ const UNIFORM_DEPTH: f64 = 0.5;
 /// Where the mesh is fine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactZone {
-    /// Half-width of the contact for which the mesh is laid out [m].
+    /// Half-width of the contact for which the mesh is laid out \[m].
     pub half_width: f64,
     /// Elements per half-width.
     pub elements: usize,
 }
 
 impl ContactZone {
-    /// Distance of surface nodes `h` [m].
+    /// Distance of surface nodes `h` \[m].
     pub fn spacing(&self) -> f64 {
         self.half_width / self.elements.max(1) as f64
     }
@@ -49,7 +49,7 @@ impl ContactZone {
         self.candidates() + 2 * GUARDS
     }
 
-    /// x of candidates and guards, ascending, symmetric about zero [m].
+    /// x of candidates and guards, ascending, symmetric about zero \[m].
     pub fn surface_x(&self) -> Vec<f64> {
         let half = (self.candidates() / 2 + GUARDS) as isize;
         (-half..=half).map(|i| i as f64 * self.spacing()).collect()
@@ -153,7 +153,7 @@ pub fn rail_unknowns(length: f64, height: f64, largest: f64, zone: ContactZone) 
     Ok(2.0 * along * zone.rows(height, layout.depth))
 }
 
-/// Annulus about the origin, contact point at the bottom `(0, −radius)`, inner circle fixed; lengths in [m].
+/// Annulus about the origin, contact point at the bottom `(0, −radius)`, inner circle fixed; lengths in \[m].
 pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, FemError> {
     let layout = wheel_layout(radius, hub_radius, zone)?;
     let surface_x = zone.surface_x();
@@ -186,7 +186,7 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
 
 /// Rectangle `|x| ≤ length/2`, `−height ≤ y ≤ 0` with the contact point at the origin, base fixed, free ends.
 ///
-/// Lengths in [m]; `largest` bounds the cell size.
+/// Lengths in \[m]; `largest` bounds the cell size.
 pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<Mesh, FemError> {
     let layout = rail_layout(length, height, largest, zone)?;
     let surface_x = zone.surface_x();

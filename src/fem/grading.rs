@@ -9,13 +9,13 @@
 /// α and β are the logarithms of the growth factors per cell.
 #[derive(Clone, Copy, Debug)]
 pub struct Grading {
-    /// Cell size at the start [m].
+    /// Cell size at the start \[m].
     pub first: f64,
     /// Growth factor per cell from the start on.
     pub growth: f64,
-    /// Largest cell size [m].
+    /// Largest cell size \[m].
     pub largest: f64,
-    /// Cell size at the end [m].
+    /// Cell size at the end \[m].
     pub last: f64,
     /// Growth factor per cell backwards from the end.
     pub growth_last: f64,
@@ -83,7 +83,7 @@ impl Grading {
 }
 
 /// Positions from zero to `length` whose cells have the sizes `first·growth^k`, at most `largest`, all shrunk by one factor
-/// so that they fill `length` [m].
+/// so that they fill `length` \[m].
 pub fn graded(first: f64, growth: f64, largest: f64, length: f64) -> Vec<f64> {
     let mut positions = vec![0.0];
     let (mut size, mut end) = (first.min(largest), 0.0);

@@ -3,7 +3,7 @@
 /// A mesh of quadrilaterals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Coordinates [m].
+    /// Coordinates \[m].
     pub nodes: Vec<[f64; 2]>,
     /// Corner nodes, counter-clockwise.
     pub cells: Vec<[usize; 4]>,
@@ -30,7 +30,7 @@ impl Mesh {
         self.cells[cell].map(|node| self.nodes[node])
     }
 
-    /// x of the surface nodes [m].
+    /// x of the surface nodes \[m].
     pub fn surface_x(&self) -> Vec<f64> {
         self.surface.iter().map(|&node| self.nodes[node][0]).collect()
     }

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 /// Prescribed heat on an arc of the tread that is fixed in space (a brake block).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TreadHeat {
-    /// Angle of its middle from the contact point, positive on the leading side [rad].
+    /// Angle of its middle from the contact point, positive on the leading side \[rad].
     pub angle: f64,
-    /// Its extent [rad].
+    /// Its extent \[rad].
     pub width: f64,
     /// Heat into the wheel [W/m], uniform over the arc.
     pub heat: f64,
@@ -21,13 +21,13 @@ pub struct TreadHeat {
 pub struct Exchange {
     /// Where the bodies touch, without overlap; none: lifted off.
     pub patches: Vec<Interval>,
-    /// Contact pressure over x [Pa]; used by the pressure-dependent conductance only.
+    /// Contact pressure over x \[Pa]; used by the pressure-dependent conductance only.
     pub pressure: Piecewise,
     /// Friction power per area `|τ s|` over x [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
     pub friction_power: Piecewise,
     /// Heat on the tread of the wheel.
     pub tread: Vec<TreadHeat>,
-    /// Reversible temperatures over x that conduct besides those of the fields: wheel less rail [K].
+    /// Reversible temperatures over x that conduct besides those of the fields: wheel less rail \[K].
     pub reversible: Piecewise,
 }
 

@@ -16,10 +16,10 @@ pub trait HeatModel {
     /// Memory that steps reuse; holds nothing that outlives a step.
     type Scratch: Default;
 
-    /// A wheel at the uniform excess temperature `bulk` [K] (but for a fixed hub) on a rail at the reference temperature.
+    /// A wheel at the uniform excess temperature `bulk` \[K] (but for a fixed hub) on a rail at the reference temperature.
     fn initial(&self, bulk: f64) -> Self::State;
 
-    /// Replaces `next` by the state `dt` [s] after `state`, with the velocity of the wheel's centre `velocity` [m/s], the
+    /// Replaces `next` by the state `dt` \[s] after `state`, with the velocity of the wheel's centre `velocity` [m/s], the
     /// angular velocity `omega` [rad/s] (forward rolling positive) and the exchange held over the step.
     ///
     /// Returns the mean flows over the step. The memory of `next` is reused; on error its content is meaningless.
@@ -41,7 +41,7 @@ pub trait HeatModel {
     fn stationary(&self, velocity: f64, omega: f64, exchange: &Exchange)
     -> Result<(Self::State, HeatFlows), HeatError>;
 
-    /// Surface positions at which a state is observed [m], ascending.
+    /// Surface positions at which a state is observed \[m], ascending.
     fn zone_x(&self) -> &[f64];
 
     /// Replaces `seen` by what a state shows; its memory is reused.
@@ -53,7 +53,7 @@ pub trait HeatModel {
 pub struct Observation {
     /// Maxima, values at the contact point and means.
     pub temperatures: Temperatures,
-    /// Surface temperatures at the positions of [`HeatModel::zone_x`], over the reference [K].
+    /// Surface temperatures at the positions of [`HeatModel::zone_x`], over the reference \[K].
     pub surface: [Vec<f64>; 2],
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
     /// wheel less its mean along the tread, of the rail.
@@ -128,7 +128,7 @@ impl HeatFlows {
     }
 }
 
-/// Temperatures that a run reports, over the reference [K].
+/// Temperatures that a run reports, over the reference \[K].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Temperatures {
     /// Maximum of the wheel's surface in the contact zone.

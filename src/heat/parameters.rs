@@ -17,14 +17,14 @@ pub struct HeatConfig {
     pub thermal: Thermal,
     /// Surface elements per smallest half-width, away from its edges.
     pub elements_per_half_width: usize,
-    /// Half-width of the contact at the nominal load [m]; the mesh is finest at its edges.
+    /// Half-width of the contact at the nominal load \[m]; the mesh is finest at its edges.
     pub half_width: f64,
-    /// Half-length of the finely meshed zone that every patch and all friction heat stay within [m].
+    /// Half-length of the finely meshed zone that every patch and all friction heat stay within \[m].
     pub zone: f64,
 }
 
 impl HeatConfig {
-    /// Smallest half-width that has to be resolved [m]: that of a line contact at the smallest load.
+    /// Smallest half-width that has to be resolved \[m]: that of a line contact at the smallest load.
     pub fn smallest_half_width(&self) -> f64 {
         self.half_width * self.thermal.smallest_load_ratio.sqrt()
     }

@@ -12,7 +12,7 @@ pub trait LinearSystem {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("relative residual {residual:.2e} after {iterations} iterations")]
 pub struct Stopped {
-    /// `|b − A x| / |b|` reached [1].
+    /// `|b − A x| / |b|` reached \[1].
     pub residual: f64,
     /// Iterations done.
     pub iterations: usize,

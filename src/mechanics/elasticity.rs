@@ -5,12 +5,12 @@ use crate::fem::Point;
 use crate::fem::assembly::{ElementMatrix, both_components};
 use crate::material::Isotropic;
 
-/// Lamé constants `λ`, `μ` [Pa].
+/// Lamé constants `λ`, `μ` \[Pa].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lame {
-    /// First constant [Pa].
+    /// First constant \[Pa].
     pub lambda: f64,
-    /// Second constant, the shear modulus [Pa].
+    /// Second constant, the shear modulus \[Pa].
     pub mu: f64,
 }
 
@@ -22,7 +22,7 @@ impl From<&Material> for Lame {
 }
 
 impl Lame {
-    /// `σ = λ tr(ε) 1 + 2 μ ε` [Pa] for a displacement gradient `∂u_a/∂x_b`.
+    /// `σ = λ tr(ε) 1 + 2 μ ε` \[Pa] for a displacement gradient `∂u_a/∂x_b`.
     pub fn stress(&self, gradient: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
         let volume = self.lambda * (gradient[0][0] + gradient[1][1]);
         let shear = self.mu * (gradient[0][1] + gradient[1][0]);

@@ -8,21 +8,21 @@ use crate::config::{Config, Material};
 use crate::fem::{DofMap, Mesh, element};
 use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, RowVector3};
 
-/// Plane-strain stress [Pa].
+/// Plane-strain stress \[Pa].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stress {
-    /// `σ_xx` [Pa].
+    /// `σ_xx` \[Pa].
     pub xx: f64,
-    /// `σ_yy` [Pa].
+    /// `σ_yy` \[Pa].
     pub yy: f64,
-    /// `σ_xy` [Pa].
+    /// `σ_xy` \[Pa].
     pub xy: f64,
     /// Out of plane, `ν (σ_xx + σ_yy)`.
     pub zz: f64,
 }
 
 impl Stress {
-    /// Equivalent stress of von Mises [Pa].
+    /// Equivalent stress of von Mises \[Pa].
     pub fn von_mises(&self) -> f64 {
         let Self { xx, yy, xy, zz } = *self;
         (0.5 * ((xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2)) + 3.0 * xy * xy).sqrt()
@@ -36,7 +36,7 @@ impl Stress {
 pub struct BodyField {
     /// Undeformed; the wheel about its centre, the rail with the contact point at the origin.
     pub mesh: Mesh,
-    /// Relative to hub or base [m].
+    /// Relative to hub or base \[m].
     pub displacement: Vec<[f64; 2]>,
     /// Of the material, `v̄ + d_t u + v̄·∇u` with the stream `v̄` [m/s].
     pub velocity: Vec<[f64; 2]>,

@@ -67,9 +67,9 @@ pub struct Pair {
     pub wheel: Box<dyn BodyResponse>,
     /// The rail.
     pub rail: Box<dyn BodyResponse>,
-    /// x of the paired surface nodes, ascending [m].
+    /// x of the paired surface nodes, ascending \[m].
     pub surface_x: Vec<f64>,
-    /// Their distance [m].
+    /// Their distance \[m].
     pub spacing: f64,
     /// Surface nodes that can carry contact; the others are guards.
     pub candidates: Range<usize>,
@@ -104,7 +104,7 @@ pub fn bodies(
     Ok(Pair { wheel, rail, surface_x, spacing: zone.spacing(), candidates })
 }
 
-/// Half-width `a = √(4 P R / (π E*))` [m] of the Hertzian line contact of a cylinder on a plane of the same material.
+/// Half-width `a = √(4 P R / (π E*))` \[m] of the Hertzian line contact of a cylinder on a plane of the same material.
 ///
 /// `P` nominal load per metre of width, `1/E* = 2 (1 − ν²)/E`. Source: Johnson, *Contact Mechanics* (1985), eq. 4.43.
 pub fn nominal_half_width(config: &Config) -> f64 {
@@ -112,7 +112,7 @@ pub fn nominal_half_width(config: &Config) -> f64 {
     analytic::hertz_half_width(load, config.wheel.radius, contact_modulus(config))
 }
 
-/// Contact modulus of wheel and rail [Pa].
+/// Contact modulus of wheel and rail \[Pa].
 pub fn contact_modulus(config: &Config) -> f64 {
     Isotropic::from(&config.material).contact_modulus()
 }

@@ -170,7 +170,7 @@ pub struct StepOperator {
 /// Part of a body's answer that is known before the contact is solved.
 #[derive(Clone, Debug)]
 pub struct FreeResponse {
-    /// Surface displacement without contact forces and rigid accelerations, `2n` [m].
+    /// Surface displacement without contact forces and rigid accelerations, `2n` \[m].
     pub surface: DVector<f64>,
     /// Rate of deformation momentum (x, y, Ω) without contact forces and rigid accelerations.
     pub momentum: [f64; 3],

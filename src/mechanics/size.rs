@@ -7,7 +7,7 @@ use crate::fem::{FemError, graded};
 /// Largest number of unknown displacements of one body. With 80 and 40 modes, bodies of 84,480 and 48,762 unknowns (60
 /// elements per half-width) took 22 s and 0.67 GB to prepare.
 pub const LARGEST_UNKNOWNS: f64 = 150e3;
-/// Largest memory for the vectors from which the vibration modes of one body are computed [bytes], of which about half is
+/// Largest memory for the vectors from which the vibration modes of one body are computed \[bytes], of which about half is
 /// used. With 200 and 100 modes, bodies of 51,840 and 24,766 unknowns (0.52 GB by this count) took 25 s and 0.77 GB.
 pub const LARGEST_KRYLOV: f64 = 0.8e9;
 

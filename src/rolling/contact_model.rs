@@ -36,13 +36,13 @@ pub struct ContactStep<'a> {
     pub rigid: [RigidMotion; 3],
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
-    /// Distance travelled [m] and angle turned [rad].
+    /// Distance travelled \[m] and angle turned \[rad].
     pub place: [f64; 2],
     /// How heat has deformed the bodies.
     pub deformation: &'a ThermalDeformation,
-    /// Friction coefficient [1].
+    /// Friction coefficient \[1].
     pub friction: f64,
-    /// Largest change of the weights at the contact edges that counts as converged [1].
+    /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
 }
 

@@ -85,7 +85,7 @@ macro_rules! inputs {
         /// Real-valued inputs of the whole wheel; used for values and for their time derivatives.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Drive {
-            $( #[doc = concat!($text, " [", $unit, "].")] pub $field: f64, )*
+            $( #[doc = concat!($text, " \\[", $unit, "].")] pub $field: f64, )*
         }
 
         /// Number of real inputs.
@@ -250,7 +250,7 @@ pub fn creepage(v: f64, v_c: f64) -> f64 {
     }
 }
 
-/// Slide `(V − V_C)/V` of EN 15595 [1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it is
+/// Slide `(V − V_C)/V` of EN 15595 \[1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it is
 /// given as if it travelled at the speed [`STANDSTILL`].
 pub fn slide(v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) { 0.0 } else { (v - v_c) / v.abs().max(STANDSTILL).copysign(v) }

@@ -11,9 +11,9 @@ pub enum StepError {
     /// The contact iteration failed.
     #[error("no contact state found at t = {time:.6} s with an internal step of {step:.1e} s: {source}")]
     Contact {
-        /// Time at which the step began [s].
+        /// Time at which the step began \[s].
         time: f64,
-        /// Its length [s].
+        /// Its length \[s].
         step: f64,
         /// What the contact solver says.
         source: ContactError,
@@ -21,17 +21,17 @@ pub enum StepError {
     /// The contact patch outgrew the mesh.
     #[error("the contact patch needs more than the candidate zone of ±{zone:.3e} m at a wheel load of {load:.6e} N")]
     ZoneExceeded {
-        /// Half-length of the zone [m].
+        /// Half-length of the zone \[m].
         zone: f64,
-        /// Contact force of the wheel [N].
+        /// Contact force of the wheel \[N].
         load: f64,
     },
     /// Values that are infinite or not a number.
     #[error("the motion grew beyond all numbers at t = {time:.6} s with an internal step of {step:.1e} s")]
     NotFinite {
-        /// Time at which the step began [s].
+        /// Time at which the step began \[s].
         time: f64,
-        /// Its length [s].
+        /// Its length \[s].
         step: f64,
     },
     /// A motion outside the range of the model.
@@ -46,15 +46,15 @@ pub enum StepError {
     /// A communication step outside its range.
     #[error("communication step = {step} s is outside its range: above 0 to {longest} s")]
     StepSize {
-        /// What was asked for [s].
+        /// What was asked for \[s].
         step: f64,
-        /// Longest step [s].
+        /// Longest step \[s].
         longest: f64,
     },
     /// A kink of the solution: no derivative to either side.
     #[error("no derivative at t = {time:.6} s: contact states change at once to both sides")]
     NoDerivative {
-        /// Time of the state [s].
+        /// Time of the state \[s].
         time: f64,
     },
     /// The temperatures have no answer.

@@ -26,7 +26,7 @@ pub struct Model {
     pub contact: ContactModel,
     /// Temperatures, unless they are switched off.
     pub thermal: Option<ThermalModel>,
-    /// Half-length of the zone in which contact is looked for [m].
+    /// Half-length of the zone in which contact is looked for \[m].
     pub zone: f64,
 }
 

@@ -17,9 +17,9 @@ const MOTION_MARGIN: f64 = 1.05;
 /// The wheel as a rigid body on its axle, per metre of width.
 #[derive(Clone, Debug)]
 pub struct RigidWheel {
-    /// Cold outer radius [m].
+    /// Cold outer radius \[m].
     pub radius: f64,
-    /// Width of the line contact [m]: forces of the wheel = width × forces per metre.
+    /// Width of the line contact \[m]: forces of the wheel = width × forces per metre.
     pub width: f64,
     /// Inertia in x (with vehicle) and in y [kg/m], about the axle [kg m].
     pub inertia: [f64; 3],
@@ -59,7 +59,7 @@ impl RigidWheel {
         ]
     }
 
-    /// Velocity V [m/s] and angular velocity Ω [rad/s] expected after a step `dt` [s].
+    /// Velocity V [m/s] and angular velocity Ω [rad/s] expected after a step `dt` \[s].
     pub fn predicted_speeds(&self, motion: &Motion, drives: &[AxisDrive; 3], dt: f64) -> [f64; 2] {
         [(&motion.velocity, drives[0]), (&motion.omega, drives[2])].map(|(history, drive)| match drive {
             AxisDrive::Free { .. } => history.now + dt * history.rate,

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 pub enum Origin {
     /// The stationary state of these inputs.
     Stationary(Inputs),
-    /// A communication step from `state` over `length` [s].
+    /// A communication step from `state` over `length` \[s].
     Step { state: Box<State>, inputs: Inputs, length: f64 },
 }
 

@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 /// State of a wheel on its rail.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Time since the start [s].
+    /// Time since the start \[s].
     pub time: f64,
-    /// Communication steps too short to be computed on their own since then; the next one makes up for them [s].
+    /// Communication steps too short to be computed on their own since then; the next one makes up for them \[s].
     pub pending: f64,
-    /// Distance travelled [m].
+    /// Distance travelled \[m].
     pub distance: f64,
-    /// Angle of rotation, forward positive [rad].
+    /// Angle of rotation, forward positive \[rad].
     pub angle: f64,
     /// Rigid motion of the wheel.
     pub motion: Motion,
@@ -32,11 +32,11 @@ pub struct State {
     pub hub: [f64; 3],
     /// Which motions (V, U, Ω) were prescribed in the last step.
     pub prescribed: [bool; 3],
-    /// Friction coefficient of the last step [1].
+    /// Friction coefficient of the last step \[1].
     pub friction: f64,
-    /// Friction coefficient that was available in the last step [1].
+    /// Friction coefficient that was available in the last step \[1].
     pub available_friction: f64,
-    /// Length of the last internal step [s]; 0: the time formula starts afresh.
+    /// Length of the last internal step \[s]; 0: the time formula starts afresh.
     pub last_step: f64,
     /// Whether the last internal step started the time formula afresh.
     pub restarted: bool,
@@ -65,14 +65,14 @@ pub struct Motion {
     pub velocity: History,
     /// Angular velocity Ω, forward positive [rad/s].
     pub omega: History,
-    /// Hub height above just touching U [m].
+    /// Hub height above just touching U \[m].
     pub height: History,
     /// Vertical velocity of the hub U̇ [m/s].
     pub hub_velocity: History,
 }
 
 impl Motion {
-    /// Values of the three rigid motions (V [m/s], U [m], Ω [rad/s]).
+    /// Values of the three rigid motions (V [m/s], U \[m], Ω [rad/s]).
     pub fn values(&self) -> [f64; 3] {
         [self.velocity.now, self.height.now, self.omega.now]
     }
@@ -95,15 +95,15 @@ pub struct ThermalState {
     pub fields: HeatState,
     /// Mean heat flows over the last step [W/m].
     pub flows: HeatFlows,
-    /// Excess temperatures [K].
+    /// Excess temperatures \[K].
     pub temperatures: Temperatures,
-    /// Mean excess temperatures of the surfaces in the patch: wheel, rail [K].
+    /// Mean excess temperatures of the surfaces in the patch: wheel, rail \[K].
     pub patch_mean: [f64; 2],
-    /// Mean of both over the friction coefficient [K].
+    /// Mean of both over the friction coefficient \[K].
     pub heating: Heating,
-    /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included [K].
+    /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included \[K].
     pub surface: [Vec<f64>; 2],
-    /// Time during which the hottest contact point was above Ac1 [s].
+    /// Time during which the hottest contact point was above Ac1 \[s].
     pub austenitised: f64,
     /// Heat put in since the start [J/m].
     pub supplied: f64,
@@ -116,9 +116,9 @@ pub struct ThermalState {
 /// Deformation by heat, as far as it acts on the contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ThermalDeformation {
-    /// Growth of the wheel radius by the bulk temperature [m].
+    /// Growth of the wheel radius by the bulk temperature \[m].
     pub radius_growth: f64,
-    /// Swelling of both hot layers under the contact [m].
+    /// Swelling of both hot layers under the contact \[m].
     pub swelling: Piecewise,
     /// Membrane force of the hot layers of wheel and rail [N/m].
     pub membrane_force: [Piecewise; 2],
@@ -135,9 +135,9 @@ impl ThermalDeformation {
 /// What the control of the step size remembers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
-    /// Largest internal step that the errors so far allow [s].
+    /// Largest internal step that the errors so far allow \[s].
     pub step: f64,
-    /// Controlled quantities one internal step before: contact forces x, y [N/m], highest temperature rise [K].
+    /// Controlled quantities one internal step before: contact forces x, y [N/m], highest temperature rise \[K].
     pub before: [f64; 3],
 }
 
@@ -168,7 +168,7 @@ impl Audit {
         self.work - (self.energy - self.initial_energy) - self.dissipation
     }
 
-    /// Imbalance relative to the dissipated energy [1], or to the energy `stored` [J/m] in the loaded contact or a
+    /// Imbalance relative to the dissipated energy \[1], or to the energy `stored` [J/m] in the loaded contact or a
     /// millionth of the energy moved, where those are more.
     pub fn residual(&self, stored: f64) -> f64 {
         self.imbalance() / self.dissipation.max(1e-6 * self.throughput).max(stored)

@@ -37,7 +37,7 @@ pub struct Demand<'a> {
     pub target: &'a Drive,
     /// Tunable parameters.
     pub tuning: &'a Tuning,
-    /// Length of the step before [s]; 0: the time formula starts afresh.
+    /// Length of the step before \[s]; 0: the time formula starts afresh.
     pub last_step: f64,
 }
 

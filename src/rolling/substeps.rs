@@ -20,9 +20,9 @@ use super::state::{State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
 
-/// Longest communication step [s].
+/// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
-/// Shortest internal step [s]: below, waves do not cross an element and the contact may find no state. Communication
+/// Shortest internal step \[s]: below, waves do not cross an element and the contact may find no state. Communication
 /// steps that are shorter, such as those that rounding leaves at the end of a run, wait for the next one.
 pub const SHORTEST_STEP: f64 = 5e-7;
 /// How often in succession a step that finds no contact state is halved before it is given up.

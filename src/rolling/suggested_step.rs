@@ -11,7 +11,7 @@ const LARGEST: f64 = 1.0;
 /// Smallest suggestion [s]: near standstill no explicit step is stable.
 const SMALLEST: f64 = 1e-6;
 
-/// Largest communication step [s] for explicit coupling in this state.
+/// Largest communication step \[s] for explicit coupling in this state.
 ///
 /// Who prescribes velocities integrates an inertia against the contact, which on the initial slope of Carter's
 /// theory is a damper between V and rΩ: `c = 2 F_n r/(a V)`. With the effective mass m of the prescribed motions

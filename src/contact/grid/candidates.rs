@@ -5,9 +5,9 @@
 /// Guard nodes never come into contact; the slip of the outermost candidates needs their displacements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactGrid {
-    /// Positions of the candidates [m], ascending.
+    /// Positions of the candidates \[m], ascending.
     pub x: Vec<f64>,
-    /// Their spacing [m].
+    /// Their spacing \[m].
     pub spacing: f64,
     /// Number of guard nodes on each side.
     pub guard: usize,

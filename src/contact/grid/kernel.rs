@@ -21,7 +21,7 @@ pub struct KernelCorrection {
 
 impl KernelCorrection {
     /// From the static compliance of both bodies together (`relative`, interleaved components) and the contact
-    /// modulus `E*` [Pa]: with `s_k = G_{j+k} − G_{j+k+1}` in a central column, `d_k = 2/(πE*)/(k+½) − s_k` and
+    /// modulus `E*` \[Pa]: with `s_k = G_{j+k} − G_{j+k+1}` in a central column, `d_k = 2/(πE*)/(k+½) − s_k` and
     /// `Δ_k = Σ_{l≥k} d_l`.
     pub fn new(relative: &DMatrix<f64>, contact_modulus: f64) -> Self {
         let centre = relative.nrows() / 4;

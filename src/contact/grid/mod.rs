@@ -79,9 +79,9 @@ pub struct GridState {
     /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
     /// differences; zero elsewhere [m/s].
     pub slip: Vec<f64>,
-    /// Gap at open nodes, zero elsewhere [m].
+    /// Gap at open nodes, zero elsewhere \[m].
     pub gap: Vec<f64>,
-    /// Tangential displacement of the wheel less that of the rail, and its history [m].
+    /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
 }
 
@@ -125,7 +125,7 @@ pub struct GridSolver {
 }
 
 impl GridSolver {
-    /// From the static compliances of wheel and rail [m/(N/m)] and their contact modulus `E*` [Pa].
+    /// From the static compliances of wheel and rail [m/(N/m)] and their contact modulus `E*` \[Pa].
     pub fn new(grid: ContactGrid, wheel: &DMatrix<f64>, rail: &DMatrix<f64>, contact_modulus: f64) -> Self {
         let kernel = KernelCorrection::new(&(wheel + rail), contact_modulus);
         Self { grid, kernel }

@@ -22,9 +22,9 @@ pub fn edge_offset(edge: f64, inner: f64) -> f64 {
 /// Weights of the two cells upstream of a node: `∂u ≈ w0·m0 + w1·m1`, `w0 + w1 = 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Upwind {
-    /// Of the nearer cell [1].
+    /// Of the nearer cell \[1].
     pub w0: f64,
-    /// Of the one behind it [1].
+    /// Of the one behind it \[1].
     pub w1: f64,
 }
 

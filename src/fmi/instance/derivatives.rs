@@ -37,7 +37,8 @@ impl Instance {
         Ok(())
     }
 
-    /// Derivative of the unknown outputs along a direction of the known inputs (see [`Simulation::difference`]).
+    /// Derivative of the unknown outputs along a direction of the known inputs (see
+    /// [`difference`](crate::simulation::Simulation::difference)).
     pub fn directional_derivative(
         &mut self,
         unknown: &[Reference],
@@ -71,7 +72,7 @@ impl Instance {
         outputs.into_iter().map(quotient).collect()
     }
 
-    /// Time derivatives of outputs (see [`Simulation::rate`]).
+    /// Time derivatives of outputs (see [`rate`](crate::simulation::Simulation::rate)).
     pub fn output_derivatives(&mut self, references: &[Reference], orders: &[i32]) -> Outcome<Vec<f64>> {
         self.allow(Call::GetRealOutputDerivatives)?;
         let outputs = real_outputs(references)?;

@@ -94,7 +94,7 @@ impl Instance {
     pub fn last_step(&self) -> Status {
         self.last_step
     }
-    /// Communication point up to which the instance has simulated [s].
+    /// Communication point up to which the instance has simulated \[s].
     pub fn last_successful_time(&self) -> f64 {
         self.time
     }
@@ -132,7 +132,7 @@ impl Instance {
         self.log.switch(on, categories)
     }
 
-    /// Times [s]; the solver chooses its own tolerances, so that of the master is only checked.
+    /// Times \[s]; the solver chooses its own tolerances, so that of the master is only checked.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Outcome {
         self.allow(Call::SetupExperiment)?;
         if let Some(tolerance) = tolerance
@@ -196,7 +196,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Simulates from the communication point `start` over `h` [s]; inputs are those set now, ramped by their
+    /// Simulates from the communication point `start` over `h` \[s]; inputs are those set now, ramped by their
     /// derivatives, and hold their final values afterwards.
     pub fn do_step(&mut self, start: f64, h: f64) -> Outcome {
         self.allow(Call::DoStep)?;

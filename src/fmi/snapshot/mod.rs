@@ -22,9 +22,9 @@ pub struct Snapshot {
     pub inputs: SetValues,
     pub bumpless: SetValues,
     pub rates: Drive,
-    /// Current communication point [s].
+    /// Current communication point \[s].
     pub time: f64,
-    /// Stop time [s] if the master defined one.
+    /// Stop time \[s] if the master defined one.
     pub stop: Option<f64>,
     /// `None` before the stationary state has been computed.
     pub checkpoint: Option<Checkpoint>,

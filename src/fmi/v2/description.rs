@@ -15,7 +15,7 @@ use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
 
-/// End of the default experiment and its communication step [s].
+/// End of the default experiment and its communication step \[s].
 pub const DEFAULT_STOP_TIME: f64 = 1.0;
 pub const DEFAULT_STEP_SIZE: f64 = 1e-3;
 

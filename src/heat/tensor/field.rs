@@ -12,24 +12,24 @@ pub struct TemperatureField {
     /// The wheel about its centre, the rail with the contact point at the origin; cells between all nodes, those in the
     /// middle of the quadratic layers included.
     pub mesh: Mesh,
-    /// At the nodes, over the reference [K].
+    /// At the nodes, over the reference \[K].
     pub temperature: Vec<f64>,
 }
 
 impl Heat {
-    /// Surface temperatures of wheel and rail at x [m] within the contact zone, linear between nodes [K].
+    /// Surface temperatures of wheel and rail at x \[m] within the contact zone, linear between nodes \[K].
     pub fn surface_temperatures(&self, state: &HeatState, x: f64) -> Result<[f64; 2], HeatError> {
         Ok([self.wheel_temperature(state, x, 0.0)?, self.rail_temperature(state, x, 0.0)?])
     }
 
     /// Temperature of the wheel at the distance `s` along the tread from the contact point and the depth `z` below it,
-    /// both in [m], over the reference [K].
+    /// both in \[m], over the reference \[K].
     pub fn wheel_temperature(&self, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
         Ok(evaluate(&self.wheel, self.split(state).0, s, z))
     }
 
-    /// Temperature of the rail at `x` and the depth `z`, both in [m], over the reference [K].
+    /// Temperature of the rail at `x` and the depth `z`, both in \[m], over the reference \[K].
     pub fn rail_temperature(&self, state: &HeatState, x: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
         Ok(evaluate(&self.rail, self.split(state).1, x, z))

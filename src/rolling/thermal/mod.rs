@@ -53,12 +53,12 @@ pub struct Scratch {
 pub struct Touch<'a> {
     /// Its forces.
     pub traction: &'a Traction,
-    /// Reversible temperatures of the surfaces of wheel and rail [K]; empty if they are not computed.
+    /// Reversible temperatures of the surfaces of wheel and rail \[K]; empty if they are not computed.
     pub reversible: [Piecewise; 2],
 }
 
 impl ThermalModel {
-    /// For contact within `zone` [m] of the contact point; the temperature is resolved up to `margin` [m] beyond.
+    /// For contact within `zone` \[m] of the contact point; the temperature is resolved up to `margin` \[m] beyond.
     pub fn new(config: &Config, zone: f64, margin: f64) -> Result<Self, HeatError> {
         let half_width = mechanics::nominal_half_width(config);
         let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin))?;
@@ -74,7 +74,7 @@ impl ThermalModel {
         })
     }
 
-    /// Absolute temperature of hub, air and arriving rail [K].
+    /// Absolute temperature of hub, air and arriving rail \[K].
     pub fn reference(&self) -> f64 {
         self.reference
     }
@@ -108,7 +108,7 @@ impl ThermalModel {
     }
 
     /// The heat step that belongs to a mechanical step: from the temperatures `before` with the contact and the motion of
-    /// `next`. `step` holds the heat of the brake blocks [W], the length of the step [s] and Ac1 [K]; `thermal` gives its
+    /// `next`. `step` holds the heat of the brake blocks \[W], the length of the step \[s] and Ac1 \[K]; `thermal` gives its
     /// memory for the result.
     pub fn step(
         &self,
@@ -196,7 +196,7 @@ impl ThermalModel {
             && profiles.clone().all(|profile| profile.check().is_ok())
     }
 
-    /// Absolute temperatures in the whole bodies [K].
+    /// Absolute temperatures in the whole bodies \[K].
     pub fn fields(&self, thermal: &ThermalState) -> Result<[TemperatureField; 2], HeatError> {
         let mut fields = self.heat.fields(&thermal.fields)?;
         let kelvin = |t: &mut f64| *t += self.reference;

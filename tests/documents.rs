@@ -1,0 +1,66 @@
+//! Documents name what exists: links lead somewhere, and files that are mentioned are there.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// README and its like, and all pages under `docs`.
+fn documents() -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for directory in ["", "docs", "docs/theory"] {
+        for entry in fs::read_dir(root().join(directory)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "md") {
+                found.push(path);
+            }
+        }
+    }
+    found
+}
+
+/// Targets of the links `[text](target)` within this repository, without anchors.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    let targets = text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
+    targets.filter(|t| !t.contains("://")).filter_map(|t| t.split('#').next()).filter(|t| !t.is_empty())
+}
+
+/// Words between backticks that are paths of this repository.
+fn paths(text: &str) -> impl Iterator<Item = &str> {
+    const ROOMS: [&str; 7] = ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/"];
+    let words = text.split('`').filter(|word| !word.contains(char::is_whitespace) && !word.contains('*'));
+    words.filter(|word| ROOMS.iter().any(|room| word.starts_with(room)))
+}
+
+#[test]
+fn links_lead_to_files_that_exist() {
+    let mut broken = Vec::new();
+    for document in documents() {
+        let text = fs::read_to_string(&document).unwrap();
+        for target in links(&text).filter(|target| !document.parent().unwrap().join(target).exists()) {
+            broken.push(format!("{}: {target}", document.display()));
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn files_named_in_documents_exist() {
+    let mut missing = Vec::new();
+    for document in documents() {
+        let text = fs::read_to_string(&document).unwrap();
+        for path in paths(&text).filter(|path| !root().join(path).exists()) {
+            missing.push(format!("{}: {path}", document.display()));
+        }
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
+#[test]
+fn the_reader_of_documents_sees_links_and_paths() {
+    let text = "See [a](b.md#c), [d](https://e.f) and [g](#h); `src/lib.rs`, `cargo test` and `src/*`.";
+    assert_eq!(links(text).collect::<Vec<_>>(), ["b.md"]);
+    assert_eq!(paths(text).collect::<Vec<_>>(), ["src/lib.rs"]);
+}
