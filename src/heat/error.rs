@@ -28,9 +28,9 @@ pub enum HeatError {
     /// An interval of the surface without meaning.
     #[error("contact patch from {low} m to {high} m: its ends must be numbers and ascend")]
     Patch {
-        /// First end [m].
+        /// First end \[m].
         low: f64,
-        /// Second end [m].
+        /// Second end \[m].
         high: f64,
     },
     /// Something that acts beyond the finely meshed surface.
@@ -38,19 +38,19 @@ pub enum HeatError {
     OutsideZone {
         /// What acts there.
         name: &'static str,
-        /// Where it ends [m].
+        /// Where it ends \[m].
         x: f64,
-        /// Half-length of the zone [m].
+        /// Half-length of the zone \[m].
         zone: f64,
     },
     /// A step too short or too long to compute.
     #[error("heat step of {dt} s is outside {shortest} to {longest} s")]
     StepSize {
-        /// Its size [s].
+        /// Its size \[s].
         dt: f64,
-        /// Shortest step [s].
+        /// Shortest step \[s].
         shortest: f64,
-        /// Longest step [s].
+        /// Longest step \[s].
         longest: f64,
     },
     /// A state of another model.
@@ -85,7 +85,7 @@ pub enum HeatError {
          thermal.hub = fixed, thermal.convection > 0 or a rail that moves under the contact lets heat out"
     )]
     NoStationaryState {
-        /// Relative residual reached [1].
+        /// Relative residual reached \[1].
         residual: f64,
         /// Iterations done.
         iterations: usize,
@@ -96,17 +96,17 @@ pub enum HeatError {
          {iterations} iterations; steps shorter than {direct_below} s (solver.max_step) need none"
     )]
     NotConverged {
-        /// Relative residual reached [1].
+        /// Relative residual reached \[1].
         residual: f64,
         /// Iterations done.
         iterations: usize,
-        /// Steps below this one need no correction [s].
+        /// Steps below this one need no correction \[s].
         direct_below: f64,
     },
     /// Temperatures beyond the range of numbers.
     #[error("temperatures are not finite after a step of {dt} s at V = {velocity} m/s, ω = {omega} rad/s")]
     NotFinite {
-        /// Step [s].
+        /// Step \[s].
         dt: f64,
         /// Velocity [m/s].
         velocity: f64,

@@ -2,7 +2,7 @@
 //!
 //! Both fields live on tensor meshes of their own (streamlines × depth), graded from the thermal boundary layer
 //! `δ = √(2κa/V)` (tens of micrometres) to the size of the bodies. Everything is per metre of width; temperatures are
-//! excess temperatures over the reference [K]. Forward rolling is positive: at the contact the material of both bodies
+//! excess temperatures over the reference \[K]. Forward rolling is positive: at the contact the material of both bodies
 //! flows towards −x.
 //!
 //! ```text

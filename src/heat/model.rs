@@ -4,9 +4,9 @@ use super::error::HeatError;
 use super::exchange::Exchange;
 use serde::{Deserialize, Serialize};
 
-/// Shortest step [s].
+/// Shortest step \[s].
 pub const SMALLEST_STEP: f64 = 1e-9;
-/// Longest step [s].
+/// Longest step \[s].
 pub const LARGEST_STEP: f64 = 1e6;
 
 /// A model of the temperature of wheel and rail, per metre of width; immutable, its data are in the state.

@@ -27,7 +27,7 @@ pub(super) fn lever_arms(grid: &ContactGrid, radius: f64, gap: &[f64], wheel: &D
 }
 
 /// Fills everything in `traction` that follows from its port forces and surfaces under a wheel of the rolling radius
-/// `radius` [m], for the friction coefficient `friction` [1] and the slip velocities of the candidates `centred_slip`
+/// `radius` \[m], for the friction coefficient `friction` \[1] and the slip velocities of the candidates `centred_slip`
 /// [m/s].
 pub fn read_off(
     grid: &ContactGrid,
