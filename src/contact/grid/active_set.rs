@@ -10,10 +10,11 @@
 //! An iteration that stalls all the same is restarted from full stick ([`RESTARTS`]), and the tolerance within which a
 //! node keeps its state grows from iteration to iteration.
 
+use super::iteration::Iteration;
 use super::rows::AffineRow;
 use super::streamline::upwind_rows;
-use super::{ContactGrid, GridScratch, GridState, Status};
-use crate::contact::{AxisDrive, ContactError, ContactProblem, Traction};
+use super::{GridScratch, Status};
+use crate::contact::{AxisDrive, ContactError};
 use crate::linalg::DenseSystem;
 use std::ops::Range;
 
@@ -31,16 +32,6 @@ const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
 const OVERLOAD: f64 = 3.0;
-
-/// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
-/// motions) hold the present iterate.
-pub(super) struct Iteration<'a> {
-    pub grid: &'a ContactGrid,
-    pub problem: &'a ContactProblem<'a>,
-    pub state: &'a mut GridState,
-    pub traction: &'a mut Traction,
-    pub scratch: &'a mut GridScratch,
-}
 
 impl Iteration<'_> {
     /// Iterates from the states and forces of the start to the solution.

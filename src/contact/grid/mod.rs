@@ -6,116 +6,26 @@
 
 mod active_set;
 mod candidates;
+mod iteration;
 pub mod kernel;
 pub mod observe;
 mod rows;
+mod state;
+mod status;
 pub mod streamline;
 
 pub use active_set::MAX_ITERATIONS;
 pub use candidates::ContactGrid;
+pub use state::{GridScratch, GridState};
+pub use status::{Status, for_each_patch};
 
 use super::{ContactError, ContactProblem, ContactSolver, ContactState, Scratch, SolverState, Traction};
-use crate::linalg::DenseSystem;
 use crate::multistep::History;
 use crate::piecewise::Piecewise;
-use active_set::Iteration;
+use iteration::Iteration;
 use kernel::KernelCorrection;
 use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
-use streamline::Upwind;
-
-/// State of one pair of contact nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Status {
-    /// No contact.
-    Open,
-    /// Closed, no slip.
-    Stick,
-    /// Closed and slipping; the friction force on the wheel points to `+x`.
-    SlipForward,
-    /// Closed and slipping; the friction force on the wheel points to `−x`.
-    SlipBackward,
-}
-
-impl Status {
-    /// Whether the pair is closed.
-    pub fn is_active(self) -> bool {
-        self != Status::Open
-    }
-
-    /// Direction of the friction force on the wheel: ±1 in slip, 0 otherwise.
-    pub fn friction_direction(self) -> f64 {
-        match self {
-            Status::SlipForward => 1.0,
-            Status::SlipBackward => -1.0,
-            Status::Open | Status::Stick => 0.0,
-        }
-    }
-}
-
-/// Calls `f` with every maximal run of closed nodes as an index range, x ascending: the contact patches.
-pub fn for_each_patch(status: &[Status], mut f: impl FnMut(std::ops::Range<usize>)) {
-    let mut start = None;
-    for (i, s) in status.iter().enumerate() {
-        match (s.is_active(), start) {
-            (true, None) => start = Some(i),
-            (false, Some(first)) => {
-                f(first..i);
-                start = None;
-            }
-            _ => {}
-        }
-    }
-    if let Some(first) = start {
-        f(first..status.len());
-    }
-}
-
-/// What the solver on the grid remembers from step to step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct GridState {
-    /// States of the candidates.
-    pub status: Vec<Status>,
-    /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
-    /// differences; zero elsewhere [m/s].
-    pub slip: Vec<f64>,
-    /// Gap at open nodes, zero elsewhere \[m].
-    pub gap: Vec<f64>,
-    /// Tangential displacement of the wheel less that of the rail, and its history \[m].
-    pub tangential_gap: Vec<History>,
-}
-
-impl GridState {
-    fn copy_from(&mut self, other: &Self) {
-        self.status.clone_from(&other.status);
-        self.slip.clone_from(&other.slip);
-        self.gap.clone_from(&other.gap);
-        self.tangential_gap.clone_from(&other.tangential_gap);
-    }
-}
-
-/// Buffers of [`GridSolver`].
-#[derive(Default)]
-pub struct GridScratch {
-    system: DenseSystem,
-    /// Nodes and axes whose forces and motions are unknown.
-    closed: Vec<usize>,
-    stuck: Vec<usize>,
-    axes: Vec<usize>,
-    /// Undeformed gap at the candidates [m].
-    gap: Vec<f64>,
-    /// Known part of `d_t` of the tangential gap [m/s].
-    slip_offset: Vec<f64>,
-    /// Displacement of wheel and rail without contact forces and unknown motions [m].
-    known: [DVector<f64>; 2],
-    upwind: Vec<Upwind>,
-    upwind_before: Vec<Upwind>,
-    status_before: Vec<Status>,
-    /// Coefficients of all port forces in the row at hand.
-    row: Vec<f64>,
-    /// Slip velocity with centred differences: what dissipates. The upwind one counts its own numerical dissipation.
-    centred_slip: Vec<f64>,
-}
+use state::copy;
 
 /// The contact solver on a grid.
 #[derive(Clone, Debug)]
@@ -208,9 +118,4 @@ impl ContactSolver for GridSolver {
             && [traction.port_forces.len(), traction.surface[0].len(), traction.surface[1].len()] == [ports; 3]
             && traction.port_forces.iter().all(|f| f.is_finite())
     }
-}
-
-/// Copies without allocating where the lengths agree.
-fn copy(target: &mut DVector<f64>, source: &DVector<f64>) {
-    if target.len() == source.len() { target.copy_from(source) } else { target.clone_from(source) }
 }

@@ -1,6 +1,7 @@
 //! Gap, slip and balances of momentum as rows of a linear system in contact forces and rigid motions.
 
-use super::active_set::Iteration;
+use super::iteration::Iteration;
+use super::state::copy;
 use super::streamline::Upwind;
 use nalgebra::{DMatrix, DVector};
 
@@ -116,7 +117,7 @@ impl Iteration<'_> {
         let (grid, problem) = (self.grid, self.problem);
         for body in 0..2 {
             let known = &mut self.scratch.known[body];
-            super::copy(known, problem.bodies.free[body]);
+            copy(known, problem.bodies.free[body]);
             let membrane = problem.membrane[body];
             if membrane.x.is_empty() {
                 continue;
@@ -147,7 +148,7 @@ impl Iteration<'_> {
         let bodies = &problem.bodies;
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
             let surface = &mut self.traction.surface[body];
-            super::copy(surface, &self.scratch.known[body]);
+            copy(surface, &self.scratch.known[body]);
             for (port, force) in self.traction.port_forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
                 surface.axpy(sign * force, &bodies.compliance[body].column(port), 1.0);
             }
