@@ -18,6 +18,7 @@ pub mod error;
 pub mod fields;
 pub mod model;
 pub mod outputs;
+mod points;
 pub mod rigid;
 pub mod sensitivity;
 pub mod state;

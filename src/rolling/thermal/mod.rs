@@ -8,15 +8,17 @@ mod deformation;
 mod exchange;
 mod thermoelastic;
 
+pub use exchange::Touch;
+
 use super::contact_model::ContactModel;
 use super::error::StepError;
-use super::outputs::PROFILE_POINTS;
+use super::points::{PROFILE_POINTS, profile_points};
 use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::mechanics;
-use crate::piecewise::{self, Piecewise};
+use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 use thermoelastic::Thermoelastic;
@@ -49,14 +51,6 @@ pub struct Scratch {
     seen: Observation,
 }
 
-/// What temperatures see of a contact.
-pub struct Touch<'a> {
-    /// Its forces.
-    pub traction: &'a Traction,
-    /// Reversible temperatures of the surfaces of wheel and rail \[K]; empty if they are not computed.
-    pub reversible: [Piecewise; 2],
-}
-
 impl ThermalModel {
     /// For contact within `zone` \[m] of the contact point; the temperature is resolved up to `margin` \[m] beyond.
     pub fn new(config: &Config, zone: f64, margin: f64) -> Result<Self, HeatError> {
@@ -70,7 +64,7 @@ impl ThermalModel {
             blocks: BrakeBlocks::new(config),
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
-            points: super::outputs::profile_points(zone),
+            points: profile_points(zone),
         })
     }
 
@@ -97,7 +91,7 @@ impl ThermalModel {
         let mut thermal = ThermalState { fields: self.heat.initial(self.wheel_excess), ..ThermalState::default() };
         if v.abs() > AT_REST || (omega * self.radius).abs() > AT_REST {
             let mut exchange = Exchange::default();
-            self.fill_exchange(touch, tread_heat, &mut exchange);
+            exchange::fill(touch, (&self.blocks, tread_heat), &mut exchange);
             let (stationary, flows) = self.heat.stationary(v, omega, &exchange)?;
             thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
             thermal.flows = flows;
@@ -120,7 +114,7 @@ impl ThermalModel {
         scratch: &mut Scratch,
     ) -> Result<ThermalState, StepError> {
         let Scratch { heat, exchange, seen } = scratch;
-        self.fill_exchange(touch, tread_heat, exchange);
+        exchange::fill(touch, (&self.blocks, tread_heat), exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
         self.observe(touch, next.friction, &mut thermal, seen)?;
