@@ -6,6 +6,7 @@ mod common;
 use common::preset;
 use nalgebra::DVector;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
@@ -26,6 +27,8 @@ struct Hertz {
     x: Vec<f64>,
     /// Contact modulus [Pa].
     modulus: f64,
+    /// Distance and angle of the last problem.
+    place: Arc<Mutex<[f64; 2]>>,
 }
 
 impl Hertz {
@@ -117,6 +120,7 @@ impl ContactSolver for Hertz {
         _scratch: &mut Scratch,
     ) -> Result<(), ContactError> {
         let radius = problem.radius();
+        *self.place.lock().unwrap() = [problem.placement.distance, problem.placement.angle];
         // The load at which what presses the wheel down is what holds it up; a secant of an almost linear function.
         let missing = |load: f64| {
             let rigid = self.motion(problem, load, radius);
@@ -176,6 +180,11 @@ impl ContactSolver for Hertz {
 
 /// The model on the toy solver, and one on the solver on the grid.
 fn models() -> [Model; 2] {
+    models_with_place().0
+}
+
+/// The same, with the place of the last problem of the toy solver.
+fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
     let mut config = preset("railway", 10);
     config.thermal.enabled = false;
     config.solver.response = Response::Reduced;
@@ -183,8 +192,10 @@ fn models() -> [Model; 2] {
     let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let pair = |config: &Config| -> Pair { bodies(config, Some(basis.clone()), &mut |_, _| {}).unwrap() };
     let (toys, grids) = (pair(&config), pair(&config));
-    let toy = Hertz { x: toys.surface_x.clone(), modulus: contact_modulus(&config) };
-    [Model::with_solver(config.clone(), toys, Box::new(toy)).unwrap(), Model::new(config, grids).unwrap()]
+    let place = Arc::default();
+    let toy = Hertz { x: toys.surface_x.clone(), modulus: contact_modulus(&config), place: Arc::clone(&place) };
+    let models = [Model::with_solver(config.clone(), toys, Box::new(toy)).unwrap(), Model::new(config, grids).unwrap()];
+    (models, place)
 }
 
 fn start(model: &Model, inputs: &Inputs) -> (State, Workspace) {
@@ -262,4 +273,19 @@ fn states_do_not_pass_from_one_solver_to_the_other() {
     assert!(model.fits(&ours) && on_grid.fits(&theirs));
     assert!(!model.fits(&theirs) && !on_grid.fits(&ours));
     assert!(!ours.contact.same_branch(&theirs.contact));
+}
+
+#[test]
+fn the_contact_is_solved_where_the_step_ends() {
+    let ([model, _], place) = models_with_place();
+    let mut inputs = Inputs::rolling(&model.config);
+    inputs.drive.moment = -500.0;
+    let (state, mut workspace) = start(&model, &inputs);
+    assert_eq!(*place.lock().unwrap(), [0.0, 0.0]);
+    let mut next = State::default();
+    substeps::advance(&model, &model.config.tuning, &state, &inputs, 1e-3, &mut workspace, &mut next).unwrap();
+    let [distance, angle] = *place.lock().unwrap();
+    println!("{distance:.9} m of {:.9} m, {angle:.9} of {:.9}", next.distance, next.angle);
+    assert!(next.distance > 0.02 && (distance / next.distance - 1.0).abs() < 1e-9);
+    assert!((angle / next.angle - 1.0).abs() < 1e-6);
 }
