@@ -65,7 +65,8 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     inputs.drive.friction = 0.08;
     inputs.drive.moment = -8000.0;
     // The flash temperature is in proportion to Q/√(a v).
-    let unit = flash(&config, 1.0, 1.0, 1.0);
+    let m = &config.material;
+    let unit = flash_temperature(1.0, 1.0, 1.0, (m.conductivity * m.density * m.specific_heat).sqrt());
     let (mut hottest, mut all_to_rail, mut locked) = (0.0f64, 0.0f64, false);
     let mut time = 0.0;
     while simulation.outputs().wheel_velocity > 0.05 {
