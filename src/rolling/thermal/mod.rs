@@ -10,7 +10,7 @@ mod thermoelastic;
 
 use super::contact_model::ContactModel;
 use super::error::StepError;
-use super::outputs::PROFILE_POINTS;
+use super::output_rows::PROFILE_POINTS;
 use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};

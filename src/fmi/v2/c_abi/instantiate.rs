@@ -49,8 +49,9 @@ impl Arguments {
         boolean(self.visible, "visible")?;
         let log = Log::new(sink(&name, functions), boolean(self.logging, "loggingOn")?);
         let theirs = theirs?;
-        if theirs != guid() {
-            return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{}\"", guid())));
+        let ours = guid();
+        if theirs != ours {
+            return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{ours}\"")));
         }
         // SAFETY: see the module: a string, unless it is NULL.
         let location = (!self.resources.is_null()).then(|| unsafe { text(self.resources, "fmuResourceLocation") });
