@@ -72,6 +72,6 @@ fn second_instance(c: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(1));
-    targets = layer, second_instance
+    targets = second_instance, layer
 }
 criterion_main!(benches);
