@@ -14,13 +14,19 @@ use uuid::Uuid;
 /// Memory of an instance without its model, which follows from `config`.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Snapshot {
+    /// Where in its life the instance is.
     pub phase: Phase,
+    /// Name of the preset.
     pub preset: String,
     /// Parameters of the preset before explicit ones override them.
     pub base: Config,
+    /// Explicitly set parameters.
     pub parameters: SetValues,
+    /// Explicitly set inputs.
     pub inputs: SetValues,
+    /// Present values that inputs took over when a control was switched to them.
     pub bumpless: SetValues,
+    /// Time derivatives of the inputs during the next step.
     pub rates: Drive,
     /// Current communication point \[s].
     pub time: f64,

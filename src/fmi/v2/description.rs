@@ -16,8 +16,9 @@ use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
 
-/// End of the default experiment and its communication step \[s].
+/// End of the default experiment \[s].
 pub const DEFAULT_STOP_TIME: f64 = 1.0;
+/// Communication step of the default experiment \[s].
 pub const DEFAULT_STEP_SIZE: f64 = 1e-3;
 
 const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an elastic rail: plane finite elements in \

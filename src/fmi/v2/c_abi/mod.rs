@@ -100,6 +100,7 @@ pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
 }
 
 #[unsafe(no_mangle)]
+/// Version of the standard.
 pub extern "C" fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
 }
