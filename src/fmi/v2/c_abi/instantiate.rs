@@ -64,6 +64,7 @@ impl Arguments {
     }
 }
 
+/// A new instance; NULL if it cannot be made, after a message.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     instanceName: fmi2String,
@@ -101,6 +102,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     ptr::null_mut()
 }
 
+/// Frees an instance with all its states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
     if !c.is_null() {
