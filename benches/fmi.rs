@@ -55,9 +55,23 @@ fn layer(c: &mut Criterion) {
     c.bench_function("deserialize", |b| b.iter(|| assert_eq!(slave.deserialize(&bytes, &mut state), fmi2OK)));
 }
 
+/// What a second wheel like one that rolls already costs until it can step.
+fn second_instance(c: &mut Criterion) {
+    let dll = load();
+    let first = Slave::new(&dll);
+    first.initialize();
+    c.bench_function("second equal instance, ready to step", |b| {
+        b.iter(|| {
+            let second = Slave::new(&dll);
+            second.initialize();
+            second
+        })
+    });
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(1));
-    targets = layer
+    targets = second_instance, layer
 }
 criterion_main!(benches);

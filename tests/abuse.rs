@@ -298,7 +298,7 @@ impl<'a> Master<'a> {
         for _ in 0..count {
             let variable = self.random.of(&inputs);
             let Kind::Real { min, max, .. } = variable.kind else { unreachable!() };
-            let value = self.input_value(&variable.name, min, max);
+            let value = self.input_value(variable.name, min, max);
             legal &= (min..=max).contains(&value);
             references.push(variable.reference);
             values.push(value);

@@ -80,7 +80,7 @@ fn errors(per_half_width: usize) -> (f64, f64) {
     for load in loads() {
         let solution = roll(&bodies, load, 0.0);
         let force = normal(&bodies, &solution);
-        let patches = &solution.traction.patches;
+        let patches = &solution.traction.edges;
         assert_eq!(patches.len(), 2, "load {load}");
         let (a, b) = well.edges(load);
         let peak = (0..1000).map(|k| well.pressure(b + (a - b) * k as f64 / 1000.0, load)).fold(0.0, f64::max);

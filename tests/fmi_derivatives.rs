@@ -167,7 +167,7 @@ fn declared(section: &str) -> Vec<(&'static str, Option<Vec<&'static str>>)> {
         let rest = line.split(&format!(" {name}=\"")).nth(1)?;
         Some(rest.split('"').next().unwrap().to_owned())
     };
-    let name = |index: &str| variables()[index.parse::<usize>().unwrap() - 1].name.as_str();
+    let name = |index: &str| variables()[index.parse::<usize>().unwrap() - 1].name;
     let unknowns = inside.lines().filter(|line| line.contains("<Unknown"));
     unknowns
         .map(|line| {
@@ -187,8 +187,8 @@ fn a_tool_that_skips_pairs_not_declared_gets_every_derivative() {
         assert_eq!(slave.set_integer(name, 1), fmi2OK);
     }
     let is_real = |name: &str| variable(name).kind.type_name() == "Real";
-    let inputs = variables().iter().filter(|v| v.causality() == Causality::Input && is_real(&v.name));
-    let inputs: Vec<&str> = inputs.map(|v| v.name.as_str()).collect();
+    let inputs = variables().iter().filter(|v| v.causality() == Causality::Input && is_real(v.name));
+    let inputs: Vec<&str> = inputs.map(|v| v.name).collect();
     let compare = |slave: &Slave, section: &str| {
         let declared: Vec<_> = declared(section).into_iter().filter(|(name, _)| is_real(name)).collect();
         let names: Vec<&str> = declared.iter().map(|(name, _)| *name).collect();

@@ -329,7 +329,7 @@ fn input_derivatives_make_a_ramp_for_one_step() {
 /// Bits of all real outputs by name.
 fn named_outputs(slave: &Slave) -> Vec<(&'static str, u64)> {
     let real = |v: &&Variable| v.causality() == Causality::Output && v.kind.type_name() == "Real";
-    variables().iter().filter(real).map(|v| v.name.as_str()).zip(slave.outputs()).collect()
+    variables().iter().filter(real).map(|v| v.name).zip(slave.outputs()).collect()
 }
 
 #[test]

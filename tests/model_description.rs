@@ -31,7 +31,7 @@ fn committed_reference_is_the_generated_one() {
 
 #[test]
 fn a_profile_is_one_row_and_its_points_are_scalars() {
-    let arrays: Vec<_> = table().iter().filter(|row| row.dimension.is_some()).collect();
+    let arrays: Vec<_> = table().into_iter().filter(|row| row.dimension.is_some()).collect();
     assert_eq!(arrays.len(), 6);
     assert_eq!(variables().len(), table().len() - 6 + 6 * PROFILE_POINTS);
     let values: Vec<f64> = (0..PROFILE_POINTS).map(|k| k as f64).collect();
@@ -108,7 +108,7 @@ fn parameters_are_the_fields_of_the_configuration() {
     };
     let field = |v: &'static Variable| match v.name.split_once('.') {
         Some((_, name)) => format!("{}.{name}", group(v)),
-        None => v.name.clone(),
+        None => v.name.to_owned(),
     };
     let mut names: Vec<_> = with_causality(Causality::Parameter).map(field).collect();
     fields.sort();
@@ -149,8 +149,8 @@ fn declared_ranges_of_inputs_are_those_of_the_model() {
             inputs.validate()
         };
         for value in outside.into_iter().chain([f64::NAN]) {
-            let error = validated(value).expect_err(&variable.name);
-            assert!(error.to_string().contains(&variable.name), "{error}");
+            let error = validated(value).expect_err(variable.name);
+            assert!(error.to_string().contains(variable.name), "{error}");
         }
         for value in inside {
             assert_eq!(validated(value).map_err(|error| error.to_string()), Ok(()));
@@ -170,7 +170,7 @@ fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
         for value in values {
             let mut config = Config::default();
             variable.set_parameter(&mut config, &value);
-            let error = config.validate().expect_err(&variable.name);
+            let error = config.validate().expect_err(variable.name);
             assert_eq!(error.name, variable.name);
             assert!(variable.check(&value).is_err());
         }

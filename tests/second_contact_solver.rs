@@ -160,6 +160,7 @@ impl ContactSolver for Hertz {
             port_forces: forces,
             rigid,
             friction_power: 0.0,
+            edges: vec![Interval { low: -half_width, high: half_width }],
             patches: vec![Interval { low: -half_width, high: half_width }],
             stick_fraction: 0.0,
             pressure_max: peak,

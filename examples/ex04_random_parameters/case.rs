@@ -61,7 +61,7 @@ impl Case {
             let chosen = match variable.causality() {
                 _ if matches!(variable.access, Access::Preset) => None,
                 Causality::Output => None,
-                Causality::Parameter if coarse && size.contains(&variable.name.as_str()) => {
+                Causality::Parameter if coarse && size.contains(&variable.name) => {
                     Some(Value::Integer(4 + random.below(5) as i32))
                 }
                 Causality::Parameter if variable.name == "solver.response" && coarse => Some(Value::Integer(1)),
@@ -158,7 +158,7 @@ fn fit_lengths(values: &mut [(&'static Variable, Value)], random: &mut Random) {
         return;
     };
     for (variable, value) in values {
-        let share = match variable.name.as_str() {
+        let share = match variable.name {
             "wheel.hub_radius" => random.between(0.02, 0.9),
             "rail.length" => random.logarithmic(0.2, 5.0),
             "rail.height" => random.logarithmic(0.02, 1.0),
@@ -184,6 +184,6 @@ fn outside(instance: &mut Instance, time: f64) -> Result<Option<String>, CallErr
 
 /// Whether a message names a variable of the interface or an argument of the call.
 fn named(message: &str) -> bool {
-    let mut names = variables().iter().map(|v| v.name.as_str()).chain(ARGUMENTS);
+    let mut names = variables().iter().map(|v| v.name).chain(ARGUMENTS);
     names.any(|name| message.contains(name))
 }

@@ -41,7 +41,7 @@ pub fn find(name: &str, allowed: impl Fn(&Variable) -> bool) -> Result<&'static 
     }
     // Points of profiles would crowd out everything else.
     let listed = candidates().filter(|v| !v.name.contains('[') || name.contains('['));
-    let names = nearest(name, listed.map(|v| v.name.as_str()));
+    let names = nearest(name, listed.map(|v| v.name));
     Err(Failure::Usage(format!("variable \"{name}\" is unknown; nearest: {names}")))
 }
 

@@ -45,7 +45,7 @@ impl Simulate {
         let columns = columns(&self.outputs)?;
         let mut run = Run::start(&self.setup, &self.course, &[])?;
         let mut csv = Csv::create(self.out.as_deref())?;
-        csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name.as_str())))?;
+        csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name)))?;
         // A bar and results on the same terminal would overwrite each other.
         let shared = self.out.is_none() && io::stdout().is_terminal();
         let bar = if shared { ProgressBar::hidden() } else { model::bar("simulate", run.steps as u64) };

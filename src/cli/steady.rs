@@ -126,7 +126,7 @@ impl OperatingPoint {
         let prescribed = ["control.rotation", "control.translation"].map(|name| Setting::new(name, "velocity"));
         let fixed = prescribed.into_iter().chain(fixed.iter().cloned().map(Ok)).collect::<Result<Vec<_>, _>>()?;
         for Setting { variable, .. } in setup.settings()? {
-            if ["drive.velocity", "drive.omega", "initial.creepage"].contains(&variable.name.as_str()) {
+            if ["drive.velocity", "drive.omega", "initial.creepage"].contains(&variable.name) {
                 let name = &variable.name;
                 return Err(Failure::Usage(format!("{name} follows from --velocity and --creepage and cannot be set")));
             }
@@ -187,7 +187,7 @@ impl Steady {
             return Ok(());
         }
         let mut csv = Csv::create(self.out.as_deref())?;
-        csv.header(columns.iter().map(|v| v.name.as_str()))?;
+        csv.header(columns.iter().map(|v| v.name))?;
         rows.iter().try_for_each(|row| csv.row(None, &columns, row))?;
         csv.finish()
     }

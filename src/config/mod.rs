@@ -136,14 +136,43 @@ impl Config {
         }
     }
 
-    /// Ranges that depend on other parameters.
-    fn dependent(&self) -> [Dependent; 6] {
-        let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
-        let with_radius = || format!("wheel.radius = {} m", display_number(radius));
+    /// Initial motions slower than the surface waves: |V| < c and |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the
+    /// model.
+    fn subsonic(&self) -> [Dependent; 2] {
         let Initial { velocity, creepage } = self.initial;
-        // The rim stays below the surface waves: |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the model.
         let wave = self.rayleigh_speed();
         let share = wave / velocity.abs();
+        let material = format!(
+            "material.youngs_modulus = {} Pa and material.density = {} kg/m3, whose surface waves have {} m/s",
+            display_number(self.material.youngs_modulus),
+            display_number(self.material.density),
+            display_number(wave)
+        );
+        [
+            Dependent {
+                name: "initial.velocity",
+                value: velocity,
+                unit: "m/s",
+                low: -wave,
+                high: wave,
+                others: material.clone(),
+            },
+            Dependent {
+                name: "initial.creepage",
+                value: creepage,
+                unit: "1",
+                low: if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 },
+                high: f64::INFINITY,
+                others: format!("initial.velocity = {} m/s, {material}", display_number(velocity)),
+            },
+        ]
+    }
+
+    /// Ranges that depend on other parameters.
+    fn dependent(&self) -> [Dependent; 7] {
+        let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
+        let with_radius = || format!("wheel.radius = {} m", display_number(radius));
+        let [velocity, creepage] = self.subsonic();
         [
             Dependent {
                 name: "wheel.hub_radius",
@@ -180,18 +209,8 @@ impl Config {
                     display_number(self.thermal.reference)
                 ),
             },
-            Dependent {
-                name: "initial.creepage",
-                value: creepage,
-                unit: "1",
-                low: if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 },
-                high: infinity,
-                others: format!(
-                    "initial.velocity = {} m/s (the rim stays slower than surface waves, {} m/s)",
-                    display_number(velocity),
-                    display_number(wave)
-                ),
-            },
+            velocity,
+            creepage,
             self.contact_zone(),
         ]
     }
@@ -219,7 +238,10 @@ mod tests {
             |c| (c.wheel.radius, c.wheel.hub_radius) = (1.0, 0.01),
             &["wheel.hub_radius = 0.01 ", "0.02 to 0.9 m with wheel.radius = 1 m"],
         );
-        refused(|c| c.wheel.radius = 0.05, &["wheel.radius = 0.05 ", "0.1 to 2 m"]);
+        refused(
+            |c| c.wheel.radius = 0.05,
+            &["wheel.hub_radius = 0.046 ", "0.001 to 0.045 m with wheel.radius = 0.05 m"],
+        );
         refused(
             |c| (c.wheel.radius, c.rail.length) = (2.0, 0.2),
             &["rail.length = 0.2 ", "at least 0.4 m with wheel.radius = 2 m"],
@@ -234,7 +256,17 @@ mod tests {
         );
         refused(
             |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, -1.0, 5e9),
-            &["initial.creepage = -1 ", "at least -0.78", "with initial.velocity = 200 m/s", "459.164 m/s"],
+            &[
+                "initial.creepage = -1 ",
+                "at least -0.78",
+                "with initial.velocity = 200 m/s",
+                "459.164 m/s",
+                "youngs_modulus",
+            ],
+        );
+        refused(
+            |c| c.material.youngs_modulus = 1e5,
+            &["initial.velocity = 27.7778 ", "-2.05344 to 2.05344 m/s with material.youngs_modulus = 100000 Pa"],
         );
         refused(
             |c| (c.model.contact_width, c.model.nominal_load) = (2e-3, 2e6),
@@ -245,6 +277,6 @@ mod tests {
                 "rail.length = 1 m",
             ],
         );
-        refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.5 to 2"]);
+        refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.99 to 2"]);
     }
 }

@@ -78,14 +78,19 @@ macro_rules! parameters {
         )*
 
         impl $Config {
+            /// Number of parameters.
+            pub const COUNT: usize = [$($( $number ),*),*].len();
+
             /// The row of every parameter, in the order of their numbers.
             #[allow(clippy::needless_update)] // A row may give all its limits.
             pub fn rows() -> &'static [$crate::config::row::Row<$Config>] {
                 use $crate::config::units::Measure;
                 use $crate::config::value::{Field, Limits};
-                static ROWS: std::sync::OnceLock<Vec<$crate::config::row::Row<$Config>>> = std::sync::OnceLock::new();
+                // An array: a vector would be lost when the library is unloaded, for statics are never dropped.
+                type Rows = [$crate::config::row::Row<$Config>; $Config::COUNT];
+                static ROWS: std::sync::OnceLock<Rows> = std::sync::OnceLock::new();
                 ROWS.get_or_init(|| {
-                    let mut rows = vec![$($(
+                    let mut rows = [$($(
                         $crate::config::row::Row {
                             number: $number,
                             name: concat!(parameters!(@group $group $(, $of)?), ".", stringify!($field)),

@@ -1,8 +1,8 @@
 //! The table of parameters: a parameter is one row here, and its use in the code.
 //!
 //! Struct field with documentation, default (the preset `railway`), range check, access by name, the interface and the
-//! reference pages follow from the row. Ranges are what the model accepts when everything else keeps its default; some
-//! values depend on others besides, see [`Config::validate`].
+//! reference pages follow from the row. A range holds all values that
+//! make sense with some values of the others; those that depend on each other are told so by [`Config::validate`].
 
 use super::row::parameters;
 use super::value::choice;
@@ -13,15 +13,16 @@ parameters! {
     pub struct Config {
         /// Map between the two-dimensional model and the whole wheel, and size of the contact zone.
         model: ModelParameters fixed {
-            1010 contact_width: f64 = 0.014, in "m" as "mm", from 2e-3 to 10.0,
+            1010 contact_width: f64 = 0.014, in "m" as "mm", from 1e-4 to 10.0,
                 "Width of the line contact: forces of the wheel = width x forces of the plane model";
-            1011 nominal_load: f64 = 100e3, in "N" as "kN", from 10.0 to 5e6,
-                "Wheel load for which the mesh is laid out; the candidate contact zone carries at least twice this load";
+            1011 nominal_load: f64 = 100e3, in "N" as "kN", from 1e-3 to 1e9,
+                "Wheel load for which the mesh is laid out, with a contact that fits wheel and rail; the candidate \
+                 contact zone carries at least twice this load";
         }
         /// Deformable annulus on a rigid hub.
         wheel: Wheel fixed {
-            1020 radius: f64 = 0.46, in "m", from 0.1 to 2.0, "Outer radius of the wheel";
-            1021 hub_radius: f64 = 0.046, in "m", from 0.01 to 0.4,
+            1020 radius: f64 = 0.46, in "m", from 0.01 to 10.0, "Outer radius of the wheel";
+            1021 hub_radius: f64 = 0.046, in "m", from 2e-4 to 9.0,
                 "Radius of the rigid hub, 0.02 to 0.9 of wheel.radius";
             1022 hub_mass: f64 = 250.0, in "kg", from 0.0 to 1e6, "Unsprung mass fixed to the hub, moving in x and y";
             1023 hub_inertia: f64 = 15.0, in "kg.m2", from 0.0 to 1e6, "Moment of inertia of that mass about the axle";
@@ -33,14 +34,14 @@ parameters! {
         }
         /// Plate below the wheel, fixed at its base.
         rail: Rail fixed {
-            1040 length: f64 = 1.0, in "m", from 0.12 to 100.0,
+            1040 length: f64 = 1.0, in "m", from 2e-3 to 100.0,
                 "Modelled length of the rail, at least 0.2 wheel.radius";
-            1041 height: f64 = 0.1, in "m", from 0.02 to 2.0,
+            1041 height: f64 = 0.1, in "m", from 2e-4 to 10.0,
                 "Height of the rail, at least 0.02 wheel.radius; its base is fixed";
         }
         /// Isotropic linear elastic material of both bodies.
         material: Material fixed {
-            1050 youngs_modulus: f64 = 210e9, in "Pa" as "GPa", from 5e9 to 1e12, "Young's modulus of both bodies";
+            1050 youngs_modulus: f64 = 210e9, in "Pa" as "GPa", from 1e5 to 1e13, "Young's modulus of both bodies";
             1051 poissons_ratio: f64 = 0.3, from 0.0 to 0.49, "Poisson's ratio of both bodies";
             1052 density: f64 = 7850.0, in "kg/m3", from 1.0 to 1e5, "Density of both bodies";
             1053 expansion: f64 = 1.2e-5, in "1/K", from 0.0 to 1e-3,
@@ -57,8 +58,8 @@ parameters! {
             1110 enabled: bool = true, "Whether temperatures are computed";
             1111 reference: f64 = 293.0, in "K" as "degC", from 1.0 to 1e4,
                 "Absolute temperature of hub, air and arriving rail";
-            1112 wheel_excess: f64 = 0.0, in "K", from -200.0 to 5e3,
-                "Excess temperature of the whole wheel over the reference at the start (a warm wheel)";
+            1112 wheel_excess: f64 = 0.0, in "K", from -1e3 to 5e3,
+                "Excess temperature of the whole wheel over the reference at the start (a warm wheel), above absolute zero";
             1113 conductance: f64 = 1e8, in "W/(m2.K)", from 0.0 to 1e12, "Contact conductance between wheel and rail";
             1114 conductance_law: ConductanceLaw = ConductanceLaw::Constant,
                 "How the contact conductance depends on pressure";
@@ -103,8 +104,9 @@ parameters! {
         /// Stationary rolling state from which the run starts.
         initial: Initial fixed {
             1100 velocity: f64 = 100.0 / 3.6, in "m/s" as "km/h", from -200.0 to 200.0,
-                "Travel velocity of the stationary rolling state at the start";
-            1101 creepage: f64 = 0.0, in "1" as "%", from -1.5 to 2.0, "Its creepage 2 (V - r omega)/(V + r omega)";
+                "Travel velocity of the stationary rolling state at the start, slower than surface waves";
+            1101 creepage: f64 = 0.0, in "1" as "%", from -1.99 to 2.0,
+                "Its creepage 2 (V - r omega)/(V + r omega), with a rim slower than surface waves";
         }
         /// What may change during a run: nothing that is computed in advance depends on it.
         ///

@@ -9,34 +9,14 @@ pub struct Measure {
     pub display: Option<&'static str>,
 }
 
-const fn measure(unit: &'static str, display: &'static str) -> Measure {
-    Measure { unit, display: Some(display) }
-}
-
-pub const NUMBER: Measure = Measure { unit: "1", display: None };
-pub const PERCENT: Measure = measure("1", "%");
-pub const METRE: Measure = Measure { unit: "m", display: None };
-pub const MILLIMETRE: Measure = measure("m", "mm");
-pub const SECOND: Measure = Measure { unit: "s", display: None };
-pub const DEGREE: Measure = measure("rad", "deg");
-pub const SPEED: Measure = measure("m/s", "km/h");
-pub const SLIP: Measure = measure("m/s", "mm/s");
-pub const ROTATION: Measure = measure("rad/s", "rpm");
-pub const ACCELERATION: Measure = Measure { unit: "m/s2", display: None };
-pub const ANGULAR_ACCELERATION: Measure = Measure { unit: "rad/s2", display: None };
-pub const FORCE: Measure = measure("N", "kN");
-pub const NEWTON: Measure = Measure { unit: "N", display: None };
-pub const MOMENT: Measure = measure("N.m", "kN.m");
-pub const PRESSURE: Measure = measure("Pa", "MPa");
-pub const POWER: Measure = measure("W", "kW");
-/// Absolute temperature.
-pub const TEMPERATURE: Measure = measure("K", "degC");
-
 /// A unit for people: `display = factor · value + offset`.
 #[derive(Clone, Copy, Debug)]
 pub struct Display {
+    /// Its name.
     pub name: &'static str,
+    /// How many of it make one SI unit.
     pub factor: f64,
+    /// What zero of the SI unit is in it.
     pub offset: f64,
 }
 
@@ -48,9 +28,11 @@ const fn times(name: &'static str, factor: f64) -> Display {
 /// A coherent SI unit as a product of powers of base units.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
+    /// Its name.
     pub name: &'static str,
     /// Exponents of [`BASE_UNITS`].
     pub exponents: [i32; 5],
+    /// What people like to read instead.
     pub displays: &'static [Display],
 }
 

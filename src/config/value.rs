@@ -74,9 +74,23 @@ impl Enumeration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Numbers with a unit; `nominal` is their usual size.
-    Real { measure: Measure, min: f64, max: f64, nominal: f64 },
+    Real {
+        /// Unit.
+        measure: Measure,
+        /// Smallest value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+        /// Usual size.
+        nominal: f64,
+    },
     /// Whole numbers.
-    Integer { min: i32, max: i32 },
+    Integer {
+        /// Smallest value.
+        min: i32,
+        /// Largest value.
+        max: i32,
+    },
     /// Switches.
     Boolean,
     /// Texts.

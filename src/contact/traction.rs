@@ -21,7 +21,11 @@ pub struct Traction {
     pub resultant: [f64; 3],
     /// Power dissipated by friction [W/m].
     pub friction_power: f64,
-    /// The contact patches between their trailing and leading edges, x ascending \[m].
+    /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
+    /// beside them.
+    pub edges: Vec<Interval>,
+    /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero, and heat conducts.
+    /// Each holds everything on which forces act, so that it may reach a little beyond its edges.
     pub patches: Vec<Interval>,
     /// Share of the contact length that sticks \[1].
     pub stick_fraction: f64,
@@ -41,14 +45,14 @@ pub struct Traction {
 }
 
 impl Traction {
-    /// From the first trailing to the last leading edge; `None` without contact.
+    /// From the beginning of the first patch to the end of the last one; `None` without contact.
     pub fn extent(&self) -> Option<Interval> {
-        Some(Interval { low: self.patches.first()?.low, high: self.patches.last()?.high })
+        hull(&self.patches)
     }
 
     /// Half of the distance between the outermost contact edges \[m]; zero without contact.
     pub fn half_width(&self) -> f64 {
-        self.extent().map_or(0.0, |patch| 0.5 * (patch.high - patch.low))
+        hull(&self.edges).map_or(0.0, |edges| 0.5 * (edges.high - edges.low))
     }
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.
@@ -57,4 +61,9 @@ impl Traction {
         self.slip.value.fill(0.0);
         self.dissipation.value.fill(0.0);
     }
+}
+
+/// From the beginning of the first interval to the end of the last one.
+fn hull(intervals: &[Interval]) -> Option<Interval> {
+    Some(Interval { low: intervals.first()?.low, high: intervals.last()?.high })
 }

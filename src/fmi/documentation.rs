@@ -17,7 +17,7 @@ const SIGNS: &str = include_str!("../../docs/signs.svg");
 pub fn index_html() -> String {
     let mut html = INTRODUCTION
         .replace("{version}", env!("CARGO_PKG_VERSION"))
-        .replace("{guid}", description::guid())
+        .replace("{guid}", &description::guid())
         .replace("{signs}", SIGNS)
         .replace("{preset}", presets::DEFAULT)
         .replace("{mit}", &escaped(include_str!("../../LICENSE-MIT")))

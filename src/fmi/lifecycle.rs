@@ -23,11 +23,17 @@ pub enum Phase {
 /// Groups of functions with the same rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Call {
+    /// `fmi2SetDebugLogging`.
     SetDebugLogging,
+    /// `fmi2SetupExperiment`.
     SetupExperiment,
+    /// `fmi2EnterInitializationMode`.
     EnterInitializationMode,
+    /// `fmi2ExitInitializationMode`.
     ExitInitializationMode,
+    /// `fmi2Terminate`.
     Terminate,
+    /// `fmi2Reset`.
     Reset,
     /// `fmi2GetReal`, `…Integer`, `…Boolean`, `…String`.
     Get,
@@ -35,10 +41,15 @@ pub enum Call {
     Set,
     /// `fmi2GetFMUstate` and its family, including serialization.
     FmuState,
+    /// `fmi2GetDirectionalDerivative`.
     GetDirectionalDerivative,
+    /// `fmi2SetRealInputDerivatives`.
     SetRealInputDerivatives,
+    /// `fmi2GetRealOutputDerivatives`.
     GetRealOutputDerivatives,
+    /// `fmi2DoStep`.
     DoStep,
+    /// `fmi2CancelStep`.
     CancelStep,
     /// `fmi2GetStatus`, `…RealStatus`, `…IntegerStatus`, `…BooleanStatus`, `…StringStatus`.
     GetStatus,

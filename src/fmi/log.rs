@@ -3,12 +3,15 @@
 /// Severity of a message and outcome of a call, in the order of `fmi2Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
+    /// The call succeeded.
     Ok,
+    /// It succeeded, with a doubt.
     Warning,
     /// A step was not completed; the instance stands where it was before.
     Discard,
     /// A call was refused; nothing has changed.
     Error,
+    /// The instance is beyond repair.
     Fatal,
 }
 
@@ -22,7 +25,9 @@ pub const CATEGORIES: [(&str, &str); 7] = [
     (PROGRESS, "Progress of long computations during initialization"),
     (ALL, "All categories"),
 ];
+/// Category of milestones of a run.
 pub const EVENTS: &str = "logEvents";
+/// Category of the progress of long computations.
 pub const PROGRESS: &str = "logProgress";
 /// Stands for all categories in `fmi2SetDebugLogging`; no message carries it.
 pub const ALL: &str = "logAll";
@@ -43,14 +48,18 @@ impl Status {
 /// Why a call was not carried out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CallError {
+    /// What the C function returns.
     pub status: Status,
+    /// Why, in the words of the user.
     pub message: String,
 }
 
 impl CallError {
+    /// A call that is refused and changes nothing.
     pub fn error(message: impl Into<String>) -> CallError {
         CallError { status: Status::Error, message: message.into() }
     }
+    /// A step that could not be computed.
     pub fn discard(message: impl Into<String>) -> CallError {
         CallError { status: Status::Discard, message: message.into() }
     }
@@ -67,6 +76,7 @@ pub struct Log {
 }
 
 impl Log {
+    /// Passes messages to `sink`; `on`: those of all categories.
     pub fn new(sink: Sink, on: bool) -> Log {
         Log { sink, enabled: [on; CATEGORIES.len()] }
     }
@@ -94,6 +104,7 @@ impl Log {
         self.send(status, status.category(), message);
     }
 
+    /// Tells the progress of a long computation.
     pub fn progress(&self, message: &str) {
         self.send(Status::Ok, PROGRESS, message);
     }

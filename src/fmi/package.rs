@@ -118,18 +118,35 @@ fn platform_names() -> String {
 /// An FMU that cannot be written as asked for.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
+    /// A platform that the standard does not name.
     #[error("platform {0:?} is unknown: {list}", list = platform_names())]
     Platform(String),
+    /// An argument without platform or file.
     #[error("{0:?} is not of the form PLATFORM=FILE")]
     Pair(String),
+    /// A file that is no shared library of its platform.
     #[error("{} is no shared library for {platform}", path.display())]
-    NoLibrary { path: PathBuf, platform: &'static str },
+    NoLibrary {
+        /// The file.
+        path: PathBuf,
+        /// The platform.
+        platform: &'static str,
+    },
+    /// Two libraries for one platform.
     #[error("two binaries for {0}")]
     Twice(&'static str),
+    /// A file that cannot be read.
     #[error("{}: {source}", path.display())]
-    File { path: PathBuf, source: io::Error },
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The archive cannot be made.
     #[error(transparent)]
     Zip(#[from] zip::result::ZipError),
+    /// The archive cannot be written.
     #[error(transparent)]
     Write(#[from] io::Error),
 }

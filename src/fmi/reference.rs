@@ -49,7 +49,7 @@ pub fn cells(variable: &Variable) -> Cells {
             variable.reference + 1,
             format!("{}, evenly spaced points", variable.description),
         ),
-        None => (variable.name.clone(), variable.reference, variable.description.clone()),
+        None => (variable.name.to_owned(), variable.reference, variable.description.to_owned()),
     };
     let start = match start_value(variable) {
         Some(Value::Real(value)) => display_number(value),

@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::config::row::Row;
-use crate::simulation::{Drive, Inputs, Outputs};
+use crate::simulation::{Drive, Inputs, OutputRow, Outputs, Read};
 
 pub use crate::config::value::{Enumeration, Kind, Value};
 
@@ -20,14 +20,10 @@ pub enum Access {
     RealInput(fn(&mut Drive) -> &mut f64),
     /// A choice between partners: getter and setter, which ignores values of another type.
     ChoiceInput(fn(&Inputs) -> Value, fn(&mut Inputs, &Value)),
-    /// A real output.
-    RealOutput(fn(&Outputs) -> f64),
-    /// An output that counts.
-    CountOutput(fn(&Outputs) -> u64),
-    /// All points of a profile across the contact patch.
-    ArrayOutput(fn(&Outputs) -> &[f64]),
-    /// One of them, counted from 0.
-    ProfileOutput(fn(&Outputs) -> &[f64], usize),
+    /// An output.
+    Output(&'static OutputRow),
+    /// One point of a profile, counted from 0.
+    ProfilePoint(fn(&Outputs) -> &[f64], usize),
 }
 
 /// FMI causality of a variable.
@@ -50,13 +46,14 @@ pub enum Start {
     Stationary,
 }
 
-/// One row of the table.
-#[derive(Clone)]
+/// One row of the table. It owns no memory: rows are kept in statics, and what those own is lost when the library is
+/// unloaded.
+#[derive(Clone, Copy)]
 pub struct Variable {
     /// Value reference.
     pub reference: Reference,
     /// Name in the form `group.name`.
-    pub name: String,
+    pub name: &'static str,
     /// Type, unit and range; those of the elements of an array.
     pub kind: Kind,
     /// Number of elements of an array; `None` for a scalar.
@@ -68,7 +65,7 @@ pub struct Variable {
     /// Whether a parameter may change between steps.
     pub tunable: bool,
     /// Meaning, plain text.
-    pub description: String,
+    pub description: &'static str,
 }
 
 impl Variable {
@@ -77,9 +74,7 @@ impl Variable {
         match self.access {
             Access::Preset | Access::Parameter(_) => Causality::Parameter,
             Access::RealInput(_) | Access::ChoiceInput(..) => Causality::Input,
-            Access::RealOutput(_) | Access::CountOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
-                Causality::Output
-            }
+            Access::Output(_) | Access::ProfilePoint(..) => Causality::Output,
         }
     }
 
@@ -119,13 +114,18 @@ impl Variable {
 
     /// Value of an output; `None` for other variables.
     pub fn output(&self, outputs: &Outputs) -> Option<Value> {
-        match self.access {
-            Access::RealOutput(get) => Some(Value::Real(get(outputs))),
-            Access::CountOutput(get) => Some(Value::Integer(i32::try_from(get(outputs)).unwrap_or(i32::MAX))),
-            Access::ArrayOutput(get) => Some(Value::Reals(get(outputs).to_vec())),
-            Access::ProfileOutput(get, point) => Some(Value::Real(get(outputs).get(point).copied().unwrap_or(0.0))),
-            _ => None,
-        }
+        let read = match self.access {
+            Access::Output(row) => row.read,
+            Access::ProfilePoint(get, point) => {
+                return Some(Value::Real(get(outputs).get(point).copied().unwrap_or(0.0)));
+            }
+            _ => return None,
+        };
+        Some(match read {
+            Read::Real(get) => Value::Real(get(outputs)),
+            Read::Count(get) => Value::Integer(i32::try_from(get(outputs)).unwrap_or(i32::MAX)),
+            Read::Profile(get) => Value::Reals(get(outputs).to_vec()),
+        })
     }
 
     /// Value of a real output, 0 for other variables.
@@ -138,6 +138,6 @@ impl Variable {
 
     /// Refuses a value of the wrong type, not finite or outside the declared range; the text names all three.
     pub fn check(&self, value: &Value) -> Result<(), String> {
-        self.kind.check(&self.name, value)
+        self.kind.check(self.name, value)
     }
 }

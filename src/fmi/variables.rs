@@ -1,39 +1,60 @@
 //! The scalar variables of FMI 2.0: the table with its arrays spread over one variable per element.
 
-use super::table::table;
+use super::table::{preset, table};
 use super::variable::{Access, Reference, Variable};
+use crate::config::Config;
+use crate::simulation::{Drive, Inputs, Outputs, Read};
+use std::array::from_fn;
 use std::sync::OnceLock;
+
+/// Number of scalar variables: the preset, parameters, inputs and outputs.
+const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + output_count();
+
+/// Number of scalar outputs.
+const fn output_count() -> usize {
+    let (mut count, mut k) = (0, 0);
+    while k < Outputs::ROWS.len() {
+        let points = Outputs::ROWS[k].points.len();
+        count += if points > 0 { points } else { 1 };
+        k += 1;
+    }
+    count
+}
 
 /// All scalar variables, in the order of the model description.
 pub fn variables() -> &'static [Variable] {
-    static SCALARS: OnceLock<Vec<Variable>> = OnceLock::new();
-    SCALARS.get_or_init(|| table().iter().flat_map(scalars).collect())
+    // Arrays here and below: vectors would be lost when the library is unloaded, for statics are never dropped.
+    static SCALARS: OnceLock<[Variable; COUNT]> = OnceLock::new();
+    SCALARS.get_or_init(|| {
+        let table = table();
+        let mut scalars = table.iter().flat_map(scalars);
+        from_fn(|_| scalars.next().unwrap_or_else(preset))
+    })
 }
 
 /// Variable with the given value reference.
 pub fn find(reference: Reference) -> Option<&'static Variable> {
-    static ORDER: OnceLock<Vec<(Reference, usize)>> = OnceLock::new();
+    static ORDER: OnceLock<[usize; COUNT]> = OnceLock::new();
     let order = ORDER.get_or_init(|| {
-        let mut order: Vec<_> = variables().iter().enumerate().map(|(i, v)| (v.reference, i)).collect();
-        order.sort_unstable();
+        let mut order = from_fn(|k| k);
+        order.sort_unstable_by_key(|&k: &usize| variables()[k].reference);
         order
     });
-    let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
-    Some(&variables()[order[position].1])
+    let position = order.binary_search_by_key(&reference, |&k| variables()[k].reference).ok()?;
+    Some(&variables()[order[position]])
 }
 
 /// A scalar itself; the elements of an array, whose references follow that of the array.
 fn scalars(row: &Variable) -> Vec<Variable> {
-    let (Some(dimension), Access::ArrayOutput(get)) = (row.dimension, row.access) else {
-        return vec![row.clone()];
-    };
-    let element = |point: usize| Variable {
+    let Access::Output(output) = row.access else { return vec![*row] };
+    let Read::Profile(get) = output.read else { return vec![*row] };
+    let element = |(point, &(name, description))| Variable {
         reference: row.reference + 1 + point as Reference,
-        name: format!("{}[{}]", row.name, point + 1),
+        name,
         dimension: None,
-        access: Access::ProfileOutput(get, point),
-        description: format!("{}, point {}", row.description, point + 1),
-        ..row.clone()
+        access: Access::ProfilePoint(get, point),
+        description,
+        ..*row
     };
-    (0..dimension).map(element).collect()
+    output.points.iter().enumerate().map(element).collect()
 }

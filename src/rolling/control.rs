@@ -132,9 +132,12 @@ macro_rules! inputs {
         }
 
         impl Inputs {
+            /// Number of choices between partners.
+            pub const CONTROLS: usize = [$( $choice_number ),*].len();
+
             /// The rows of the choices between partners.
-            pub fn controls() -> Vec<Row<Inputs>> {
-                vec![$(
+            pub fn controls() -> [Row<Inputs>; Self::CONTROLS] {
+                [$(
                     Row {
                         number: $choice_number,
                         name: concat!("control.", stringify!($choice)),

@@ -60,6 +60,12 @@ pub enum StepError {
     /// The temperatures have no answer.
     #[error("heat: {0}")]
     Heat(#[from] HeatError),
+    /// A surface colder than matter can be: linear laws were taken beyond their range.
+    #[error("a surface would have {temperature:.1} K, below absolute zero")]
+    BelowAbsoluteZero {
+        /// Lowest surface temperature \[K].
+        temperature: f64,
+    },
     /// The bodies have no answer.
     #[error("body response: {0}")]
     Body(#[from] MechanicsError),

@@ -2,114 +2,11 @@
 
 use super::control::{creepage, slide};
 use super::model::Model;
+use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
 use crate::piecewise::Piecewise;
-use serde::{Deserialize, Serialize};
-
-/// Everything the model returns at a communication point.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Outputs {
-    /// Contact force on the wheel in travel direction \[N].
-    pub contact_force_x: f64,
-    /// Contact force on the wheel upward \[N].
-    pub contact_force_y: f64,
-    /// Moment of the contact forces about the wheel centre, forward positive [N m].
-    pub contact_moment: f64,
-    /// Creepage `2 (V − rω)/(V + rω)`, braking positive \[1].
-    pub contact_creepage: f64,
-    /// Slide `(V − rω)/V` of EN 15595 \[1].
-    pub contact_slide: f64,
-    /// Nominal slip velocity `V − rω` [m/s].
-    pub contact_slip_velocity: f64,
-    /// Adhesion `F_x/F_y` \[1].
-    pub contact_adhesion: f64,
-    /// Utilisation `|F_x|/(μ F_y)` \[1].
-    pub contact_utilisation: f64,
-    /// Share of the contact length that sticks \[1].
-    pub contact_stick_fraction: f64,
-    /// Half-width of the contact patch \[m].
-    pub contact_half_width: f64,
-    /// Largest contact pressure \[Pa].
-    pub contact_pressure_max: f64,
-    /// Approach of hub and rail base beyond just touching \[m].
-    pub contact_approach: f64,
-    /// Translational velocity [m/s].
-    pub wheel_velocity: f64,
-    /// Angular velocity, forward positive [rad/s].
-    pub wheel_omega: f64,
-    /// Distance travelled \[m].
-    pub wheel_distance: f64,
-    /// Angle of rotation \[rad].
-    pub wheel_angle: f64,
-    /// Translational acceleration [m/s²].
-    pub wheel_acceleration: f64,
-    /// Angular acceleration [rad/s²].
-    pub wheel_angular_acceleration: f64,
-    /// Horizontal force that drives the hub, prescribed or reaction \[N].
-    pub hub_force_x: f64,
-    /// Vertical force on the hub, up positive: minus the load \[N].
-    pub hub_force_y: f64,
-    /// Moment that drives the hub, forward positive [N m].
-    pub hub_moment: f64,
-    /// Frictional dissipation in the contact \[W].
-    pub friction_power: f64,
-    /// Wear number `|F_x ξ|` \[N].
-    pub t_gamma: f64,
-    /// Highest surface temperature of the wheel in the contact zone \[K]; temperatures are absolute, zero if not computed.
-    pub temperature_wheel_max: f64,
-    /// The same of the rail \[K].
-    pub temperature_rail_max: f64,
-    /// Mean surface temperature of the wheel over the patch \[K].
-    pub temperature_wheel_mean: f64,
-    /// The same of the rail \[K].
-    pub temperature_rail_mean: f64,
-    /// Surface temperature of the wheel below its centre \[K].
-    pub temperature_wheel_nominal: f64,
-    /// The same of the rail \[K].
-    pub temperature_rail_nominal: f64,
-    /// Mean temperature of the whole wheel \[K].
-    pub temperature_wheel_bulk: f64,
-    /// Net heat into the wheel through the contact, mean over the last internal step \[W].
-    pub heat_to_wheel: f64,
-    /// The same into the rail \[W].
-    pub heat_to_rail: f64,
-    /// Heat conducted from wheel to rail through the interface \[W].
-    pub heat_conduction: f64,
-    /// Heat from the wheel into the hub \[W].
-    pub heat_to_hub: f64,
-    /// Heat imbalance since the start relative to the heat supplied \[1].
-    pub heat_residual: f64,
-    /// Time during which the hottest contact point was above Ac1 \[s].
-    pub austenitised_time: f64,
-    /// Growth of the wheel radius by its bulk temperature \[m].
-    pub thermal_growth: f64,
-    /// Friction coefficient that held in the last step \[1].
-    pub friction: f64,
-    /// Internal steps in the last communication step.
-    pub internal_steps: u64,
-    /// Contact iterations in the last communication step.
-    pub iterations: u64,
-    /// Largest communication step for explicit coupling in this state \[s].
-    pub suggested_step: f64,
-    /// Energy imbalance since the start relative to the frictional dissipation, at least to the elastic energy of a loaded
-    /// contact \[1].
-    pub energy_residual: f64,
-    /// Positions of the profile points, x forward from below the wheel centre \[m].
-    pub profile_x: Vec<f64>,
-    /// Contact pressure \[Pa].
-    pub profile_pressure: Vec<f64>,
-    /// Friction traction on the wheel, forward positive \[Pa].
-    pub profile_shear: Vec<f64>,
-    /// Slip velocity of the wheel surface relative to the rail; traction times slip integrates to the friction power
-    /// [m/s].
-    pub profile_slip: Vec<f64>,
-    /// Surface temperature of the wheel \[K].
-    pub profile_temperature_wheel: Vec<f64>,
-    /// Surface temperature of the rail \[K].
-    pub profile_temperature_rail: Vec<f64>,
-}
 
 /// Observables of a state.
 pub fn observe(model: &Model, state: &State) -> Outputs {

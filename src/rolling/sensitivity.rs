@@ -10,7 +10,8 @@
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::model::{Model, Workspace};
-use super::outputs::{Outputs, observe};
+use super::output_rows::Outputs;
+use super::outputs::observe;
 use super::state::State;
 use super::{stationary, substeps};
 use crate::config::Tuning;

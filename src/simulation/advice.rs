@@ -23,6 +23,7 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::Contact { .. } | StepError::NotFinite { .. } => shorter,
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
+        StepError::BelowAbsoluteZero { .. } => cold(config),
         StepError::Motion(_) => {
             "check drive.force, drive.moment and drive.load, or the prescribed velocities".to_owned()
         }
@@ -54,6 +55,7 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
             config.initial.velocity, config.initial.creepage
         ),
         StepError::Heat(error) => heat(error, config),
+        StepError::BelowAbsoluteZero { .. } => cold(config),
         StepError::Body(_) => body(config),
         _ => return error.to_string(),
     };
@@ -98,6 +100,23 @@ fn heat(error: &HeatError, config: &Config) -> String {
             thermal.conductance, thermal.convection, config.material.conductivity
         ),
     }
+}
+
+/// Advice where a temperature falls below absolute zero.
+fn cold(config: &Config) -> String {
+    let (thermal, material) = (&config.thermal, &config.material);
+    let reversible = format!(
+        "lower material.expansion (now {:?} 1/K) or set physics.thermoelastic_heating = false, or ",
+        material.expansion
+    );
+    format!(
+        "{}take shorter steps, or more usual values of thermal.reference (now {:?} K), thermal.wheel_excess (now {:?} K) \
+         and thermal.conductance (now {:?} W/(m2 K))",
+        if config.physics.thermoelastic_heating { &reversible } else { "" },
+        thermal.reference,
+        thermal.wheel_excess,
+        thermal.conductance
+    )
 }
 
 fn mechanics(error: &MechanicsError, config: &Config) -> String {
@@ -167,6 +186,7 @@ mod tests {
             (failed_step(&StepError::Contact { time: 0.0, step: 1e-3, source }, &config), "solver.max_step"),
             (failed_step(&StepError::NotFinite { time: 0.0, step: 1e-3 }, &config), "solver.max_step"),
             (failed_step(&StepError::Heat(heat), &config), "thermal.conductance"),
+            (failed_step(&StepError::BelowAbsoluteZero { temperature: -1.0 }, &config), "thermal.reference"),
             (failed_start(&StepError::NoEquilibrium("none"), &config), "initial.creepage"),
             (failed_preparation(&PrepareError::Mechanics(modes.into()), &config), "solver.modes_wheel"),
             (failed_preparation(&PrepareError::Mechanics(zone.into()), &config), "model.nominal_load"),

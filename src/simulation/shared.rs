@@ -16,16 +16,45 @@ struct Entry {
 
 static ENTRIES: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
 
-/// The entry of a configuration, a new one if there is none. Models that nobody uses or prepares are forgotten.
+impl Entry {
+    fn model(
+        &self,
+        config: Config,
+        store: &BasisStore,
+        progress: &mut dyn FnMut(&str, f64),
+    ) -> Result<Arc<Model>, PrepareError> {
+        let mut place = lock(&self.model);
+        if let Some(model) = place.upgrade() {
+            return Ok(model);
+        }
+        let model = Model::prepare(config, store, progress)?;
+        *place = Arc::downgrade(&model);
+        Ok(model)
+    }
+}
+
+/// The entry of a configuration, a new one if there is none.
 fn entry(config: &Config) -> Arc<Entry> {
     let mut entries = lock(&ENTRIES);
-    entries.retain(|entry| Arc::strong_count(entry) > 1 || lock(&entry.model).strong_count() > 0);
     if let Some(known) = entries.iter().find(|entry| super::same_model(&entry.config, config)) {
         return known.clone();
     }
     let entry = Arc::new(Entry { config: config.clone(), model: Mutex::default() });
     entries.push(entry.clone());
     entry
+}
+
+/// Forgets models that nobody uses or prepares, and gives their memory back: nothing is left when a library is unloaded.
+fn forget_unused() {
+    let mut entries = lock(&ENTRIES);
+    entries.retain(|entry| Arc::strong_count(entry) > 1 || lock(&entry.model).strong_count() > 0);
+    entries.shrink_to_fit();
+}
+
+impl Drop for Model {
+    fn drop(&mut self) {
+        forget_unused();
+    }
 }
 
 impl Model {
@@ -37,12 +66,11 @@ impl Model {
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         let entry = entry(&config);
-        let mut place = lock(&entry.model);
-        if let Some(model) = place.upgrade() {
-            return Ok(model);
+        let model = entry.model(config, store, progress);
+        if model.is_err() {
+            drop(entry);
+            forget_unused();
         }
-        let model = Model::prepare(config, store, progress)?;
-        *place = Arc::downgrade(&model);
-        Ok(model)
+        model
     }
 }

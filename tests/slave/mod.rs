@@ -36,7 +36,8 @@ pub const RESOURCES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/res
 pub const STORED_BASES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/target");
 
 pub fn guid() -> &'static str {
-    wheelrail::fmi::v2::description::guid()
+    static GUID: OnceLock<String> = OnceLock::new();
+    GUID.get_or_init(wheelrail::fmi::v2::description::guid)
 }
 
 pub fn variable(name: &str) -> &'static Variable {

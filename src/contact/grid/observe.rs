@@ -43,10 +43,13 @@ pub fn read_off(
     let normal = |i: usize| forces[grid.port(i) + 1];
     traction.friction_power = -(0..grid.len()).map(|i| tangential(i) * centred_slip[i]).sum::<f64>();
     traction.pressure_max = pressure_peak(grid, normal);
+    traction.edges.clear();
     traction.patches.clear();
     let (mut length, mut stuck) = (0.0, 0.0);
     for_each_patch(&state.status, |run| {
-        traction.patches.push(edges(grid, normal, &run));
+        let edges = edges(grid, normal, &run);
+        traction.edges.push(edges);
+        traction.patches.push(stretch(grid, edges, &run));
         length += run.len() as f64;
         let margin = |i: usize| (friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
         stuck += stick_length(&state.status, margin, run);
@@ -63,7 +66,7 @@ pub fn read_off(
         Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.spacing).max(0.0),
         Status::Stick | Status::Open => 0.0,
     };
-    within_edges(grid, status, patches, density, &mut traction.dissipation);
+    over_patches(grid, status, patches, density, &mut traction.dissipation);
     scale_to(&mut traction.dissipation, traction.friction_power, &traction.pressure);
 }
 
@@ -106,8 +109,14 @@ fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) 
     }
 }
 
-/// Writes a nodal quantity as a profile over all patches that falls to zero at their edges. An edge that lies inside the
-/// outermost node of its patch is moved just beyond it.
+/// The patch of a run of closed nodes with these edges. An edge up to a quarter of a cell inside the outermost node is moved
+/// just beyond it, so that the force of that node acts, heats and conducts within the patch.
+fn stretch(grid: &ContactGrid, edges: Interval, run: &Range<usize>) -> Interval {
+    let margin = MARGIN * grid.spacing;
+    Interval { low: edges.low.min(grid.x[run.start] - margin), high: edges.high.max(grid.x[run.end - 1] + margin) }
+}
+
+/// Writes a nodal quantity as a profile over all patches that falls to zero at their ends.
 fn over_patches(
     grid: &ContactGrid,
     status: &[Status],
@@ -119,29 +128,8 @@ fn over_patches(
     let mut patches = patches.iter();
     for_each_patch(status, |run| {
         let Some(patch) = patches.next() else { return };
-        let margin = MARGIN * grid.spacing;
-        profile.push(patch.low.min(grid.x[run.start] - margin), 0.0);
-        run.clone().for_each(|i| profile.push(grid.x[i], value(i)));
-        profile.push(patch.high.max(grid.x[run.end - 1] + margin), 0.0);
-    });
-}
-
-/// Writes a nodal quantity as a profile between the edges of all patches, zero at them: where friction heats, the bodies
-/// conduct, too.
-fn within_edges(
-    grid: &ContactGrid,
-    status: &[Status],
-    patches: &[Interval],
-    value: impl Fn(usize) -> f64,
-    profile: &mut Piecewise,
-) {
-    profile.clear();
-    let mut patches = patches.iter();
-    for_each_patch(status, |run| {
-        let Some(patch) = patches.next() else { return };
         profile.push(patch.low, 0.0);
-        let inside = run.filter(|&i| patch.low < grid.x[i] && grid.x[i] < patch.high);
-        inside.for_each(|i| profile.push(grid.x[i], value(i)));
+        run.for_each(|i| profile.push(grid.x[i], value(i)));
         profile.push(patch.high, 0.0);
     });
 }

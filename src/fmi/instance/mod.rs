@@ -83,9 +83,11 @@ impl Instance {
         })
     }
 
+    /// Where messages go.
     pub fn log(&self) -> &Log {
         &self.log
     }
+    /// Where in its life the instance is.
     pub fn phase(&self) -> Phase {
         self.phase
     }
@@ -126,6 +128,7 @@ impl Instance {
         Err(CallError { status, message: format!("{call:?} is not allowed in phase {:?}", self.phase) })
     }
 
+    /// Switches log messages on or off, all or those of some categories.
     pub fn set_debug_logging(&mut self, on: bool, categories: &[String]) -> Outcome {
         self.allow(Call::SetDebugLogging)?;
         self.log.switch(on, categories)
@@ -151,6 +154,7 @@ impl Instance {
         Ok(())
     }
 
+    /// Begins Initialization Mode.
     pub fn enter_initialization(&mut self) -> Outcome {
         self.allow(Call::EnterInitializationMode)?;
         self.phase = Phase::Initialization;
@@ -167,6 +171,7 @@ impl Instance {
         Ok(())
     }
 
+    /// Ends the run; outputs can still be read.
     pub fn terminate(&mut self) -> Outcome {
         self.allow(Call::Terminate)?;
         self.phase = Phase::Terminated;

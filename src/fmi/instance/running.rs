@@ -81,7 +81,7 @@ impl Instance {
     fn check_settings(&self) -> Outcome {
         self.config.validate().map_err(|error| {
             let set = self.parameters.keys().filter_map(|reference| find(*reference));
-            let names: Vec<_> = set.filter(|row| row.name != error.name).map(|row| row.name.as_str()).collect();
+            let names: Vec<_> = set.filter(|row| row.name != error.name).map(|row| row.name).collect();
             let own = match names.as_slice() {
                 [] => String::new(),
                 names => format!("; with preset \"{}\" and {} as you have set them", self.preset, names.join(", ")),

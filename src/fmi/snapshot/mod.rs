@@ -14,13 +14,19 @@ use uuid::Uuid;
 /// Memory of an instance without its model, which follows from `config`.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Snapshot {
+    /// Where in its life the instance is.
     pub phase: Phase,
+    /// Name of the preset.
     pub preset: String,
     /// Parameters of the preset before explicit ones override them.
     pub base: Config,
+    /// Explicitly set parameters.
     pub parameters: SetValues,
+    /// Explicitly set inputs.
     pub inputs: SetValues,
+    /// Present values that inputs took over when a control was switched to them.
     pub bumpless: SetValues,
+    /// Time derivatives of the inputs during the next step.
     pub rates: Drive,
     /// Current communication point \[s].
     pub time: f64,
@@ -35,15 +41,22 @@ const CHECKSUM: usize = 16;
 
 /// What identifies bytes as ours: version of the program, and a digest of the layout of a snapshot and of the variables
 /// that its value references stand for.
-fn identity() -> Result<&'static str, String> {
-    static IDENTITY: OnceLock<Result<String, String>> = OnceLock::new();
-    let compute = || {
+fn identity() -> Result<String, String> {
+    static DIGEST: OnceLock<Uuid> = OnceLock::new();
+    let compute = || -> Result<Uuid, String> {
         let layout = schema::layout::<Snapshot>().map_err(|error| format!("states have no layout: {error}"))?;
         let rows = variables().iter().map(|row| format!("{} {} {}", row.reference, row.name, row.kind.type_name()));
         let text = rows.chain([layout]).collect::<Vec<_>>().join("\n");
-        Ok(format!("{} {}", env!("CARGO_PKG_VERSION"), Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes())))
+        Ok(Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()))
     };
-    IDENTITY.get_or_init(compute).as_deref().map_err(Clone::clone)
+    let digest = match DIGEST.get() {
+        Some(digest) => *digest,
+        None => *DIGEST.get_or_init({
+            let digest = compute()?;
+            move || digest
+        }),
+    };
+    Ok(format!("{} {digest}", env!("CARGO_PKG_VERSION")))
 }
 
 /// A 128-bit digest (SHA-1, truncated as UUID version 5) of the identity and the payload.
@@ -58,7 +71,7 @@ impl Snapshot {
         let payload = postcard::to_stdvec(self).map_err(|error| format!("state cannot be serialized: {error}"))?;
         let identity = identity()?;
         let length = u8::try_from(identity.len()).map_err(|error| error.to_string())?;
-        Ok([MAGIC, [length].as_slice(), identity.as_bytes(), &checksum(identity, &payload), &payload].concat())
+        Ok([MAGIC, [length].as_slice(), identity.as_bytes(), &checksum(&identity, &payload), &payload].concat())
     }
 
     /// Refuses bytes that are damaged, cut, lengthened or written by another version.
@@ -72,7 +85,7 @@ impl Snapshot {
             return Err(format!("serialized state is of version \"{theirs}\", this FMU is \"{ours}\""));
         }
         let (sum, payload) = rest.split_at_checked(CHECKSUM).ok_or("serialized state is cut short")?;
-        if sum != checksum(ours, payload) {
+        if sum != checksum(&ours, payload) {
             return Err("serialized state is damaged: checksum does not match".to_owned());
         }
         postcard::from_bytes(payload).map_err(|error| format!("serialized state is damaged: {error}"))
@@ -150,7 +163,7 @@ mod tests {
     /// Bytes of a made-up state, whose checksum is right.
     fn sealed(payload: &[u8]) -> Vec<u8> {
         let identity = identity().unwrap();
-        let sum = checksum(identity, payload);
+        let sum = checksum(&identity, payload);
         [MAGIC, [identity.len() as u8].as_slice(), identity.as_bytes(), &sum, payload].concat()
     }
 

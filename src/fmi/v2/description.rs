@@ -9,14 +9,16 @@ use crate::fmi::table::enumerations;
 use crate::fmi::units::{BASE_UNITS, UNITS};
 use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
 use crate::fmi::variables::variables;
+use crate::simulation::Read;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
 
-/// End of the default experiment and its communication step \[s].
+/// End of the default experiment \[s].
 pub const DEFAULT_STOP_TIME: f64 = 1.0;
+/// Communication step of the default experiment \[s].
 pub const DEFAULT_STEP_SIZE: f64 = 1e-3;
 
 const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an elastic rail: plane finite elements in \
@@ -26,14 +28,15 @@ const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an e
 type Xml = Writer<Vec<u8>>;
 
 /// Name-based UUID of the description with an empty GUID: changes with the interface and only with it.
-pub fn guid() -> &'static str {
-    static GUID: OnceLock<String> = OnceLock::new();
-    GUID.get_or_init(|| Uuid::new_v5(&Uuid::NAMESPACE_OID, write("").unwrap_or_default().as_bytes()).to_string())
+pub fn guid() -> String {
+    static GUID: OnceLock<Uuid> = OnceLock::new();
+    let compute = || Uuid::new_v5(&Uuid::NAMESPACE_OID, write("").unwrap_or_default().as_bytes());
+    GUID.get_or_init(compute).to_string()
 }
 
 /// The model description as it stands in the FMU.
 pub fn model_description() -> io::Result<String> {
-    write(guid())
+    write(&guid())
 }
 
 fn write(guid: &str) -> io::Result<String> {
@@ -152,10 +155,9 @@ pub fn start_value(variable: &Variable) -> Option<Value> {
 /// FMI variability of a variable.
 pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
-        Access::RealInput(_) | Access::RealOutput(_) | Access::ArrayOutput(_) | Access::ProfileOutput(..) => {
-            "continuous"
-        }
-        Access::ChoiceInput(..) | Access::CountOutput(_) => "discrete",
+        Access::ChoiceInput(..) => "discrete",
+        Access::Output(row) if matches!(row.read, Read::Count(_)) => "discrete",
+        Access::RealInput(_) | Access::Output(_) | Access::ProfilePoint(..) => "continuous",
         _ if variable.tunable => "tunable",
         _ => "fixed",
     }
@@ -170,9 +172,9 @@ fn model_variables(xml: &mut Xml) -> io::Result<()> {
             Causality::Output => ("output", Some("calculated")),
         };
         let mut attributes = vec![
-            ("name", variable.name.as_str()),
+            ("name", variable.name),
             ("valueReference", &reference),
-            ("description", &variable.description),
+            ("description", variable.description),
             ("causality", causality),
             ("variability", variability(variable)),
         ];

@@ -49,8 +49,9 @@ impl Arguments {
         boolean(self.visible, "visible")?;
         let log = Log::new(sink(&name, functions), boolean(self.logging, "loggingOn")?);
         let theirs = theirs?;
-        if theirs != guid() {
-            return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{}\"", guid())));
+        let ours = guid();
+        if theirs != ours {
+            return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{ours}\"")));
         }
         // SAFETY: see the module: a string, unless it is NULL.
         let location = (!self.resources.is_null()).then(|| unsafe { text(self.resources, "fmuResourceLocation") });
@@ -63,6 +64,7 @@ impl Arguments {
     }
 }
 
+/// A new instance; NULL if it cannot be made, after a message.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     instanceName: fmi2String,
@@ -100,6 +102,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     ptr::null_mut()
 }
 
+/// Frees an instance with all its states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
     if !c.is_null() {

@@ -67,7 +67,7 @@ pub fn boolean(value: fmi2Boolean, name: &str) -> Outcome<bool> {
 /// Values for boolean variables; the message about a wrong one names the variable.
 pub fn booleans(references: &[fmi2ValueReference], values: &[fmi2Boolean]) -> Outcome<Vec<bool>> {
     let name = |reference: &fmi2ValueReference| {
-        find(*reference).map_or_else(|| format!("value reference {reference}"), |variable| variable.name.clone())
+        find(*reference).map_or_else(|| format!("value reference {reference}"), |variable| variable.name.to_owned())
     };
     references.iter().zip(values).map(|(reference, value)| boolean(*value, &name(reference))).collect()
 }

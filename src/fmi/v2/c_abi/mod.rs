@@ -80,11 +80,13 @@ impl Component {
     }
 }
 
+/// Sizes of the types of the interface.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
     c"default".as_ptr()
 }
 
+/// Version of the standard.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
@@ -104,6 +106,7 @@ macro_rules! declared {
 /// standard gives it; an argument `c_int as E` is an enumeration `E` there. The body runs behind [`call`].
 macro_rules! export {
     ($($type:ident = $name:ident(|$component:ident| $(, $argument:ident: $ours:ty $(as $theirs:ty)?)*) $body:block)*) => {$(
+        #[doc = concat!("`", stringify!($name), "` of the standard.")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(c: fmi2Component $(, $argument: $ours)*) -> fmi2Status {
             // SAFETY: see the module.

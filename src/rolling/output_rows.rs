@@ -1,0 +1,204 @@
+//! What the model returns at a communication point. An output is one row here, and its value in [`super::outputs`].
+
+use super::profile::PROFILE_POINTS;
+use crate::config::units::Measure;
+use serde::{Deserialize, Serialize};
+
+/// Where the value of an output is.
+#[derive(Clone, Copy, Debug)]
+pub enum Read {
+    /// A number.
+    Real(fn(&Outputs) -> f64),
+    /// A count.
+    Count(fn(&Outputs) -> u64),
+    /// All points of a profile across the contact zone.
+    Profile(fn(&Outputs) -> &[f64]),
+}
+
+/// The row of one output.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputRow {
+    /// Fixed number of the output, which survives new ones: programs may know it. The points of a profile follow it.
+    pub number: u32,
+    /// Name in the form `group.name`.
+    pub name: &'static str,
+    /// Unit.
+    pub measure: Measure,
+    /// Smallest possible value.
+    pub low: f64,
+    /// Largest possible value.
+    pub high: f64,
+    /// Usual size.
+    pub nominal: f64,
+    /// Whether it is zero at the start by definition; otherwise it follows from all inputs and parameters there.
+    pub starts_at_zero: bool,
+    /// Meaning, plain text.
+    pub text: &'static str,
+    /// The value.
+    pub read: Read,
+    /// Name and meaning of every point of a profile; empty for other outputs.
+    pub points: &'static [(&'static str, &'static str)],
+}
+
+/// Name and meaning of the points of a profile, counted from 1.
+macro_rules! points {
+    ($name:literal, $text:literal) => {
+        points!(@numbers $name, $text, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30
+            31 32 33 34 35 36 37 38 39 40 41 42 43 44 45 46 47 48 49 50 51 52 53 54 55 56 57 58 59 60 61)
+    };
+    (@numbers $name:literal, $text:literal, $($number:literal)*) => {{
+        const POINTS: [(&str, &str); PROFILE_POINTS] =
+            [$( (concat!($name, "[", $number, "]"), concat!($text, ", point ", $number)) ),*];
+        &POINTS
+    }};
+}
+
+/// Defines the outputs. A row has number, field, sort, name and meaning. Between the last two may stand: `in`, the SI
+/// unit, and `as`, the unit in which people like to read it; `from … to`, the range; `nominal`, the usual size; and
+/// `start zero` for what is zero at the start by definition.
+macro_rules! outputs {
+    (@type real) => { f64 };
+    (@type count) => { u64 };
+    (@type profile) => { Vec<f64> };
+    (@read real $field:ident) => { Read::Real(|outputs| outputs.$field) };
+    (@read count $field:ident) => { Read::Count(|outputs| outputs.$field) };
+    (@read profile $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
+    (@points profile $name:literal $text:literal) => { points!($name, $text) };
+    (@points $sort:ident $name:literal $text:literal) => { &[] };
+    (@measure) => { Measure { unit: "1", display: None } };
+    (@measure $unit:literal) => { Measure { unit: $unit, display: None } };
+    (@measure $unit:literal $display:literal) => { Measure { unit: $unit, display: Some($display) } };
+    (@or $default:expr) => { $default };
+    (@or $default:expr, $value:literal) => { $value };
+    (@zero) => { false };
+    (@zero zero) => { true };
+    (
+        $(
+            $number:literal $field:ident: $sort:ident $name:literal
+                $(, in $unit:literal $(as $display:literal)?)?
+                $(, from $low:literal $(to $high:literal)?)?
+                $(, nominal $nominal:literal)?
+                $(, start $zero:ident)?
+                , $text:literal;
+        )*
+    ) => {
+        /// Everything the model returns at a communication point.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        pub struct Outputs {
+            $( #[doc = concat!($text, $(" \\[", $unit, "]",)? ".")] pub $field: outputs!(@type $sort), )*
+        }
+
+        impl Outputs {
+            /// The row of every output.
+            pub const ROWS: [OutputRow; [$( $number ),*].len()] = [$(
+                OutputRow {
+                    number: $number,
+                    name: $name,
+                    measure: outputs!(@measure $($unit $($display)?)?),
+                    low: outputs!(@or f64::NEG_INFINITY $(, $low)?),
+                    high: outputs!(@or f64::INFINITY $($(, $high)?)?),
+                    nominal: outputs!(@or 1.0 $(, $nominal)?),
+                    starts_at_zero: outputs!(@zero $($zero)?),
+                    text: $text,
+                    read: outputs!(@read $sort $field),
+                    points: outputs!(@points $sort $name $text),
+                },
+            )*];
+        }
+    };
+}
+
+outputs! {
+    300 contact_force_x: real "contact.force_x", in "N" as "kN", nominal 1e4,
+        "Tangential contact force on the wheel, positive in x (traction)";
+    301 contact_force_y: real "contact.force_y", in "N" as "kN", nominal 1e5,
+        "Normal contact force on the wheel, up positive";
+    302 contact_moment: real "contact.moment", in "N.m" as "kN.m", nominal 1e4,
+        "Moment of the contact forces about the wheel centre, forward positive";
+    303 contact_creepage: real "contact.creepage", in "1" as "%", nominal 1e-3,
+        "Creepage 2 (V - r omega)/(V + r omega), negative in traction; 0 at standstill";
+    304 contact_slide: real "contact.slide", in "1" as "%", nominal 1e-3,
+        "Slide (V - r omega)/V, 1 when the wheel is locked; 0 at standstill";
+    305 contact_slip_velocity: real "contact.slip_velocity", in "m/s" as "mm/s", nominal 1e-2,
+        "Rigid slip velocity V - r omega, negative in traction";
+    306 contact_adhesion: real "contact.adhesion", in "1", nominal 0.1,
+        "Adhesion contact.force_x / contact.force_y; 0 without contact";
+    307 contact_utilisation: real "contact.utilisation", in "1" as "%", from 0.0,
+        "Share of the friction limit in use, |contact.force_x| / (mu contact.force_y)";
+    308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0,
+        "Sticking share of the contact width";
+    309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
+        "Half the length of the contact patch in x";
+    310 contact_pressure_max: real "contact.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
+        "Peak contact pressure";
+    311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,
+        "Approach of hub and rail base since just touching, pressed positive";
+    400 wheel_velocity: real "wheel.velocity", in "m/s" as "km/h", nominal 30.0,
+        "Travel velocity V of the wheel centre, positive in x";
+    401 wheel_omega: real "wheel.omega", in "rad/s" as "rpm", nominal 60.0,
+        "Angular velocity, forward rolling positive";
+    402 wheel_distance: real "wheel.distance", in "m", nominal 100.0, start zero, "Distance travelled since the start";
+    403 wheel_angle: real "wheel.angle", in "rad" as "deg", nominal 100.0, start zero,
+        "Angle turned since the start, forward positive";
+    404 wheel_acceleration: real "wheel.acceleration", in "m/s2", "Acceleration of the wheel centre in x";
+    405 wheel_angular_acceleration: real "wheel.angular_acceleration", in "rad/s2",
+        "Angular acceleration, forward positive";
+    500 hub_force_x: real "hub.force_x", in "N" as "kN", nominal 1e4,
+        "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity";
+    501 hub_force_y: real "hub.force_y", in "N" as "kN", nominal 1e5,
+        "Vertical force on the hub, prescribed or reaction, up positive (-drive.load)";
+    502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,
+        "Moment that drives the hub, prescribed or reaction, forward positive; conjugate to wheel.omega";
+    600 friction_power: real "heat.friction_power", in "W" as "kW", nominal 1e4,
+        "Power dissipated by friction in the contact patch";
+    312 friction: real "contact.friction", in "1", from 0.0, nominal 0.3,
+        "Friction coefficient that holds now: rail.friction with the dependence on slip and temperature";
+    610 temperature_wheel_max: real "temperature.wheel_max", in "K" as "degC", from 0.0, nominal 300.0,
+        "Highest surface temperature of the wheel in the contact zone (temperatures are absolute; 0 without \
+         thermal.enabled)";
+    611 temperature_rail_max: real "temperature.rail_max", in "K" as "degC", from 0.0, nominal 300.0,
+        "Highest surface temperature of the rail in the contact zone";
+    612 temperature_wheel_mean: real "temperature.wheel_mean", in "K" as "degC", from 0.0, nominal 300.0,
+        "Mean surface temperature of the wheel over the contact patch";
+    613 temperature_rail_mean: real "temperature.rail_mean", in "K" as "degC", from 0.0, nominal 300.0,
+        "Mean surface temperature of the rail over the contact patch";
+    614 temperature_wheel_nominal: real "temperature.wheel_nominal", in "K" as "degC", from 0.0, nominal 300.0,
+        "Surface temperature of the wheel below its centre";
+    615 temperature_rail_nominal: real "temperature.rail_nominal", in "K" as "degC", from 0.0, nominal 300.0,
+        "Surface temperature of the rail below the wheel centre";
+    616 temperature_wheel_bulk: real "temperature.wheel_bulk", in "K" as "degC", from 0.0, nominal 300.0,
+        "Mean temperature of the whole wheel";
+    601 heat_to_wheel: real "heat.to_wheel", in "W" as "kW", nominal 1e4, "Net heat into the wheel through the contact";
+    602 heat_to_rail: real "heat.to_rail", in "W" as "kW", nominal 1e4,
+        "Net heat into the rail through the contact; with heat.to_wheel it makes thermal.heat_ratio x \
+         heat.friction_power";
+    603 heat_conduction: real "heat.conduction", in "W" as "kW", nominal 1e3,
+        "Heat conducted from wheel to rail across the interface";
+    604 heat_to_hub: real "heat.to_hub", in "W" as "kW", nominal 1e3, "Heat from the wheel into the hub";
+    620 thermal_growth: real "thermal.growth", in "m" as "mm", nominal 1e-5,
+        "Growth of the wheel radius by its bulk temperature";
+    701 austenitised_time: real "damage.time_above_ac1", in "s", from 0.0, nominal 1e-2, start zero,
+        "Time during which the hottest contact point was above thermal.austenitisation";
+    803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
+        "Heat balance since the start: unaccounted heat over heat supplied";
+    700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,
+        "Wear number |contact.force_x contact.creepage|: energy dissipated per metre travelled";
+    800 internal_steps: count "solver.internal_steps", start zero, "Internal time steps in the last communication step";
+    801 iterations: count "solver.iterations", start zero, "Contact iterations in the last communication step";
+    804 suggested_step: real "solver.suggested_step", in "s", from 0.0, nominal 1e-3,
+        "Largest communication step for explicit coupling: from creep damping and contact stiffness where velocities \
+         or the hub height were prescribed in the last step, 1 s otherwise";
+    802 energy_residual: real "solver.energy_residual", in "1", nominal 1e-2, start zero,
+        "Energy balance since the start: unaccounted over dissipated energy, at least the elastic energy of the \
+         contact";
+    10000 profile_x: profile "profile.x", in "m" as "mm", nominal 5e-3,
+        "Position across the contact patch, positive ahead of the wheel centre";
+    11000 profile_pressure: profile "profile.pressure", in "Pa" as "MPa", nominal 1e9, "Contact pressure";
+    12000 profile_shear: profile "profile.shear", in "Pa" as "MPa", nominal 1e8,
+        "Shear traction on the wheel, positive in x";
+    13000 profile_slip: profile "profile.slip", in "m/s" as "mm/s", nominal 1e-2, "Local slip velocity";
+    14000 profile_temperature_wheel: profile "profile.temperature_wheel", in "K" as "degC", from 0.0, nominal 300.0,
+        "Surface temperature of the wheel";
+    15000 profile_temperature_rail: profile "profile.temperature_rail", in "K" as "degC", from 0.0, nominal 300.0,
+        "Surface temperature of the rail";
+}
