@@ -114,7 +114,8 @@ impl Model {
 
     /// Whether the model serves a configuration: all but the tunable parameters are equal.
     pub fn serves(&self, config: &Config) -> bool {
-        same_model(self.config(), config)
+        let ours = self.config();
+        *ours == Config { tuning: ours.tuning.clone(), ..config.clone() }
     }
 
     /// Parameters of the model.
@@ -131,11 +132,6 @@ impl Model {
     pub fn basis_file(&self) -> Option<(String, Vec<u8>)> {
         self.basis.as_deref().cloned()
     }
-}
-
-/// Whether one model serves both configurations: all but the tunable parameters are equal.
-fn same_model(a: &Config, b: &Config) -> bool {
-    *a == Config { tuning: a.tuning.clone(), ..b.clone() }
 }
 
 /// All that a simulation needs to continue bit for bit, besides its model and its tunable parameters.

@@ -36,7 +36,7 @@ impl Entry {
 /// The entry of a configuration, a new one if there is none.
 fn entry(config: &Config) -> Arc<Entry> {
     let mut entries = lock(&ENTRIES);
-    if let Some(known) = entries.iter().find(|entry| super::same_model(&entry.config, config)) {
+    if let Some(known) = entries.iter().find(|entry| entry.config == *config) {
         return known.clone();
     }
     let entry = Arc::new(Entry { config: config.clone(), model: Mutex::default() });
@@ -58,7 +58,7 @@ impl Drop for Model {
 }
 
 impl Model {
-    /// The model that others of this process use for a configuration equal but for tunable parameters, or one prepared now
+    /// The model that others of this process use for an equal configuration, or one prepared now
     /// (see [`Model::prepare`]).
     pub fn shared(
         config: Config,
