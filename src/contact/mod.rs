@@ -6,6 +6,7 @@
 //! per metre of width. Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure) lifts it; the
 //! rail receives the opposite.
 
+pub mod error;
 pub mod friction;
 pub mod grid;
 pub mod problem;
@@ -13,8 +14,9 @@ pub mod solver;
 pub mod surface;
 pub mod traction;
 
+pub use error::ContactError;
 pub use friction::{FrictionLaw, Heating};
 pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
-pub use solver::{ContactError, ContactSolver, ContactState, Scratch, SolverState};
+pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Surfaces};
 pub use traction::Traction;

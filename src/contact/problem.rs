@@ -1,6 +1,6 @@
 //! The condensed contact problem of one step: what the contact needs to know of bodies, wheel and surfaces.
 
-use super::{Placement, Surfaces};
+use super::surface::{Placement, Surfaces};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
 use nalgebra::{DMatrix, DVector};

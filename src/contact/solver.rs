@@ -1,7 +1,10 @@
 //! The seam behind which contact is solved.
 
-use super::grid::{GridScratch, GridState};
-use super::{ContactProblem, Traction};
+use super::error::ContactError;
+use super::grid::iterate::GridScratch;
+use super::grid::state::GridState;
+use super::problem::ContactProblem;
+use super::traction::Traction;
 use crate::piecewise::Piecewise;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -84,32 +87,4 @@ impl ContactState {
 pub struct Scratch {
     /// Of the solver on a grid of paired nodes.
     pub grid: GridScratch,
-}
-
-/// Why no contact state could be found.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ContactError {
-    /// The states of the contact did not settle.
-    #[error("the contact states did not settle in {iterations} iterations")]
-    NotConverged {
-        /// Iterations made.
-        iterations: usize,
-    },
-    /// Loads or motions that cannot be balanced.
-    #[error("singular contact equations with {closed} closed nodes")]
-    Singular {
-        /// Nodes in contact.
-        closed: usize,
-    },
-    /// The contact is longer than the zone in which it is looked for.
-    #[error("the contact patch reached the end of the candidate zone (±{zone:.3e} m) at a line load of {load:.6e} N/m")]
-    ZoneExceeded {
-        /// Half-length of the zone \[m].
-        zone: f64,
-        /// Contact force [N/m].
-        load: f64,
-    },
-    /// The start state belongs to another solver or another mesh.
-    #[error("the contact state belongs to another solver")]
-    ForeignState,
 }

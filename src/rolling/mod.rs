@@ -8,7 +8,7 @@
 //! | [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
-//! | [`outputs`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
+//! | [`outputs`], [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
 
 pub mod audit;
 pub mod bodies;
@@ -18,6 +18,7 @@ pub mod error;
 pub mod fields;
 pub mod model;
 pub mod outputs;
+pub mod profile;
 pub mod rigid;
 pub mod sensitivity;
 pub mod state;
@@ -30,6 +31,7 @@ pub mod thermal;
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};
 pub use model::{Model, Workspace};
-pub use outputs::{Outputs, PROFILE_POINTS};
+pub use outputs::Outputs;
+pub use profile::PROFILE_POINTS;
 pub use sensitivity::{Difference, Origin};
 pub use state::State;

@@ -2,13 +2,11 @@
 
 use super::control::{creepage, slide};
 use super::model::Model;
+use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
 use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
-
-/// Number of points of the output profiles, spread evenly over the candidate contact zone.
-pub const PROFILE_POINTS: usize = 61;
 
 /// Everything the model returns at a communication point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -197,10 +195,4 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
 /// `a/b`, zero where b is not positive.
 fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
-}
-
-/// Positions of the output profiles \[m], spread evenly over the candidate zone of ±`zone` \[m].
-pub fn profile_points(zone: f64) -> Vec<f64> {
-    let last = (PROFILE_POINTS - 1) as f64;
-    (0..PROFILE_POINTS).map(|k| zone * (2.0 * k as f64 / last - 1.0)).collect()
 }

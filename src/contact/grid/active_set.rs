@@ -10,10 +10,12 @@
 //! An iteration that stalls all the same is restarted from full stick ([`RESTARTS`]), and the tolerance within which a
 //! node keeps its state grows from iteration to iteration.
 
+use super::iterate::{GridScratch, Iterate};
 use super::rows::AffineRow;
+use super::state::Status;
 use super::streamline::upwind_rows;
-use super::{ContactGrid, GridScratch, GridState, Status};
-use crate::contact::{AxisDrive, ContactError, ContactProblem, Traction};
+use crate::contact::error::ContactError;
+use crate::contact::problem::AxisDrive;
 use crate::linalg::DenseSystem;
 use std::ops::Range;
 
@@ -32,17 +34,7 @@ const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
 const OVERLOAD: f64 = 3.0;
 
-/// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
-/// motions) hold the present iterate.
-pub(super) struct Iteration<'a> {
-    pub grid: &'a ContactGrid,
-    pub problem: &'a ContactProblem<'a>,
-    pub state: &'a mut GridState,
-    pub traction: &'a mut Traction,
-    pub scratch: &'a mut GridScratch,
-}
-
-impl Iteration<'_> {
+impl Iterate<'_> {
     /// Iterates from the states and forces of the start to the solution.
     pub fn run(mut self) -> Result<(), ContactError> {
         self.traction.rigid = self.problem.rigid.map(|motion| motion.start());
@@ -65,16 +57,6 @@ impl Iteration<'_> {
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
     }
 
-    /// Nodal normal force at candidate `i` [N/m].
-    fn normal(&self, i: usize) -> f64 {
-        self.traction.port_forces[self.grid.port(i) + 1]
-    }
-
-    /// Nodal tangential force on the wheel at candidate `i` [N/m].
-    fn tangential(&self, i: usize) -> f64 {
-        self.traction.port_forces[self.grid.port(i)]
-    }
-
     /// Mean stiffness of the nodes [N/m per m]: it compares gaps with forces.
     fn penalty(&self) -> f64 {
         let stiffness = |i: usize| {
@@ -82,11 +64,6 @@ impl Iteration<'_> {
             self.problem.bodies.relative[(port, port)]
         };
         self.grid.len() as f64 / (0..self.grid.len()).map(stiffness).sum::<f64>()
-    }
-
-    /// Sum of the speeds of both surfaces [m/s].
-    fn speed(&self) -> f64 {
-        self.traction.rigid[0].abs() + (self.problem.radius() * self.traction.rigid[2]).abs()
     }
 
     /// Upwind weights of the present states and pressures; returns their largest change.

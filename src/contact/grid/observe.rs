@@ -1,9 +1,10 @@
 //! Reads the traction off a solution on the grid. What it reports varies smoothly while the contact edges move between
 //! nodes.
 
+use super::candidates::ContactGrid;
+use super::state::{GridState, Status, for_each_patch};
 use super::streamline::edge_offset;
-use super::{ContactGrid, GridState, Status, for_each_patch};
-use crate::contact::Traction;
+use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! Gap, slip and balances of momentum as rows of a linear system in contact forces and rigid motions.
 
-use super::active_set::Iteration;
+use super::iterate::{Iterate, copy};
 use super::streamline::Upwind;
 use nalgebra::{DMatrix, DVector};
 
@@ -11,7 +11,7 @@ pub(super) struct AffineRow {
     pub constant: f64,
 }
 
-impl Iteration<'_> {
+impl Iterate<'_> {
     /// Ports of the candidate nodes that an upwind difference at node `i` touches, with the weights of `∂u/∂x` [1/m].
     fn stencil(&self, i: usize, row: Upwind, to_right: bool) -> [(usize, f64); 3] {
         let (port, step) = (self.grid.port(i) as isize, if to_right { 2 } else { -2 });
@@ -106,17 +106,13 @@ impl Iteration<'_> {
         row
     }
 
-    fn lever_arms(&self, i: usize) -> [f64; 2] {
-        super::observe::lever_arms(self.grid, self.problem.radius(), &self.state.gap, &self.traction.surface[0], i)
-    }
-
     /// Displacements of both surfaces with zero contact forces and zero unknown motions, gaps and known slips, in the
     /// scratch space.
     pub(super) fn prepare(&mut self) {
         let (grid, problem) = (self.grid, self.problem);
         for body in 0..2 {
             let known = &mut self.scratch.known[body];
-            super::copy(known, problem.bodies.free[body]);
+            copy(known, problem.bodies.free[body]);
             let membrane = problem.membrane[body];
             if membrane.x.is_empty() {
                 continue;
@@ -147,7 +143,7 @@ impl Iteration<'_> {
         let bodies = &problem.bodies;
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
             let surface = &mut self.traction.surface[body];
-            super::copy(surface, &self.scratch.known[body]);
+            copy(surface, &self.scratch.known[body]);
             for (port, force) in self.traction.port_forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
                 surface.axpy(sign * force, &bodies.compliance[body].column(port), 1.0);
             }

@@ -6,7 +6,7 @@
 //! the weights are chosen so that the slip is consistent with that position. A fixed weight makes the force jump by
 //! about 0.01 μP whenever the edge passes a node.
 
-use super::{Status, for_each_patch};
+use super::state::{Status, for_each_patch};
 
 /// Ratio of edge to inner nodal pressure, limited to the range of the discrete edge solution.
 fn edge_ratio(edge: f64, inner: f64) -> f64 {

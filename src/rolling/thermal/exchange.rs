@@ -1,7 +1,7 @@
 //! What the contact and the brake blocks do to the temperature fields.
 
-use super::{ThermalModel, Touch};
 use crate::config::Config;
+use crate::contact::Traction;
 use crate::heat::{Exchange, HeatConfig, TreadHeat};
 use crate::piecewise::Piecewise;
 
@@ -43,18 +43,26 @@ impl BrakeBlocks {
     }
 }
 
-impl ThermalModel {
+/// What temperatures see of a contact.
+pub struct Touch<'a> {
+    /// Its forces.
+    pub traction: &'a Traction,
+    /// Reversible temperatures of the surfaces of wheel and rail \[K]; empty if they are not computed.
+    pub reversible: [Piecewise; 2],
+}
+
+impl Touch<'_> {
     /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Friction power and
     /// patches of the new time act over the whole step, so that the heat flows reported with it add up to its friction
     /// power.
-    pub(super) fn fill_exchange(&self, touch: &Touch, tread_heat: f64, exchange: &mut Exchange) {
-        let contact = touch.traction;
+    pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, exchange: &mut Exchange) {
+        let contact = self.traction;
         exchange.clear();
         exchange.patches.extend(&contact.patches);
         copy(&contact.pressure, &mut exchange.pressure);
         copy(&contact.dissipation, &mut exchange.friction_power);
-        self.blocks.fill(tread_heat, &mut exchange.tread);
-        let [wheel, rail] = &touch.reversible;
+        blocks.fill(tread_heat, &mut exchange.tread);
+        let [wheel, rail] = &self.reversible;
         for ((&x, of_wheel), of_rail) in wheel.x.iter().zip(&wheel.value).zip(&rail.value) {
             exchange.reversible.push(x, of_wheel - of_rail);
         }

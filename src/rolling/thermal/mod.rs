@@ -10,15 +10,16 @@ mod thermoelastic;
 
 use super::contact_model::ContactModel;
 use super::error::StepError;
-use super::outputs::PROFILE_POINTS;
+use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::mechanics;
-use crate::piecewise::{self, Piecewise};
+use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
+pub use exchange::Touch;
 use thermoelastic::Thermoelastic;
 
 /// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
@@ -41,20 +42,23 @@ pub struct ThermalModel {
     points: Vec<f64>,
 }
 
+/// A heat step beside the mechanical one.
+#[derive(Clone, Copy, Debug)]
+pub struct HeatStep {
+    /// Its length \[s].
+    pub dt: f64,
+    /// Heat of the brake blocks into the tread \[W].
+    pub tread_heat: f64,
+    /// Austenitisation temperature Ac1 \[K].
+    pub austenitisation: f64,
+}
+
 /// Memory that heat steps reuse.
 #[derive(Default)]
 pub struct Scratch {
     heat: heat::Scratch,
     exchange: Exchange,
     seen: Observation,
-}
-
-/// What temperatures see of a contact.
-pub struct Touch<'a> {
-    /// Its forces.
-    pub traction: &'a Traction,
-    /// Reversible temperatures of the surfaces of wheel and rail \[K]; empty if they are not computed.
-    pub reversible: [Piecewise; 2],
 }
 
 impl ThermalModel {
@@ -70,7 +74,7 @@ impl ThermalModel {
             blocks: BrakeBlocks::new(config),
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
-            points: super::outputs::profile_points(zone),
+            points: profile_points(zone),
         })
     }
 
@@ -97,7 +101,7 @@ impl ThermalModel {
         let mut thermal = ThermalState { fields: self.heat.initial(self.wheel_excess), ..ThermalState::default() };
         if v.abs() > AT_REST || (omega * self.radius).abs() > AT_REST {
             let mut exchange = Exchange::default();
-            self.fill_exchange(touch, tread_heat, &mut exchange);
+            touch.fill(&self.blocks, tread_heat, &mut exchange);
             let (stationary, flows) = self.heat.stationary(v, omega, &exchange)?;
             thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
             thermal.flows = flows;
@@ -108,19 +112,19 @@ impl ThermalModel {
     }
 
     /// The heat step that belongs to a mechanical step: from the temperatures `before` with the contact and the motion of
-    /// `next`. `step` holds the heat of the brake blocks \[W], the length of the step \[s] and Ac1 \[K]; `thermal` gives its
-    /// memory for the result.
+    /// `next`; `thermal` gives its memory for the result.
     pub fn step(
         &self,
         before: &ThermalState,
         next: &State,
         touch: &Touch,
-        (tread_heat, dt, austenitisation): (f64, f64, f64),
+        step: HeatStep,
         mut thermal: ThermalState,
         scratch: &mut Scratch,
     ) -> Result<ThermalState, StepError> {
+        let HeatStep { dt, tread_heat, austenitisation } = step;
         let Scratch { heat, exchange, seen } = scratch;
-        self.fill_exchange(touch, tread_heat, exchange);
+        touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
         self.observe(touch, next.friction, &mut thermal, seen)?;

@@ -1,0 +1,29 @@
+//! Why contact has no answer.
+
+/// Why no contact state could be found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// The states of the contact did not settle.
+    #[error("the contact states did not settle in {iterations} iterations")]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// Loads or motions that cannot be balanced.
+    #[error("singular contact equations with {closed} closed nodes")]
+    Singular {
+        /// Nodes in contact.
+        closed: usize,
+    },
+    /// The contact is longer than the zone in which it is looked for.
+    #[error("the contact patch reached the end of the candidate zone (±{zone:.3e} m) at a line load of {load:.6e} N/m")]
+    ZoneExceeded {
+        /// Half-length of the zone \[m].
+        zone: f64,
+        /// Contact force [N/m].
+        load: f64,
+    },
+    /// The start state belongs to another solver or another mesh.
+    #[error("the contact state belongs to another solver")]
+    ForeignState,
+}

@@ -1,0 +1,70 @@
+//! One contact problem on its way to the solution, and the memory it needs.
+
+use super::candidates::ContactGrid;
+use super::observe;
+use super::state::{GridState, Status};
+use super::streamline::Upwind;
+use crate::contact::problem::ContactProblem;
+use crate::contact::traction::Traction;
+use crate::linalg::DenseSystem;
+use nalgebra::DVector;
+
+/// Buffers of the solver on a grid; nothing in them outlives a solution.
+#[derive(Default)]
+pub struct GridScratch {
+    pub(super) system: DenseSystem,
+    /// Nodes and axes whose forces and motions are unknown.
+    pub(super) closed: Vec<usize>,
+    pub(super) stuck: Vec<usize>,
+    pub(super) axes: Vec<usize>,
+    /// Undeformed gap at the candidates [m].
+    pub(super) gap: Vec<f64>,
+    /// Known part of `d_t` of the tangential gap [m/s].
+    pub(super) slip_offset: Vec<f64>,
+    /// Displacement of wheel and rail without contact forces and unknown motions [m].
+    pub(super) known: [DVector<f64>; 2],
+    pub(super) upwind: Vec<Upwind>,
+    pub(super) upwind_before: Vec<Upwind>,
+    pub(super) status_before: Vec<Status>,
+    /// Coefficients of all port forces in the row at hand.
+    pub(super) row: Vec<f64>,
+    /// Slip velocity with centred differences: what dissipates. The upwind one counts its own numerical dissipation.
+    pub(super) centred_slip: Vec<f64>,
+}
+
+/// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
+/// motions) hold the present iterate.
+pub(super) struct Iterate<'a> {
+    pub grid: &'a ContactGrid,
+    pub problem: &'a ContactProblem<'a>,
+    pub state: &'a mut GridState,
+    pub traction: &'a mut Traction,
+    pub scratch: &'a mut GridScratch,
+}
+
+impl Iterate<'_> {
+    /// Nodal normal force at candidate `i` [N/m].
+    pub fn normal(&self, i: usize) -> f64 {
+        self.traction.port_forces[self.grid.port(i) + 1]
+    }
+
+    /// Nodal tangential force on the wheel at candidate `i` [N/m].
+    pub fn tangential(&self, i: usize) -> f64 {
+        self.traction.port_forces[self.grid.port(i)]
+    }
+
+    /// Sum of the speeds of both surfaces [m/s].
+    pub fn speed(&self) -> f64 {
+        self.traction.rigid[0].abs() + (self.problem.radius() * self.traction.rigid[2]).abs()
+    }
+
+    /// Lever arms about the hub centre, see [`observe::lever_arms`] [m].
+    pub fn lever_arms(&self, i: usize) -> [f64; 2] {
+        observe::lever_arms(self.grid, self.problem.radius(), &self.state.gap, &self.traction.surface[0], i)
+    }
+}
+
+/// Copies without allocating where the lengths agree.
+pub(super) fn copy(target: &mut DVector<f64>, source: &DVector<f64>) {
+    if target.len() == source.len() { target.copy_from(source) } else { target.clone_from(source) }
+}

@@ -1,0 +1,107 @@
+//! The contact solver on a grid, behind the seam that all contact solvers share.
+
+use super::candidates::ContactGrid;
+use super::iterate::{Iterate, copy};
+use super::kernel::KernelCorrection;
+use super::observe;
+use super::state::{GridState, Status};
+use crate::contact::error::ContactError;
+use crate::contact::problem::ContactProblem;
+use crate::contact::solver::{ContactSolver, ContactState, Scratch, SolverState};
+use crate::contact::traction::Traction;
+use crate::multistep::History;
+use crate::piecewise::Piecewise;
+use nalgebra::{DMatrix, DVector};
+
+/// The contact solver on a grid.
+#[derive(Clone, Debug)]
+pub struct GridSolver {
+    grid: ContactGrid,
+    kernel: KernelCorrection,
+}
+
+impl GridSolver {
+    /// From the static compliances of wheel and rail [m/(N/m)] and their contact modulus `E*` \[Pa].
+    pub fn new(grid: ContactGrid, wheel: &DMatrix<f64>, rail: &DMatrix<f64>, contact_modulus: f64) -> Self {
+        let kernel = KernelCorrection::new(&(wheel + rail), contact_modulus);
+        Self { grid, kernel }
+    }
+}
+
+impl ContactSolver for GridSolver {
+    fn correct(&self, wheel: &mut DMatrix<f64>, rail: &mut DMatrix<f64>) {
+        self.kernel.add_to(wheel, 0.5);
+        self.kernel.add_to(rail, 0.5);
+    }
+
+    fn correction_energy(&self, traction: &Traction) -> f64 {
+        self.kernel.energy(&traction.port_forces)
+    }
+
+    fn touching(&self, half_width: f64) -> ContactState {
+        let reach = half_width.max(0.5 * self.grid.spacing);
+        let touches = |x: &f64| if x.abs() < reach { Status::Stick } else { Status::Open };
+        let (n, ports) = (self.grid.len(), DVector::zeros(self.grid.ports()));
+        let state = GridState {
+            status: self.grid.x.iter().map(touches).collect(),
+            slip: vec![0.0; n],
+            gap: vec![0.0; n],
+            tangential_gap: vec![History::default(); n],
+        };
+        let traction = Traction { port_forces: ports.clone(), surface: [ports.clone(), ports], ..Traction::default() };
+        ContactState { traction, solver: SolverState::Grid(state) }
+    }
+
+    fn solve(
+        &self,
+        problem: &ContactProblem,
+        start: &ContactState,
+        found: &mut ContactState,
+        scratch: &mut Scratch,
+    ) -> Result<(), ContactError> {
+        let SolverState::Grid(before) = &start.solver else { return Err(ContactError::ForeignState) };
+        let ContactState { traction, solver } = found;
+        if !matches!(solver, SolverState::Grid(_)) {
+            *solver = SolverState::Grid(GridState::default());
+        }
+        let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
+        state.copy_from(before);
+        copy(&mut traction.port_forces, &start.traction.port_forces);
+        for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
+            copy(ours, theirs);
+        }
+        let scratch = &mut scratch.grid;
+        Iterate { grid: &self.grid, problem, state, traction, scratch }.run()?;
+        let [wheel, rail] = &traction.surface;
+        for (i, history) in state.tangential_gap.iter_mut().enumerate() {
+            let port = self.grid.port(i);
+            let value = wheel[port] - rail[port];
+            match problem.time.is_stationary() {
+                true => *history = History::constant(value),
+                false => history.push(&problem.time, value),
+            }
+        }
+        let wheel = [problem.radius(), problem.friction];
+        observe::read_off(&self.grid, wheel, state, &scratch.centred_slip, traction);
+        Ok(())
+    }
+
+    fn surface_strain(&self, traction: &Traction) -> [Piecewise; 2] {
+        [0, 1].map(|body| {
+            let u = &traction.surface[body];
+            let strain = |i: usize| {
+                let port = self.grid.port(i);
+                (u[port + 2] - u[port - 2]) / (2.0 * self.grid.spacing)
+            };
+            Piecewise { x: self.grid.x.clone(), value: (0..self.grid.len()).map(strain).collect() }
+        })
+    }
+
+    fn fits(&self, state: &ContactState) -> bool {
+        let SolverState::Grid(grid) = &state.solver else { return false };
+        let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
+        [grid.status.len(), grid.slip.len(), grid.gap.len(), grid.tangential_gap.len()] == [n; 4]
+            && [traction.port_forces.len(), traction.surface[0].len(), traction.surface[1].len()] == [ports; 3]
+            && traction.port_forces.iter().all(|f| f.is_finite())
+    }
+}

@@ -1,0 +1,75 @@
+//! What the solver on the grid remembers: the states of the pairs of nodes and their history.
+
+use crate::multistep::History;
+use serde::{Deserialize, Serialize};
+
+/// State of one pair of contact nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Status {
+    /// No contact.
+    Open,
+    /// Closed, no slip.
+    Stick,
+    /// Closed and slipping; the friction force on the wheel points to `+x`.
+    SlipForward,
+    /// Closed and slipping; the friction force on the wheel points to `−x`.
+    SlipBackward,
+}
+
+impl Status {
+    /// Whether the pair is closed.
+    pub fn is_active(self) -> bool {
+        self != Status::Open
+    }
+
+    /// Direction of the friction force on the wheel: ±1 in slip, 0 otherwise.
+    pub fn friction_direction(self) -> f64 {
+        match self {
+            Status::SlipForward => 1.0,
+            Status::SlipBackward => -1.0,
+            Status::Open | Status::Stick => 0.0,
+        }
+    }
+}
+
+/// Calls `f` with every maximal run of closed nodes as an index range, x ascending: the contact patches.
+pub fn for_each_patch(status: &[Status], mut f: impl FnMut(std::ops::Range<usize>)) {
+    let mut start = None;
+    for (i, s) in status.iter().enumerate() {
+        match (s.is_active(), start) {
+            (true, None) => start = Some(i),
+            (false, Some(first)) => {
+                f(first..i);
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    if let Some(first) = start {
+        f(first..status.len());
+    }
+}
+
+/// What the solver on the grid remembers from step to step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GridState {
+    /// States of the candidates.
+    pub status: Vec<Status>,
+    /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
+    /// differences; zero elsewhere [m/s].
+    pub slip: Vec<f64>,
+    /// Gap at open nodes, zero elsewhere \[m].
+    pub gap: Vec<f64>,
+    /// Tangential displacement of the wheel less that of the rail, and its history \[m].
+    pub tangential_gap: Vec<History>,
+}
+
+impl GridState {
+    /// Becomes equal to another state and keeps its memory.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.status.clone_from(&other.status);
+        self.slip.clone_from(&other.slip);
+        self.gap.clone_from(&other.gap);
+        self.tangential_gap.clone_from(&other.tangential_gap);
+    }
+}
