@@ -20,17 +20,18 @@
 //! ```
 
 pub mod advice;
+mod lock;
 mod plausible;
 mod shared;
 mod store;
-mod validity;
+pub mod validity;
 
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
-pub use validity::Limit;
 
 use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, substeps};
+use lock::lock;
 use plausible::plausible;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
@@ -164,7 +165,7 @@ impl Checkpoint {
         workspace: &mut Workspace,
     ) -> Result<Self, StepError> {
         let known = |(with, known): &(Inputs, Self)| (with == inputs && known.tuning == *tuning).then(|| known.clone());
-        if let Some(known) = shared::lock(&model.start).as_ref().and_then(known) {
+        if let Some(known) = lock(&model.start).as_ref().and_then(known) {
             return Ok(known);
         }
         let state = stationary::start(&model.rolling, tuning, inputs, workspace)?;
@@ -175,7 +176,7 @@ impl Checkpoint {
         earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
         let (before, origin) = (vec![(state.time - LEAD, earlier)], Origin::Stationary(*inputs));
         let checkpoint = Self { state, tuning: tuning.clone(), origin, before };
-        *shared::lock(&model.start) = Some((*inputs, checkpoint.clone()));
+        *lock(&model.start) = Some((*inputs, checkpoint.clone()));
         Ok(checkpoint)
     }
 }

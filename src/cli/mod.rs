@@ -4,6 +4,7 @@
 //! `simulate`, `steady`, `export`; `model` prepares models under a progress bar, `vtu` writes files for ParaView.
 
 mod export;
+mod failure;
 mod model;
 mod pack;
 mod run;
@@ -14,6 +15,8 @@ mod simulate;
 mod steady;
 mod table;
 mod vtu;
+
+pub use failure::Failure;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, Write};
@@ -57,40 +60,5 @@ impl Arguments {
             Command::Steady(steady) => steady.run(),
             Command::Export(export) => export.run(),
         }
-    }
-}
-
-/// Why a command stopped.
-#[derive(Debug, thiserror::Error)]
-pub enum Failure {
-    /// Something the user can say differently.
-    #[error("{0}")]
-    Usage(String),
-    /// The model or the machine did not do it.
-    #[error("{0}")]
-    Run(String),
-    #[error("output: {0}")]
-    Output(#[from] io::Error),
-    #[error("output: {0}")]
-    Csv(#[from] csv::Error),
-}
-
-impl Failure {
-    /// Exit code of the process.
-    pub fn exit_code(&self) -> u8 {
-        if matches!(self, Failure::Usage(_)) { 2 } else { 1 }
-    }
-
-    /// Whether nobody reads the output any more.
-    pub fn is_closed_pipe(&self) -> bool {
-        let kind = match self {
-            Failure::Output(error) => Some(error.kind()),
-            Failure::Csv(error) => match error.kind() {
-                csv::ErrorKind::Io(error) => Some(error.kind()),
-                _ => None,
-            },
-            _ => None,
-        };
-        kind == Some(io::ErrorKind::BrokenPipe)
     }
 }

@@ -1,6 +1,7 @@
 //! How large the finite-element model of a body may become, checked before any memory is taken.
 
-use super::{MechanicsError, contact_zone, largest_rail_cell, nominal_half_width};
+use super::error::MechanicsError;
+use super::layout::{contact_zone, largest_rail_cell, nominal_half_width};
 use crate::config::{Config, Response};
 use crate::fem::{FemError, graded};
 

@@ -3,9 +3,10 @@
 //! A model is prepared by the first who asks for it; others who ask meanwhile wait for it. Nobody keeps a model but its
 //! users: with the last of them it is gone.
 
+use super::lock::lock;
 use super::{BasisStore, Model, PrepareError};
 use crate::config::Config;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 
 /// A model that exists, existed or is being prepared.
 struct Entry {
@@ -14,11 +15,6 @@ struct Entry {
 }
 
 static ENTRIES: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
-
-/// The lock of data that are whole at any time, whatever happened to those who held it before.
-pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// The entry of a configuration, a new one if there is none. Models that nobody uses or prepares are forgotten.
 fn entry(config: &Config) -> Arc<Entry> {

@@ -57,8 +57,12 @@ pub fn read_off(
     over_patches(grid, status, patches, |i| normal(i) / grid.spacing, &mut traction.pressure);
     over_patches(grid, status, patches, |i| tangential(i) / grid.spacing, &mut traction.shear);
     over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
-    // The upwind slip knows where friction acts, the centred one how much it dissipates.
-    let density = |i: usize| (-tangential(i) * state.slip[i] / grid.spacing).max(0.0);
+    // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at stuck
+    // nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
+    let density = |i: usize| match status[i] {
+        Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.spacing).max(0.0),
+        Status::Stick | Status::Open => 0.0,
+    };
     over_patches(grid, status, patches, density, &mut traction.dissipation);
     scale_to(&mut traction.dissipation, traction.friction_power, &traction.pressure);
 }
@@ -79,10 +83,10 @@ fn resultant(grid: &ContactGrid, radius: f64, state: &GridState, traction: &Trac
 
 /// Scales a profile to the given integral; spreads it like the `fallback` where it is zero itself.
 fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
-    let shape = profile.integral();
-    if shape > 0.0 {
-        profile.value.iter_mut().for_each(|v| *v *= total / shape);
-        return;
+    // Neither without a shape nor with one that is too small to be scaled.
+    let factor = total / profile.integral();
+    if factor.is_finite() {
+        return profile.scale(factor);
     }
     let load = fallback.integral();
     let factor = if load > 0.0 { total / load } else { 0.0 };

@@ -2,11 +2,9 @@
 //!
 //! Every refused call leaves the instance as it was, so a master may report the error and go on.
 
-mod derivatives;
+pub mod derivatives;
 mod running;
 mod values;
-
-pub use derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
 
 use super::lifecycle::{Call, Phase};
 use super::log::{CallError, Log, Status};
@@ -15,7 +13,8 @@ use super::settings::{SetValues, with_inputs};
 use super::variable::{Access, Value};
 use super::variables::variables;
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, LONGEST_STEP, Limit, Model, Simulation, advice};
+use crate::simulation::validity::Limit;
+use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Simulation, advice};
 use std::path::PathBuf;
 use std::sync::Arc;
 

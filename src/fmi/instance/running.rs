@@ -7,7 +7,8 @@ use crate::fmi::log::{CallError, Status};
 use crate::fmi::settings::with_parameters;
 use crate::fmi::snapshot::Snapshot;
 use crate::fmi::variables::find;
-use crate::simulation::{BasisStore, Limit, Model, Simulation, advice};
+use crate::simulation::validity::Limit;
+use crate::simulation::{BasisStore, Model, Simulation, advice};
 use std::sync::Arc;
 
 impl Instance {

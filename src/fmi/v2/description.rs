@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::fmi::MODEL_IDENTIFIER;
-use crate::fmi::instance::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
+use crate::fmi::instance::derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
 use crate::fmi::log::CATEGORIES;
 use crate::fmi::presets;
 use crate::fmi::table::enumerations;

@@ -46,7 +46,8 @@ impl TridiagonalFactor {
         }
         // Elimination in terms of row sums e (Grassmann, Taksar & Heyman, *Oper. Res.* 33 (1985)): nothing cancels in a
         // fast stream, `eᵢ = sᵢ − Lᵢ eᵢ₋₁/dᵢ₋₁`, `dᵢ = eᵢ − Uᵢ` with the row sums s, of the mass alone.
-        let alpha = &self.alpha;
+        // All slices of a row have the length of `alpha`, so that the loops over the modes need no checks.
+        let alpha = &self.alpha[..nm];
         self.moving.clear();
         self.moving.resize(nm, 0.0);
         for i in 0..n {
@@ -54,10 +55,10 @@ impl TridiagonalFactor {
             let (fl, fu) = (coefficients.flow * transport.flow_lower[i], coefficients.flow * transport.flow_upper[i]);
             let (sum, entry) = (ml + transport.mass[i] + mu, coefficients.flow * transport.entry(i));
             let (done, rest) = self.inverse.split_at_mut(i * nm);
-            let (w, r) = (&mut self.w[i * nm..(i + 1) * nm], &mut self.r[i * nm..(i + 1) * nm]);
-            let (inverse, excess) = (&mut rest[..nm], &mut self.moving);
+            let (w, r) = (&mut self.w[i * nm..][..nm], &mut self.r[i * nm..][..nm]);
+            let (inverse, excess) = (&mut rest[..nm], &mut self.moving[..nm]);
             if i > 0 {
-                let last = &done[(i - 1) * nm..];
+                let last = &done[(i - 1) * nm..][..nm];
                 for m in 0..nm {
                     w[m] = (alpha[m] * ml + fl) * last[m];
                     excess[m] = alpha[m] * sum + entry - w[m] * excess[m];
@@ -119,16 +120,15 @@ impl TridiagonalFactor {
         // Tᵀ = (1 + r)ᵀ (1/inverse) (1 + w)ᵀ.
         for i in 1..n {
             let (done, rest) = self.row.split_at_mut(i * nm);
-            for m in 0..nm {
-                rest[m] -= self.r[(i - 1) * nm + m] * done[(i - 1) * nm + m];
-            }
+            let before = (i - 1) * nm..i * nm;
+            let values = self.r[before.clone()].iter().zip(&done[before]);
+            rest.iter_mut().zip(values).for_each(|(t, (r, last))| *t -= r * last);
         }
         self.row.iter_mut().zip(&self.inverse).for_each(|(t, d)| *t *= d);
         for i in (0..n - 1).rev() {
             let (done, rest) = self.row.split_at_mut((i + 1) * nm);
-            for m in 0..nm {
-                done[i * nm + m] -= self.w[(i + 1) * nm + m] * rest[m];
-            }
+            let values = self.w[(i + 1) * nm..(i + 2) * nm].iter().zip(&*rest);
+            done[i * nm..].iter_mut().zip(values).for_each(|(t, (w, next))| *t -= w * next);
         }
     }
 
@@ -183,24 +183,27 @@ impl TridiagonalFactor {
             let start = &self.diagonal[k * nm..(k + 1) * nm];
             out[k * count + k] = start.iter().sum();
             self.moving.copy_from_slice(start);
-            // The influence dies out within a few nodes against the stream, and along it in short steps.
-            let negligible = NEGLIGIBLE * start.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            let mut sign = 1.0;
+            // The influence dies out within a few nodes against the stream, and along it in short steps; the steep modes,
+            // which come last, go first.
+            let negligible = NEGLIGIBLE * largest(start);
+            let (mut sign, mut alive) = (1.0, nm);
             for j in (0..k).rev() {
                 let at = (range.start + j + 1) * nm;
                 sign = -sign;
-                out[k * count + j] = sign * decay(&mut self.moving, &self.w[at..at + nm]);
-                if j % 4 == 0 && largest(&self.moving) < negligible {
+                out[k * count + j] = sign * decay(&mut self.moving[..alive], &self.w[at..at + alive]);
+                alive = if j % 4 == 0 { still_alive(&self.moving[..alive], negligible) } else { alive };
+                if alive == 0 {
                     break;
                 }
             }
             self.moving.copy_from_slice(start);
-            sign = 1.0;
+            (sign, alive) = (1.0, nm);
             for i in (0..k).rev() {
                 let at = (range.start + i) * nm;
                 sign = -sign;
-                out[i * count + k] = sign * decay(&mut self.moving, &self.r[at..at + nm]);
-                if i % 4 == 0 && largest(&self.moving) < negligible {
+                out[i * count + k] = sign * decay(&mut self.moving[..alive], &self.r[at..at + alive]);
+                alive = if i % 4 == 0 { still_alive(&self.moving[..alive], negligible) } else { alive };
+                if alive == 0 {
                     break;
                 }
             }
@@ -219,9 +222,14 @@ impl TridiagonalFactor {
         self.moving.clear();
         self.moving.resize(nm, 0.0);
         for i in (range.start..n).rev() {
-            for (m, below) in self.moving.iter_mut().enumerate() {
-                let next = if i + 1 < n { self.r[i * nm + m] * self.w[(i + 1) * nm + m] * *below } else { 0.0 };
-                *below = self.inverse[i * nm + m] + next;
+            let (inverse, moving) = (&self.inverse[i * nm..][..nm], &mut self.moving[..nm]);
+            if i + 1 < n {
+                let (r, w) = (&self.r[i * nm..][..nm], &self.w[(i + 1) * nm..][..nm]);
+                for m in 0..nm {
+                    moving[m] = inverse[m] + r[m] * w[m] * moving[m];
+                }
+            } else {
+                moving.copy_from_slice(inverse);
             }
             if i < range.end {
                 self.diagonal[(i - range.start) * nm..(i - range.start + 1) * nm].copy_from_slice(&self.moving);
@@ -255,6 +263,12 @@ impl TridiagonalFactor {
 
 /// Influence relative to that of a node on itself which is left out.
 const NEGLIGIBLE: f64 = 1e-18;
+
+/// How many of the influences `x`, in groups of four, are left when those at the end that are negligible are dropped.
+fn still_alive(x: &[f64], negligible: f64) -> usize {
+    let mut groups = x.chunks_exact(4);
+    4 * groups.rposition(|group| group.iter().any(|x| x.abs() >= negligible)).map_or(0, |last| last + 1)
+}
 
 fn largest(x: &[f64]) -> f64 {
     let mut lanes = [0.0_f64; 4];

@@ -1,9 +1,9 @@
 //! Birth and death of a component.
 
+use super::component::{Component, panic_text};
 use super::logger::sink;
 use super::marshal::{Outcome, boolean, co_simulation, text};
 use super::states::States;
-use super::{Component, panic_text};
 use crate::fmi::instance::Instance;
 use crate::fmi::log::{CallError, Log, Status};
 use crate::fmi::uri::path_of;

@@ -1,6 +1,6 @@
 //! The C interface: the 34 functions of FMI 2.0 co-simulation, and the only `unsafe` of the crate.
 //!
-//! Each function checks its pointers, copies what it is given, calls [`Instance`] behind a barrier that turns panics
+//! Each function checks its pointers, copies what it is given, calls [`Instance`](crate::fmi::instance::Instance) behind a barrier that turns panics
 //! into `fmi2Fatal`, and reports errors in one place. Enumerations and booleans arrive as C integers, whatever their
 //! value. What the standard demands of masters, and what every `SAFETY` comment below relies on: a component is one that
 //! `fmi2Instantiate` returned and `fmi2FreeInstance` has not freed, used by one thread at a time; arrays have the stated
@@ -8,6 +8,7 @@
 
 #![allow(unsafe_code, non_snake_case, clippy::missing_safety_doc)]
 
+mod component;
 mod instantiate;
 mod logger;
 mod marshal;
@@ -15,32 +16,17 @@ mod states;
 
 pub use instantiate::{fmi2FreeInstance, fmi2Instantiate};
 
-use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::Call;
 use crate::fmi::log::{CallError, Status};
 use crate::fmi::snapshot::Snapshot;
 use crate::fmi::variable::Value;
+use component::{Component, panic_text};
 use libfmi::*;
 use logger::status_code;
 use marshal::{Outcome, boolean, booleans, c_string, question, slice, store, text};
-use states::States;
-use std::any::Any;
-use std::ffi::{CString, c_char, c_int};
+use std::ffi::{c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
-
-/// What a master holds as `fmi2Component`.
-struct Component {
-    instance: Instance,
-    /// Strings that the master may read until its next call of a function that returns strings.
-    strings: Vec<CString>,
-    states: States,
-}
-
-fn panic_text(panic: Box<dyn Any + Send>) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
-}
 
 /// Runs the body on the component: errors are logged and become a status, panics become `fmi2Fatal`.
 unsafe fn call(c: fmi2Component, name: &str, body: impl FnOnce(&mut Component) -> Outcome) -> fmi2Status {

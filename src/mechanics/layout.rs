@@ -1,0 +1,41 @@
+//! What follows from the parameters without a mesh: patch, fine zone, cells, masses.
+
+use crate::analytic;
+use crate::config::Config;
+use crate::fem::ContactZone;
+use crate::material::Isotropic;
+use std::f64::consts::PI;
+
+/// Half-width `a = √(4 P R / (π E*))` \[m] of the Hertzian line contact of a cylinder on a plane of the same material.
+///
+/// `P` nominal load per metre of width, `1/E* = 2 (1 − ν²)/E`. Source: Johnson, *Contact Mechanics* (1985), eq. 4.43.
+pub fn nominal_half_width(config: &Config) -> f64 {
+    let load = config.model.nominal_load / config.model.contact_width;
+    analytic::hertz_half_width(load, config.wheel.radius, contact_modulus(config))
+}
+
+/// Contact modulus of wheel and rail \[Pa].
+pub fn contact_modulus(config: &Config) -> f64 {
+    Isotropic::from(&config.material).contact_modulus()
+}
+
+/// Fine zone of the meshes for the nominal load.
+pub fn contact_zone(config: &Config) -> ContactZone {
+    ContactZone { half_width: nominal_half_width(config), elements: config.mesh.elements_per_half_width }
+}
+
+/// Mass of the wheel `ρ π (r_o² − r_i²)` [kg/m], exact for the circle.
+pub fn wheel_mass(config: &Config) -> f64 {
+    let (outer, inner) = (config.wheel.radius, config.wheel.hub_radius);
+    config.material.density * PI * (outer * outer - inner * inner)
+}
+
+/// Polar moment of inertia of the wheel `½ ρ π (r_o⁴ − r_i⁴)` [kg m²/m], exact for the circle.
+pub fn wheel_inertia(config: &Config) -> f64 {
+    0.5 * config.material.density * PI * (config.wheel.radius.powi(4) - config.wheel.hub_radius.powi(4))
+}
+
+/// Largest cells of the rail [m]: as large as those of the wheel, or 1/150 of a very long rail.
+pub(super) fn largest_rail_cell(config: &Config) -> f64 {
+    (0.05 * config.wheel.radius).max(config.rail.length / 150.0)
+}

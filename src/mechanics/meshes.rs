@@ -1,0 +1,34 @@
+//! Meshes and finite-element matrices of both bodies for a configuration.
+
+use super::ale::Stream;
+use super::error::MechanicsError;
+use super::layout::{contact_zone, largest_rail_cell};
+use super::size::{check_size, unmeshable};
+use super::system::BodySystem;
+use crate::config::Config;
+use crate::fem::{Mesh, graded};
+
+/// Mesh of the wheel; an error that names parameters if it were too large, see [`check_size`].
+pub fn wheel_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
+    check_size(config)?;
+    let mesh = graded::wheel(config.wheel.radius, config.wheel.hub_radius, contact_zone(config));
+    mesh.map_err(|source| unmeshable("wheel", source))
+}
+
+/// Mesh of the rail; an error that names parameters if it were too large, see [`check_size`].
+pub fn rail_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
+    check_size(config)?;
+    let rail = &config.rail;
+    let mesh = graded::rail(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
+    mesh.map_err(|source| unmeshable("rail", source))
+}
+
+/// Finite-element matrices of the wheel.
+pub fn wheel_system(config: &Config) -> Result<BodySystem, MechanicsError> {
+    Ok(BodySystem::assemble(&wheel_mesh(config)?, &config.material, Stream::Rotation)?)
+}
+
+/// Finite-element matrices of the rail.
+pub fn rail_system(config: &Config) -> Result<BodySystem, MechanicsError> {
+    Ok(BodySystem::assemble(&rail_mesh(config)?, &config.material, Stream::Translation)?)
+}
