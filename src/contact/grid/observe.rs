@@ -63,7 +63,7 @@ pub fn read_off(
         Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.spacing).max(0.0),
         Status::Stick | Status::Open => 0.0,
     };
-    over_patches(grid, status, patches, density, &mut traction.dissipation);
+    within_edges(grid, status, patches, density, &mut traction.dissipation);
     scale_to(&mut traction.dissipation, traction.friction_power, &traction.pressure);
 }
 
@@ -81,16 +81,16 @@ fn resultant(grid: &ContactGrid, radius: f64, state: &GridState, traction: &Trac
     sum
 }
 
-/// Scales a profile to the given integral; spreads it like the `fallback` where it is zero itself.
+/// Scales a profile to the given integral; where it is zero itself, or too small to be scaled, it takes the shape of the
+/// `fallback`.
 fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
-    // Neither without a shape nor with one that is too small to be scaled.
     let factor = total / profile.integral();
     if factor.is_finite() {
         return profile.scale(factor);
     }
-    let load = fallback.integral();
-    let factor = if load > 0.0 { total / load } else { 0.0 };
-    profile.value.iter_mut().zip(&fallback.value).for_each(|(v, f)| *v = factor * f);
+    profile.x.iter().zip(&mut profile.value).for_each(|(&x, v)| *v = fallback.at(x));
+    let load = profile.integral();
+    profile.scale(if load > 0.0 { total / load } else { 0.0 });
 }
 
 /// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.
@@ -115,19 +115,34 @@ fn over_patches(
     value: impl Fn(usize) -> f64,
     profile: &mut Piecewise,
 ) {
-    profile.x.clear();
-    profile.value.clear();
-    let mut push = |x: f64, value: f64| {
-        profile.x.push(x);
-        profile.value.push(value);
-    };
+    profile.clear();
     let mut patches = patches.iter();
     for_each_patch(status, |run| {
         let Some(patch) = patches.next() else { return };
         let margin = MARGIN * grid.spacing;
-        push(patch.low.min(grid.x[run.start] - margin), 0.0);
-        run.clone().for_each(|i| push(grid.x[i], value(i)));
-        push(patch.high.max(grid.x[run.end - 1] + margin), 0.0);
+        profile.push(patch.low.min(grid.x[run.start] - margin), 0.0);
+        run.clone().for_each(|i| profile.push(grid.x[i], value(i)));
+        profile.push(patch.high.max(grid.x[run.end - 1] + margin), 0.0);
+    });
+}
+
+/// Writes a nodal quantity as a profile between the edges of all patches, zero at them: where friction heats, the bodies
+/// conduct, too.
+fn within_edges(
+    grid: &ContactGrid,
+    status: &[Status],
+    patches: &[Interval],
+    value: impl Fn(usize) -> f64,
+    profile: &mut Piecewise,
+) {
+    profile.clear();
+    let mut patches = patches.iter();
+    for_each_patch(status, |run| {
+        let Some(patch) = patches.next() else { return };
+        profile.push(patch.low, 0.0);
+        let inside = run.filter(|&i| patch.low < grid.x[i] && grid.x[i] < patch.high);
+        inside.for_each(|i| profile.push(grid.x[i], value(i)));
+        profile.push(patch.high, 0.0);
     });
 }
 

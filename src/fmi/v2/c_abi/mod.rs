@@ -325,7 +325,9 @@ const _: fmi2FreeInstanceTYPE = Some(fmi2FreeInstance);
 
 #[cfg(test)]
 mod tests {
+    use super::states::States;
     use super::*;
+    use crate::fmi::instance::Instance;
     use crate::fmi::log::{Log, Sink};
     use std::cell::RefCell;
     use std::rc::Rc;
