@@ -92,6 +92,7 @@ impl Model {
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
+        rolling::Model::check_size(&config)?;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
         if config.solver.response == Response::Reduced {
             let (found, bytes) = match store.find(&config)? {

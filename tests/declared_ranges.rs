@@ -5,11 +5,11 @@ mod common;
 use std::path::Path;
 use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, Response, presets};
-use wheelrail::simulation::{Inputs, Model, Simulation};
+use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
 const PRESETS: [&str; 5] = ["railway", "paper_a", "paper_b", "paper_c", "paper_d"];
 
-/// A preset on the coarsest mesh with fewer modes, as many as the eigenvalue solver finds for the longest rail.
+/// A preset on the coarsest mesh with fewer modes.
 fn coarse(name: &str) -> Config {
     let mut config = common::preset(name, 4);
     (config.solver.modes_wheel, config.solver.modes_rail) = (12, 20);
@@ -91,6 +91,27 @@ fn shipped_presets_say_only_what_differs_from_the_default() {
         }
     }
     assert_eq!(common::preset("railway", 20), Config::default());
+}
+
+/// Two bodies that ranges allow, but no memory: metres of rail in cells that a small wheel prescribes; a heat model for a
+/// twentieth of the load on the finest mesh.
+#[test]
+fn models_too_large_for_memory_are_refused_in_milliseconds_and_by_name() {
+    let mut rail = Config::default();
+    (rail.wheel.radius, rail.wheel.hub_radius) = (0.1, 0.01);
+    (rail.rail.length, rail.rail.height) = (2.0, 2.0);
+    (rail.model.nominal_load, rail.model.contact_width) = (100.0, 1.0);
+    rail.mesh.elements_per_half_width = 80;
+    let mut heat = Config::default();
+    heat.mesh.elements_per_half_width = 80;
+    heat.thermal.smallest_load_ratio = 0.05;
+    for (config, name) in [(rail, "rail.height"), (heat, "thermal.smallest_load_ratio")] {
+        assert!(config.thermal.enabled && config.validate().is_ok());
+        let start = std::time::Instant::now();
+        let error = Model::prepare(config, &BasisStore::none(), &mut |_, _| {}).err().unwrap().to_string();
+        assert!(start.elapsed().as_millis() < 50);
+        assert!(error.contains(name) && error.contains("mesh.elements_per_half_width"), "{error}");
+    }
 }
 
 #[test]

@@ -2,29 +2,12 @@
 
 mod heat_common;
 use heat_common::*;
-use std::f64::consts::PI;
+use wheelrail::analytic::moving_source;
 use wheelrail::config::Hub;
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 
 const A: f64 = 0.761e-3;
-
-/// Surface temperature of a half-space under the flux `q(ξ)`, ξ = x/a, moving fast towards +x (Abel's integral):
-/// `T(x) = 1/√(π k ρc V) ∫ₓ^a q(x′)/√(x′ − x) dx′` (Carslaw & Jaeger, 2nd ed., 10.7, limit of large Péclet number).
-fn abel(x: f64, v: f64, q: &dyn Fn(f64) -> f64) -> f64 {
-    // x′ = x + t², t from the trailing edge or x to the leading edge; sin substitution smooths the edge of the flux.
-    let low = (-A - x).max(0.0).sqrt();
-    let high = (A - x).max(0.0).sqrt();
-    let n = 2000;
-    let sum: f64 = (0..n)
-        .map(|i| {
-            let angle = PI * (f64::from(i) + 0.5) / f64::from(n);
-            let t = 0.5 * (low + high) - 0.5 * (high - low) * angle.cos();
-            q((x + t * t) / A) * 0.5 * (high - low) * angle.sin() * PI / f64::from(n)
-        })
-        .sum();
-    2.0 * sum / (PI * 45.0 * 460.0 * 8000.0 * v).sqrt()
-}
 
 #[test]
 fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
@@ -37,6 +20,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
         (c.thermal.heat_ratio, c.thermal.wheel_share) = (1.0, 0.0);
     });
     let heat = heat(&config);
+    let effusivity = (config.material.conductivity * config.heat_capacity()).sqrt();
     for (name, q, reference) in cases {
         let friction_power = Piecewise::sampled(-A, A, 400, |x| q(x / A));
         let exchange = Exchange { friction_power, ..Exchange::default() };
@@ -48,7 +32,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
         for i in 0..=200 {
             let x = A * (1.0 - 2.5 * f64::from(i) / 200.0);
             let [_, rail] = heat.surface_temperatures(&state, x).unwrap();
-            worst = worst.max((rail - abel(x, v, q)).abs() / reference);
+            worst = worst.max((rail - moving_source(x, A, v, effusivity, &|x| q(x / A))).abs() / reference);
         }
         println!("{name}: largest deviation of the profile {:.3} % of the maximum", 100.0 * worst);
         assert!(worst < 1e-2);

@@ -2,7 +2,7 @@
 
 mod common;
 use common::*;
-use std::f64::consts::PI;
+use wheelrail::analytic::flash_temperature;
 use wheelrail::config::Config;
 use wheelrail::simulation::{Inputs, Rotation, Simulation};
 
@@ -65,7 +65,8 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     inputs.drive.friction = 0.08;
     inputs.drive.moment = -8000.0;
     // The flash temperature is in proportion to Q/√(a v).
-    let unit = flash(&config, 1.0, 1.0, 1.0);
+    let m = &config.material;
+    let unit = flash_temperature(1.0, 1.0, 1.0, (m.conductivity * m.density * m.specific_heat).sqrt());
     let (mut hottest, mut all_to_rail, mut locked) = (0.0f64, 0.0f64, false);
     let mut time = 0.0;
     while simulation.outputs().wheel_velocity > 0.05 {
@@ -109,25 +110,6 @@ fn growth_on_rigid_hub(config: &Config, warmth: f64) -> f64 {
     a * (ro - ri * ri / ro)
 }
 
-/// Highest temperature rise that friction heat `q` [W/m] under a half-ellipse of half-width `a` [m] gives a half-space
-/// that streams past with the velocity `v` [m/s] and takes all of it, at large Péclet number (Jaeger; Carslaw & Jaeger,
-/// 2nd ed., 10.7): the largest value of `1/√(π k ρc v) ∫ q(x′)/√(x′ − x) dx′`.
-fn flash(config: &Config, heat: f64, a: f64, v: f64) -> f64 {
-    let m = &config.material;
-    let density = |x: f64| 2.0 * heat / (PI * a) * (1.0 - x * x / (a * a)).max(0.0).sqrt();
-    let rise = |x: f64| {
-        // x′ = x + t²; the sine substitution smooths the square root at the leading edge.
-        let (n, high) = (400, (a - x).sqrt());
-        let part = |i: i32| {
-            let angle = 0.5 * PI * (f64::from(i) + 0.5) / f64::from(n);
-            let t = high * angle.sin();
-            density(x + t * t) * high * angle.cos() * 0.5 * PI / f64::from(n)
-        };
-        2.0 * (0..n).map(part).sum::<f64>() / (PI * m.conductivity * m.density * m.specific_heat * v).sqrt()
-    };
-    (0..200).map(|k| rise(a * (1.0 - f64::from(k) / 100.0))).fold(0.0, f64::max)
-}
-
 #[test]
 fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
     let mut config = preset("railway", 20);
@@ -143,7 +125,9 @@ fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
     let heat = config.thermal.heat_ratio * o.friction_power / config.model.contact_width;
     // Equal temperatures on both sides divide the heat in proportion to √v: √v_rail + √v_wheel act together.
     let together = (rail.sqrt() + tread.sqrt()).powi(2);
-    let expected = flash(&config, heat, o.contact_half_width, together);
+    let m = &config.material;
+    let effusivity = (m.conductivity * m.density * m.specific_heat).sqrt();
+    let expected = flash_temperature(heat, o.contact_half_width, together, effusivity);
     // The tread comes round warm from the pass before: the flash temperature is the rise over that.
     let arriving = o.profile_temperature_wheel.last().unwrap() - config.thermal.reference;
     let share = tread.sqrt() / (rail.sqrt() + tread.sqrt());

@@ -33,7 +33,8 @@ parameters! {
         }
         /// Plate below the wheel, fixed at its base.
         rail: Rail fixed {
-            1040 length: f64 = 1.0, in "m", from 0.12 to 2.0, "Modelled length of the rail, at least 0.2 wheel.radius";
+            1040 length: f64 = 1.0, in "m", from 0.12 to 100.0,
+                "Modelled length of the rail, at least 0.2 wheel.radius";
             1041 height: f64 = 0.1, in "m", from 0.02 to 2.0,
                 "Height of the rail, at least 0.02 wheel.radius; its base is fixed";
         }

@@ -100,19 +100,6 @@ pub fn graded(first: f64, growth: f64, largest: f64, length: f64) -> Vec<f64> {
     positions
 }
 
-/// About the number of cells that [`graded`] makes, without making them; exact to one cell.
-pub fn graded_cells(first: f64, growth: f64, largest: f64, length: f64) -> f64 {
-    let first = first.min(largest);
-    // Cells below the largest, and the length that they fill: a geometric series.
-    let rising = ((largest / first).ln() / growth.ln()).ceil().max(0.0);
-    let filled = first * (growth.powf(rising) - 1.0) / (growth - 1.0);
-    if filled < length {
-        (rising + (length - filled) / largest).ceil()
-    } else {
-        ((length / first * (growth - 1.0)).ln_1p() / growth.ln()).ceil()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,22 +125,5 @@ mod tests {
         let growing = h.windows(2).filter(|h| h[1] < 0.09);
         assert!(growing.clone().count() > 5 && growing.into_iter().all(|h| (h[1] / h[0] - 1.5).abs() < 1e-9));
         assert_eq!(graded(2.0, 1.5, 3.0, 1.0), [0.0, 1.0]);
-    }
-
-    #[test]
-    fn number_of_cells_is_known_before_they_are_made() {
-        for (first, growth, largest, length) in [
-            (1e-3, 1.5, 0.1, 1.0),
-            (2.0, 1.5, 3.0, 1.0),
-            (1e-5, 1.2, 1.0, 0.1),
-            (1e-6, 1.3, 1e-4, 0.3),
-            (0.1, 1.2, 0.1, 2.0),
-        ] {
-            let made = graded(first, growth, largest, length).len() as f64 - 1.0;
-            let known = graded_cells(first, growth, largest, length);
-            assert!((made - known).abs() <= 1.0, "{made} cells made, {known} expected");
-        }
-        assert!(graded_cells(1e-9, 1.2, 1e-8, 1e6) > 1e13);
-        assert!(Grading::one_sided(1e-9, 1.2, 1e-8).cells(1e6) > 1e13);
     }
 }

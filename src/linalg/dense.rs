@@ -1,8 +1,9 @@
-//! Small dense systems, solved over and over in buffers that are kept.
+//! Small dense matrices: systems solved over and over in buffers that are kept, and exact symmetry.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::{MatMut, Par};
+use nalgebra::DMatrix;
 
 /// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
 ///
@@ -63,6 +64,17 @@ impl DenseSystem {
             solve::solve_transpose_in_place(factors, factors, permutation, rhs, Par::Seq, stack);
         }
         self.rhs.iter().all(|x| x.is_finite()).then_some(&self.rhs)
+    }
+}
+
+/// Removes the round-off between `a_ij` and `a_ji`.
+pub fn symmetrise(a: &mut DMatrix<f64>) {
+    for i in 0..a.nrows() {
+        for j in 0..i {
+            let mean = 0.5 * (a[(i, j)] + a[(j, i)]);
+            a[(i, j)] = mean;
+            a[(j, i)] = mean;
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 //! bodies and solves the dense symmetric eigenproblems of the modes, because the divide and conquer of faer 0.24.4 loses
 //! nine digits there (also faer-rs issue 273); a test in [`modes`] tells when that has changed.
 
+mod blocks;
 pub mod dense;
 mod error;
 pub mod gmres;

@@ -5,14 +5,17 @@
 //! The static limit is exact; the truncated modes lie above the band of interest and follow their load at once. Damping
 //! acts between the kept modes, `Φᵀ D Φ`; the truncated modes have neither inertia nor damping, so that they store elastic
 //! energy and dissipate none.
-//! Source: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006), ch. 17 (Rubin's method).
+//!
+//! This is MacNeal's method: R. H. MacNeal, *Computers & Structures* 1 (1971) 581–601, there for free interfaces with rigid
+//! modes, which hub and base take away here. Rubin's (*AIAA Journal* 13 (1975) 995–1006) would add the inertia of the
+//! truncated modes to second order. Both: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006), ch. 17.
 
 use super::MechanicsError;
 use super::motion::{self, Equations};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::solver::{Dense, Diagonal, StepSolver};
-use super::system::symmetrise;
+use crate::linalg::dense::symmetrise;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 

@@ -1,7 +1,8 @@
 //! Reduction of a body to vibration modes and residual flexibility; see [`super::reduced`] for the theory.
 
 use super::MechanicsError;
-use super::system::{BodySystem, symmetrise};
+use super::system::BodySystem;
+use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,9 @@
 //! Configurations and small meshes for the tests.
 
+use crate::analytic::{self, Torsion};
 use crate::config::{Config, presets};
 use crate::fem::Mesh;
+use crate::material::Isotropic;
 use crate::mechanics::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
@@ -12,6 +14,12 @@ pub fn paper_d(elements: usize) -> Config {
     let mut config = presets::parse(include_str!("../../resources/paper_d.json")).unwrap();
     config.mesh.elements_per_half_width = elements;
     config
+}
+
+/// Torsion of the wheel on its hub, of the circle and in the continuum.
+pub fn exact_torsion(config: &Config) -> Torsion {
+    let speed = Isotropic::from(&config.material).shear_wave_speed();
+    analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, speed)
 }
 
 /// Unit square of `n × n` cells, inner nodes displaced by up to `distortion` cells, nothing fixed.

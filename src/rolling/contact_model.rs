@@ -36,7 +36,7 @@ pub struct ContactStep<'a> {
     pub rigid: [RigidMotion; 3],
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
-    /// Distance travelled \[m] and angle turned \[rad].
+    /// Distance travelled \[m] and angle turned \[rad] at the end of the step, as predicted.
     pub place: [f64; 2],
     /// How heat has deformed the bodies.
     pub deformation: &'a ThermalDeformation,

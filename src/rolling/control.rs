@@ -239,7 +239,8 @@ impl Inputs {
 /// standstill.
 ///
 /// Where wheel and rail move against each other the quotient has a pole (`V_C = −V`) and says nothing; such a wheel slides
-/// more than a locked one, and the creepage stays at the value of the locked wheel, 2.
+/// more than a locked one, and the creepage stays at the value of the locked wheel, 2. The sign is relative to the direction of
+/// travel: that of a wheel which spins on the spot changes with it, unlike that of `V − V_C`.
 pub fn creepage(v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) {
         0.0

@@ -10,8 +10,8 @@ use crate::config::Config;
 use crate::contact::grid::{ContactGrid, GridSolver};
 use crate::contact::{self, ContactSolver};
 use crate::material::Isotropic;
-use crate::mechanics::Pair;
 use crate::mechanics::response::FreeResponse;
+use crate::mechanics::{self, Pair};
 use nalgebra::DVector;
 
 /// Everything that does not change during a run; instances with equal parameters share it.
@@ -48,6 +48,15 @@ pub struct Workspace {
 }
 
 impl Model {
+    /// Refuses a configuration whose meshes would take more memory and time than is sensible, in microseconds.
+    pub fn check_size(config: &Config) -> Result<(), ModelError> {
+        mechanics::check_size(config)?;
+        if config.thermal.enabled {
+            thermal::check_size(config)?;
+        }
+        Ok(())
+    }
+
     /// Builds the model on given bodies, with contact on the grid of their surface nodes.
     pub fn new(config: Config, bodies: Pair) -> Result<Self, ModelError> {
         let grid = ContactGrid {

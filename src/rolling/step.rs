@@ -10,7 +10,7 @@ use super::thermal::HeatStep;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Heating};
 use crate::mechanics::response::Convection;
-use crate::multistep::{TimeDerivative, formula, settled};
+use crate::multistep::{History, TimeDerivative, formula, settled};
 
 /// Largest change of the weights at the contact edges that counts as converged in a step [1].
 const EDGE_TOLERANCE: f64 = 0.02;
@@ -113,7 +113,10 @@ fn solve_and_commit(
         free,
         rigid: model.wheel.motions(&state.motion, drives, td, *speeds, free[0].momentum),
         time: *td,
-        place: [state.distance, state.angle],
+        place: [
+            moved_by(state.distance, &state.motion.velocity, speeds[0], *dt),
+            moved_by(state.angle, &state.motion.omega, speeds[1], *dt),
+        ],
         deformation: state.deformation(),
         friction: plan.friction,
         edge_tolerance: EDGE_TOLERANCE,
@@ -129,14 +132,19 @@ fn solve_and_commit(
     next.hub = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);
     next.time = state.time + dt;
     next.pending = 0.0;
-    next.distance = state.distance + 0.5 * dt * (state.motion.velocity.now + next.motion.velocity.now);
-    next.angle = state.angle + 0.5 * dt * (state.motion.omega.now + next.motion.omega.now);
+    next.distance = moved_by(state.distance, &state.motion.velocity, next.motion.velocity.now, *dt);
+    next.angle = moved_by(state.angle, &state.motion.omega, next.motion.omega.now, *dt);
     next.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     next.friction = plan.friction;
     next.available_friction = demand.target.friction;
     next.last_step = *dt;
     next.restarted = plan.restarted;
     Ok(())
+}
+
+/// Distance or angle after a step that ends with the speed `to`: the trapezoidal rule.
+fn moved_by(place: f64, speed: &History, to: f64, dt: f64) -> f64 {
+    place + 0.5 * dt * (speed.now + to)
 }
 
 /// Rigid motion after a step that ends with the values (V, U, Ω).

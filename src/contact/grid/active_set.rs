@@ -5,10 +5,10 @@
 //! - closed if `λ_n − c g > 0`;
 //! - a stuck node slips when `|λ_t| > μ λ_n`; a slipping node whose friction force no longer opposes the slip sticks, so
 //!   a reversal of slip always passes through stick; a node that closes takes the state of its nearest closed neighbour
-//!   and sticks where it has none. Without these rules the iteration cycles.
+//!   and sticks where it has none, unless the surfaces run against each other. Without these rules the iteration cycles.
 //!
-//! An iteration that stalls all the same is restarted from full stick ([`RESTARTS`]), and the tolerance within which a
-//! node keeps its state grows from iteration to iteration.
+//! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
+//! within which a node keeps its state grows from iteration to iteration.
 
 use super::iterate::{GridScratch, Iterate};
 use super::rows::AffineRow;
@@ -21,7 +21,7 @@ use std::ops::Range;
 
 /// Iterations allowed.
 pub const MAX_ITERATIONS: usize = 40;
-/// Iterations at which a stalled iteration restarts from full stick. Ordinary steps need one to three iterations and the
+/// Iterations at which a stalled iteration restarts as if newly closed. Ordinary steps need one to three iterations and the
 /// start of sliding from stick up to fourteen, so that only stalled ones get there.
 const RESTARTS: [usize; 2] = [20, 31];
 /// Iterations after which the tolerance of the states grows, and its growth per iteration.
@@ -39,12 +39,15 @@ impl Iterate<'_> {
     pub fn run(mut self) -> Result<(), ContactError> {
         self.traction.rigid = self.problem.rigid.map(|motion| motion.start());
         self.prepare();
+        if self.problem.time.is_stationary() {
+            self.found_anew();
+        }
         let penalty = self.penalty();
         self.update_upwind();
         for iteration in 1..=MAX_ITERATIONS {
             if RESTARTS.contains(&iteration) {
-                let closed = self.state.status.iter_mut().filter(|s| s.is_active());
-                closed.for_each(|s| *s = Status::Stick);
+                self.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = Status::Stick);
+                self.found_anew();
             }
             self.solve_linear()?;
             self.traction.iterations = iteration;
@@ -55,6 +58,27 @@ impl Iterate<'_> {
             }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+    }
+
+    /// State of a node without a past or a neighbour: it sticks, unless the surfaces run against each other, and that by
+    /// more than a cell in the step. There sticking needs strains of order one; where both velocities are about opposite
+    /// (`rΩ = −V`) its equation even loses its force coefficients, and their sign is no direction of friction.
+    fn founding_state(&self) -> Status {
+        let [v, _, omega] = self.traction.rigid;
+        let v_c = self.problem.radius() * omega;
+        if v * v_c >= 0.0 || (v - v_c).abs() <= self.problem.time.a0 * self.grid.spacing {
+            Status::Stick
+        } else if v < v_c {
+            Status::SlipForward
+        } else {
+            Status::SlipBackward
+        }
+    }
+
+    /// Gives all stuck nodes the state of founding ones.
+    fn found_anew(&mut self) {
+        let founding = self.founding_state();
+        self.state.status.iter_mut().filter(|s| **s == Status::Stick).for_each(|s| *s = founding);
     }
 
     /// Mean stiffness of the nodes [N/m per m]: it compares gaps with forces.
@@ -242,7 +266,7 @@ impl Iterate<'_> {
         let gap = &self.state.gap;
         let nearest = (0..self.grid.len()).min_by(|&a, &b| gap[a].total_cmp(&gap[b]));
         if let Some(i) = nearest {
-            self.state.status[i] = Status::Stick;
+            self.state.status[i] = self.founding_state();
         }
         nearest.is_some()
     }
@@ -256,11 +280,11 @@ impl Iterate<'_> {
         stuck.sum::<f64>() > OVERLOAD * limit && self.problem.friction > 0.0
     }
 
-    /// State of a node that has just closed: that of the nearest closed node, or stick where it founds a patch. Between
-    /// the two restarts it always sticks.
+    /// State of a node that has just closed: that of the nearest closed node, or its own where it founds a patch, as
+    /// between the two restarts.
     fn closing_state(&self, i: usize, iteration: usize) -> Status {
         if (RESTARTS[0]..RESTARTS[1]).contains(&iteration) {
-            return Status::Stick;
+            return self.founding_state();
         }
         let before = &self.scratch.status_before;
         let left = before[..i].iter().rev().position(|s| s.is_active());
@@ -269,7 +293,7 @@ impl Iterate<'_> {
             (Some(l), Some(r)) if r < l => before[i + 1 + r],
             (Some(l), _) => before[i - 1 - l],
             (None, Some(r)) => before[i + 1 + r],
-            (None, None) => Status::Stick,
+            (None, None) => self.founding_state(),
         }
     }
 

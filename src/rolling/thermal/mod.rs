@@ -61,6 +61,14 @@ pub struct Scratch {
     seen: Observation,
 }
 
+/// Refuses, before any memory is taken, what [`ThermalModel::new`] would refuse on the mesh of the configuration: too many
+/// elements in the contact zone, on whose number the size of the heat model depends.
+pub fn check_size(config: &Config) -> Result<(), HeatError> {
+    let zone = mechanics::contact_zone(config);
+    let reach = (zone.candidates() / 2 + 1) as f64 * zone.spacing();
+    Ok(exchange::heat_config(config, zone.half_width, reach).validate()?)
+}
+
 impl ThermalModel {
     /// For contact within `zone` \[m] of the contact point; the temperature is resolved up to `margin` \[m] beyond.
     pub fn new(config: &Config, zone: f64, margin: f64) -> Result<Self, HeatError> {

@@ -1,0 +1,291 @@
+//! A second contact solver behind the seam of the first: a smooth Hertzian line contact without friction. It knows
+//! nothing of a grid; what it needs it takes from the contact problem, and the rolling motion runs on it unchanged.
+
+mod common;
+
+use common::preset;
+use nalgebra::DVector;
+use std::f64::consts::PI;
+use std::sync::{Arc, Mutex};
+use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
+use wheelrail::config::{Config, Response};
+use wheelrail::contact::{
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Scratch, SolverState, Traction,
+};
+use wheelrail::mechanics::{Basis, Pair, bodies, contact_modulus};
+use wheelrail::piecewise::{Interval, Piecewise};
+use wheelrail::rolling::outputs::observe;
+use wheelrail::rolling::{Inputs, Model, Rotation, State, Translation, Workspace, stationary, substeps};
+use wheelrail::simulation::Outputs;
+
+/// Points of the reported profiles.
+const PROFILE: usize = 401;
+
+/// Line contact of a cylinder on a plane with the pressure of Hertz, spread over the surface nodes.
+struct Hertz {
+    /// Positions of the surface nodes [m], two ports each.
+    x: Vec<f64>,
+    /// Contact modulus [Pa].
+    modulus: f64,
+    /// Distance and angle of the last problem.
+    place: Arc<Mutex<[f64; 2]>>,
+}
+
+impl Hertz {
+    /// Forces on the ports under a line load [N/m]: the Hertzian pressure integrated over the cell of every node.
+    fn forces(&self, load: f64, radius: f64) -> DVector<f64> {
+        let (a, h) = (hertz_half_width(load, radius, self.modulus), self.x[1] - self.x[0]);
+        // Share of the load left of x.
+        let share = |x: f64| {
+            let s = (x / a).clamp(-1.0, 1.0);
+            0.5 + (s * (1.0 - s * s).sqrt() + s.asin()) / PI
+        };
+        let mut forces = DVector::zeros(2 * self.x.len());
+        for (i, x) in self.x.iter().enumerate() {
+            forces[2 * i + 1] = load * (share(x + 0.5 * h) - share(x - 0.5 * h));
+        }
+        forces
+    }
+
+    /// Displacements of both surfaces under forces and known motions.
+    fn surfaces(&self, problem: &ContactProblem, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
+        let bodies = &problem.bodies;
+        let mut wheel = bodies.free[0] + bodies.compliance[0] * forces;
+        for (k, motion) in problem.rigid.iter().enumerate() {
+            wheel.axpy(motion.acceleration(rigid[k]), &bodies.inertial.column(k), 1.0);
+        }
+        [wheel, bodies.free[1] - bodies.compliance[1] * forces]
+    }
+
+    /// Distance of the surfaces below the wheel centre [m]; zero in a solution.
+    fn gap(&self, problem: &ContactProblem, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
+        let port = self.x.len() / 2 * 2 + 1;
+        height + problem.surfaces.gap(0.0, &problem.placement) + surfaces[0][port] - surfaces[1][port]
+    }
+
+    /// What is left of the balance of a free axis [N/m, N].
+    fn unbalance(&self, problem: &ContactProblem, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
+        let motion = &problem.rigid[axis];
+        let mut sum = motion.momentum + (problem.bodies.momentum.row(axis) * forces)[0];
+        for (l, other) in problem.rigid.iter().enumerate() {
+            let inertia = problem.bodies.deformation_inertia[(axis, l)] + if l == axis { motion.inertia } else { 0.0 };
+            sum += inertia * other.acceleration(rigid[l]);
+        }
+        sum - self.resultant(forces)[axis]
+    }
+
+    /// Force and moment about the hub centre: the pressure is symmetric about the point below it.
+    fn resultant(&self, forces: &DVector<f64>) -> [f64; 3] {
+        [0.0, forces.iter().skip(1).step_by(2).sum(), 0.0]
+    }
+
+    /// Rigid motions and residuals of the free axes for a load: the equations are linear.
+    fn motion(&self, problem: &ContactProblem, load: f64, radius: f64) -> [f64; 3] {
+        let forces = self.forces(load, radius);
+        let mut rigid = problem.rigid.map(|motion| motion.start());
+        for _ in 0..4 {
+            for axis in [0, 2] {
+                if let AxisDrive::Free { load } = problem.rigid[axis].drive {
+                    let residual = self.unbalance(problem, axis, &forces, &rigid) - load;
+                    let inertia = problem.rigid[axis].inertia + problem.bodies.deformation_inertia[(axis, axis)];
+                    rigid[axis] -= residual / (inertia * problem.rigid[axis].gain);
+                }
+            }
+            // The height at which the surfaces just touch.
+            if problem.rigid[1].target().is_none() {
+                let touch = |height: f64| {
+                    let rigid = [rigid[0], height, rigid[2]];
+                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), height)
+                };
+                let (at, slope) = (touch(rigid[1]), touch(rigid[1] + 1e-6) - touch(rigid[1]));
+                rigid[1] -= at * 1e-6 / slope;
+            }
+        }
+        rigid
+    }
+}
+
+impl ContactSolver for Hertz {
+    fn touching(&self, _half_width: f64) -> ContactState {
+        let ports = DVector::zeros(2 * self.x.len());
+        let traction = Traction { port_forces: ports.clone(), surface: [ports.clone(), ports], ..Traction::default() };
+        ContactState { traction, solver: SolverState::Stateless }
+    }
+
+    fn solve(
+        &self,
+        problem: &ContactProblem,
+        _start: &ContactState,
+        found: &mut ContactState,
+        _scratch: &mut Scratch,
+    ) -> Result<(), ContactError> {
+        let radius = problem.radius();
+        *self.place.lock().unwrap() = [problem.placement.distance, problem.placement.angle];
+        // The load at which what presses the wheel down is what holds it up; a secant of an almost linear function.
+        let missing = |load: f64| {
+            let rigid = self.motion(problem, load, radius);
+            let forces = self.forces(load, radius);
+            match problem.rigid[1].drive {
+                AxisDrive::Free { load } => self.unbalance(problem, 1, &forces, &rigid) - load,
+                AxisDrive::Prescribed { target } => {
+                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), target) * problem.nominal_load * 1e4
+                }
+            }
+        };
+        let (mut a, mut b) = (0.9 * problem.nominal_load, problem.nominal_load);
+        let (mut at_a, mut iterations) = (missing(a), 0);
+        loop {
+            let at_b = missing(b);
+            iterations += 1;
+            if at_b.abs() <= 1e-11 * problem.nominal_load {
+                break;
+            }
+            if iterations > 40 {
+                return Err(ContactError::NotConverged { iterations });
+            }
+            let next = b - at_b * (b - a) / (at_b - at_a);
+            (a, at_a, b) = (b, at_b, next.max(1e-3 * problem.nominal_load));
+        }
+        let (rigid, half_width) = (self.motion(problem, b, radius), hertz_half_width(b, radius, self.modulus));
+        let forces = self.forces(b, radius);
+        let peak = hertz_peak_pressure(b, half_width);
+        let at = |k: usize| half_width * (2.0 * k as f64 / (PROFILE - 1) as f64 - 1.0);
+        let x: Vec<f64> = (0..PROFILE).map(at).collect();
+        let pressure = x.iter().map(|x| peak * (1.0 - (x / half_width).powi(2)).max(0.0).sqrt()).collect();
+        let profile = |value: Vec<f64>| Piecewise { x: x.clone(), value };
+        let slip = rigid[0] - radius * rigid[2];
+        found.traction = Traction {
+            resultant: self.resultant(&forces),
+            surface: self.surfaces(problem, &forces, &rigid),
+            port_forces: forces,
+            rigid,
+            friction_power: 0.0,
+            patches: vec![Interval { low: -half_width, high: half_width }],
+            stick_fraction: 0.0,
+            pressure_max: peak,
+            pressure: profile(pressure),
+            shear: profile(vec![0.0; PROFILE]),
+            slip: profile(vec![slip; PROFILE]),
+            dissipation: profile(vec![0.0; PROFILE]),
+            iterations,
+        };
+        found.solver = SolverState::Stateless;
+        Ok(())
+    }
+
+    fn fits(&self, state: &ContactState) -> bool {
+        state.solver == SolverState::Stateless && state.traction.port_forces.len() == 2 * self.x.len()
+    }
+}
+
+/// The model on the toy solver, and one on the solver on the grid.
+fn models() -> [Model; 2] {
+    models_with_place().0
+}
+
+/// The same, with the place of the last problem of the toy solver.
+fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
+    let mut config = preset("railway", 10);
+    config.thermal.enabled = false;
+    config.solver.response = Response::Reduced;
+    let basis = common::store().find(&config).unwrap();
+    let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
+    let pair = |config: &Config| -> Pair { bodies(config, Some(basis.clone()), &mut |_, _| {}).unwrap() };
+    let (toys, grids) = (pair(&config), pair(&config));
+    let place = Arc::default();
+    let toy = Hertz { x: toys.surface_x.clone(), modulus: contact_modulus(&config), place: Arc::clone(&place) };
+    let models = [Model::with_solver(config.clone(), toys, Box::new(toy)).unwrap(), Model::new(config, grids).unwrap()];
+    (models, place)
+}
+
+fn start(model: &Model, inputs: &Inputs) -> (State, Workspace) {
+    let mut workspace = Workspace::default();
+    let state = stationary::start(model, &model.config.tuning, inputs, &mut workspace).unwrap();
+    (state, workspace)
+}
+
+/// Outputs of the start and after each of `steps` steps of 1 ms.
+fn run(model: &Model, inputs: &Inputs, steps: usize) -> Vec<Outputs> {
+    let (mut state, mut workspace) = start(model, inputs);
+    let mut seen = vec![observe(model, &state)];
+    for _ in 0..steps {
+        let mut next = State::default();
+        substeps::advance(model, &model.config.tuning, &state, inputs, 1e-3, &mut workspace, &mut next).unwrap();
+        state = next;
+        assert!(model.fits(&state) && state.contact.solver == SolverState::Stateless);
+        seen.push(observe(model, &state));
+    }
+    seen
+}
+
+#[test]
+fn stationary_contact_of_the_second_solver_is_that_of_hertz() {
+    let [model, on_grid] = models();
+    let mut inputs = Inputs::rolling(&model.config);
+    inputs.rotation = Rotation::Velocity;
+    inputs.translation = Translation::Velocity;
+    // The solver on the grid is frictionless, too, for comparison.
+    let (ours, theirs) = (observe(&model, &start(&model, &inputs).0), {
+        let mut smooth = inputs;
+        smooth.drive.friction = 0.0;
+        observe(&on_grid, &start(&on_grid, &smooth).0)
+    });
+    let config = &model.config;
+    let line_load = inputs.drive.load / config.model.contact_width;
+    let a = hertz_half_width(line_load, config.wheel.radius, contact_modulus(config));
+    assert!((ours.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9, "{}", ours.contact_force_y);
+    assert!((ours.contact_half_width / a - 1.0).abs() < 1e-9);
+    assert!((ours.contact_pressure_max / hertz_peak_pressure(line_load, a) - 1.0).abs() < 1e-9);
+    assert_eq!((ours.contact_force_x, ours.friction_power, ours.contact_stick_fraction), (0.0, 0.0, 0.0));
+    println!("approach {:.4e} m, on the grid {:.4e} m", ours.contact_approach, theirs.contact_approach);
+    // The compliance of the mesh below its nodes is what the grid corrects and the toy does not.
+    assert!((ours.contact_approach / theirs.contact_approach - 1.0).abs() < 0.02);
+    assert!((ours.contact_half_width / theirs.contact_half_width - 1.0).abs() < 5e-3);
+}
+
+#[test]
+fn a_wheel_on_the_second_solver_accelerates_under_its_moment_alone() {
+    let [model, _] = models();
+    let mut inputs = Inputs::rolling(&model.config);
+    inputs.drive.moment = 500.0;
+    let seen = run(&model, &inputs, 40);
+    let (first, last) = (&seen[0], &seen[40]);
+    for outputs in &seen {
+        assert_eq!(outputs.contact_force_x, 0.0);
+        assert_eq!(outputs.friction_power, 0.0);
+        // Of a wheel that is spun up the rim moves a little, and its inertia takes part of the load.
+        assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-4, "{}", outputs.contact_force_y);
+    }
+    // Without friction the moment turns the wheel, and nothing drives the vehicle.
+    let turned = model.wheel.inertia[2] * model.wheel.width * (last.wheel_omega - first.wheel_omega);
+    println!("angular momentum {turned:.6} N m s under {:.6} N m s", 500.0 * 0.04);
+    println!("velocity {:e}, energy residual {:e}", last.wheel_velocity - first.wheel_velocity, last.energy_residual);
+    assert!((turned / (500.0 * 0.04) - 1.0).abs() < 1e-6);
+    assert!((last.wheel_velocity - first.wheel_velocity).abs() < 1e-6);
+    assert!(last.energy_residual.abs() < 5e-3);
+}
+
+#[test]
+fn states_do_not_pass_from_one_solver_to_the_other() {
+    let [model, on_grid] = models();
+    let inputs = Inputs::rolling(&model.config);
+    let (ours, theirs) = (start(&model, &inputs).0, start(&on_grid, &inputs).0);
+    assert!(model.fits(&ours) && on_grid.fits(&theirs));
+    assert!(!model.fits(&theirs) && !on_grid.fits(&ours));
+    assert!(!ours.contact.same_branch(&theirs.contact));
+}
+
+#[test]
+fn the_contact_is_solved_where_the_step_ends() {
+    let ([model, _], place) = models_with_place();
+    let mut inputs = Inputs::rolling(&model.config);
+    inputs.drive.moment = -500.0;
+    let (state, mut workspace) = start(&model, &inputs);
+    assert_eq!(*place.lock().unwrap(), [0.0, 0.0]);
+    let mut next = State::default();
+    substeps::advance(&model, &model.config.tuning, &state, &inputs, 1e-3, &mut workspace, &mut next).unwrap();
+    let [distance, angle] = *place.lock().unwrap();
+    println!("{distance:.9} m of {:.9} m, {angle:.9} of {:.9}", next.distance, next.angle);
+    assert!(next.distance > 0.02 && (distance / next.distance - 1.0).abs() < 1e-9);
+    assert!((angle / next.angle - 1.0).abs() < 1e-6);
+}
