@@ -1,4 +1,8 @@
-"""Example 0: the least code that brakes a wheel. Needs `make fmu`, and fmpy (or `make demo`, which installs it)."""
+"""Example 0: the least code that brakes a wheel.
+
+    make demo                                        # the FMU, and Python with fmpy in .venv
+    .venv/bin/python examples/ex00_minimal.py
+"""
 
 # 1. The solver is inside the FMU: any master can drive it, here fmpy's.
 from fmpy import simulate_fmu

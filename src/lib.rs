@@ -5,34 +5,51 @@
 //! streams through it (arbitrary Lagrangian–Eulerian description). The model is that of A. Draganis, *Numerical
 //! simulation of thermomechanically coupled transient rolling contact*, PhD thesis, Chalmers 2014, Papers A–D.
 //!
-//! # Units and signs
+//! # Notation, units and signs
 //!
 //! SI everywhere. x points in travel direction, y up. Contact forces are those on the wheel: `F_x > 0` is traction.
-//! Creepage is `ξ = 2 (V − rΩ)/(V + rΩ)`: braking positive, locked wheel 2. [`simulation`] speaks of the whole wheel,
-//! [`rolling`] and below of one metre of width.
+//!
+//! | symbol | name in the code | unit per metre of width | of the whole wheel | sign |
+//! |---|---|---|---|---|
+//! | `V` | `velocity` | m/s | m/s | travel in x |
+//! | `Ω` | `omega` | rad/s | rad/s | forward rolling; the thesis counts the other way round |
+//! | `U` | `height` | m | m | up, zero where the undeformed bodies just touch |
+//! | `u` | `displacement` | m | | relative to the rigid hub (wheel) or the base (rail) |
+//! | `λ_n`, `λ_t` | `port_forces` | N/m | | on the wheel: up, forward |
+//! | `F_x`, `F_y` | `resultant`, `contact_force_*` | N/m | N | on the wheel: forward, up |
+//! | moment | `resultant`, `hub`, `*_moment` | N | N m | forward |
+//! | mass, moment of inertia | `inertia` | kg/m, kg m | kg, kg m² | |
+//! | energy, power | `energy`, `*_power` | J/m, W/m | J, W | |
+//! | `p`, `τ` | `pressure`, `shear` | Pa | Pa | pressing; on the wheel forward |
+//! | `s` | `slip` | m/s | m/s | wheel surface relative to the rail's, forward |
+//! | `ξ = 2 (V − rΩ)/(V + rΩ)` | `creepage` | 1 | 1 | braking; locked wheel 2 |
+//! | `T` | `temperature_*` | K over the reference | K absolute | |
+//!
+//! [`simulation`], [`config`] and [`fmi`] speak of the whole wheel, [`rolling`] and the rooms below it of one metre of
+//! width; [`rolling::outputs`] and [`rolling::rigid`] convert.
 //!
 //! # Map
 //!
-//! Equations and derivations are pages of their own under [`docs/theory`](../../../docs/theory/README.md); the map names
-//! those that belong to a room.
+//! Equations and derivations are pages of their own under [`docs/theory`](../../../docs/theory/README.md); the map names those that belong
+//! to a room. Imports run downward only, from the end of this table to its beginning; a test keeps it so.
 //!
 //! | room | content | theory |
 //! |---|---|---|
-//! | [`config`] | parameters and presets: plain data | |
-//! | [`analytic`] | Hertz, Carter: start guesses and tests | |
+//! | [`config`] | parameters, units and presets: a [`config::table`] of one row each | |
+//! | [`analytic`] | Hertz, Carter and other closed forms: start guesses and tests | |
 //! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula](../../../docs/theory/time-formula.md) |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
-//! | [`linalg`] | sparse factorisation, vibration modes | |
+//! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
-//! | [`mechanics`] | elasticity and convection; full and reduced bodies behind one interface | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md) |
-//! | [`heat`] | temperature of both bodies on boundary-layer meshes, modal direct solver | [heat](../../../docs/theory/heat.md) |
-//! | [`contact`] | what a contact is for everyone else; exact Coulomb contact by an active set; friction laws | [contact](../../../docs/theory/contact.md), [edge-consistent-rows](../../../docs/theory/edge-consistent-rows.md), [kernel-correction](../../../docs/theory/kernel-correction.md) |
-//! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit | [lever-arms](../../../docs/theory/lever-arms.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |
-//! | [`simulation`] | façade: configuration → model → advance → outputs | |
+//! | [`mechanics`] | elasticity and convection; full and reduced bodies behind [`mechanics::BodyResponse`] | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md) |
+//! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, modal direct solver | [heat](../../../docs/theory/heat.md) |
+//! | [`contact`] | exact Coulomb contact behind [`contact::ContactSolver`], seen by everyone else as its [`contact::Traction`]; friction laws | [contact](../../../docs/theory/contact.md), [edge-consistent-rows](../../../docs/theory/edge-consistent-rows.md), [kernel-correction](../../../docs/theory/kernel-correction.md) |
+//! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit, derivatives | [lever-arms](../../../docs/theory/lever-arms.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |
+//! | [`simulation`] | façade: configuration → shared model → advance → outputs; stored bases, advice | |
 //! | [`fmi`] | the FMI 2.0 co-simulation slave around it | |
 //!
-//! Imports run downward only; a test keeps it so.
+//! The command line is a room of the binary, `src/cli`. How to add to a room: `CONTRIBUTING.md`.
 #![deny(unsafe_code)]
 
 pub mod analytic;

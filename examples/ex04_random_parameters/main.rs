@@ -1,5 +1,6 @@
-//! Random parameter sets inside the declared ranges, each in a process of its own: none may crash, hang, eat the memory
-//! or return values outside the declared ranges. A set is simulated, or refused with a message that names a variable.
+//! Example 4: random parameter sets inside the declared ranges, each in a process of its own. None may crash, hang, eat
+//! the memory or return values outside the declared ranges. A set is simulated, or refused with a message that names a
+//! variable.
 //!
 //! `ex04_random_parameters [count] [first seed]` runs the cases and exits with 1 if one of them fails;
 //! `ex04_random_parameters case <seed>` runs one of them and prints it.

@@ -34,6 +34,7 @@ pub struct Export {
 }
 
 impl Export {
+    /// Writes the files.
     pub fn run(self) -> Result<(), Failure> {
         eprintln!("displacement and stress need all finite-element equations: using solver.response = full");
         let (mut instance, when) = self.instance()?;

@@ -48,6 +48,7 @@ enum Command {
 }
 
 impl Arguments {
+    /// Carries the command out.
     pub fn run(self) -> Result<(), Failure> {
         match self.command {
             Command::Pack(pack) => pack.run(),

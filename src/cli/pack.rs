@@ -27,6 +27,7 @@ pub struct Pack {
 }
 
 impl Pack {
+    /// Computes or finds the basis of every preset and writes the FMU.
     pub fn run(self) -> Result<(), Failure> {
         fs::create_dir_all(&self.cache)?;
         let mut bases = Vec::new();

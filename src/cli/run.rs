@@ -13,6 +13,7 @@ use wheelrail::simulation::LONGEST_STEP;
 /// Difference of times, in steps, that is rounding only.
 const ROUNDING: f64 = 1e-6;
 
+// How long a run is and what happens in it. (A doc comment here would become the help of the commands.)
 #[derive(clap::Args)]
 pub struct Course {
     /// Inputs over time: CSV with a column `time` [s] and columns named after inputs; numbers are linear between rows,
@@ -30,12 +31,14 @@ pub struct Course {
 
 /// A slave that is ready for its next communication step.
 pub struct Run {
+    /// The slave.
     pub instance: Instance,
     scenario: Option<Scenario>,
     step: f64,
     stop: f64,
-    /// Completed steps and their number at the end.
+    /// Completed steps.
     pub done: usize,
+    /// Their number at the end.
     pub steps: usize,
 }
 

@@ -22,13 +22,17 @@ pub struct Scenario {
 
 /// One input.
 pub struct Column {
+    /// Its row in the table of variables.
     pub variable: &'static Variable,
+    /// Its values at the times of the scenario.
     pub values: Values,
 }
 
 /// One value per row.
 pub enum Values {
+    /// Numbers in SI units.
     Real(Vec<f64>),
+    /// Numbers of items of an enumeration.
     Choice(Vec<i32>),
 }
 
@@ -71,6 +75,7 @@ impl Scenario {
         self.times.last().copied().unwrap_or(0.0)
     }
 
+    /// The inputs that it prescribes.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }

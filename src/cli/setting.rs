@@ -9,7 +9,9 @@ use wheelrail::fmi::variables::variables;
 /// A variable and the value it is to have.
 #[derive(Clone)]
 pub struct Setting {
+    /// Its row in the table of variables.
     pub variable: &'static Variable,
+    /// The value, of its type.
     pub value: Value,
 }
 

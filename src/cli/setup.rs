@@ -9,6 +9,7 @@ use wheelrail::fmi::log::{CallError, Log, Status};
 /// Default directory with the presets; `railway` works without.
 const RESOURCES: &str = "resources";
 
+// Preset and settings. (A doc comment here would become the help of the commands.)
 #[derive(clap::Args)]
 pub struct Setup {
     /// Parameter set <RESOURCES>/<NAME>.json; `railway` if none is named.

@@ -41,6 +41,7 @@ pub struct Simulate {
 }
 
 impl Simulate {
+    /// Takes all steps; results go to the CSV, a summary to standard error.
     pub fn run(self) -> Result<(), Failure> {
         let columns = columns(&self.outputs)?;
         let mut run = Run::start(&self.setup, &self.course, &[])?;

@@ -108,6 +108,7 @@ impl Range {
 }
 
 impl Velocity {
+    /// Whether a velocity was named.
     pub fn is_given(&self) -> bool {
         self.velocity.is_some()
     }
@@ -115,13 +116,14 @@ impl Velocity {
 
 /// A slave in Initialization Mode with prescribed speeds.
 pub struct OperatingPoint {
+    /// The slave.
     pub instance: Instance,
-    /// [m/s]
+    /// Travel velocity [m/s].
     pub velocity: f64,
 }
 
 impl OperatingPoint {
-    /// `fixed` are what the command decides.
+    /// The slave with preset and settings; `fixed` are what the command decides.
     pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
         let prescribed = ["control.rotation", "control.translation"].map(|name| Setting::new(name, "velocity"));
         let fixed = prescribed.into_iter().chain(fixed.iter().cloned().map(Ok)).collect::<Result<Vec<_>, _>>()?;
@@ -167,6 +169,7 @@ impl OperatingPoint {
 }
 
 impl Steady {
+    /// Writes one row per creepage.
     pub fn run(self) -> Result<(), Failure> {
         let columns = OUTPUTS.iter().map(|name| find(name, |_| true)).collect::<Result<Vec<_>, _>>()?;
         let mut point = OperatingPoint::new(&self.setup, &self.velocity, &[])?;

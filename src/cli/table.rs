@@ -27,6 +27,7 @@ pub fn read(instance: &mut Instance, variables: &[&Variable]) -> Result<Vec<Valu
 pub struct Csv(csv::Writer<Box<dyn Write>>);
 
 impl Csv {
+    /// A new file, or standard output where no path is given.
     pub fn create(out: Option<&Path>) -> Result<Csv, Failure> {
         let sink: Box<dyn Write> = match out {
             Some(path) => Box::new(create(path)?),
@@ -35,6 +36,7 @@ impl Csv {
         Ok(Csv(csv::Writer::from_writer(sink)))
     }
 
+    /// The first row.
     pub fn header<'a>(&mut self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
         Ok(self.0.write_record(names)?)
     }
@@ -46,6 +48,7 @@ impl Csv {
         Ok(self.0.write_record(first.into_iter().chain(cells))?)
     }
 
+    /// Writes what is still buffered.
     pub fn finish(mut self) -> Result<(), Failure> {
         Ok(self.0.flush()?)
     }

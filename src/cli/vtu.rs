@@ -15,14 +15,16 @@ const QUAD: &str = "9";
 
 /// A named quantity at the points; vectors are padded to three components.
 pub struct Data {
+    /// Name under which ParaView shows it.
     pub name: &'static str,
-    /// 1 or 3.
+    /// Numbers per point: 1 or 3.
     pub components: usize,
     /// All components of a point together.
     pub values: Vec<f64>,
 }
 
 impl Data {
+    /// One number per point.
     pub fn scalar(name: &'static str, values: Vec<f64>) -> Data {
         Data { name, components: 1, values }
     }
