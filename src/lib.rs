@@ -51,6 +51,7 @@
 //!
 //! The command line is a room of the binary, `src/cli`. How to add to a room: `CONTRIBUTING.md`.
 #![deny(unsafe_code)]
+#![warn(missing_docs)]
 
 pub mod analytic;
 pub mod config;

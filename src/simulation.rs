@@ -47,14 +47,19 @@ pub use crate::rolling::{
 /// Why a model could not be prepared.
 #[derive(Debug, thiserror::Error)]
 pub enum PrepareError {
+    /// Parameters out of range or against each other.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// Meshes, matrices or modes.
     #[error("finite-element model: {0}")]
     Mechanics(#[from] MechanicsError),
+    /// Contact or heat.
     #[error(transparent)]
     Model(#[from] rolling::ModelError),
+    /// A stored basis that cannot be read.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// A computed basis that cannot be written as bytes.
     #[error("computed basis: {0}")]
     Basis(#[from] BasisError),
 }

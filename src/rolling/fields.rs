@@ -12,10 +12,13 @@ pub use crate::mechanics::field::{BodyField, Stress};
 /// Why fields could not be given.
 #[derive(Debug, thiserror::Error)]
 pub enum FieldError {
+    /// The reduced response knows the surface only.
     #[error("displacement and stress of the whole bodies need solver.response = full: the reduced one has none")]
     Reduced,
+    /// The mesh.
     #[error("finite-element model: {0}")]
     Mechanics(#[from] MechanicsError),
+    /// The temperatures.
     #[error("heat: {0}")]
     Heat(#[from] HeatError),
 }
@@ -23,8 +26,9 @@ pub enum FieldError {
 /// Fields of wheel and rail, undeformed wheel and rail just touching at the origin.
 #[derive(Clone, Debug)]
 pub struct Fields {
-    /// The displacement of the wheel includes the height of its hub.
+    /// Of the wheel; its displacement includes the height of the hub.
     pub wheel: BodyField,
+    /// Of the rail.
     pub rail: BodyField,
     /// Absolute temperatures of wheel and rail on meshes of their own; `None` if they are not computed.
     pub temperature: Option<[TemperatureField; 2]>,

@@ -22,13 +22,22 @@ use serde::{Deserialize, Serialize};
 pub enum Origin {
     /// The stationary state of these inputs.
     Stationary(Inputs),
-    /// A communication step from `state` over `length` \[s].
-    Step { state: Box<State>, inputs: Inputs, length: f64 },
+    /// A communication step.
+    Step {
+        /// State at its beginning.
+        state: Box<State>,
+        /// Inputs over it.
+        inputs: Inputs,
+        /// Its length \[s].
+        length: f64,
+    },
 }
 
 /// Outputs at both ends of a difference quotient.
 pub struct Difference {
+    /// Outputs a little before the present ones.
     pub low: Outputs,
+    /// Outputs a little behind them.
     pub high: Outputs,
     /// Distance of the ends in units of the direction.
     pub width: f64,
