@@ -208,7 +208,10 @@ fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
         (&["simulate", "--set", "drive.load=much"], &["drive.load", "\"much\"", "[N]"]),
         (&["simulate", "--set", "contact.force_x=1"], &["contact.force_x", "output"]),
         (&["simulate", "--set", "control.rotation=torque"], &["control.rotation", "velocity (1) or moment (2)"]),
-        (&["simulate", "--set", "wheel.hub_radius=0.45"], &["wheel.hub_radius = 0.45", "0.0092 to 0.414 m with wheel.radius"]),
+        (
+            &["simulate", "--set", "wheel.hub_radius=0.45"],
+            &["wheel.hub_radius = 0.45", "0.0092 to 0.414 m with wheel.radius"],
+        ),
         (&["simulate", "--preset", "tram"], &["\"tram\"", "railway", "paper_d"]),
         (&["simulate", "--step", "-1"], &["--step = -1", "more than 0"]),
         (&["simulate", "--stop", "-1"], &["--stop = -1", "at least 0"]),

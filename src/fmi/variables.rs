@@ -34,14 +34,14 @@ pub fn variables() -> &'static [Variable] {
 
 /// Variable with the given value reference.
 pub fn find(reference: Reference) -> Option<&'static Variable> {
-    static ORDER: OnceLock<[usize; COUNT]> = OnceLock::new();
+    static ORDER: OnceLock<[(Reference, usize); COUNT]> = OnceLock::new();
     let order = ORDER.get_or_init(|| {
-        let mut order = from_fn(|k| k);
-        order.sort_unstable_by_key(|&k: &usize| variables()[k].reference);
+        let mut order = from_fn(|k| (variables()[k].reference, k));
+        order.sort_unstable();
         order
     });
-    let position = order.binary_search_by_key(&reference, |&k| variables()[k].reference).ok()?;
-    Some(&variables()[order[position]])
+    let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
+    Some(&variables()[order[position].1])
 }
 
 /// A scalar itself; the elements of an array, whose references follow that of the array.

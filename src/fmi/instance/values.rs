@@ -20,8 +20,11 @@ impl Instance {
         let mut inputs = self.effective_inputs();
         let outputs = self.simulation.as_ref().map(Simulation::outputs);
         let value = |variable: &Variable| {
-            let value = variable.parameter(&self.preset, &self.config).or_else(|| variable.input(&mut inputs));
-            let value = value.or_else(|| variable.output(outputs?));
+            let value = match variable.causality() {
+                Causality::Output => outputs.and_then(|outputs| variable.output(outputs)),
+                Causality::Input => variable.input(&mut inputs),
+                Causality::Parameter => variable.parameter(&self.preset, &self.config),
+            };
             value.ok_or_else(|| CallError::error(format!("{} has no value yet", variable.name)))
         };
         variables.into_iter().map(value).collect()
