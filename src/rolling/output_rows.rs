@@ -128,7 +128,7 @@ outputs! {
     308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0,
         "Sticking share of the contact width";
     309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
-        "Half the length of the contact patch in x";
+        "Half the distance between the outermost contact edges";
     310 contact_pressure_max: real "contact.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
         "Peak contact pressure";
     311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,

@@ -1,5 +1,6 @@
 //! What a user can do about a failure: the one place for the advice that follows a message.
 
+use super::validity::ZONE_LOAD;
 use super::{PrepareError, StepError};
 use crate::config::Config;
 use crate::fem::FemError;
@@ -7,9 +8,6 @@ use crate::heat::HeatError;
 use crate::linalg::LinalgError;
 use crate::mechanics::MechanicsError;
 use crate::rolling::ModelError;
-
-/// Load that the candidate zone carries in any case, over the nominal load.
-const ZONE_LOAD: f64 = 2.0;
 
 /// The message of a step that failed, with advice.
 pub fn failed_step(error: &StepError, config: &Config) -> String {

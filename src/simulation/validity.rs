@@ -19,7 +19,7 @@ pub enum Limit {
 /// Elements per half-width of the patch below which traction profiles are no more than a hint.
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Load that the candidate zone carries in any case, over the nominal load.
-const ZONE_LOAD: f64 = 2.0;
+pub(super) const ZONE_LOAD: f64 = 2.0;
 
 impl Simulation {
     /// Limits that the present state is beyond.
