@@ -248,3 +248,17 @@ fn a_load_beyond_the_candidate_zone_is_refused_and_the_run_goes_on() {
     assert_eq!(simulation.state(), &before);
     simulation.advance(&Inputs::rolling(model.config()), 1e-3).unwrap();
 }
+
+#[test]
+fn a_step_of_too_many_internal_steps_is_refused_and_the_run_goes_on() {
+    let mut config = preset("railway", 8);
+    config.tuning.max_step = 1e-6;
+    let model = model(config);
+    let inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let error = simulation.advance(&inputs, 0.05).unwrap_err();
+    assert!(matches!(error, StepError::TooManySteps { pieces: 50_000, .. }), "{error}");
+    assert!(error.to_string().contains("solver.max_step"), "{error}");
+    simulation.advance(&inputs, 1e-5).unwrap();
+    assert_eq!(simulation.outputs().internal_steps, 10);
+}

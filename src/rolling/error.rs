@@ -51,6 +51,21 @@ pub enum StepError {
         /// Longest step \[s].
         longest: f64,
     },
+    /// A communication step that would take hours.
+    #[error(
+        "a communication step of {step:.6} s makes {pieces} internal steps with solver.max_step = {max_step:e} s, more \
+         than the {most} allowed: raise solver.max_step or take shorter communication steps"
+    )]
+    TooManySteps {
+        /// Length of the communication step \[s].
+        step: f64,
+        /// Largest internal step \[s].
+        max_step: f64,
+        /// Internal steps needed at least.
+        pieces: u64,
+        /// Most internal steps of a communication step.
+        most: u64,
+    },
     /// A kink of the solution: no derivative to either side.
     #[error("no derivative at t = {time:.6} s: contact states change at once to both sides")]
     NoDerivative {

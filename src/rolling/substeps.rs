@@ -25,6 +25,9 @@ pub const LONGEST_STEP: f64 = 3600.0;
 /// Shortest internal step \[s]: below, waves do not cross an element and the contact may find no state. Communication
 /// steps that are shorter, such as those that rounding leaves at the end of a run, wait for the next one.
 pub const SHORTEST_STEP: f64 = 5e-7;
+/// Most internal steps into which `solver.max_step` may divide a communication step: the longest one in tenths of a second,
+/// and some. They take less than half a minute.
+const MOST_PIECES: u64 = 40_000;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Internal step below which errors do not refine any further [s]: forces may jump, with the friction coefficient.
@@ -130,6 +133,10 @@ fn march(
     next: &mut State,
 ) -> Result<(), StepError> {
     let fewest = (ramp.h / tuning.max_step - 1e-9).ceil().max(1.0) as u64;
+    if fewest > MOST_PIECES {
+        let (step, max_step) = (ramp.h, tuning.max_step);
+        return Err(StepError::TooManySteps { step, max_step, pieces: fewest, most: MOST_PIECES });
+    }
     let mut place = Place { done: 0, pieces: fewest };
     let mut control = state.control;
     while tuning.tolerance > 0.0 && ramp.h / place.pieces as f64 > control.step * (1.0 + 1e-9) {
