@@ -21,6 +21,8 @@ pub struct Traction {
     pub resultant: [f64; 3],
     /// Power dissipated by friction [W/m].
     pub friction_power: f64,
+    /// Power that material adds by expanding and shrinking with its temperature as it passes the contact [W/m].
+    pub expansion_power: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
     /// beside them.
     pub edges: Vec<Interval>,

@@ -11,12 +11,15 @@
 //! within which a node keeps its state grows from iteration to iteration.
 
 use super::iterate::{GridScratch, Iterate};
+use super::observe::{self, Found};
+use super::power::Power;
 use super::rows::AffineRow;
 use super::state::Status;
 use super::streamline::upwind_rows;
 use crate::contact::error::ContactError;
 use crate::contact::problem::AxisDrive;
 use crate::linalg::DenseSystem;
+use crate::multistep::History;
 use std::ops::Range;
 
 /// Iterations allowed.
@@ -33,6 +36,9 @@ const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
 const OVERLOAD: f64 = 3.0;
+/// Largest change of the turn of the rim that counts as settled [rad]: it tilts the gap by less than a millionth of a
+/// micrometre.
+const TURN_TOLERANCE: f64 = 1e-10;
 
 impl Iterate<'_> {
     /// Iterates from the states and forces of the start to the solution.
@@ -44,31 +50,41 @@ impl Iterate<'_> {
         }
         let penalty = self.penalty();
         self.update_upwind();
+        self.frame.turn = self.predicted_turn();
         for iteration in 1..=MAX_ITERATIONS {
             if RESTARTS.contains(&iteration) {
                 self.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = Status::Stick);
                 self.found_anew();
             }
+            let turn = self.frame.turn;
             self.solve_linear()?;
             self.traction.iterations = iteration;
+            let turned = (self.frame.turn - turn).abs() > TURN_TOLERANCE;
             let changed = self.update_states(penalty, iteration);
             let edge_change = self.update_upwind();
-            if !changed && edge_change <= self.problem.edge_tolerance && self.sticks() {
-                return self.check_zone();
+            if !changed && !turned && edge_change <= self.problem.edge_tolerance && self.sticks() {
+                self.check_zone()?;
+                self.conclude();
+                return Ok(());
             }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+    }
+
+    /// Turn of the rim [rad] if it goes on turning as it does.
+    fn predicted_turn(&self) -> f64 {
+        let (turn, time) = (&self.state.turn, &self.problem.time);
+        if time.is_stationary() { turn.now } else { (turn.rate - turn.offset(time)) / time.a0 }
     }
 
     /// State of a node without a past or a neighbour: it sticks, unless the surfaces run against each other, and that by
     /// more than a cell in the step. There sticking needs strains of order one; where both velocities are about opposite
     /// (`rΩ = −V`) its equation even loses its force coefficients, and their sign is no direction of friction.
     fn founding_state(&self) -> Status {
-        let [v, _, omega] = self.traction.rigid;
-        let v_c = self.problem.radius() * omega;
-        if v * v_c >= 0.0 || (v - v_c).abs() <= self.problem.time.a0 * self.grid.spacing {
+        let (v, rim) = (self.traction.rigid[0], self.rim_velocity());
+        if v * rim >= 0.0 || (v - rim).abs() <= self.problem.time.a0 * self.grid.spacing {
             Status::Stick
-        } else if v < v_c {
+        } else if v < rim {
             Status::SlipForward
         } else {
             Status::SlipBackward
@@ -92,7 +108,7 @@ impl Iterate<'_> {
 
     /// Upwind weights of the present states and pressures; returns their largest change.
     fn update_upwind(&mut self) -> f64 {
-        let to_right = self.problem.upstream_right(&self.traction.rigid);
+        let to_right = self.upstream_right();
         let (grid, forces) = (self.grid, &self.traction.port_forces);
         std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
         let pressure = |i: usize| forces[grid.port(i) + 1];
@@ -295,6 +311,28 @@ impl Iterate<'_> {
             (None, Some(r)) => before[i + 1 + r],
             (None, None) => self.founding_state(),
         }
+    }
+
+    /// Moves the histories on and reads off the traction.
+    fn conclude(self) {
+        let rim_velocity = self.rim_velocity();
+        let Self { grid, problem, state, traction, scratch, frame } = self;
+        let [wheel, rail] = &traction.surface;
+        let push = |history: &mut History, value: f64| match problem.time.is_stationary() {
+            true => *history = History::constant(value),
+            false => history.push(&problem.time, value),
+        };
+        for (i, history) in state.tangential_gap.iter_mut().enumerate() {
+            let port = grid.port(i);
+            push(history, wheel[port] - rail[port]);
+        }
+        push(&mut state.turn, frame.turn);
+        let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
+        let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
+        let (friction, expansion) = (power.friction(), power.expansion());
+        (traction.friction_power, traction.expansion_power) = (friction, expansion);
+        let found = Found { radius: problem.radius(), friction: problem.friction, frame };
+        observe::read_off(grid, &found, state, &scratch.centred_slip, traction);
     }
 
     fn check_zone(&self) -> Result<(), ContactError> {
