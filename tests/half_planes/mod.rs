@@ -82,6 +82,7 @@ impl HalfPlanes {
             membrane: [&flat, &flat],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             time: TimeDerivative::default(),
+            duration: 0.0,
             surfaces: &self.surfaces,
             placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: [&flat, &flat] },
             friction: FRICTION,
