@@ -161,7 +161,7 @@ impl ContactSolver for Hertz {
             rigid,
             friction_power: 0.0,
             friction_work: 0.0,
-            expansion_power: 0.0,
+            dissipation_excess: 0.0,
             edges: vec![Interval { low: -half_width, high: half_width }],
             patches: vec![Interval { low: -half_width, high: half_width }],
             stick_fraction: 0.0,

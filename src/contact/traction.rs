@@ -19,12 +19,11 @@ pub struct Traction {
     pub rigid: [f64; 3],
     /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N].
     pub resultant: [f64; 3],
-    /// Power dissipated by friction [W/m].
+    /// Power that friction turns from mechanical energy into heat, net of what hot material gives back by expanding as it
+    /// passes the contact [W/m].
     pub friction_power: f64,
-    /// Energy dissipated by friction in the step [J/m].
+    /// The same energy of the whole step [J/m].
     pub friction_work: f64,
-    /// Power that material adds by expanding and shrinking with its temperature as it passes the contact [W/m].
-    pub expansion_power: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
     /// beside them.
     pub edges: Vec<Interval>,
@@ -42,10 +41,12 @@ pub struct Traction {
     /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the friction
     /// power.
     pub slip: Piecewise,
-    /// Where friction has dissipated in the step [W/m²]; integrates to the mean power of the step, in a stationary state to
-    /// the friction power.
+    /// Where friction dissipates at the end of the step [W/m²].
     pub dissipation: Piecewise,
-    /// Iterations that finding them took.
+    /// By how much the mean dissipation of the step exceeds that at its end, relative to the latter \[1]: with it,
+    /// [`Self::dissipation`] integrates to the energy of the step.
+    pub dissipation_excess: f64,
+    /// Iterations until all decisions between open, stick and slip were made.
     pub iterations: usize,
 }
 
@@ -65,6 +66,7 @@ impl Traction {
         (self.friction_power, self.friction_work) = (0.0, 0.0);
         self.slip.value.fill(0.0);
         self.dissipation.value.fill(0.0);
+        self.dissipation_excess = 0.0;
     }
 }
 

@@ -14,7 +14,7 @@ pub struct TreadHeat {
     pub heat: f64,
 }
 
-/// What acts on the bodies per metre of width, held over a step.
+/// What acts on the bodies per metre of width at the end of a step; all but the friction power holds over the step.
 ///
 /// It may be refilled for every step without new memory, see [`Exchange::clear`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,6 +25,9 @@ pub struct Exchange {
     pub pressure: Piecewise,
     /// Friction power per area `|τ s|` over x [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
     pub friction_power: Piecewise,
+    /// By how much the mean of the friction power over the step exceeds that at its end, relative to the latter \[1]; zero: it
+    /// holds over the step.
+    pub friction_excess: f64,
     /// Heat on the tread of the wheel.
     pub tread: Vec<TreadHeat>,
     /// Reversible temperatures over x that conduct besides those of the fields: wheel less rail \[K].
@@ -37,6 +40,7 @@ impl Exchange {
         self.patches.clear();
         self.pressure.clear();
         self.friction_power.clear();
+        self.friction_excess = 0.0;
         self.tread.clear();
         self.reversible.clear();
     }

@@ -19,13 +19,7 @@ pub fn energy(model: &Model, state: &State) -> f64 {
 /// Balance at a stationary start.
 pub fn start(model: &Model, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit {
-        initial_energy: energy,
-        energy,
-        damping_power: model.bodies.dissipation(state),
-        expansion_power: state.contact.traction.expansion_power,
-        ..Audit::default()
-    }
+    Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
@@ -34,23 +28,18 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
-    let traction = &next.contact.traction;
     let damping_power = model.bodies.dissipation(next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
-    let expansion_power = traction.expansion_power;
-    let expanded = td.impulse(expansion_power, before.expansion_power, before.expanded);
     Audit {
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
-        thermal_work: before.thermal_work + expanded,
-        friction: before.friction + traction.friction_work,
+        thermal_work: before.thermal_work,
+        friction: before.friction + next.contact.traction.friction_work,
         damping: before.damping + damped,
         throughput: before.throughput + work.abs(),
         damping_power,
-        expansion_power,
         impulse,
         damped,
-        expanded,
     }
 }

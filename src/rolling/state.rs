@@ -154,9 +154,9 @@ pub struct Audit {
     pub energy: f64,
     /// Work of the hub forces [J/m].
     pub work: f64,
-    /// Work of thermal expansion against the contact forces [J/m].
+    /// Work of the wheel that grows with its temperature and lifts its load [J/m].
     pub thermal_work: f64,
-    /// Energy lost to friction [J/m].
+    /// Energy that friction has turned into heat [J/m].
     pub friction: f64,
     /// Energy lost to damping and radiation [J/m].
     pub damping: f64,
@@ -164,14 +164,10 @@ pub struct Audit {
     pub throughput: f64,
     /// Present power of damping and radiation [W/m].
     pub damping_power: f64,
-    /// Present power of material that expands as it passes the contact [W/m].
-    pub expansion_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
     pub impulse: [f64; 3],
     /// Energy lost to damping and radiation in it [J/m].
     pub damped: f64,
-    /// Work of the passing material in it [J/m].
-    pub expanded: f64,
 }
 
 impl Audit {

@@ -36,6 +36,8 @@ const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
 const OVERLOAD: f64 = 3.0;
+/// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
+const ENDING: f64 = 0.2;
 /// Largest change of the turn of the rim that counts as settled [rad]: it tilts the gap by less than a millionth of a
 /// micrometre.
 const TURN_TOLERANCE: f64 = 1e-10;
@@ -44,6 +46,7 @@ impl Iterate<'_> {
     /// Iterates from the states and forces of the start to the solution.
     pub fn run(mut self) -> Result<(), ContactError> {
         self.traction.rigid = self.problem.rigid.map(|motion| motion.start());
+        self.traction.iterations = 0;
         self.prepare();
         if self.problem.time.is_stationary() {
             self.found_anew();
@@ -51,6 +54,7 @@ impl Iterate<'_> {
         let penalty = self.penalty();
         self.update_upwind();
         self.frame.turn = self.predicted_turn();
+        let mut settled = false;
         for iteration in 1..=MAX_ITERATIONS {
             if RESTARTS.contains(&iteration) {
                 self.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = Status::Stick);
@@ -58,11 +62,12 @@ impl Iterate<'_> {
             }
             let turn = self.frame.turn;
             self.solve_linear()?;
-            self.traction.iterations = iteration;
             let turned = (self.frame.turn - turn).abs() > TURN_TOLERANCE;
             let changed = self.update_states(penalty, iteration);
-            let edge_change = self.update_upwind();
-            if !changed && !turned && edge_change <= self.problem.edge_tolerance && self.sticks() {
+            // Once states and edges are settled, only motions and turn are refined: smooth functions of the data.
+            self.traction.iterations += usize::from(!settled);
+            settled = !changed && (settled || self.update_upwind() <= self.problem.edge_tolerance);
+            if settled && !turned && self.sticks() {
                 self.check_zone()?;
                 self.conclude();
                 return Ok(());
@@ -329,11 +334,14 @@ impl Iterate<'_> {
         push(&mut state.turn, frame.turn);
         let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
         let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
-        let ([friction, work], expansion) = (power.friction(&problem.time, &mut state.friction), power.expansion());
-        (traction.friction_power, traction.friction_work, traction.expansion_power) = (friction, work, expansion);
-        let mean = if problem.duration > 0.0 { work / problem.duration } else { friction };
+        let [friction, work] = power.friction(&problem.time, &mut state.friction);
+        (traction.friction_power, traction.friction_work) = (friction, work);
+        let mean = if problem.duration > 0.0 { (work / problem.duration).max(0.0) } else { friction };
+        // Where friction has all but ended within the step, its mean stands for it.
+        let power = if friction > ENDING * mean { friction } else { mean };
+        traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
         traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, traction);
-        let friction = [problem.friction, mean.max(0.0)];
+        let friction = [problem.friction, power];
         observe::read_off(grid, friction, state, &scratch.centred_slip, traction);
     }
 

@@ -35,10 +35,10 @@ pub(super) fn lever_arms(
 }
 
 /// Fills patches, profiles and peaks in `traction` from its port forces, for the friction coefficient `friction` \[1], the
-/// mean power of friction in the step `mean_power` [W/m] and the slip velocities of the candidates `centred_slip` [m/s].
+/// power `power` of friction [W/m] and the slip velocities of the candidates `centred_slip` [m/s].
 pub fn read_off(
     grid: &ContactGrid,
-    [friction, mean_power]: [f64; 2],
+    [friction, power]: [f64; 2],
     state: &GridState,
     centred_slip: &[f64],
     traction: &mut Traction,
@@ -71,7 +71,7 @@ pub fn read_off(
         Status::Stick | Status::Open => 0.0,
     };
     over_patches(grid, status, patches, density, &mut traction.dissipation);
-    scale_to(&mut traction.dissipation, mean_power, &traction.pressure);
+    scale_to(&mut traction.dissipation, power, &traction.pressure);
 }
 
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling

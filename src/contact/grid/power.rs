@@ -27,10 +27,11 @@ pub(super) struct Power<'a> {
 }
 
 impl Power<'_> {
-    /// Power [W/m] that friction dissipates, contact forces times relative velocity, and its energy in a step with the time
-    /// formula `time` [J/m]: the impulse of every force times the mean velocity.
+    /// Power [W/m] that friction turns from mechanical energy into heat, contact forces times relative velocity less what
+    /// hot material gives back by expanding, and its energy in a step with the time formula `time` [J/m]: the impulse of every
+    /// force times the mean velocity.
     pub fn friction(&self, time: &TimeDerivative, history: &mut FrictionHistory) -> [f64; 2] {
-        let slope_power = self.slope_power();
+        let slope_power = self.slope_power() - self.expansion();
         let (mut power, mut work) = (slope_power, 0.0);
         for i in 0..self.grid.len() {
             let ([force, _], slip) = (self.forces(i), self.slip[i]);
@@ -59,7 +60,7 @@ impl Power<'_> {
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the change of
     /// the expansion in time adds, force times expansion, is not counted: joules in a whole run.
-    pub fn expansion(&self) -> f64 {
+    fn expansion(&self) -> f64 {
         let velocity = [self.rim_velocity, self.traction.rigid[0]];
         let of_node = |i: usize| {
             let [_, normal] = self.forces(i);

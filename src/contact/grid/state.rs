@@ -59,7 +59,7 @@ pub struct FrictionHistory {
     pub impulse: Vec<f64>,
     /// Slip velocities there with central differences [m/s].
     pub slip: Vec<f64>,
-    /// Power of pressure on the sliding slope of the rail [W/m].
+    /// The rest of the power: of pressure on the sliding slope of the rail, less that of expanding material [W/m].
     pub slope_power: f64,
     /// Its work in the last step [J/m].
     pub slope_work: f64,

@@ -22,6 +22,8 @@ pub(super) struct SurfaceLoads {
     pub conductance: Vec<[f64; 3]>,
     /// `γ_f ∫ q (1, ξ) ds` on the elements of the contact zone [W/m].
     pub friction: Vec<[f64; 2]>,
+    /// Share of it that acts in the present stage [1].
+    pub friction_share: f64,
     /// `∫ q (1, ξ) ds` on the elements of the tread [W/m]; empty without heat there.
     pub tread: Vec<[f64; 2]>,
     /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact zone
@@ -30,6 +32,11 @@ pub(super) struct SurfaceLoads {
 }
 
 impl SurfaceLoads {
+    /// Friction heat in the present stage [W/m].
+    pub fn friction_heat(&self) -> f64 {
+        self.friction_share * self.friction.iter().map(|q| q[0]).sum::<f64>()
+    }
+
     /// First and one past the last element of the zone that conducts.
     pub fn contact(&self) -> Range<usize> {
         let conducts = |c: &[f64; 3]| c[0] > 0.0;
@@ -43,7 +50,8 @@ impl SurfaceLoads {
 impl Heat {
     /// Replaces `loads` by the moments of `exchange` on the surface elements.
     pub(super) fn set_loads(&self, exchange: &Exchange, loads: &mut SurfaceLoads) -> Result<(), HeatError> {
-        let SurfaceLoads { conductance, friction, tread, reversible } = loads;
+        let SurfaceLoads { conductance, friction, friction_share, tread, reversible } = loads;
+        *friction_share = 1.0;
         friction.clear();
         friction.resize(self.zone_elements(), [0.0; 2]);
         self.add_friction(&exchange.friction_power, friction)?;

@@ -188,7 +188,7 @@ impl Stage {
             surface.resize(body.line.len(), 0.0);
             let first = body.line.zone;
             for (e, q) in loads.friction.iter().enumerate() {
-                transport.add_load(&body.line, first + e, q.map(|q| share * q), surface);
+                transport.add_load(&body.line, first + e, q.map(|q| share * loads.friction_share * q), surface);
             }
             for (e, q) in loads.reversible.iter().enumerate() {
                 transport.add_load(&body.line, first + e, q.map(|q| sign * q), surface);
@@ -291,7 +291,7 @@ impl Stage {
         weight: f64,
         flows: &mut HeatFlows,
     ) {
-        flows.friction += weight * loads.friction.iter().map(|q| q[0]).sum::<f64>();
+        flows.friction += weight * loads.friction_heat();
         flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
         if self.coupling.is_some() {
             self.set_jump(heat, x);

@@ -28,7 +28,8 @@ pub struct Scratch {
 impl Heat {
     /// A step of [`HeatModel::step`](crate::heat::HeatModel::step).
     ///
-    /// Speeds and exchange hold over the step. The formula is SDIRK2: of second order under constant exchange, stiffly
+    /// Speeds and exchange hold over the step, but for the friction power, whose mean may differ from its end value. The
+    /// formula is SDIRK2: of second order under constant exchange, stiffly
     /// accurate and L-stable (Alexander, *SIAM J. Numer. Anal.* 14 (1977)), with `γ = 1 − 1/√2` and two stages
     ///
     /// ```text
@@ -63,12 +64,16 @@ impl Heat {
         let coefficients = StageCoefficients { storage: 1.0, flow: gamma * dt };
         let curved = speeds[1].abs() < CURVED_BELOW && dt >= CURVED_STEP;
         stage.set(self, loads, StageKey { speeds, coefficients, rate: 1.0 / (gamma * dt), curved })?;
-        stage.set_loads(self, loads, load);
+        let held = 1.0 + exchange.friction_excess;
+        // The friction power of the stages is that whose mean over the step is the given one; at the end it is the last one's.
+        let shares = if stages == 2 { [1.0 + exchange.friction_excess / (1.0 - gamma), 1.0] } else { [held, held] };
         let known = &mut next.field;
         known.clone_from(&state.field);
         let mut flows = HeatFlows::default();
         for index in 1..=stages {
             let (weight, onward) = if index == stages { (gamma, 0.0) } else { (1.0 - gamma, 1.0 - 2.0 * gamma) };
+            loads.friction_share = shares[index - 1];
+            stage.set_loads(self, loads, load);
             rate.clone_from(load);
             stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, known, rate);
             flows.iterations += stage.solve(self, coefficients, rate)?;

@@ -52,15 +52,15 @@ pub struct Touch<'a> {
 }
 
 impl Touch<'_> {
-    /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Friction power and
-    /// patches of the new time act over the whole step, so that the heat flows reported with it add up to its friction
-    /// power.
+    /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Patches of the
+    /// new time act over the whole step; the heat of friction is the energy that the mechanical step has dissipated.
     pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, exchange: &mut Exchange) {
         let contact = self.traction;
         exchange.clear();
         exchange.patches.extend(&contact.patches);
         copy(&contact.pressure, &mut exchange.pressure);
         copy(&contact.dissipation, &mut exchange.friction_power);
+        exchange.friction_excess = contact.dissipation_excess;
         blocks.fill(tread_heat, &mut exchange.tread);
         let [wheel, rail] = &self.reversible;
         for ((&x, of_wheel), of_rail) in wheel.x.iter().zip(&wheel.value).zip(&rail.value) {
