@@ -7,7 +7,7 @@ use nalgebra::{Complex, Matrix4};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use wheelrail::config::{Config, Response, TimeScheme};
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Vertical stiffness per wheel of the track of Zhai et al. \[N/m].
 const VERTICAL: f64 = 81e6;
@@ -183,28 +183,46 @@ fn the_damper_takes_what_the_vibration_loses() {
     assert!(found[2][0].abs() < 5e-3 && found.windows(2).all(|f| f[1][0].abs() < 0.3 * f[0][0].abs()));
 }
 
-/// Braking from 2 m/s under default settings; at walking speed the brake holds the wheel. Contact force \[N] over the two
-/// seconds after the wheel has been stopped, every millisecond.
-fn held_stop(model: &Arc<Model>, step: f64) -> Vec<f64> {
+/// How a wheel is stopped from 2 m/s.
+#[derive(Clone, Copy, Debug)]
+struct Stop {
+    /// Load over the nominal one.
+    load: f64,
+    /// Moment over that at the limit of adhesion; 1: the wheel is locked at once and slides.
+    brake: f64,
+    /// Travels backwards.
+    reversed: bool,
+}
+
+/// Contact force \[N] over the time after a wheel under default settings has been stopped and held, every millisecond.
+fn held_stop(model: &Arc<Model>, stop: Stop, step: f64) -> Vec<f64> {
     let config = model.config();
-    let peak = 0.4 * config.friction.coefficient * config.model.nominal_load * config.wheel.radius;
+    let direction = if stop.reversed { -1.0 } else { 1.0 };
+    let load = stop.load * config.model.nominal_load;
+    let peak = stop.brake * config.friction.coefficient * load * config.wheel.radius;
     let mut inputs = Inputs::rolling(config);
+    inputs.drive.load = load;
+    (inputs.translation, inputs.drive.velocity) = (Translation::Velocity, 2.0 * direction);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.translation = Translation::Force;
     let mut time = 0.0_f64;
-    while simulation.outputs().wheel_velocity > 0.05 {
-        inputs.drive.moment = -peak * (time / 0.2).min(1.0);
+    let hold = |inputs: &mut Inputs| (inputs.rotation, inputs.drive.omega) = (Rotation::Velocity, 0.0);
+    if stop.brake == 1.0 {
+        hold(&mut inputs);
+    }
+    while simulation.outputs().wheel_velocity * direction > 0.05 {
+        inputs.drive.moment = -direction * peak * (time / 0.2).min(1.0);
         simulation.advance(&inputs, step).unwrap();
         time += step;
-        assert!(time < 10.0, "no stop");
+        assert!(time < 100.0, "no stop");
     }
-    inputs.rotation = Rotation::Velocity;
-    inputs.drive.omega = 0.0;
+    hold(&mut inputs);
     let every = (1e-3 / step).round() as usize;
     let mut force = || {
         (0..every).for_each(|_| simulation.advance(&inputs, step).unwrap());
         simulation.outputs().contact_force_x
     };
-    (0..2100).map(|_| force()).collect()
+    (0..2200).map(|_| force()).collect()
 }
 
 /// Swings: largest magnitude between changes of sign, with their times in samples.
@@ -222,28 +240,76 @@ fn swings(signal: &[f64]) -> Vec<(usize, f64)> {
     found
 }
 
+/// Share of the first swing that is left 2 s after it, and the decay rate [1/s] over ten periods.
+fn rocking(model: &Arc<Model>, stop: Stop, step: f64) -> [f64; 2] {
+    let swings = swings(&held_stop(model, stop, step));
+    let (start, first) = swings[1];
+    let late = swings.iter().filter(|(k, _)| *k >= start + 1950).map(|(_, size)| *size).fold(0.0, f64::max);
+    let (k, size) = swings[21];
+    let periods = (k - start) as f64 * 1e-3;
+    let (decay, frequency) = ((first / size).ln() / periods, 10.0 / periods);
+    println!(
+        "{stop:?} {step} s: first swing {first:.0} N, after 2 s {:.2} %, {frequency:.2} Hz, decay {decay:.3} 1/s, \
+         {:.2} % of critical",
+        100.0 * late / first,
+        100.0 * decay / (TAU * frequency)
+    );
+    [late / first, decay]
+}
+
 #[test]
 fn a_held_stop_comes_to_rest_with_default_settings() {
-    let mut config = preset("railway", 10);
-    config.initial.velocity = 2.0;
-    let model = model(config);
-    let found = [1e-3, 1e-4].map(|step| {
-        let swings = swings(&held_stop(&model, step));
-        let (start, first) = swings[1];
-        let late = swings.iter().filter(|(k, _)| *k >= start + 1950).map(|(_, size)| *size).fold(0.0, f64::max);
-        let (k, size) = swings[21];
-        let decay = (first / size).ln() / (k - start) as f64 * 1e3;
-        let frequency = 10.0 / (k - start) as f64 * 1e3;
-        println!(
-            "{step} s: first swing {first:.0} N, after 2 s {late:.1} N ({:.2} %), {frequency:.2} Hz, decay {decay:.3} 1/s, \
-             {:.2} % of critical",
-            100.0 * late / first,
-            100.0 * decay / (TAU * frequency)
-        );
-        assert!(late < 0.05 * first);
-        decay
-    });
-    assert!((found[0] / found[1] - 1.0).abs() < 0.1, "{found:?}");
+    let model = model(preset("railway", 10));
+    let stop = Stop { load: 1.0, brake: 0.4, reversed: false };
+    let found = [1e-3, 1e-4].map(|step| rocking(&model, stop, step));
+    assert!(found.iter().all(|[late, _]| *late < 0.05), "{found:?}");
+    assert!((found[0][1] / found[1][1] - 1.0).abs() < 0.1, "{found:?}");
+}
+
+#[test]
+fn a_held_stop_comes_to_rest_whatever_stopped_it() {
+    let model = model(preset("railway", 10));
+    let plain = Stop { load: 1.0, brake: 0.4, reversed: false };
+    // Steps of 1 ms are too long for the thermal expansion of a patch that has slid: near reversals of the motion the force
+    // jumps from step to step, on a fixed base as well.
+    let stops = [
+        (Stop { load: 0.1, ..plain }, 1e-3),
+        (Stop { load: 1.9, ..plain }, 1e-3),
+        (Stop { reversed: true, ..plain }, 1e-3),
+        (Stop { brake: 1.0, ..plain }, 1e-4),
+    ];
+    let found = stops.map(|(stop, step)| rocking(&model, stop, step)[0]);
+    assert!(found.iter().all(|late| *late < 0.05), "{found:?}");
+}
+
+/// Modes and all finite elements on a base that moves in both directions, in a braking ramp of 50 ms.
+#[test]
+fn both_responses_move_alike_on_their_track() {
+    let run = |response: Response| -> Vec<[f64; 4]> {
+        let mut config = restrained(6);
+        config.solver.response = response;
+        let rail = &mut config.rail;
+        (rail.support_stiffness, rail.support_damping, rail.support_mass) = (VERTICAL, 1e5, 100.0);
+        let model = model(config);
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let step = |k: u32| {
+            inputs.drive.load = 1e5 * (1.0 + f64::from(k) / 100.0);
+            inputs.drive.moment = -100.0 * f64::from(k);
+            simulation.advance(&inputs, 5e-4).unwrap();
+            let (outputs, [x, y]) = (simulation.outputs(), base(&simulation));
+            [outputs.contact_force_x, outputs.contact_force_y, x, y]
+        };
+        (1..=100).map(step).collect()
+    };
+    let (reduced, full) = (run(Response::Reduced), run(Response::Full));
+    for k in 0..4 {
+        let size = full.iter().map(|values| values[k].abs()).fold(0.0, f64::max);
+        let differences = reduced.iter().zip(&full).map(|(a, b)| (a[k] - b[k]).abs());
+        let worst = differences.fold(0.0, f64::max) / size;
+        println!("quantity {k}: {worst:.1e}");
+        assert!(worst < 1e-3, "{worst:e}");
+    }
 }
 
 /// A ramp of the brake in 0.1 s: the restraint shows while the force changes, by its creep `ḃ = Ḟ/k`, and not in the end.
