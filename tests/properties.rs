@@ -148,6 +148,8 @@ proptest! {
             config.wheel.hub_mass *= k;
             config.wheel.hub_inertia *= k;
             config.vehicle.mass *= k;
+            config.rail.restraint_stiffness *= k;
+            config.rail.restraint_damping *= k;
             let model = fresh(config);
             drive(&model, &prescribed(&model, velocity, creepage), k * moment, 0.0, dt)
         };
@@ -177,6 +179,8 @@ proptest! {
             config.model.nominal_load *= e * l * l;
             config.wheel.hub_mass *= mass;
             config.vehicle.mass *= mass;
+            config.rail.restraint_stiffness *= e * l;
+            config.rail.restraint_damping *= e * l * t;
             config.wheel.hub_inertia *= mass * l * l;
             config.material.youngs_modulus *= e;
             config.material.density *= e * t * t / (l * l);

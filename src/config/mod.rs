@@ -168,12 +168,46 @@ impl Config {
         ]
     }
 
+    /// Dampers and mass of the track need a spring beside them; under the nominal load it gives by less than the radius of
+    /// the wheel.
+    fn track(&self) -> Vec<Dependent> {
+        let Rail { support_stiffness, support_damping, support_mass, restraint_stiffness, restraint_damping, .. } =
+            self.rail;
+        let (radius, load) = (self.wheel.radius, self.model.nominal_load);
+        let vertical = ("rail.support_stiffness", support_stiffness);
+        let longitudinal = ("rail.restraint_stiffness", restraint_stiffness);
+        let springs = |springs: &[(&str, f64)]| {
+            let each: Vec<_> = springs.iter().map(|(name, k)| format!("{name} = {} N/m", display_number(*k))).collect();
+            each.join(" and ")
+        };
+        let beside = |name, value, unit, used: &[(&str, f64)]| {
+            let high = if used.iter().any(|(_, k)| *k > 0.0) { f64::INFINITY } else { 0.0 };
+            Dependent { name, value, unit, low: 0.0, high, others: format!("{} (0: rigid)", springs(used)) }
+        };
+        let given = |(name, value): (&'static str, f64)| {
+            let others = format!(
+                "model.nominal_load = {} N and wheel.radius = {} m (or 0: rigid)",
+                display_number(load),
+                display_number(radius)
+            );
+            let low = if value > 0.0 { load / radius } else { 0.0 };
+            Dependent { name, value, unit: "N/m", low, high: f64::INFINITY, others }
+        };
+        vec![
+            given(vertical),
+            given(longitudinal),
+            beside("rail.support_damping", support_damping, "N.s/m", &[vertical]),
+            beside("rail.restraint_damping", restraint_damping, "N.s/m", &[longitudinal]),
+            beside("rail.support_mass", support_mass, "kg", &[vertical, longitudinal]),
+        ]
+    }
+
     /// Ranges that depend on other parameters.
-    fn dependent(&self) -> [Dependent; 7] {
+    fn dependent(&self) -> Vec<Dependent> {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
         let with_radius = || format!("wheel.radius = {} m", display_number(radius));
         let [velocity, creepage] = self.subsonic();
-        [
+        let mut all = vec![
             Dependent {
                 name: "wheel.hub_radius",
                 value: self.wheel.hub_radius,
@@ -212,7 +246,9 @@ impl Config {
             velocity,
             creepage,
             self.contact_zone(),
-        ]
+        ];
+        all.extend(self.track());
+        all
     }
 }
 

@@ -32,12 +32,22 @@ parameters! {
             1030 mass: f64 = 9872.0, in "kg" as "t", from 0.0 to 1e9,
                 "The wheel's share of the vehicle, moving in x only";
         }
-        /// Plate below the wheel, fixed at its base.
+        /// Plate below the wheel, and the track that carries it.
         rail: Rail fixed {
             1040 length: f64 = 1.0, in "m", from 2e-3 to 100.0,
                 "Modelled length of the rail, at least 0.2 wheel.radius";
             1041 height: f64 = 0.1, in "m", from 2e-4 to 10.0,
-                "Height of the rail, at least 0.02 wheel.radius; its base is fixed";
+                "Height of the rail, at least 0.02 wheel.radius; its base is a rigid line";
+            1042 support_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,
+                "Vertical stiffness of the track below the rail base; 0: rigid";
+            1043 support_damping: f64 = 0.0, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
+                "Vertical damping of the track, 0 if it is rigid";
+            1044 support_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
+                "Mass of the track that moves with the rail base, 0 if it is rigid in both directions";
+            1045 restraint_stiffness: f64 = 4e8, in "N/m" as "MN/m", from 0.0 to 1e15,
+                "Longitudinal stiffness of the rail's restraint; 0: rigid";
+            1046 restraint_damping: f64 = 1e6, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
+                "Longitudinal damping of the restraint, 0 if it is rigid";
         }
         /// Isotropic linear elastic material of both bodies.
         material: Material fixed {

@@ -51,6 +51,8 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "rad/s", exponents: [0, 0, -1, 1, 0], displays: &[times("rpm", 30.0 / std::f64::consts::PI)] },
     Unit { name: "rad/s2", exponents: [0, 0, -2, 1, 0], displays: &[] },
     Unit { name: "N", exponents: [1, 1, -2, 0, 0], displays: &[times("kN", 1e-3)] },
+    Unit { name: "N/m", exponents: [1, 0, -2, 0, 0], displays: &[times("MN/m", 1e-6)] },
+    Unit { name: "N.s/m", exponents: [1, 0, -1, 0, 0], displays: &[times("kN.s/m", 1e-3)] },
     Unit { name: "N.m", exponents: [1, 2, -2, 0, 0], displays: &[times("kN.m", 1e-3)] },
     Unit { name: "Pa", exponents: [1, -1, -2, 0, 0], displays: &[times("MPa", 1e-6), times("GPa", 1e-9)] },
     Unit { name: "J", exponents: [1, 2, -2, 0, 0], displays: &[times("kJ", 1e-3)] },

@@ -195,7 +195,7 @@ mod tests {
         for (reduced, full) in pairs(12) {
             let (r, f) = (reduced.operator(0.0).unwrap(), full.operator(0.0).unwrap());
             assert!(difference(&r.surface, &f.surface) < 1e-9);
-            assert!(difference(&r.inertial_response, &f.inertial_response) < 1e-9 || f.inertial_response.amax() == 0.0);
+            assert!(difference(&r.inertial_response, &f.inertial_response) < 1e-9);
             assert!(r.momentum.amax() == 0.0 && r.deformation_inertia.amax() == 0.0);
             let (td, rest) = (TimeDerivative::default(), Convection { speed: 80.0, acceleration: 0.0 });
             let (sr, sf) = (BodyState::zeros(reduced.state_len()), BodyState::zeros(full.state_len()));
@@ -205,10 +205,14 @@ mod tests {
         }
     }
 
-    /// Tolerances: 1e-4 of the largest compliance at 1500/s, 1e-3 of the momentum (truncated modes carry the rest).
+    /// Tolerances for the momentum of deformation of wheel and rail: the truncated modes carry the rest. Those of the rail
+    /// are many, but the momentum of its deformation is a small part of that of its base.
+    const MOMENTUM: [f64; 2] = [2e-3, 2e-2];
+
+    /// Tolerance: 1e-4 of the largest compliance at 1500/s.
     #[test]
     fn reduced_and_full_bodies_answer_a_step_alike() {
-        for (reduced, full) in pairs(40) {
+        for ((reduced, full), tolerance) in pairs(40).into_iter().zip(MOMENTUM) {
             let (r, f) = (reduced.operator(1.5e3).unwrap(), full.operator(1.5e3).unwrap());
             let differences = [
                 difference(&r.surface, &f.surface),
@@ -217,17 +221,11 @@ mod tests {
                 difference(&r.deformation_inertia, &f.deformation_inertia),
             ];
             println!("{differences:?}");
-            if f.inertial_response.amax() == 0.0 {
-                assert!(r.inertial_response.amax() == 0.0 && differences[0] < 1e-4);
-            } else {
-                assert!(differences[0] < 1e-4 && differences[1] < 1e-4);
-                assert!(differences[2] < 1e-3 && differences[3] < 1e-3);
-                // Reciprocity of the ports.
-                assert!(
-                    (&f.momentum + f.inertial_response.transpose() * 1.5e3_f64.powi(2)).amax()
-                        < 1e-12 * f.momentum.amax()
-                );
-            }
+            assert!(differences[0] < 1e-4 && differences[1] < 1e-4);
+            assert!(differences[2] < 0.5 * tolerance && differences[3] < 0.5 * tolerance);
+            // Reciprocity of the ports.
+            let reciprocal = f.inertial_response.transpose() * -1.5e3_f64.powi(2);
+            assert!((&f.momentum - reciprocal).amax() < 1e-12 * f.momentum.amax());
         }
     }
 
@@ -236,7 +234,7 @@ mod tests {
     fn reduced_and_full_bodies_move_alike() {
         let dt = 5e-4;
         let td = TimeDerivative { a0: 1.5 / dt, a1: -2.0 / dt, a2: 0.5 / dt, b1: 0.0 };
-        for (reduced, full) in pairs(40) {
+        for ((reduced, full), tolerance) in pairs(40).into_iter().zip(MOMENTUM) {
             let mut histories = Vec::new();
             for body in [&reduced as &dyn BodyResponse, &full] {
                 let op = body.operator(td.a0).unwrap();
@@ -278,7 +276,7 @@ mod tests {
                 worst[2] = worst[2].max((a.2 - b.2).abs() / sizes[2]);
             }
             println!("surface {:.1e}, momentum {:.1e}, energy {:.1e}", worst[0], worst[1], worst[2]);
-            assert!(worst[0] < 1e-3 && worst[1] < 2e-3 && worst[2] < 2e-3);
+            assert!(worst[0] < 1e-3 && worst[1] < tolerance && worst[2] < 5e-3);
         }
     }
 

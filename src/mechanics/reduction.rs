@@ -16,7 +16,7 @@ pub struct ReducedBasis {
     pub shapes: DMatrix<f64>,
     /// Residual flexibility `F_res`, `2n × 2n` [m/(N/m)].
     pub residual: DMatrix<f64>,
-    /// `Φᵀ M r_k`, `m × 3` (zero for the rail).
+    /// `Φᵀ M r_k`, `m × 3`; the rail has no `r_Ω`.
     pub rigid: DMatrix<f64>,
     /// Static surface answer of the truncated modes to unit rigid accelerations, `2n × 3`.
     pub rigid_residual: DMatrix<f64>,

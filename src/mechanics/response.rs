@@ -1,8 +1,8 @@
 //! What the contact sees of a deformable body: one interface for the reduced and the full finite-element model.
 //!
 //! A body is a linear system with *ports*: the Cartesian displacement components of its surface nodes near the contact
-//! (node-major, `2·node + component`, x ascending) and, for the wheel, the three rigid accelerations of its hub
-//! (`V̇`, `Ü`, `Ω̇`; Ω positive for forward rolling, rigid field `r_Ω = (y, −x)`), whose conjugates are the rates of
+//! (node-major, `2·node + component`, x ascending) and the rigid accelerations of hub (`V̇`, `Ü`, `Ω̇`; Ω positive for
+//! forward rolling, rigid field `r_Ω = (y, −x)`) or base (x, y), whose conjugates are the rates of
 //! deformation momentum `r_kᵀ M ÿ`. Displacements `y` are relative to the rigid hub (wheel) or base (rail).
 //! Everything is per metre of width.
 //!
@@ -12,7 +12,7 @@
 //!
 //! `M ÿ + D ẏ + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
 //!
-//! The rail has the same form with `V` in place of `Ω`, no rigid ports, no centrifugal load and the in/outflow (Robin)
+//! The rail has the same form with `V` in place of `Ω`, the acceleration of its base, no centrifugal load and the in/outflow (Robin)
 //! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state before the step.
 
 use super::MechanicsError;
@@ -45,7 +45,7 @@ pub trait BodyResponse: Send + Sync {
     /// Accepts a step: solves for the new coordinates and writes the state after it into `next`, whose memory is reused.
     ///
     /// `forces` are the nodal forces on this body (`2n`) [N/m], `rigid` the accelerations `V̇`, `Ü` [m/s²] and `Ω̇`
-    /// [rad/s²] (ignored by the rail); `op`, `free`, `td` and `state` are those of [`Self::free_response`].
+    /// [rad/s²] of the hub, or those of the base (x, y; the third is ignored); `op`, `free`, `td` and `state` are those of [`Self::free_response`].
     #[allow(clippy::too_many_arguments)]
     fn commit(
         &self,
@@ -157,7 +157,7 @@ pub struct StepOperator {
     pub a0: f64,
     /// Surface displacement per unit nodal force, symmetric, `2n × 2n` [m/(N/m)].
     pub surface: DMatrix<f64>,
-    /// Surface displacement per unit rigid acceleration (V̇, Ü, Ω̇), `2n × 3`; zero for the rail.
+    /// Surface displacement per unit rigid acceleration (V̇, Ü, Ω̇), `2n × 3`; the third is zero for the rail.
     pub inertial_response: DMatrix<f64>,
     /// Rate of deformation momentum per unit nodal force, `3 × 2n`.
     pub momentum: DMatrix<f64>,

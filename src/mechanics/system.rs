@@ -22,7 +22,8 @@ pub struct BodySystem {
     pub gyroscopic: CsrMatrix,
     /// `S − B`: minus the weak form of `ρ ∂∂u` (per unit stream speed squared); `B` is the Robin term of open ends.
     pub ale_inertia: CsrMatrix,
-    /// `M r_k` for unit rigid accelerations in x, y and Ω (`r_Ω = (y, −x)`), hub nodes included; zero for the rail.
+    /// `M r_k` for unit rigid accelerations in x, y and Ω (`r_Ω = (y, −x)`), hub or base nodes included;
+    /// the rail has no `r_Ω`.
     pub rigid: DMatrix<f64>,
     /// Centrifugal load `M X` per `Ω²`; zero for the rail.
     pub centrifugal: DVector<f64>,
@@ -36,11 +37,12 @@ impl BodySystem {
         let dofs = DofMap::new(mesh);
         let (lame, density) = (Lame::from(material), material.density);
         let mass = |p: &_| elasticity::mass(p, density);
-        let load = |field: fn([f64; 2]) -> [f64; 2]| match stream {
-            Stream::Rotation => assemble_vector(mesh, &dofs, mass, field),
+        let load = |field: fn([f64; 2]) -> [f64; 2]| assemble_vector(mesh, &dofs, mass, field);
+        let turning = |field: fn([f64; 2]) -> [f64; 2]| match stream {
+            Stream::Rotation => load(field),
             Stream::Translation => Ok(DVector::zeros(dofs.len())),
         };
-        let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, load(|[x, y]| [y, -x])?];
+        let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, turning(|[x, y]| [y, -x])?];
         let inner = assemble(mesh, &dofs, |p| stream.ale_inertia(p, density))?;
         let ends = assemble_faces(mesh, &dofs, |p| stream.outflow(p, density))?;
         let unknowns = |&node: &usize| [dofs.unknown(node, 0), dofs.unknown(node, 1)];
@@ -51,7 +53,7 @@ impl BodySystem {
             gyroscopic: assemble(mesh, &dofs, |p| stream.gyroscopic(p, density))?,
             ale_inertia: CsrMatrix::combination(1.0, &inner, -1.0, &ends)?,
             rigid: DMatrix::from_columns(&rigid),
-            centrifugal: load(|x| x)?,
+            centrifugal: turning(|x| x)?,
             surface: mesh.surface.iter().flat_map(unknowns).flatten().collect(),
         })
     }

@@ -1,6 +1,7 @@
 //! The deformable wheel and rail, and their answers for the step sizes in use.
 
 use super::state::State;
+use super::support::{CondensedBase, TrackSupport};
 use crate::contact::ContactSolver;
 use crate::mechanics::MechanicsError;
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
@@ -11,12 +12,14 @@ use std::sync::Arc;
 /// Number of step sizes whose operators are kept.
 const KEPT: usize = 3;
 
-/// Wheel and rail.
+/// Wheel and rail, and what carries the rail.
 pub struct Bodies {
     /// Annulus on its hub.
     pub wheel: Box<dyn BodyResponse>,
     /// Plate on its base.
     pub rail: Box<dyn BodyResponse>,
+    /// What its base stands on; `None`: it is fixed.
+    pub support: Option<TrackSupport>,
 }
 
 /// Answers of both bodies for one step size, corrected for the contact solver.
@@ -25,8 +28,10 @@ pub struct Operators {
     pub a0: f64,
     /// Of the wheel.
     pub wheel: StepOperator,
-    /// Of the rail.
+    /// Of the rail on its support.
     pub rail: StepOperator,
+    /// Its base, unless it is fixed.
+    pub base: Option<CondensedBase>,
     /// Sum of both surface compliances [m/(N/m)].
     pub relative: DMatrix<f64>,
 }
@@ -53,9 +58,10 @@ impl Bodies {
                 recent.remove(0);
             }
             let (mut wheel, mut rail) = (self.wheel.operator(a0)?, self.rail.operator(a0)?);
+            let base = self.support.as_ref().map(|support| support.condense(&mut rail));
             solver.correct(&mut wheel.surface, &mut rail.surface);
             let relative = &wheel.surface + &rail.surface;
-            recent.push(Arc::new(Operators { a0, wheel, rail, relative }));
+            recent.push(Arc::new(Operators { a0, wheel, rail, base, relative }));
         }
         Ok(recent[recent.len() - 1].clone())
     }
@@ -72,21 +78,28 @@ impl Bodies {
         let [wheel, rail] = out;
         self.wheel.free_response(&operators.wheel, &state.wheel, td, streams[0], wheel);
         self.rail.free_response(&operators.rail, &state.rail, td, streams[1], rail);
+        if let Some(base) = &operators.base {
+            base.move_free(&state.base, td, rail);
+        }
     }
 
-    /// Kinetic and elastic energy of the deformation, its coupling with the rigid velocities (V, U̇, Ω) included [J/m].
+    /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇, Ω) included [J/m].
     pub fn energy(&self, state: &State, velocities: [f64; 3]) -> f64 {
         let forces = &state.contact.traction.port_forces;
         // Quadratic in the forces, so that their sign on the rail does not matter.
-        self.wheel.energy(&state.wheel, forces, velocities) + self.rail.energy(&state.rail, forces, [0.0; 3])
+        let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));
+        let [x, y] = state.base.velocities();
+        self.wheel.energy(&state.wheel, forces, velocities) + self.rail.energy(&state.rail, forces, [x, y, 0.0]) + track
     }
 
-    /// Power that damping and open ends take out of the bodies [W/m].
+    /// Power that damping and open ends take out of the bodies and the track [W/m].
     pub fn dissipation(&self, state: &State) -> f64 {
-        self.wheel.dissipation(&state.wheel) + self.rail.dissipation(&state.rail)
+        let track = self.support.as_ref().map_or(0.0, |support| support.dissipation(&state.base));
+        self.wheel.dissipation(&state.wheel) + self.rail.dissipation(&state.rail) + track
     }
 
-    /// Accepts the contact forces in `next`: writes the advanced deformation of both bodies to it. `accelerations` are
+    /// Accepts the contact forces in `next`: writes the advanced deformation of both bodies and the motion of the rail
+    /// base to it. `accelerations` are
     /// the rigid ones (V̇, Ü, Ω̇); `opposite` is a buffer for the forces on the rail.
     #[allow(clippy::too_many_arguments)]
     pub fn commit(
@@ -103,7 +116,12 @@ impl Bodies {
         self.wheel.commit(&operators.wheel, &free[0], forces, accelerations, td, &state.wheel, &mut next.wheel);
         opposite.resize_vertically_mut(forces.len(), 0.0);
         opposite.iter_mut().zip(forces.iter()).for_each(|(o, f)| *o = -f);
-        self.rail.commit(&operators.rail, &free[1], opposite, [0.0; 3], td, &state.rail, &mut next.rail);
+        next.base = match &operators.base {
+            Some(base) => base.advance(&state.base, td, &free[1], opposite),
+            None => state.base,
+        };
+        let [x, y] = next.base.accelerations();
+        self.rail.commit(&operators.rail, &free[1], opposite, [x, y, 0.0], td, &state.rail, &mut next.rail);
     }
 
     /// Whether a state has the dimensions of these bodies.

@@ -28,7 +28,7 @@ pub enum FieldError {
 pub struct Fields {
     /// Of the wheel; its displacement includes the height of the hub.
     pub wheel: BodyField,
-    /// Of the rail.
+    /// Of the rail; its displacement includes that of the base.
     pub rail: BodyField,
     /// Absolute temperatures of wheel and rail on meshes of their own; `None` if they are not computed.
     pub temperature: Option<[TemperatureField; 2]>,
@@ -39,10 +39,15 @@ pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
     let (config, motion) = (&model.config, &state.motion);
     let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
     let mut wheel = wheel_field(config, &state.wheel, motion.omega.now)?.ok_or(FieldError::Reduced)?;
-    let rail = rail_field(config, &state.rail, motion.velocity.now)?.ok_or(FieldError::Reduced)?;
+    let mut rail = rail_field(config, &state.rail, motion.velocity.now)?.ok_or(FieldError::Reduced)?;
     lift(&mut wheel.mesh.nodes);
     wheel.displacement.iter_mut().for_each(|[_, y]| *y += motion.height.now);
     wheel.velocity.iter_mut().for_each(|[_, y]| *y += motion.height.rate);
+    let (base, speed) = (state.base.displacement.map(|b| b.now), state.base.velocities());
+    for k in 0..2 {
+        rail.displacement.iter_mut().for_each(|u| u[k] += base[k]);
+        rail.velocity.iter_mut().for_each(|v| v[k] += speed[k]);
+    }
     let temperature = match (&model.thermal, &state.thermal) {
         (Some(heat), Some(thermal)) => {
             let mut fields = heat.fields(thermal)?;

@@ -5,7 +5,7 @@
 //! | file | content |
 //! |---|---|
 //! | [`state`], [`control`], [`error`] | data of a restart; inputs; failures |
-//! | [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
+//! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
 //! | [`output_rows`], [`outputs`], [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
@@ -27,6 +27,7 @@ pub mod stationary;
 pub mod step;
 pub mod substeps;
 pub mod suggested_step;
+pub mod support;
 pub mod thermal;
 
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};

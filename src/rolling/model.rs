@@ -5,6 +5,7 @@ use super::contact_model::ContactModel;
 use super::error::ModelError;
 use super::rigid::RigidWheel;
 use super::state::State;
+use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::config::Config;
 use crate::contact::grid::{ContactGrid, GridSolver};
@@ -80,7 +81,7 @@ impl Model {
         Ok(Self {
             wheel: RigidWheel::new(&config),
             contact: ContactModel::new(&config, solver),
-            bodies: Bodies { wheel: bodies.wheel, rail: bodies.rail },
+            bodies: Bodies { wheel: bodies.wheel, rail: bodies.rail, support: TrackSupport::new(&config) },
             thermal,
             zone,
             config,

@@ -1,5 +1,6 @@
 //! All data that a restart needs, and nothing else. Per metre of width.
 
+use super::support::BaseMotion;
 use crate::contact::{ContactState, Heating};
 use crate::heat::{HeatFlows, HeatState, Temperatures};
 use crate::mechanics::response::BodyState;
@@ -24,6 +25,8 @@ pub struct State {
     pub wheel: BodyState,
     /// Deformation of the rail.
     pub rail: BodyState,
+    /// Motion of the base of the rail.
+    pub base: BaseMotion,
     /// Contact: result of the last step and start of the next one.
     pub contact: ContactState,
     /// Temperatures, unless the thermal part is switched off.
