@@ -18,9 +18,10 @@ use settle::{scale, settle};
 
 /// Passes of temperatures and contact.
 const MAX_PASSES: usize = 30;
-/// Passes after which the feedback of the temperatures is averaged: friction that softens and swelling that lifts parts of
-/// a very hot contact off make it go back and forth.
+/// Passes after which the feedback of the temperatures is averaged, unless the changes shrink by this factor from pass to
+/// pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth.
 const PLAIN_PASSES: usize = 5;
+const CONTRACTION: f64 = 0.5;
 /// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
 /// rounding.
 const THERMAL_TOLERANCE: f64 = 1e-9;
@@ -40,16 +41,19 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let goal = Goal::new(model, inputs)?;
     let mut state = settle(model, tuning, &goal, None, workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
-    let mut change = f64::INFINITY;
+    let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
         let touch = thermal.touch(&model.contact, &state.contact.traction);
         let mut temperatures = thermal.stationary(&state, &touch, goal.drive.tread_heat)?;
-        if let (Some(before), Some(averaged)) = (&state.thermal, pass.checked_sub(PLAIN_PASSES)) {
-            thermal.average(&mut temperatures, before, 1.0 / (averaged + 2) as f64);
+        if let (Some(before), true) = (&state.thermal, averaged > 0) {
+            thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
         }
         let settled = settle(model, tuning, &goal, Some(temperatures), workspace)?;
-        change = difference(model, &state, &settled);
+        let before = std::mem::replace(&mut change, difference(model, &state, &settled));
         state = settled;
+        if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {
+            averaged += 1;
+        }
         if change <= THERMAL_TOLERANCE {
             break;
         }
