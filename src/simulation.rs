@@ -78,7 +78,7 @@ impl Inputs {
     pub fn rolling(config: &Config) -> Self {
         let velocity = config.initial.velocity;
         let drive = Drive {
-            omega: peripheral_velocity(velocity, config.initial.creepage) / config.wheel.radius,
+            omega: peripheral_velocity(velocity, config.initial.creepage.unwrap_or(0.0)) / config.wheel.radius,
             velocity,
             load: config.model.nominal_load,
             friction: config.friction.coefficient,

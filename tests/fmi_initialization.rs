@@ -126,3 +126,36 @@ fn a_limit_passed_during_the_run_is_told_then_and_again_in_the_next_run() {
         slave.coarsen();
     }
 }
+
+#[test]
+fn the_initial_creepage_counts_only_if_it_is_set() {
+    let dll = load();
+    let force = |creepage: Option<f64>| {
+        let slave = Slave::coarse(&dll);
+        if let Some(creepage) = creepage {
+            assert_eq!(slave.set_real("initial.creepage", creepage), fmi2OK);
+        }
+        slave.initialize();
+        assert_eq!(slave.real("initial.creepage"), creepage.unwrap_or(0.0));
+        let force = slave.real("contact.force_x");
+        assert_eq!(slave.reset(), fmi2OK);
+        slave.coarsen();
+        slave.initialize();
+        assert!(slave.real("contact.force_x").abs() < 1e-2, "a reset leaves it unset");
+        force
+    };
+    assert!(force(None).abs() < 1e-2);
+    assert!((-1200.0..-800.0).contains(&force(Some(0.0))));
+}
+
+#[test]
+fn a_start_beyond_adhesion_is_refused_with_a_way_out() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    assert_eq!(slave.set_real("drive.moment", -2e4), fmi2OK);
+    assert_eq!(slave.enter(), fmi2OK);
+    slave.refused(slave.exit(), &["drive.moment = -20000 N m", "adhesion carries", "initial.creepage"]);
+    assert_eq!(slave.set_real("initial.creepage", 0.01), fmi2OK);
+    assert_eq!(slave.exit(), fmi2OK);
+    assert!((slave.real("contact.utilisation") - 1.0).abs() < 1e-9);
+}

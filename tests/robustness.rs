@@ -203,7 +203,7 @@ fn locked_wheel_slides_with_the_full_friction_force() {
 #[test]
 fn switching_control_to_the_reaction_continues_the_motion() {
     let mut config = preset("railway", 10);
-    config.initial.creepage = 5e-4;
+    config.initial.creepage = Some(5e-4);
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);

@@ -85,7 +85,9 @@ impl Hertz {
         let mut rigid = problem.rigid.map(|motion| motion.start());
         for _ in 0..4 {
             for axis in [0, 2] {
-                if let AxisDrive::Free { load } = problem.rigid[axis].drive {
+                // The start seeks the speed at which friction holds a balance; without friction any speed does.
+                let sought = problem.rigid[axis].gain == 0.0;
+                if let (AxisDrive::Free { load }, false) = (problem.rigid[axis].drive, sought) {
                     let residual = self.unbalance(problem, axis, &forces, &rigid) - load;
                     let inertia = problem.rigid[axis].inertia + problem.bodies.deformation_inertia[(axis, axis)];
                     rigid[axis] -= residual / (inertia * problem.rigid[axis].gain);

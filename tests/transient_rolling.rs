@@ -82,7 +82,7 @@ fn controlled_braking_matches_the_reference() {
     let mut config = preset("paper_d", 20);
     config.physics.centrifugal = false;
     config.initial.velocity = 50.0 * KMH;
-    config.initial.creepage = 0.0;
+    config.initial.creepage = Some(0.0);
     let bdf2 = model(config.clone());
     let (speed, creepage, utilisation) = controlled_braking(&bdf2, 0.01);
     println!("BDF2 10 ms: end speed {speed:.4} km/h, peak creepage {creepage:.4e}, peak utilisation {utilisation:.4}");

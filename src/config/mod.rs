@@ -159,7 +159,7 @@ impl Config {
             },
             Dependent {
                 name: "initial.creepage",
-                value: creepage,
+                value: creepage.unwrap_or(0.0),
                 unit: "1",
                 low: if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 },
                 high: f64::INFINITY,
@@ -291,7 +291,7 @@ mod tests {
             &["thermal.wheel_excess = -150 ", "at least -99 K with thermal.reference = 100 K"],
         );
         refused(
-            |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, -1.0, 5e9),
+            |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, Some(-1.0), 5e9),
             &[
                 "initial.creepage = -1 ",
                 "at least -0.78",
@@ -313,6 +313,6 @@ mod tests {
                 "rail.length = 1 m",
             ],
         );
-        refused(|c| c.initial.creepage = f64::NAN, &["initial.creepage = NaN", "-1.99 to 2"]);
+        refused(|c| c.initial.creepage = Some(f64::NAN), &["initial.creepage = NaN", "-1.99 to 2"]);
     }
 }

@@ -31,7 +31,7 @@ pub struct Row<T: 'static> {
 ///
 /// A row has number, field, type, default and meaning. Between them may stand: `of`, the group in the name if it is not
 /// that of the struct; `in`, the SI unit, and `as`, the unit in which people like to read it; `from … to`, the range; and
-/// `nominal`, the usual size. Types are `f64`, `usize`, `bool`, `String` and those that `choice!` defines.
+/// `nominal`, the usual size. Types are `f64`, `Option<f64>` (unset until written), `usize`, `bool`, `String` and those that `choice!` defines.
 macro_rules! parameters {
     (@group $group:ident) => { stringify!($group) };
     (@group $group:ident, $of:literal) => { $of };

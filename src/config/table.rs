@@ -115,8 +115,10 @@ parameters! {
         initial: Initial fixed {
             1100 velocity: f64 = 100.0 / 3.6, in "m/s" as "km/h", from -200.0 to 200.0,
                 "Travel velocity of the stationary rolling state at the start, slower than surface waves";
-            1101 creepage: f64 = 0.0, in "1" as "%", from -1.99 to 2.0,
-                "Its creepage 2 (V - r omega)/(V + r omega), with a rim slower than surface waves";
+            1101 creepage: Option<f64> = None, in "1" as "%", from -1.99 to 2.0,
+                "Its creepage 2 (V - r omega)/(V + r omega), with a rim slower than surface waves; unset: that of \
+                 quasi-steady rolling under drive.moment and drive.force, free of tangential force without them. Writing \
+                 the start value 0 sets it to 0";
         }
         /// What may change during a run: nothing that is computed in advance depends on it.
         ///

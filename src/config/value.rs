@@ -226,6 +226,21 @@ impl Field for f64 {
     }
 }
 
+/// A number that may be left unset, which reads as zero.
+impl Field for Option<f64> {
+    fn kind(limits: Limits) -> Kind {
+        f64::kind(limits)
+    }
+    fn read(&self) -> Value {
+        Value::Real(self.unwrap_or(0.0))
+    }
+    fn write(&mut self, value: &Value) {
+        if let Value::Real(value) = value {
+            *self = Some(*value);
+        }
+    }
+}
+
 impl Field for usize {
     fn kind(limits: Limits) -> Kind {
         Kind::Integer { min: limits.low.max(0.0) as i32, max: limits.high as i32 }

@@ -44,7 +44,8 @@ pub struct RigidMotion {
     pub drive: AxisDrive,
     /// Where the search for a free motion starts: V [m/s], U \[m], Ω [rad/s].
     pub guess: f64,
-    /// The acceleration is `gain · value + offset`.
+    /// The acceleration is `gain · value + offset`. Without gain it is known, and a free motion has the value at which the
+    /// contact forces hold its balance.
     pub gain: f64,
     /// See [`Self::gain`].
     pub offset: f64,

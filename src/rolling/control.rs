@@ -163,7 +163,8 @@ inputs! {
     }
     values {
         200 omega of "drive", in "rad/s" as "rpm", from -2e4 to 2e4, nominal 60.0,
-            "Angular velocity, forward rolling positive; unset: from initial.velocity and initial.creepage";
+            "Angular velocity, forward rolling positive; unset: from initial.velocity and initial.creepage, or \
+             without creepage";
         201 moment of "drive", in "N.m" as "kN.m", from -1e9 to 1e9, nominal 1e4,
             "Driving moment on the hub, forward positive (braking negative)";
         202 velocity of "drive", in "m/s" as "km/h", from -200.0 to 200.0, nominal 30.0,

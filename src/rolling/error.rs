@@ -40,6 +40,24 @@ pub enum StepError {
     /// Inputs without a stationary state.
     #[error("no equilibrium: {0}")]
     NoEquilibrium(&'static str),
+    /// No steady rolling: force and moment ask for more than friction carries.
+    #[error(
+        "no steady rolling: {demand} {verb} a tangential force of {asked:.6e} N in the contact, where adhesion carries \
+         {carried:.6e} N (friction coefficient {friction:.4} at a wheel load of {load:.6e} N)",
+        verb = if demand.contains(" and ") { "ask for" } else { "asks for" }
+    )]
+    BeyondAdhesion {
+        /// The inputs that ask for it, with their values.
+        demand: String,
+        /// Tangential force on the wheel that they need [N].
+        asked: f64,
+        /// Largest one \[N].
+        carried: f64,
+        /// Friction coefficient \[1].
+        friction: f64,
+        /// Wheel load \[N].
+        load: f64,
+    },
     /// An input outside its range.
     #[error(transparent)]
     Input(#[from] InputError),

@@ -37,20 +37,28 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
         StepError::ZoneExceeded { load, .. } => zone(*load, config).unwrap_or_else(|| {
             format!(
                 "the load is one that the zone carries, so a higher model.nominal_load does not help: check \
-                 drive.displacement, initial.creepage (now {:?}), thermal.wheel_excess (now {:?} K) and rail.length (now \
+                 drive.displacement, initial.creepage (now {}), thermal.wheel_excess (now {:?} K) and rail.length (now \
                  {:?} m)",
-                config.initial.creepage, config.thermal.wheel_excess, config.rail.length
+                creepage(config),
+                config.thermal.wheel_excess,
+                config.rail.length
             )
         }),
+        StepError::BeyondAdhesion { .. } => {
+            "start with gentler drive.moment and drive.force and bring them to their values in the first steps, or set \
+             initial.creepage, with which the run starts sliding and accelerates by what adhesion does not carry"
+                .to_owned()
+        }
         StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::NoEquilibrium(_) => {
             "start from a gentler state (drive.load near model.nominal_load, initial.creepage near 0, moderate \
              initial.velocity) and bring the inputs to their values in the first steps"
                 .to_owned()
         }
         StepError::Motion(_) => format!(
-            "choose initial.velocity (now {:?} m/s) and initial.creepage (now {:?}), or the prescribed velocities, within \
+            "choose initial.velocity (now {:?} m/s) and initial.creepage (now {}), or the prescribed velocities, within \
              it",
-            config.initial.velocity, config.initial.creepage
+            config.initial.velocity,
+            creepage(config)
         ),
         StepError::Heat(error) => heat(error, config),
         StepError::BelowAbsoluteZero { .. } => cold(config),
@@ -58,6 +66,11 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
         _ => return error.to_string(),
     };
     format!("{error}: {advice}")
+}
+
+/// The initial creepage in words.
+fn creepage(config: &Config) -> String {
+    config.initial.creepage.map_or_else(|| "not set".to_owned(), |creepage| format!("{creepage:?}"))
 }
 
 /// The message of a model that could not be prepared, with advice.

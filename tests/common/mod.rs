@@ -34,7 +34,7 @@ pub fn store() -> BasisStore {
 pub fn prescribed(model: &Model, velocity: f64, creepage: f64) -> Inputs {
     let mut config = model.config().clone();
     config.initial.velocity = velocity;
-    config.initial.creepage = creepage;
+    config.initial.creepage = Some(creepage);
     let mut inputs = Inputs::rolling(&config);
     inputs.rotation = Rotation::Velocity;
     inputs.translation = Translation::Velocity;

@@ -95,7 +95,9 @@ impl Instance {
                 _ if set => return CallError::error(error.to_string()),
                 "drive.omega" => format!(
                     "initial.velocity = {:?} m/s and initial.creepage = {:?} with wheel.radius = {:?} m",
-                    initial.velocity, initial.creepage, self.config.wheel.radius
+                    initial.velocity,
+                    initial.creepage.unwrap_or(0.0),
+                    self.config.wheel.radius
                 ),
                 "drive.velocity" => format!("initial.velocity = {:?} m/s", initial.velocity),
                 "drive.load" => format!("model.nominal_load = {:?} N", self.config.model.nominal_load),

@@ -1,0 +1,77 @@
+//! Stationary rolling: the state in which nothing changes in the moving frame (`d_t = 0`).
+//!
+//! What is given and what is sought follows from the control ([`goal`]). Contact forces, convective terms, creepage and
+//! accelerations depend on each other; they are brought together by passes of the linear contact problem at fixed
+//! temperatures ([`settle`]). Around them, temperatures and contact follow each other until neither forces nor creepage
+//! change any longer ([`start`]). Derivation: `docs/theory/friction-and-coupling.md`.
+
+mod goal;
+mod settle;
+
+use super::control::Inputs;
+use super::error::StepError;
+use super::model::{Model, Workspace};
+use super::state::State;
+use crate::config::Tuning;
+use goal::Goal;
+use settle::{scale, settle};
+
+/// Passes of temperatures and contact.
+const MAX_PASSES: usize = 30;
+/// Passes after which the feedback of the temperatures is averaged, unless the changes shrink by this factor from pass to
+/// pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth.
+const PLAIN_PASSES: usize = 5;
+const CONTRACTION: f64 = 0.5;
+/// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
+/// rounding.
+const THERMAL_TOLERANCE: f64 = 1e-9;
+/// The same where averages are all there is.
+const THERMAL_SCATTER: f64 = 1e-3;
+
+/// Stationary state for inputs. Where a force or moment is prescribed it is quasi-steady rolling at `initial.velocity`: the
+/// creepage is constant and belongs to force and moment, and the accelerations are what they do not balance. With
+/// `initial.creepage`, creepage and velocity are given, and rotation and translation accelerate each by its own.
+///
+/// # Errors
+///
+/// [`StepError::BeyondAdhesion`] if force and moment ask for more than friction carries, and what the contact, the heat
+/// and the ranges of the model refuse.
+pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
+    inputs.validate()?;
+    let goal = Goal::new(model, inputs)?;
+    let mut state = settle(model, tuning, &goal, None, workspace)?;
+    let Some(thermal) = &model.thermal else { return Ok(state) };
+    let (mut change, mut averaged) = (f64::INFINITY, 0);
+    for pass in 0..MAX_PASSES {
+        let touch = thermal.touch(&model.contact, &state.contact.traction);
+        let mut temperatures = thermal.stationary(&state, &touch, goal.drive.tread_heat)?;
+        if let (Some(before), true) = (&state.thermal, averaged > 0) {
+            thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
+        }
+        let settled = settle(model, tuning, &goal, Some(temperatures), workspace)?;
+        let before = std::mem::replace(&mut change, difference(model, &state, &settled));
+        state = settled;
+        if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {
+            averaged += 1;
+        }
+        if change <= THERMAL_TOLERANCE {
+            break;
+        }
+    }
+    let unsettled = StepError::NoEquilibrium("contact and temperatures do not settle");
+    if change <= THERMAL_SCATTER { Ok(state) } else { Err(unsettled) }
+}
+
+/// Change from one state to the next: of the contact force relative to the load and, since a prescribed force fixes it
+/// whatever the temperatures, of the creepage relative to the one that strains the patch by its own width over the radius.
+fn difference(model: &Model, before: &State, now: &State) -> f64 {
+    let (from, to) = (&before.contact.traction, &now.contact.traction);
+    let force =
+        (0..2).map(|k| (to.resultant[k] - from.resultant[k]).abs()).fold(0.0, f64::max) / scale(model, to.resultant);
+    let [v, v_before] = [now, before].map(|state| state.motion.velocity.now);
+    let [v_c, v_c_before] = [now, before].map(|state| model.wheel.radius * state.motion.omega.now);
+    let speed = v.abs() + v_c.abs();
+    let slip = ((v - v_c) - (v_before - v_c_before)).abs() * model.wheel.radius;
+    let creepage = if speed > 0.0 && to.half_width() > 0.0 { slip / (speed * to.half_width()) } else { 0.0 };
+    force.max(creepage)
+}

@@ -1,0 +1,180 @@
+//! The stationary contact at given temperatures.
+
+use super::super::audit;
+use super::super::contact_model::{ContactStep, friction_law};
+use super::super::error::StepError;
+use super::super::model::{Model, Workspace};
+use super::super::state::{Motion, State, ThermalState};
+use super::super::substeps;
+use super::goal::{Goal, Trial};
+use crate::config::Tuning;
+use crate::contact::{AxisDrive, ContactError, Heating};
+use crate::mechanics::response::{BodyState, Convection};
+use crate::multistep::{History, TimeDerivative};
+
+/// Passes that bring in convective terms, creepage and accelerations.
+const MAX_PASSES: usize = 30;
+/// Relative change of the nodal contact forces at which they are brought in: derivatives by the inputs are differences of
+/// such states.
+const TOLERANCE: f64 = 1e-11;
+/// The same where rounding allows no more.
+const ROUNDING: f64 = 1e-6;
+/// Largest change of the weights at the contact edges that counts as converged [1].
+const EDGE_TOLERANCE: f64 = 1e-5;
+/// Load relative to the nominal one below which forces do not count [1].
+const SLIGHT: f64 = 1e-9;
+/// Share of what friction carries beyond which a contact that finds no state fails for want of adhesion.
+const NEARLY_ALL: f64 = 0.99;
+
+/// Contact force that changes are compared with [N/m].
+pub(super) fn scale(model: &Model, resultant: [f64; 3]) -> f64 {
+    resultant[1].abs().max(SLIGHT * model.contact.nominal_line_load())
+}
+
+/// Stationary contact at given temperatures.
+pub(super) fn settle(
+    model: &Model,
+    tuning: &Tuning,
+    goal: &Goal,
+    thermal: Option<ThermalState>,
+    workspace: &mut Workspace,
+) -> Result<State, StepError> {
+    let load = goal.drive.load / model.wheel.width;
+    let mut state = State {
+        wheel: BodyState::zeros(model.bodies.wheel.state_len()),
+        rail: BodyState::zeros(model.bodies.rail.state_len()),
+        contact: model.contact.hertzian_guess(load),
+        available_friction: goal.drive.friction,
+        prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
+        restarted: true,
+        thermal,
+        ..State::default()
+    };
+    let radius = model.wheel.radius + state.deformation().radius_growth;
+    let mut trial = goal.trial(radius);
+    let mut next = state.clone();
+    let mut change = f64::INFINITY;
+    for number in 0..MAX_PASSES {
+        next.friction = friction(model, tuning, goal, &trial, &state);
+        state.friction = next.friction;
+        // The first pass finds out where wheel and rail touch, and whether they do.
+        let touching = number > 0 && state.contact.traction.resultant[1] > 0.0;
+        let sought = goal.sought.filter(|_| touching);
+        let passed = Pass { model, goal, sought }.run(&state, &mut trial, workspace, &mut next)?;
+        change = if sought == goal.sought || !touching && number > 0 { passed } else { f64::INFINITY };
+        std::mem::swap(&mut state, &mut next);
+        if change <= TOLERANCE {
+            break;
+        }
+    }
+    if change > ROUNDING {
+        let source = ContactError::NotConverged { iterations: MAX_PASSES };
+        return Err(StepError::Contact { time: 0.0, step: 0.0, source });
+    }
+    goal.check(model, trial.speeds)?;
+    Ok(complete(model, goal, &trial, state))
+}
+
+/// Friction coefficient of a trial.
+fn friction(model: &Model, tuning: &Tuning, goal: &Goal, trial: &Trial, state: &State) -> f64 {
+    let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
+    let [velocity, omega] = goal.actual(trial.speeds);
+    let slip = velocity - model.wheel.radius * omega;
+    friction_law(tuning).coefficient(goal.drive.friction, slip, heating, 0.0)
+}
+
+/// One pass: contact at the present deformation and accelerations, then deformation and accelerations of its forces.
+struct Pass<'a> {
+    model: &'a Model,
+    goal: &'a Goal,
+    /// The axis whose speed is sought in this pass.
+    sought: Option<usize>,
+}
+
+impl Pass<'_> {
+    /// Returns the change of the contact forces relative to the load.
+    fn run(
+        &self,
+        state: &State,
+        trial: &mut Trial,
+        workspace: &mut Workspace,
+        next: &mut State,
+    ) -> Result<f64, StepError> {
+        let (model, goal) = (self.model, self.goal);
+        self.check_adhesion(state, trial, 1.0)?;
+        let td = TimeDerivative::default();
+        let operators = model.bodies.operators(td.a0, &*model.contact.solver, &mut workspace.operators)?;
+        let [velocity, omega] = goal.actual(trial.speeds);
+        let streams = [
+            Convection { speed: omega, acceleration: trial.accelerations[2] },
+            Convection { speed: velocity, acceleration: trial.accelerations[0] },
+        ];
+        model.bodies.free_responses(&operators, state, &td, streams, &mut workspace.free);
+        let free = &workspace.free;
+        let contact = ContactStep {
+            operators: &operators,
+            free,
+            rigid: goal.motions(model, trial, self.sought, state.contact.traction.rigid[1], free[0].momentum),
+            time: td,
+            duration: 0.0,
+            place: [0.0; 2],
+            deformation: state.deformation(),
+            friction: state.friction,
+            edge_tolerance: EDGE_TOLERANCE,
+        };
+        let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+        solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
+            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => beyond,
+            _ => model.contact.failure(error, 0.0, 0.0),
+        })?;
+        let accelerations = trial.accelerations;
+        model.bodies.commit(&operators, free, accelerations, &td, state, next, &mut workspace.opposite);
+
+        let resultant = next.contact.traction.resultant;
+        let [v, _, omega] = next.contact.traction.rigid;
+        trial.speeds = [v, omega];
+        trial.accelerations = goal.accelerations(model.wheel.inertia, trial.speeds, resultant);
+        next.hub = std::array::from_fn(|k| match goal.drives[k] {
+            AxisDrive::Free { load } if k != 1 => load,
+            _ => -resultant[k],
+        });
+        next.driving = next.hub;
+        let unbalanced = |k: usize| (trial.accelerations[k] - accelerations[k]).abs() * model.wheel.inertia[k];
+        let (now, before) = (&next.contact.traction.port_forces, &state.contact.traction.port_forces);
+        let change = now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        Ok((0..3).map(unbalanced).fold(change, f64::max) / scale(model, resultant))
+    }
+
+    /// Refuses a tangential force beyond a `share` of what friction carries.
+    fn check_adhesion(&self, state: &State, trial: &Trial, share: f64) -> Result<(), StepError> {
+        let width = self.model.wheel.width;
+        let asked = self.goal.tangential_force(self.model.wheel.inertia, trial) * width;
+        let load = state.contact.traction.resultant[1] * width;
+        let carried = state.friction * load;
+        if self.sought.is_none() || asked.abs() < share * carried {
+            return Ok(());
+        }
+        let demand = self.goal.demand(width);
+        Err(StepError::BeyondAdhesion { demand, asked, carried, friction: state.friction, load })
+    }
+}
+
+/// Everything of the state that follows from the settled contact.
+fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> State {
+    if !goal.moving {
+        state.contact.rest();
+    }
+    let ([velocity, omega], accelerations) = (goal.actual(trial.speeds), trial.accelerations);
+    let traction = &mut state.contact.traction;
+    traction.rigid = [velocity, traction.rigid[1], omega];
+    state.motion = Motion {
+        velocity: History { rate: accelerations[0], ..History::constant(velocity) },
+        omega: History { rate: accelerations[2], ..History::constant(omega) },
+        height: History::constant(traction.rigid[1]),
+        hub_velocity: History::default(),
+    };
+    state.control = substeps::unlimited(&state);
+    state.friction_power = state.contact.traction.friction_power;
+    state.audit = audit::start(model, &state);
+    state
+}
