@@ -110,7 +110,8 @@ impl Hertz {
 impl ContactSolver for Hertz {
     fn touching(&self, _half_width: f64) -> ContactState {
         let ports = DVector::zeros(2 * self.x.len());
-        let traction = Traction { port_forces: ports.clone(), surface: [ports.clone(), ports], ..Traction::default() };
+        let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
+        let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };
         ContactState { traction, solver: SolverState::Stateless }
     }
 
@@ -159,6 +160,7 @@ impl ContactSolver for Hertz {
         found.traction = Traction {
             resultant: self.resultant(&forces),
             surface: self.surfaces(problem, &forces, &rigid),
+            loads: [forces.clone(), -&forces],
             port_forces: forces,
             rigid,
             friction_power: 0.0,

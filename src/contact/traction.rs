@@ -13,6 +13,8 @@ pub struct Traction {
     /// Forces on the ports of the wheel (the surface displacements of its body, x and y of every node) [N/m]; the ports of
     /// the rail receive the opposite.
     pub port_forces: DVector<f64>,
+    /// All that acts on the ports of wheel and rail: contact forces, and the pull of hot layers [N/m].
+    pub loads: [DVector<f64>; 2],
     /// Displacements of the ports of wheel and rail \[m].
     pub surface: [DVector<f64>; 2],
     /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which they were found.

@@ -6,7 +6,7 @@ use crate::contact::ContactSolver;
 use crate::mechanics::MechanicsError;
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use std::sync::Arc;
 
 /// Number of step sizes whose operators are kept.
@@ -85,11 +85,12 @@ impl Bodies {
 
     /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇, Ω) included [J/m].
     pub fn energy(&self, state: &State, velocities: [f64; 3]) -> f64 {
-        let forces = &state.contact.traction.port_forces;
-        // Quadratic in the forces, so that their sign on the rail does not matter.
+        let [on_wheel, on_rail] = &state.contact.traction.loads;
         let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));
         let [x, y] = state.base.velocities();
-        self.wheel.energy(&state.wheel, forces, velocities) + self.rail.energy(&state.rail, forces, [x, y, 0.0]) + track
+        self.wheel.energy(&state.wheel, on_wheel, velocities)
+            + self.rail.energy(&state.rail, on_rail, [x, y, 0.0])
+            + track
     }
 
     /// Power that damping and open ends take out of the bodies and the track [W/m].
@@ -99,9 +100,7 @@ impl Bodies {
     }
 
     /// Accepts the contact forces in `next`: writes the advanced deformation of both bodies and the motion of the rail
-    /// base to it. `accelerations` are
-    /// the rigid ones (V̇, Ü, Ω̇); `opposite` is a buffer for the forces on the rail.
-    #[allow(clippy::too_many_arguments)]
+    /// base to it. `accelerations` are the rigid ones (V̇, Ü, Ω̇).
     pub fn commit(
         &self,
         operators: &Operators,
@@ -110,18 +109,15 @@ impl Bodies {
         td: &TimeDerivative,
         state: &State,
         next: &mut State,
-        opposite: &mut DVector<f64>,
     ) {
-        let forces = &next.contact.traction.port_forces;
-        self.wheel.commit(&operators.wheel, &free[0], forces, accelerations, td, &state.wheel, &mut next.wheel);
-        opposite.resize_vertically_mut(forces.len(), 0.0);
-        opposite.iter_mut().zip(forces.iter()).for_each(|(o, f)| *o = -f);
+        let [on_wheel, on_rail] = &next.contact.traction.loads;
+        self.wheel.commit(&operators.wheel, &free[0], on_wheel, accelerations, td, &state.wheel, &mut next.wheel);
         next.base = match &operators.base {
-            Some(base) => base.advance(&state.base, td, &free[1], opposite),
+            Some(base) => base.advance(&state.base, td, &free[1], on_rail),
             None => state.base,
         };
         let [x, y] = next.base.accelerations();
-        self.rail.commit(&operators.rail, &free[1], opposite, [x, y, 0.0], td, &state.rail, &mut next.rail);
+        self.rail.commit(&operators.rail, &free[1], on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
     }
 
     /// Whether a state has the dimensions of these bodies.

@@ -13,7 +13,6 @@ use crate::contact::{self, ContactSolver};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
 use crate::mechanics::{self, Pair};
-use nalgebra::DVector;
 
 /// Everything that does not change during a run; instances with equal parameters share it.
 pub struct Model {
@@ -38,8 +37,6 @@ pub struct Workspace {
     pub operators: OperatorCache,
     /// Answers of wheel and rail without contact forces.
     pub free: [FreeResponse; 2],
-    /// Forces on the rail.
-    pub opposite: DVector<f64>,
     /// Of the contact solver.
     pub contact: contact::Scratch,
     /// Of the heat step.

@@ -141,7 +141,7 @@ fn solve_and_commit(
 
     next.motion = moved(&state.motion, td, next.contact.traction.rigid);
     let accelerations = next.motion.accelerations();
-    model.bodies.commit(&operators, free, accelerations, td, state, next, &mut workspace.opposite);
+    model.bodies.commit(&operators, free, accelerations, td, state, next);
     let traction = &next.contact.traction;
     let (forces, resultant) = (&traction.port_forces, traction.resultant);
     next.driving = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);

@@ -10,7 +10,7 @@
 //! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
 //! within which a node keeps its state grows from iteration to iteration.
 
-use super::iterate::{GridScratch, Iterate};
+use super::iterate::{GridScratch, Iterate, copy};
 use super::observe;
 use super::power::Power;
 use super::rows::AffineRow;
@@ -332,6 +332,12 @@ impl Iterate<'_> {
             push(history, wheel[port] - rail[port]);
         }
         push(&mut state.turn, frame.turn);
+        for (body, sign) in [(0, 1.0), (1, -1.0)] {
+            let loads = &mut traction.loads[body];
+            copy(loads, &traction.port_forces);
+            *loads *= sign;
+            scratch.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
+        }
         let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
         let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
         let [friction, work] = power.friction(&problem.time, &mut state.friction);

@@ -27,6 +27,8 @@ pub struct GridScratch {
     pub(super) known: [DVector<f64>; 2],
     /// Swelling of the hot layers of wheel and rail at the candidates [m]; empty without any.
     pub(super) swelling: [Vec<f64>; 2],
+    /// Pull of the hot layers of wheel and rail at the candidates [N/m]; empty without any.
+    pub(super) pull: [Vec<f64>; 2],
     /// Displacement of wheel and rail by the membrane forces of their hot layers [m]; empty without any.
     pub(super) membrane: [DVector<f64>; 2],
     pub(super) upwind: Vec<Upwind>,

@@ -143,8 +143,10 @@ impl Iterate<'_> {
     fn warm(&mut self, body: usize) {
         let (grid, problem) = (self.grid, self.problem);
         let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
-        let GridScratch { known, swelling, membrane, .. } = &mut *self.scratch;
+        let GridScratch { known, swelling, pull, membrane, .. } = &mut *self.scratch;
         let (known, swelling, membrane) = (&mut known[body], &mut swelling[body], &mut membrane[body]);
+        let pull = &mut pull[body];
+        pull.clear();
         swelling.clear();
         swelling.extend(grid.x.iter().map(|&x| layer.at(x)).filter(|_| !layer.is_empty()));
         if force.is_empty() {
@@ -156,9 +158,9 @@ impl Iterate<'_> {
         let last = grid.len().saturating_sub(1);
         for i in 0..=last {
             let (before, after) = (grid.x[i.saturating_sub(1)], grid.x[(i + 1).min(last)]);
-            let pull = -0.5 * (force.at(after) - force.at(before));
-            if pull != 0.0 {
-                membrane.axpy(pull, &problem.bodies.compliance[body].column(grid.port(i)), 1.0);
+            pull.push(-0.5 * (force.at(after) - force.at(before)));
+            if pull[i] != 0.0 {
+                membrane.axpy(pull[i], &problem.bodies.compliance[body].column(grid.port(i)), 1.0);
             }
         }
         *known += &*membrane;

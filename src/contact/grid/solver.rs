@@ -50,7 +50,8 @@ impl ContactSolver for GridSolver {
             friction: FrictionHistory::none(n),
             turn: History::default(),
         };
-        let traction = Traction { port_forces: ports.clone(), surface: [ports.clone(), ports], ..Traction::default() };
+        let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
+        let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };
         ContactState { traction, solver: SolverState::Grid(state) }
     }
 
@@ -99,7 +100,8 @@ impl ContactSolver for GridSolver {
         let FrictionHistory { force, impulse, slip, .. } = &grid.friction;
         [grid.status.len(), grid.slip.len(), grid.gap.len(), grid.tangential_gap.len()] == [n; 4]
             && [force.len(), impulse.len(), slip.len()] == [n; 3]
-            && [traction.port_forces.len(), traction.surface[0].len(), traction.surface[1].len()] == [ports; 3]
+            && traction.loads.iter().chain(&traction.surface).all(|values| values.len() == ports)
+            && traction.port_forces.len() == ports
             && traction.port_forces.iter().all(|f| f.is_finite())
     }
 }

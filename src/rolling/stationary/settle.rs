@@ -128,7 +128,7 @@ impl Pass<'_> {
             _ => model.contact.failure(error, 0.0, 0.0),
         })?;
         let accelerations = trial.accelerations;
-        model.bodies.commit(&operators, free, accelerations, &td, state, next, &mut workspace.opposite);
+        model.bodies.commit(&operators, free, accelerations, &td, state, next);
 
         let resultant = next.contact.traction.resultant;
         let [v, _, omega] = next.contact.traction.rigid;
