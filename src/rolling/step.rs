@@ -143,7 +143,7 @@ fn solve_and_commit(
     let accelerations = next.motion.accelerations();
     model.bodies.commit(&operators, free, accelerations, td, state, next);
     let traction = &next.contact.traction;
-    let (forces, resultant) = (&traction.port_forces, traction.resultant);
+    let (forces, resultant) = (&traction.loads[0], traction.resultant);
     next.driving = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);
     next.hub = std::array::from_fn(|k| match plan.given[k] {
         AxisDrive::Free { load } => load,

@@ -110,6 +110,9 @@ impl Iterate<'_> {
         }
         let own = &self.problem.rigid[axis];
         let mut row = AffineRow { rigid: [0.0; 3], constant: own.momentum - load };
+        for (i, pull) in self.scratch.pull[0].iter().enumerate() {
+            row.constant += bodies.momentum[(axis, grid.port(i))] * pull;
+        }
         for (l, motion) in self.problem.rigid.iter().enumerate() {
             let inertia = bodies.deformation_inertia[(axis, l)] + if l == axis { own.inertia } else { 0.0 };
             row.constant += inertia * motion.known_acceleration();
