@@ -79,8 +79,8 @@ impl Model {
         };
         Ok(Self {
             wheel: RigidWheel::new(&config),
+            bodies: Bodies::new(bodies, &*solver),
             contact: ContactModel::new(&config, solver),
-            bodies: Bodies { wheel: bodies.wheel, rail: bodies.rail },
             thermal,
             zone,
             config,
