@@ -8,7 +8,8 @@ use std::sync::Arc;
 use wheelrail::analytic::hub_torsion;
 use wheelrail::config::{Config, Response};
 use wheelrail::material::Isotropic;
-use wheelrail::mechanics::{Basis, BodyDamping};
+use wheelrail::mechanics::{Basis, BodyDamping, wheel_mass};
+use wheelrail::rolling::State;
 use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Without heat, and with no damping but Rayleigh's.
@@ -101,6 +102,11 @@ fn heavy_hub(elements: usize) -> Config {
     config
 }
 
+/// Mass of wheel and hub \[kg].
+fn bouncing_mass(config: &Config) -> f64 {
+    config.wheel.hub_mass + wheel_mass(config) * config.model.contact_width
+}
+
 /// All flexibility on which the wheel bounces, residual and correction of the kernel included, has the loss factor `α1 ω`,
 /// so that the ratio is `α1 ω/2`, whatever the shape of contact and bodies.
 #[test]
@@ -119,7 +125,8 @@ fn bounce_on_the_contact_decays_with_rayleigh_damping_standing_and_rolling() {
 }
 
 /// Each mode gives its share `s_i` of the flexibility under the bounce the loss factor `2 ζ_i ω/ω_i`: `ζ = Σ s_i ζ_i ω/ω_i`,
-/// with `s_i = (φ_iᵀ δλ)²/ω_i²/(δP δδ)` from two static states.
+/// with `s_i = f_i²/ω_i²/(δP δδ)` from two static states. Contact force and inertia of the bouncing wheel make the modal
+/// force `f_i = φ_iᵀ (δλ − M r_y δP/m)`.
 #[test]
 fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     let mut config = heavy_hub(10);
@@ -143,11 +150,13 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     let signal = bounce(&model, 0.0, guess, 20, 400.0);
     let omega = frequency(&signal, TAU / guess / 400.0);
     let mut expected = 0.0;
+    let acceleration = line_load * model.config().model.contact_width / bouncing_mass(model.config());
     let bodies = [(&basis.wheel, BodyDamping::wheel(model.config())), (&basis.rail, BodyDamping::rail(model.config()))];
     for (basis, damping) in bodies {
         for (i, shape) in basis.shapes.column_iter().enumerate() {
             let (square, ratio) = (basis.squared_frequencies[i], damping.ratios[basis.character.group(i)]);
-            expected += ratio * omega / square.sqrt() * shape.dot(&change).powi(2) / square / work;
+            let force = shape.dot(&change) - basis.rigid[(i, 1)] * acceleration;
+            expected += ratio * omega / square.sqrt() * force * force / square / work;
         }
     }
     let found = ratio(&signal);
@@ -155,18 +164,22 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     assert!((found / expected - 1.0).abs() < 0.01);
 }
 
-/// Speeds of the hub [m/s] before and after an impact: the wheel is thrown up by its own contact, turned back by a load,
+/// Speeds of the centre of mass [m/s] before and after an impact: the wheel is thrown up by its own contact, turned back by a load,
 /// and falls freely.
 fn impact(model: &Arc<Model>, dt: f64) -> [f64; 2] {
     let mut inputs = frictionless(model, 0.0);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     let nominal = inputs.drive.load;
+    let basis = Basis::from_bytes(&model.basis_file().unwrap().1).unwrap().wheel;
+    let share = model.config().model.contact_width / bouncing_mass(model.config());
+    let centre =
+        |state: &State| state.motion.hub_velocity.now + share * basis.rigid.column(1).dot(&state.wheel.velocity);
     let mut until = |load: f64, reached: &dyn Fn(f64, f64) -> bool| {
         inputs.drive.load = load;
         let mut before = 0.0;
         for _ in 0..(0.5 / dt) as usize {
             simulation.advance(&inputs, dt).unwrap();
-            let velocity = simulation.state().motion.hub_velocity.now;
+            let velocity = centre(simulation.state());
             if reached(simulation.outputs().contact_force_y, velocity) {
                 return [before, velocity];
             }
@@ -210,21 +223,43 @@ fn restitution(model: &Arc<Model>, retardation: f64, speed: f64, mass: f64) -> f
     (-2.0 * work / (mass * speed * speed)).exp()
 }
 
+/// The closed form is of first order in the damping ratio. Vibrations of the wheel on its hub that the throw leaves behind
+/// exchange some 1e-4 of the energy.
 #[test]
 fn rebound_of_a_dropped_wheel_converges_with_the_step_to_the_damped_closed_form() {
-    let retardation = 2.0 * 0.02 / 370.0;
-    let model = model(rayleigh(heavy_hub(10), retardation));
-    let config = model.config();
-    let area = std::f64::consts::PI * (config.wheel.radius.powi(2) - config.wheel.hub_radius.powi(2));
-    let mass = config.wheel.hub_mass + config.material.density * area * config.model.contact_width;
-    let found = [1e-4, 5e-5, 2.5e-5].map(|dt| {
-        let [before, after] = impact(&model, dt);
-        let exact = restitution(&model, retardation, before, mass);
-        println!("step {dt}: {before:.4} m/s, rebound {:.5}, closed form {exact:.5}", after / before);
-        (1.0 - after / before) / (1.0 - exact) - 1.0
-    });
-    println!("relative errors of the loss {found:?}");
-    assert!(found[2].abs() < 0.03 && found[2].abs() < 0.5 * found[0].abs() + 0.01);
+    let errors = |damping_ratio: f64| {
+        let retardation = 2.0 * damping_ratio / 455.0;
+        let model = model(rayleigh(heavy_hub(10), retardation));
+        [1e-4, 5e-5, 2.5e-5].map(|dt| {
+            let [before, after] = impact(&model, dt);
+            let exact = restitution(&model, retardation, before, bouncing_mass(model.config()));
+            let loss = (1.0 - after / before) / (1.0 - exact) - 1.0;
+            println!(
+                "ratio {damping_ratio}, step {dt}: {:.5}, closed form {exact:.5}, loss {loss:+.4}",
+                after / before
+            );
+            loss
+        })
+    };
+    for damping_ratio in [0.01, 0.02] {
+        let [coarse, middle, fine] = errors(damping_ratio);
+        assert!(fine.abs() < 0.6 * damping_ratio && (fine - middle).abs() < 0.5 * (middle - coarse).abs());
+    }
+}
+
+/// Steps far below the relaxation time, where the retarded flexibility hardly answers.
+#[test]
+fn contact_stays_solvable_in_steps_far_below_the_relaxation_time() {
+    let model = model(rayleigh(preset("railway", 10), 1e-4));
+    let mut inputs = prescribed(&model, 20.0, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    for k in 1..=200 {
+        inputs.drive.omega = omega(&model, 20.0, 1e-3 * f64::from(k) / 200.0);
+        simulation.advance(&inputs, 1e-6).unwrap();
+    }
+    let outputs = simulation.outputs();
+    println!("force {:.1} N, residual {:.1e}", outputs.contact_force_x, outputs.energy_residual);
+    assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 0.1 && outputs.energy_residual.abs() < 1e-2);
 }
 
 /// Reduced and full response with ratios and Rayleigh damping: 1 ms ramp of the creepage.

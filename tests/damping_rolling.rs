@@ -4,55 +4,47 @@ mod common;
 
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::Config;
+use wheelrail::config::Damping;
 use wheelrail::simulation::{Model, Simulation};
 
-/// Power at the hub and power of damping [W] of frictionless stationary rolling.
-fn powers(model: &Arc<Model>, velocity: f64) -> [f64; 2] {
-    let mut inputs = prescribed(model, velocity, 0.0);
-    inputs.drive.friction = 0.0;
+/// Power at the hub less that of friction, and power of damping [W] in stationary rolling.
+fn powers(model: &Arc<Model>, velocity: f64, creepage: f64, friction: f64) -> [f64; 2] {
+    let mut inputs = prescribed(model, velocity, creepage);
+    inputs.drive.friction = friction;
     let simulation = Simulation::new(model.clone(), &inputs).unwrap();
     let outputs = simulation.outputs();
     let hub = outputs.hub_force_x * outputs.wheel_velocity + outputs.hub_moment * outputs.wheel_omega;
-    [hub, simulation.state().audit.dissipated_power * model.config().model.contact_width]
+    let width = model.config().model.contact_width;
+    [hub - outputs.friction_power, simulation.state().audit.dissipated_power * width - outputs.friction_power]
 }
 
+fn cold(change: impl Fn(&mut Damping)) -> Arc<Model> {
+    let mut config = preset("railway", 10);
+    config.thermal.enabled = false;
+    change(&mut config.damping);
+    model(config)
+}
+
+/// What is left of the power is that of the undamped model at the same creepage.
 #[test]
-fn frictionless_rolling_costs_what_damping_dissipates() {
-    let with = |change: &dyn Fn(&mut Config)| {
-        let mut config = preset("railway", 10);
-        config.thermal.enabled = false;
-        change(&mut config);
-        model(config)
-    };
-    let undamped = with(&|c| c.damping.modal = false);
-    let cases: [(&str, Arc<Model>); 3] = [
-        ("default", with(&|_| {})),
-        (
-            "ratio 0.1",
-            with(&|c| {
-                let d = &mut c.damping;
-                (d.wheel_torsion, d.wheel_radial, d.wheel_one_diameter) = (0.1, 0.1, 0.1);
-                (d.wheel_more_diameters, d.rail) = (0.1, 0.1);
-            }),
-        ),
-        (
-            "Rayleigh 10/s, 10 us",
-            with(&|c| {
-                c.damping.modal = false;
-                (c.damping.rayleigh_mass, c.damping.rayleigh_stiffness) = (10.0, 1e-5);
-            }),
-        ),
+fn stationary_rolling_costs_what_friction_and_damping_dissipate() {
+    let undamped = cold(|d| d.modal = false);
+    let cases = [
+        ("default", cold(|_| {})),
+        ("wheel", cold(|d| (d.wheel_more_diameters, d.rail) = (1e-2, 0.0))),
+        ("rail", cold(|d| (d.wheel_one_diameter, d.wheel_more_diameters) = (0.0, 0.0))),
+        ("Rayleigh", cold(|d| (d.modal, d.rayleigh_mass, d.rayleigh_stiffness) = (false, 10.0, 1e-5))),
     ];
-    for velocity in [10.0, 30.0] {
-        let [floor, _] = powers(&undamped, velocity);
+    for (velocity, creepage, friction) in [(10.0, 0.0, 0.0), (30.0, 0.0, 0.0), (30.0, 1e-3, 0.3)] {
+        let [floor, none] = powers(&undamped, velocity, creepage, friction);
+        assert!(none.abs() < 1e-9);
         for (name, model) in &cases {
-            let [hub, damping] = powers(model, velocity);
-            let share = (hub - floor) / damping;
+            let [lost, damping] = powers(model, velocity, creepage, friction);
+            let ratio = (lost - floor) / damping;
             println!(
-                "{name}, {velocity} m/s: {hub:.4} W at the hub ({floor:.1e} W undamped), {damping:.4} W damping, \
-                      ratio {share:.4}"
+                "{name}, {velocity} m/s, creepage {creepage}: {damping:.4} W of damping, hub gives {ratio:.4} of it"
             );
+            assert!(damping > 0.0 && (ratio - 1.0).abs() < 0.05);
         }
     }
 }

@@ -61,9 +61,9 @@ parameters! {
             1134 wheel_more_diameters: f64 = 1e-4, from 0.0 to 1.0,
                 "Damping ratio of the wheel's modes with two and more nodal diameters";
             1135 rail: f64 = 1e-2, from 0.0 to 1.0, "Damping ratio of the modes of the rail";
-            1136 rayleigh_mass: f64 = 0.0, in "1/s", from 0.0 to 1e5,
+            1136 rayleigh_mass: f64 = 0.0, in "1/s", from 0.0 to 1e4,
                 "Factor of the mass in Rayleigh damping of both bodies";
-            1137 rayleigh_stiffness: f64 = 0.0, in "s", from 0.0 to 1e-1,
+            1137 rayleigh_stiffness: f64 = 0.0, in "s", from 0.0 to 1e-4,
                 "Factor of the stiffness in Rayleigh damping of both bodies, the dent of the contact included";
         }
         /// Coulomb friction; the law that lowers the coefficient is part of [`Tuning`].
