@@ -76,7 +76,7 @@ pub(super) fn free_response(
     op.solver.solve_in_place(product);
     body.set_surface(product, square, surface);
     if let Some(layer) = body.layer() {
-        layer.add_known(state, td, retarded, surface);
+        layer.add_known(&state.retarded, td, retarded, surface);
     }
     let a0_squared = op.a0 * op.a0;
     for (value, known) in product.iter_mut().zip(acceleration.iter()) {

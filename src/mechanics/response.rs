@@ -17,6 +17,7 @@
 
 use super::MechanicsError;
 use super::retarded::RetardedForces;
+pub(super) use super::retarded::fit;
 use super::solver::StepSolver;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
@@ -157,13 +158,6 @@ impl BodyState {
             displacement_before[i] = if stationary { displacement[i] } else { y };
             velocity_before[i] = if stationary { velocity[i] } else { v };
         }
-    }
-}
-
-/// Gives a buffer its length; allocates at the first use only.
-pub(super) fn fit(buffer: &mut DVector<f64>, len: usize) {
-    if buffer.len() != len {
-        *buffer = DVector::zeros(len);
     }
 }
 

@@ -3,7 +3,6 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
-use super::response::{BodyState, fit};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -50,7 +49,7 @@ impl RetardedLayer {
     /// Writes the elastic forces without new nodal forces into `known`, and adds their displacement to `surface`.
     pub fn add_known(
         &self,
-        state: &BodyState,
+        state: &RetardedForces,
         td: &TimeDerivative,
         known: &mut DVector<f64>,
         surface: &mut DVector<f64>,
@@ -58,7 +57,7 @@ impl RetardedLayer {
         fit(known, surface.len());
         let factor = -self.time * self.share(td.a0);
         for (port, value) in known.iter_mut().enumerate() {
-            *value = factor * state.retarded.offset(td, port);
+            *value = factor * state.offset(td, port);
         }
         surface.gemv(1.0, &self.flexibility, known, 1.0);
     }
@@ -99,4 +98,11 @@ impl RetardedLayer {
 /// `xᵀ A x` without a temporary; columns of zeros in `x` (nodes out of contact) cost nothing.
 pub(super) fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
     x.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(j, value)| value * a.column(j).dot(x)).sum()
+}
+
+/// Gives a buffer its length; allocates at the first use only.
+pub(super) fn fit(buffer: &mut DVector<f64>, len: usize) {
+    if buffer.len() != len {
+        *buffer = DVector::zeros(len);
+    }
 }
