@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use wheelrail::mechanics::{
-    BodyResponse, BodyState, BodySystem, Convection, FreeResponse, ReducedBasis, ReducedBody, wheel_system,
+    BodyDamping, BodyResponse, BodyState, BodySystem, Convection, FreeResponse, ReducedBasis, ReducedBody, wheel_system,
 };
 use wheelrail::multistep::TimeDerivative;
 
@@ -37,10 +37,12 @@ static ALLOCATOR: Counting = Counting;
 fn a_step_of_a_reduced_body_allocates_nothing() {
     let config = preset("paper_d", 6);
     let undamped = wheel_system(&config).unwrap();
-    let damped = BodySystem { damping: Some(undamped.mass.clone()), ..undamped.clone() };
-    for system in [undamped, damped] {
+    let dashpots = BodySystem { damping: Some(undamped.mass.clone()), ..undamped.clone() };
+    let damping = BodyDamping { ratios: [1e-2; 4], mass: 3.0, stiffness: 1e-5 };
+    let cases = [(undamped.clone(), BodyDamping::NONE), (dashpots, BodyDamping::NONE), (undamped, damping)];
+    for (system, damping) in cases {
         let basis = ReducedBasis::compute(&system, 12, &mut |_| {}).unwrap();
-        let body = ReducedBody { basis, centrifugal: true };
+        let body = ReducedBody::new(basis, true, &damping);
         let td = TimeDerivative { a0: 1.5e3, a1: -2e3, a2: 0.5e3, b1: 0.0 };
         let op = body.operator(td.a0).unwrap();
         let forces = DVector::from_element(op.surface.nrows(), 1e3);
@@ -50,7 +52,7 @@ fn a_step_of_a_reduced_body_allocates_nothing() {
             let [state, next] = states;
             body.free_response(&op, state, &td, Convection { speed: 60.0, acceleration: 1.0 }, &mut free);
             body.commit(&op, &free, &forces, [1.0, 0.0, 2.0], &td, state, next);
-            let energy = body.energy(next, &forces, [30.0, 0.0, 60.0]) + body.dissipation(next);
+            let energy = body.energy(next, &forces, [30.0, 0.0, 60.0]) + body.dissipation(next, 60.0);
             states.swap(0, 1);
             energy
         };

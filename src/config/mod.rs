@@ -11,8 +11,8 @@ pub mod units;
 pub mod value;
 
 pub use table::{
-    ConductanceLaw, Config, Friction, Hub, Initial, Material, MeshParameters, ModelParameters, Physics, Rail, Response,
-    SolverParameters, Thermal, TimeScheme, Tuning, Vehicle, Wheel,
+    ConductanceLaw, Config, Damping, Friction, Hub, Initial, Material, MeshParameters, ModelParameters, Physics, Rail,
+    Response, SolverParameters, Thermal, TimeScheme, Tuning, Vehicle, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 
@@ -24,6 +24,8 @@ const SMALLEST_HALF_WIDTH: f64 = 1e-6;
 /// Largest half-width relative to the wheel radius and to the length of the rail.
 const WHEEL_SHARE: f64 = 0.095;
 const RAIL_SHARE: f64 = 0.12;
+/// Largest way of the wheel during the retardation of stiffness-proportional damping [m].
+const LARGEST_RETARDATION: f64 = 0.01;
 
 /// A parameter outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -202,6 +204,20 @@ impl Config {
         ]
     }
 
+    /// Stiffness-proportional damping that the stream carries less than a centimetre during the retardation: its part in
+    /// the stream is lagged, and a stationary state would not be found beyond.
+    fn retardation(&self) -> Dependent {
+        let velocity = self.initial.velocity;
+        Dependent {
+            name: "damping.rayleigh_stiffness",
+            value: self.damping.rayleigh_stiffness,
+            unit: "s",
+            low: 0.0,
+            high: LARGEST_RETARDATION / velocity.abs(),
+            others: format!("initial.velocity = {} m/s", display_number(velocity)),
+        }
+    }
+
     /// Ranges that depend on other parameters.
     fn dependent(&self) -> Vec<Dependent> {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
@@ -246,6 +262,7 @@ impl Config {
             velocity,
             creepage,
             self.contact_zone(),
+            self.retardation(),
         ];
         all.extend(self.track());
         all
@@ -312,6 +329,11 @@ mod tests {
                 "wheel.radius",
                 "rail.length = 1 m",
             ],
+        );
+        refused(|c| c.initial.creepage = Some(f64::NAN), &["initial.creepage = NaN", "-1.99 to 2"]);
+        refused(
+            |c| (c.initial.velocity, c.damping.rayleigh_stiffness) = (150.0, 1e-4),
+            &["damping.rayleigh_stiffness = 0.0001", "6.66667e-5 s with initial.velocity = 150 m/s"],
         );
         refused(|c| c.initial.creepage = Some(f64::NAN), &["initial.creepage = NaN", "-1.99 to 2"]);
     }

@@ -59,6 +59,23 @@ parameters! {
             1054 conductivity: f64 = 50.0, in "W/(m.K)", from 1e-3 to 1e5, "Thermal conductivity of both bodies";
             1055 specific_heat: f64 = 470.0, in "J/(kg.K)", from 1.0 to 1e5, "Specific heat capacity of both bodies";
         }
+        /// Damping of the deformation of both bodies, on the rate of the *material*; all zero: none.
+        damping: Damping fixed {
+            1130 modal: bool = true, "Whether the vibration modes are damped with the ratios of this group";
+            1131 wheel_torsion: f64 = 1e-2, from 0.0 to 1.0,
+                "Damping ratio of the wheel's circumferential modes without nodal diameters (torsion on the hub)";
+            1132 wheel_radial: f64 = 1e-3, from 0.0 to 1.0,
+                "Damping ratio of the wheel's radial modes without nodal diameters";
+            1133 wheel_one_diameter: f64 = 1e-2, from 0.0 to 1.0,
+                "Damping ratio of the wheel's modes with one nodal diameter (the rim shifts against the hub)";
+            1134 wheel_more_diameters: f64 = 1e-4, from 0.0 to 1.0,
+                "Damping ratio of the wheel's modes with two and more nodal diameters";
+            1135 rail: f64 = 1e-2, from 0.0 to 1.0, "Damping ratio of the modes of the rail";
+            1136 rayleigh_mass: f64 = 0.0, in "1/s", from 0.0 to 1e4,
+                "Factor of the mass in Rayleigh damping of both bodies";
+            1137 rayleigh_stiffness: f64 = 0.0, in "s", from 0.0 to 1e-4,
+                "Factor of the stiffness in Rayleigh damping of both bodies, the dent of the contact included";
+        }
         /// Coulomb friction; the law that lowers the coefficient is part of [`Tuning`].
         friction: Friction fixed {
             1060 coefficient: f64 = 0.3, from 0.0 to 10.0, "Friction coefficient; default of the input rail.friction";

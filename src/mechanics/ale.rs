@@ -47,6 +47,60 @@ impl Stream {
         both_components(&matrix)
     }
 
+    /// `T = ρ ∫ w·(∂u − W u) dA`: the streamline derivative as the material sees it. `W a = (a_y, −a_x)` turns a vector
+    /// with the wheel; a field that only turns with the wheel has `∂u = W u`. Nothing turns in the rail.
+    pub fn transport(self, points: &[Point; 4], density: f64) -> ElementMatrix {
+        let mut matrix = self.gyroscopic(points, density);
+        if self == Self::Rotation {
+            for p in points {
+                for (i, ni) in p.shape.iter().enumerate() {
+                    for (j, nj) in p.shape.iter().enumerate() {
+                        let mass = density * ni * nj * p.dv;
+                        matrix[2 * i][2 * j + 1] -= mass;
+                        matrix[2 * i + 1][2 * j] += mass;
+                    }
+                }
+            }
+        }
+        matrix
+    }
+
+    /// `ρ ∫ (∂w − W w)·(∂u − W u) dA` of the wheel: `n²` times the mass for a field with `n` nodal diameters.
+    pub fn squared_diameters(points: &[Point; 4], density: f64) -> ElementMatrix {
+        const TURN: [[f64; 2]; 2] = [[0.0, 1.0], [-1.0, 0.0]];
+        let mut matrix = [[0.0; 8]; 8];
+        for p in points {
+            let derivative = Self::Rotation.derivative(p.position, &p.gradient);
+            for (i, (ni, di)) in p.shape.iter().zip(derivative).enumerate() {
+                for (j, (nj, dj)) in p.shape.iter().zip(derivative).enumerate() {
+                    for (a, turn) in TURN.iter().enumerate() {
+                        for (b, w) in turn.iter().enumerate() {
+                            let alike = if a == b { di * dj + ni * nj } else { 0.0 };
+                            matrix[2 * i + a][2 * j + b] += density * (alike + w * (ni * dj - di * nj)) * p.dv;
+                        }
+                    }
+                }
+            }
+        }
+        matrix
+    }
+
+    /// `ρ ∫ (w·t)(u·t) dA` of the wheel with the unit vector `t` along the circles.
+    pub fn circumferential_mass(points: &[Point; 4], density: f64) -> ElementMatrix {
+        let mut matrix = [[0.0; 8]; 8];
+        for p in points {
+            let v = Self::Rotation.direction(p.position);
+            let square = v[0] * v[0] + v[1] * v[1];
+            for (row, line) in matrix.iter_mut().enumerate() {
+                for (column, value) in line.iter_mut().enumerate() {
+                    let shapes = p.shape[row / 2] * p.shape[column / 2];
+                    *value += density * shapes * v[row % 2] * v[column % 2] / square * p.dv;
+                }
+            }
+        }
+        matrix
+    }
+
     /// `S = ρ ∫ ∂w·∂u dA`.
     pub fn ale_inertia(self, points: &[Point; 4], density: f64) -> ElementMatrix {
         let mut matrix = [[0.0; 4]; 4];

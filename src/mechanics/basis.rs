@@ -9,7 +9,7 @@ use crate::config::Config;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
-const MAGIC: &[u8; 8] = b"WHLRAIL1";
+const MAGIC: &[u8; 8] = b"WHLRAIL2";
 /// Digest of the code that the data depend on (meshes, elements, reduction), from the build script.
 pub const CODE: &str = env!("BASIS_CODE");
 /// Name space of keys and checksums.
@@ -202,7 +202,7 @@ mod tests {
                     for body in [basis.wheel, basis.rail] {
                         assert!(body.is_consistent(body.shapes.nrows()));
                         let _ =
-                            ReducedBody { basis: body, centrifugal: true }.operator(1e3).map(|op| op.surface.amax());
+                            ReducedBody::new(body, true, &BodyDamping::NONE).operator(1e3).map(|op| op.surface.amax());
                     }
                 }
                 Err(BasisError::Encoding(_) | BasisError::Inconsistent { .. }) => refused += 1,

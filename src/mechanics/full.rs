@@ -1,34 +1,125 @@
 //! The full finite-element equations of a body behind the contact (verification).
 
 use super::MechanicsError;
+use super::damping::{BodyDamping, DampedModes};
 use super::motion::{self, Equations};
+use super::reduction::scale_columns;
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
+use super::retarded::RetardedLayer;
+use super::solver::StepSolver;
 use super::system::BodySystem;
-use crate::linalg::{CholeskyPattern, CsrMatrix, LinalgError};
+use crate::linalg::dense::symmetrise;
+use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// State: all free nodal displacements.
 pub struct FullBody {
     system: BodySystem,
     pattern: CholeskyPattern,
     centrifugal: bool,
+    damping: Option<FullDamping>,
 }
 
-/// `a0² M + a0 D + K`; the pattern does not depend on `a0`.
-fn step_matrix(system: &BodySystem, a0: f64) -> Result<CsrMatrix, LinalgError> {
-    let undamped = CsrMatrix::combination(a0 * a0, &system.mass, 1.0, &system.stiffness)?;
+/// Damping of all finite elements.
+struct FullDamping {
+    /// Rayleigh's factors of mass [1/s] and stiffness \[s].
+    rayleigh: [f64; 2],
+    /// The modes that ratios damp, and through which the stream carries strain.
+    modes: Arc<DampedModes>,
+    /// What the contact adds to the surface, with stiffness-proportional damping.
+    layer: Option<RetardedLayer>,
+}
+
+/// `a0² M + a0 (D + α0 M + α1 K) + K` with dashpots `D`; the pattern does not depend on `a0`.
+fn step_matrix(system: &BodySystem, [mass, stiffness]: [f64; 2], a0: f64) -> Result<CsrMatrix, LinalgError> {
+    let (of_mass, of_stiffness) = (a0 * a0 + a0 * mass, 1.0 + a0 * stiffness);
+    let matrix = CsrMatrix::combination(of_mass, &system.mass, of_stiffness, &system.stiffness)?;
     match &system.damping {
-        Some(damping) => CsrMatrix::combination(1.0, &undamped, a0, damping),
-        None => Ok(undamped),
+        Some(damping) => CsrMatrix::combination(1.0, &matrix, a0, damping),
+        None => Ok(matrix),
     }
 }
 
 impl FullBody {
     /// Analyses the pattern of `a0² M + a0 D + K` once for all `a0`; `centrifugal`: with the centrifugal load.
     pub fn new(system: BodySystem, centrifugal: bool) -> Result<Self, MechanicsError> {
-        let pattern = CholeskyPattern::new(&step_matrix(&system, 0.0)?)?;
-        Ok(Self { system, pattern, centrifugal })
+        let pattern = CholeskyPattern::new(&step_matrix(&system, [0.0; 2], 0.0)?)?;
+        Ok(Self { system, pattern, centrifugal, damping: None })
+    }
+
+    /// The same with damping, for which the lowest `modes` vibration modes are computed. Refuses ratios of modes for a body
+    /// with dashpots, whose modes they couple.
+    pub fn damped(
+        system: BodySystem,
+        centrifugal: bool,
+        damping: &BodyDamping,
+        modes: usize,
+    ) -> Result<Self, MechanicsError> {
+        let mut body = Self::new(system, centrifugal)?;
+        if damping.is_none() {
+            return Ok(body);
+        }
+        if body.system.damping.is_some() {
+            return Err(MechanicsError::CoupledModes);
+        }
+        let modes = Arc::new(DampedModes::compute(&body.system, modes, damping)?);
+        let ports = body.system.surface.len();
+        let layer = (damping.stiffness > 0.0)
+            .then(|| RetardedLayer { flexibility: DMatrix::zeros(ports, ports), time: damping.stiffness });
+        body.damping = Some(FullDamping { rayleigh: [damping.mass, damping.stiffness], modes, layer });
+        Ok(body)
+    }
+
+    fn rayleigh(&self) -> [f64; 2] {
+        self.damping.as_ref().map_or([0.0; 2], |damping| damping.rayleigh)
+    }
+}
+
+impl FullDamping {
+    /// How modal damping changes the answer of each mode to a modal force: `1/(s + 2ζω a0) − 1/s` with
+    /// `s = a0² + α0 a0 + (1 + α1 a0) ω²`. Exact, since the modes are eigenvectors of the matrix of the step.
+    fn corrections(&self, a0: f64) -> DVector<f64> {
+        let [mass, stiffness] = self.rayleigh;
+        let DampedModes { squared_frequencies, rates, .. } = &*self.modes;
+        squared_frequencies.zip_map(rates, |square, rate| {
+            let without = a0 * a0 + mass * a0 + (1.0 + stiffness * a0) * square;
+            1.0 / (without + rate * a0) - 1.0 / without
+        })
+    }
+
+    /// `v ← v + s Φ (Φᵀ T Φ) Φᵀ M y`: the rate of the material, from that at a fixed place of the frame.
+    fn follow_stream(&self, system: &BodySystem, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>) {
+        if speed == 0.0 {
+            return;
+        }
+        let shapes = &self.modes.shapes;
+        let modal = &self.modes.transport * shapes.tr_mul(&product(&system.mass, y));
+        velocity.gemv(speed, shapes, &modal, 1.0);
+    }
+}
+
+/// `A x`.
+fn product(a: &CsrMatrix, x: &DVector<f64>) -> DVector<f64> {
+    let mut result = DVector::zeros(x.len());
+    a.multiply(x.as_slice(), result.as_mut_slice());
+    result
+}
+
+/// The factor of the undamped or Rayleigh-damped matrix, and what modal damping changes.
+struct Corrected {
+    factor: Cholesky,
+    modes: Arc<DampedModes>,
+    corrections: DVector<f64>,
+}
+
+impl StepSolver for Corrected {
+    fn solve_in_place(&self, f: &mut DVector<f64>) {
+        let mut modal = self.modes.shapes.tr_mul(f);
+        modal.component_mul_assign(&self.corrections);
+        self.factor.solve_in_place(f.as_mut_slice());
+        f.gemv(1.0, &self.modes.shapes, &modal, 1.0);
     }
 }
 
@@ -39,13 +130,25 @@ impl Equations for FullBody {
     }
 
     fn is_damped(&self) -> bool {
-        self.system.damping.is_some()
+        self.damping.is_some() || self.system.damping.is_some()
     }
 
-    fn subtract_damping(&self, velocity: &DVector<f64>, load: &mut DVector<f64>) {
-        if let Some(damping) = &self.system.damping {
-            damping.multiply_add(-1.0, velocity.as_slice(), load.as_mut_slice());
+    fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
+        if let Some(dashpots) = &self.system.damping {
+            dashpots.multiply_add(-1.0, velocity.as_slice(), load.as_mut_slice());
         }
+        let Some(damping) = &self.damping else { return };
+        damping.follow_stream(&self.system, speed, y, velocity);
+        let DampedModes { shapes, rates, .. } = &*damping.modes;
+        let modal = shapes.tr_mul(&product(&self.system.mass, velocity)).component_mul(rates);
+        let [mass, stiffness] = damping.rayleigh;
+        let field = shapes * modal + &*velocity * mass;
+        self.system.mass.multiply_add(-1.0, field.as_slice(), load.as_mut_slice());
+        self.system.stiffness.multiply_add(-stiffness, velocity.as_slice(), load.as_mut_slice());
+    }
+
+    fn layer(&self) -> Option<&RetardedLayer> {
+        self.damping.as_ref().and_then(|damping| damping.layer.as_ref())
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
@@ -81,14 +184,29 @@ impl BodyResponse for FullBody {
 
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let system = &self.system;
-        let factor = self.pattern.factorise(&step_matrix(system, a0)?)?;
-        let surface = system.surface_compliance(&factor);
+        let factor = self.pattern.factorise(&step_matrix(system, self.rayleigh(), a0)?)?;
+        let mut surface = system.surface_compliance(&factor);
         let mut rigid = system.rigid.clone();
         factor.solve_columns(&mut rigid);
+        let solver: Box<dyn StepSolver> = match &self.damping {
+            None => Box::new(factor),
+            Some(damping) => {
+                let (modes, corrections) = (damping.modes.clone(), damping.corrections(a0));
+                let weighted = scale_columns(&modes.shapes, &corrections);
+                rigid.gemm(1.0, &weighted, &modes.shapes.tr_mul(&system.rigid), 1.0);
+                let on_surface = system.rows_on_surface(&modes.shapes);
+                surface.gemm(1.0, &system.rows_on_surface(&weighted), &on_surface.transpose(), 1.0);
+                if let Some(layer) = &damping.layer {
+                    surface += &layer.flexibility * layer.share(a0);
+                }
+                symmetrise(&mut surface);
+                Box::new(Corrected { factor, modes, corrections })
+            }
+        };
         let inertial_response = -system.rows_on_surface(&rigid);
         let momentum = inertial_response.transpose() * -(a0 * a0);
         let deformation_inertia = system.rigid.tr_mul(&rigid) * -(a0 * a0);
-        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver: Box::new(factor) })
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver })
     }
 
     fn free_response(
@@ -122,11 +240,29 @@ impl BodyResponse for FullBody {
         let kinetic = 0.5 * system.mass.bilinear(v, v);
         let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
         let coupling: f64 = momentum.zip(rigid_velocity).map(|(p, w)| p * w).sum();
-        elastic + kinetic + coupling
+        elastic + kinetic + coupling + self.layer().map_or(0.0, |layer| layer.energy(&state.retarded))
     }
 
-    fn dissipation(&self, state: &BodyState) -> f64 {
-        let v = state.velocity.as_slice();
-        self.system.damping.as_ref().map_or(0.0, |damping| damping.bilinear(v, v))
+    fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
+        let (system, v) = (&self.system, state.velocity.as_slice());
+        let dashpots = system.damping.as_ref().map_or(0.0, |damping| damping.bilinear(v, v));
+        let Some(damping) = &self.damping else { return dashpots };
+        let mut velocity = state.velocity.clone();
+        damping.follow_stream(system, speed, &state.displacement, &mut velocity);
+        let momentum = product(&system.mass, &velocity);
+        let modal = damping.modes.shapes.tr_mul(&momentum);
+        let modes: f64 = modal.iter().zip(&damping.modes.rates).map(|(v, rate)| rate * v * v).sum();
+        let ([mass, stiffness], v) = (damping.rayleigh, velocity.as_slice());
+        let rayleigh = mass * velocity.dot(&momentum) + stiffness * system.stiffness.bilinear(v, v);
+        dashpots + modes + rayleigh + self.layer().map_or(0.0, |layer| layer.dissipation(&state.retarded))
+    }
+
+    fn retarded_len(&self) -> usize {
+        self.layer().map_or(0, |layer| layer.flexibility.nrows())
+    }
+
+    fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
+        let layer = self.damping.as_mut().and_then(|damping| damping.layer.as_mut());
+        layer.map(|layer| layer.flexibility += flexibility).is_some()
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod ale;
 pub mod basis;
+pub mod damping;
 pub mod elasticity;
 mod error;
 pub mod field;
@@ -13,6 +14,7 @@ mod pair;
 pub mod reduced;
 pub mod reduction;
 pub mod response;
+pub mod retarded;
 pub mod size;
 pub mod solver;
 pub mod system;
@@ -20,6 +22,7 @@ pub mod system;
 pub mod testing;
 
 pub use basis::{Basis, BasisError};
+pub use damping::BodyDamping;
 pub use error::MechanicsError;
 pub use full::FullBody;
 pub use layout::{contact_modulus, contact_zone, nominal_half_width, wheel_inertia, wheel_mass};

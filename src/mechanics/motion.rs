@@ -2,9 +2,10 @@
 //!
 //! With `ẏ = a0 y + h_v` and `ÿ = a0² y + h` ([`BodyState::velocity_offsets`], [`BodyState::acceleration_offsets`]) the
 //! momentum balance of [`super::response`] becomes `(a0² M + a0 D + K) y = Sᵀλ − M r_k ẇ_k + load`, where
-//! `load = −M h − D h_v − 2Ω C ẏ_n − Ω̇ C y_n + Ω² S y_n + Ω² M X` is known before the contact is solved.
+//! `load = −M h − D (h_v + Ω L y_n) − 2Ω C ẏ_n − Ω̇ C y_n + Ω² S y_n + Ω² M X` is known before the contact is solved.
 
 use super::response::{BodyState, Convection, FreeResponse, StepOperator, fit};
+use super::retarded::RetardedLayer;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 
@@ -16,8 +17,11 @@ pub(super) trait Equations {
     /// Whether there is a damping matrix at all.
     fn is_damped(&self) -> bool;
 
-    /// `load ← load − D v`.
-    fn subtract_damping(&self, velocity: &DVector<f64>, load: &mut DVector<f64>);
+    /// `load ← load − D (v + s L y)` at the stream speed `s`; `velocity` comes as `v` and is used up.
+    fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>);
+
+    /// Residual flexibility that answers late.
+    fn layer(&self) -> Option<&RetardedLayer>;
 
     /// `load ← load − C x`.
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>);
@@ -47,14 +51,14 @@ pub(super) fn free_response(
     stream: Convection,
     out: &mut FreeResponse,
 ) {
-    let FreeResponse { surface, momentum, load, acceleration, velocity, product } = out;
+    let FreeResponse { surface, momentum, load, acceleration, velocity, product, retarded } = out;
     state.acceleration_offsets(td, acceleration);
     fit(load, acceleration.len());
     fit(product, acceleration.len());
     body.set_inertia(acceleration, load);
     if body.is_damped() {
         state.velocity_offsets(td, velocity);
-        body.subtract_damping(velocity, load);
+        body.subtract_damping(stream.speed, &state.displacement, velocity, load);
     }
     let square = stream.speed * stream.speed;
     if stream.speed != 0.0 || stream.acceleration != 0.0 {
@@ -71,6 +75,9 @@ pub(super) fn free_response(
     product.copy_from(load);
     op.solver.solve_in_place(product);
     body.set_surface(product, square, surface);
+    if let Some(layer) = body.layer() {
+        layer.add_known(&state.retarded, td, retarded, surface);
+    }
     let a0_squared = op.a0 * op.a0;
     for (value, known) in product.iter_mut().zip(acceleration.iter()) {
         *value = *value * a0_squared + known;
@@ -99,6 +106,9 @@ pub(super) fn commit(
     }
     op.solver.solve_in_place(new);
     state.advance(td, next);
+    if let Some(layer) = body.layer() {
+        layer.commit(&free.retarded, forces, td, &state.retarded, &mut next.retarded);
+    }
 }
 
 #[cfg(test)]
@@ -110,7 +120,7 @@ mod tests {
     use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
     use crate::material::Isotropic;
     use crate::mechanics::testing::{committed, free, paper_d};
-    use crate::mechanics::{BodyResponse, BodySystem, FullBody, ReducedBasis, ReducedBody};
+    use crate::mechanics::{BodyDamping, BodyResponse, BodySystem, FullBody, ReducedBasis, ReducedBody};
     use crate::mechanics::{rail_mesh, rail_system, wheel_system};
 
     /// Trapezoidal rule.
@@ -121,7 +131,7 @@ mod tests {
     /// A body reduced to `modes` and full.
     fn pair(system: BodySystem, modes: usize) -> [Box<dyn BodyResponse>; 2] {
         let basis = ReducedBasis::compute(&system, modes, &mut |_| {}).unwrap();
-        [Box::new(ReducedBody { basis, centrifugal: false }), Box::new(FullBody::new(system, false).unwrap())]
+        [Box::new(ReducedBody::new(basis, false, &BodyDamping::NONE)), Box::new(FullBody::new(system, false).unwrap())]
     }
 
     /// The next state under surface forces, without convection and rigid motion.
@@ -221,7 +231,7 @@ mod tests {
                 let forces = DVector::from_fn(ports, |i, _| if i.abs_diff(ports / 2) < 4 { -2e4 } else { 0.0 });
                 let state = BodyState::zeros(body.state_len());
                 let loaded = after(body, &still, &state, &TimeDerivative::default(), &forces);
-                assert_eq!(body.dissipation(&loaded), 0.0);
+                assert_eq!(body.dissipation(&loaded, 0.0), 0.0);
                 // A short step of backward Euler supplies the acceleration after the release.
                 let (start, none) = (TimeDerivative { a0: 1e7, a1: -1e7, a2: 0.0, b1: 0.0 }, DVector::zeros(ports));
                 let mut state = after(body, &body.operator(start.a0).unwrap(), &loaded, &start, &none);
@@ -233,7 +243,7 @@ mod tests {
                 for _ in 0..200 {
                     let next = after(body, &op, &state, &td, &none);
                     let velocity = 0.5 * (&state.velocity + &next.velocity);
-                    let step = dt * body.dissipation(&BodyState { velocity, ..next.clone() });
+                    let step = dt * body.dissipation(&BodyState { velocity, ..next.clone() }, 0.0);
                     assert!(step >= 0.0);
                     dissipated += step;
                     state = next;
@@ -255,7 +265,7 @@ mod tests {
         let full = FullBody::new(rail_with_quiet_ends(), false).unwrap().operator(1.5e3).unwrap();
         let error = |modes: usize| {
             let basis = ReducedBasis::compute(&rail_with_quiet_ends(), modes, &mut |_| {}).unwrap();
-            let reduced = ReducedBody { basis, centrifugal: false }.operator(1.5e3).unwrap();
+            let reduced = ReducedBody::new(basis, false, &BodyDamping::NONE).operator(1.5e3).unwrap();
             (reduced.surface - &full.surface).amax() / full.surface.amax()
         };
         let errors = [15, 60, 240].map(error);

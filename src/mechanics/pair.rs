@@ -1,6 +1,7 @@
 //! Wheel and rail together, as the configuration wants them.
 
 use super::basis::Basis;
+use super::damping::BodyDamping;
 use super::error::MechanicsError;
 use super::full::FullBody;
 use super::layout::contact_zone;
@@ -35,16 +36,18 @@ pub fn bodies(
 ) -> Result<Pair, MechanicsError> {
     let zone = contact_zone(config);
     let centrifugal = config.physics.centrifugal;
+    let damping = [BodyDamping::wheel(config), BodyDamping::rail(config)];
     let (wheel, rail): (Box<dyn BodyResponse>, Box<dyn BodyResponse>) = match basis {
         Some(Basis { wheel, rail, .. }) => (
-            Box::new(ReducedBody { basis: wheel, centrifugal }),
-            Box::new(ReducedBody { basis: rail, centrifugal: false }),
+            Box::new(ReducedBody::new(wheel, centrifugal, &damping[0])),
+            Box::new(ReducedBody::new(rail, false, &damping[1])),
         ),
         None => {
             progress("assembling the wheel", 0.0);
-            let wheel = FullBody::new(wheel_system(config)?, centrifugal)?;
+            let counts = [config.solver.modes_wheel, config.solver.modes_rail];
+            let wheel = FullBody::damped(wheel_system(config)?, centrifugal, &damping[0], counts[0])?;
             progress("assembling the rail", 0.5);
-            let rail = FullBody::new(rail_system(config)?, false)?;
+            let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
             progress("assembling the rail", 1.0);
             (Box::new(wheel), Box::new(rail))
         }

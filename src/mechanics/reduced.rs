@@ -2,18 +2,20 @@
 //!
 //! `y = Φ q + (static answer of the truncated modes)`: with hub or base fixed, `Φᵀ M Φ = 1`, `Φᵀ K Φ = diag(Ω²)`, the
 //! surface displacement is `u = Φ_s q + F_res λ + …` with `F_res = G − Φ_s Ω⁻² Φ_sᵀ` and `G` the static compliance.
-//! The static limit is exact; the truncated modes lie above the band of interest and follow their load at once. Damping
-//! acts between the kept modes, `Φᵀ D Φ`; the truncated modes have neither inertia nor damping, so that they store elastic
-//! energy and dissipate none.
+//! The static limit is exact; the truncated modes lie above the band of interest and follow their load at once, or, with
+//! stiffness-proportional damping, with the retardation of a [`RetardedLayer`]. Ratios of modes and Rayleigh damping leave
+//! the kept modes uncoupled; dashpots couple them by `Φᵀ D Φ` and take no energy from the truncated ones.
 //!
 //! This is MacNeal's method: R. H. MacNeal, *Computers & Structures* 1 (1971) 581–601, there for free interfaces with rigid
 //! modes, which hub and base take away here. Rubin's (*AIAA Journal* 13 (1975) 995–1006) would add the inertia of the
 //! truncated modes to second order. Both: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006), ch. 17.
 
 use super::MechanicsError;
+use super::damping::BodyDamping;
 use super::motion::{self, Equations};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
+use super::retarded::{RetardedLayer, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::linalg::dense::symmetrise;
 use crate::multistep::TimeDerivative;
@@ -22,12 +24,24 @@ use nalgebra::{DMatrix, DVector};
 /// State: modal coordinates.
 pub struct ReducedBody {
     /// Modes and what else is constant.
-    pub basis: ReducedBasis,
+    basis: ReducedBasis,
     /// Centrifugal load of the spinning wheel.
-    pub centrifugal: bool,
+    centrifugal: bool,
+    /// Damping of each mode; `None`: by dashpots at most.
+    modal: Option<ModalRates>,
+    /// The residual flexibility, if it is damped.
+    layer: Option<RetardedLayer>,
 }
 
-/// What `A = a0² + a0 Φᵀ D Φ + diag(Ω²)` answers.
+/// Damping that does not couple the modes.
+struct ModalRates {
+    /// `2 ζ ω + α0 + α1 ω²` [1/s].
+    rates: DVector<f64>,
+    /// Transposed, so that its columns are the rows of `Φᵀ T Φ`.
+    transport: DMatrix<f64>,
+}
+
+/// What `A = a0² + a0 D + diag(Ω²)` answers.
 struct Factorised {
     solver: Box<dyn StepSolver>,
     /// `Φ_s A⁻¹`.
@@ -37,17 +51,33 @@ struct Factorised {
 }
 
 impl ReducedBody {
+    /// A body of these modes; `centrifugal`: with the load of the spinning wheel.
+    pub fn new(basis: ReducedBasis, centrifugal: bool, damping: &BodyDamping) -> Self {
+        let (squares, character) = (&basis.squared_frequencies, &basis.character);
+        let modal = (!damping.is_none()).then(|| ModalRates {
+            rates: damping.modal(squares, character) + squares.map(|w| damping.mass + damping.stiffness * w),
+            transport: character.transport.transpose(),
+        });
+        let layer = (damping.stiffness > 0.0)
+            .then(|| RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness });
+        Self { basis, centrifugal, modal, layer }
+    }
+
     fn factorised(&self, a0: f64) -> Result<Factorised, MechanicsError> {
         let ReducedBasis { squared_frequencies, shapes, rigid, damping, .. } = &self.basis;
         let square = a0 * a0;
+        let mut diagonal = squared_frequencies.map(|w| square + w);
+        if let Some(modal) = &self.modal {
+            diagonal.axpy(a0, &modal.rates, 1.0);
+        }
         let Some(damping) = damping else {
-            let inverse = squared_frequencies.map(|w| 1.0 / (square + w));
+            let inverse = diagonal.map(|value| 1.0 / value);
             let weighted = scale_columns(shapes, &inverse);
             let answer = DMatrix::from_fn(self.basis.modes(), 3, |i, k| inverse[i] * rigid[(i, k)]);
             return Ok(Factorised { solver: Box::new(Diagonal { inverse }), weighted, answer });
         };
         let mut matrix = damping * a0;
-        matrix.set_diagonal(&(matrix.diagonal() + squared_frequencies.add_scalar(square)));
+        matrix.set_diagonal(&(matrix.diagonal() + diagonal));
         let solver = Dense::new(matrix)?;
         let (weighted, answer) = (solver.solve(&shapes.transpose()).transpose(), solver.solve(rigid));
         Ok(Factorised { solver: Box::new(solver), weighted, answer })
@@ -60,13 +90,23 @@ impl Equations for ReducedBody {
     }
 
     fn is_damped(&self) -> bool {
-        self.basis.damping.is_some()
+        self.modal.is_some() || self.basis.damping.is_some()
     }
 
-    fn subtract_damping(&self, velocity: &DVector<f64>, load: &mut DVector<f64>) {
+    fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
         if let Some(damping) = &self.basis.damping {
             load.gemv(-1.0, damping, velocity, 1.0);
         }
+        if let Some(modal) = &self.modal {
+            if speed != 0.0 {
+                velocity.gemv_tr(speed, &modal.transport, y, 1.0);
+            }
+            load.cmpy(-1.0, &modal.rates, velocity, 1.0);
+        }
+    }
+
+    fn layer(&self) -> Option<&RetardedLayer> {
+        self.layer.as_ref()
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
@@ -106,7 +146,10 @@ impl BodyResponse for ReducedBody {
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let basis = &self.basis;
         let Factorised { solver, weighted, answer } = self.factorised(a0)?;
-        let mut surface = basis.residual.clone();
+        let mut surface = match &self.layer {
+            Some(layer) => &layer.flexibility * layer.share(a0),
+            None => basis.residual.clone(),
+        };
         surface.gemm(1.0, &weighted, &basis.shapes.transpose(), 1.0);
         symmetrise(&mut surface);
         let modal = &weighted * &basis.rigid;
@@ -144,21 +187,33 @@ impl BodyResponse for ReducedBody {
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
         let basis = &self.basis;
         let modal: f64 = (state.displacement.iter().zip(&basis.squared_frequencies)).map(|(y, w)| w * y * y).sum();
-        let residual = quadratic_form(&basis.residual, forces);
+        let residual = match &self.layer {
+            Some(layer) => 2.0 * layer.energy(&state.retarded),
+            None => quadratic_form(&basis.residual, forces),
+        };
         let kinetic = state.velocity.norm_squared();
         let coupling: f64 =
             rigid_velocity.iter().enumerate().map(|(k, w)| w * basis.rigid.column(k).dot(&state.velocity)).sum();
         0.5 * (modal + residual + kinetic) + coupling
     }
 
-    fn dissipation(&self, state: &BodyState) -> f64 {
-        self.basis.damping.as_ref().map_or(0.0, |damping| quadratic_form(damping, &state.velocity))
+    fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
+        let (y, v) = (&state.displacement, &state.velocity);
+        let dashpots = self.basis.damping.as_ref().map_or(0.0, |damping| quadratic_form(damping, v));
+        let modes = self.modal.as_ref().map_or(0.0, |ModalRates { rates, transport }| {
+            let power = |(i, rate): (usize, &f64)| rate * (v[i] + speed * transport.column(i).dot(y)).powi(2);
+            rates.iter().enumerate().map(power).sum()
+        });
+        dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }
-}
 
-/// `xᵀ A x` without a temporary; columns of zeros in `x` (nodes out of contact) cost nothing.
-fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
-    x.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(j, value)| value * a.column(j).dot(x)).sum()
+    fn retarded_len(&self) -> usize {
+        self.layer.as_ref().map_or(0, |layer| layer.flexibility.nrows())
+    }
+
+    fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
+        self.layer.as_mut().map(|layer| layer.flexibility += flexibility).is_some()
+    }
 }
 
 #[cfg(test)]
@@ -172,7 +227,7 @@ mod tests {
         let config = paper_d(5);
         [(wheel_system(&config).unwrap(), true), (rail_system(&config).unwrap(), false)].map(|(system, centrifugal)| {
             let basis = ReducedBasis::compute(&system, modes, &mut |_| {}).unwrap();
-            (ReducedBody { basis, centrifugal }, FullBody::new(system, centrifugal).unwrap())
+            (ReducedBody::new(basis, centrifugal, &BodyDamping::NONE), FullBody::new(system, centrifugal).unwrap())
         })
     }
 

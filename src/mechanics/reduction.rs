@@ -1,6 +1,7 @@
 //! Reduction of a body to vibration modes and residual flexibility; see [`super::reduced`] for the theory.
 
 use super::MechanicsError;
+use super::damping::ModeCharacter;
 use super::system::BodySystem;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
@@ -28,8 +29,10 @@ pub struct ReducedBasis {
     pub gyroscopic: DMatrix<f64>,
     /// `Φᵀ (S − B) Φ`, `m × m`.
     pub ale_inertia: DMatrix<f64>,
-    /// `Φᵀ D Φ`, `m × m` [1/s]; `None`: undamped.
+    /// `Φᵀ D Φ` of dashpots, `m × m` [1/s]; `None`: there are none.
     pub damping: Option<DMatrix<f64>>,
+    /// Which ratios damp the modes, and their rate in the stream.
+    pub character: ModeCharacter,
 }
 
 impl ReducedBasis {
@@ -65,6 +68,7 @@ impl ReducedBasis {
                 symmetrise(&mut damping);
                 damping
             }),
+            character: ModeCharacter::new(system, phi),
             squared_frequencies: modes.squared_frequencies,
             shapes,
             residual,
@@ -96,6 +100,7 @@ impl ReducedBasis {
             && self.centrifugal_residual.len() == ports
             && self.gyroscopic.shape() == (m, m)
             && self.ale_inertia.shape() == (m, m)
+            && self.character.is_consistent(m)
             && self.damping.as_ref().is_none_or(|damping| damping.shape() == (m, m))
             && self.squared_frequencies.iter().all(|w| *w > 0.0 && w.is_finite())
             && self.matrices().all(|matrix| matrix.iter().all(|x| x.is_finite()))

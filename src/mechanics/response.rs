@@ -8,14 +8,16 @@
 //!
 //! Momentum balance of the wheel (Paper D, eq. 9) after discretisation in space, with `C = ρ∫ w·∂u`,
 //! `S = ρ∫ ∂w·∂u`, `∂ = v̄·∇/speed` the derivative along the streamlines (`−∂_φ` in the wheel, `−∂_x` in the rail) and
-//! the damping `D`, symmetric and positive semidefinite, which is absent by default:
+//! the damping `D`, symmetric and positive semidefinite, on the rate of the material (`L`: see [`super::damping`]):
 //!
-//! `M ÿ + D ẏ + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
+//! `M ÿ + D (ẏ + Ω L y) + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
 //!
 //! The rail has the same form with `V` in place of `Ω`, the acceleration of its base, no centrifugal load and the in/outflow (Robin)
 //! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state before the step.
 
 use super::MechanicsError;
+use super::retarded::RetardedForces;
+pub(super) use super::retarded::fit;
 use super::solver::StepSolver;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
@@ -62,8 +64,20 @@ pub trait BodyResponse: Send + Sync {
     /// velocities `w = (V, U̇, Ω)` [J/m]; `forces` feed the static part of a reduced body.
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
 
-    /// Power `vᵀ D v` that damping dissipates and the ends radiate [W/m]; zero without damping.
-    fn dissipation(&self, state: &BodyState) -> f64;
+    /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without
+    /// damping.
+    fn dissipation(&self, state: &BodyState, speed: f64) -> f64;
+
+    /// Number of elastic nodal forces in [`BodyState::retarded`]; 0 without stiffness-proportional damping.
+    fn retarded_len(&self) -> usize {
+        0
+    }
+
+    /// Takes a flexibility of the surface that the contact adds, so that it is damped as that of the body is. Returns
+    /// whether it is part of the body from now on: only with stiffness-proportional damping.
+    fn take_layer(&mut self, _flexibility: &DMatrix<f64>) -> bool {
+        false
+    }
 }
 
 /// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.
@@ -88,6 +102,8 @@ pub struct BodyState {
     pub displacement_before: DVector<f64>,
     /// `d_t y` one step earlier.
     pub velocity_before: DVector<f64>,
+    /// Elastic forces of the residual flexibility, with stiffness-proportional damping only.
+    pub retarded: RetardedForces,
 }
 
 impl BodyState {
@@ -100,6 +116,7 @@ impl BodyState {
             acceleration: z.clone(),
             displacement_before: z.clone(),
             velocity_before: z,
+            retarded: RetardedForces::default(),
         }
     }
 
@@ -115,7 +132,7 @@ impl BodyState {
     /// Writes the part of `d_tt y` known before the step into `out`: `a0 h_v + h_a` with the offsets of velocity and
     /// acceleration.
     pub fn acceleration_offsets(&self, td: &TimeDerivative, out: &mut DVector<f64>) {
-        let Self { displacement, velocity, acceleration, displacement_before, velocity_before } = self;
+        let Self { displacement, velocity, acceleration, displacement_before, velocity_before, .. } = self;
         fit(out, displacement.len());
         for (i, value) in out.iter_mut().enumerate() {
             let velocity_offset = td.offset(displacement[i], displacement_before[i], velocity[i]);
@@ -129,7 +146,7 @@ impl BodyState {
     /// Stationary: velocity and acceleration vanish and the history is the new displacement.
     pub fn advance(&self, td: &TimeDerivative, next: &mut Self) {
         let n = self.displacement.len();
-        let Self { displacement, velocity, acceleration, displacement_before, velocity_before } = next;
+        let Self { displacement, velocity, acceleration, displacement_before, velocity_before, .. } = next;
         for values in [&mut *velocity, &mut *acceleration, &mut *displacement_before, &mut *velocity_before] {
             fit(values, n);
         }
@@ -141,13 +158,6 @@ impl BodyState {
             displacement_before[i] = if stationary { displacement[i] } else { y };
             velocity_before[i] = if stationary { velocity[i] } else { v };
         }
-    }
-}
-
-/// Gives a buffer its length; allocates at the first use only.
-pub(super) fn fit(buffer: &mut DVector<f64>, len: usize) {
-    if buffer.len() != len {
-        *buffer = DVector::zeros(len);
     }
 }
 
@@ -180,6 +190,8 @@ pub struct FreeResponse {
     pub(super) acceleration: DVector<f64>,
     pub(super) velocity: DVector<f64>,
     pub(super) product: DVector<f64>,
+    /// Elastic forces of a retarded layer before the contact is solved.
+    pub(super) retarded: DVector<f64>,
 }
 
 impl Default for BodyState {
@@ -193,6 +205,6 @@ impl Default for FreeResponse {
     fn default() -> Self {
         let empty = || DVector::zeros(0);
         let (surface, load, acceleration, velocity, product) = (empty(), empty(), empty(), empty(), empty());
-        Self { surface, momentum: [0.0; 3], load, acceleration, velocity, product }
+        Self { surface, momentum: [0.0; 3], load, acceleration, velocity, product, retarded: empty() }
     }
 }

@@ -1,5 +1,6 @@
 //! How large the finite-element model of a body may become, checked before any memory is taken.
 
+use super::damping::BodyDamping;
 use super::error::MechanicsError;
 use super::layout::{contact_zone, largest_rail_cell, nominal_half_width};
 use crate::config::{Config, Response};
@@ -15,13 +16,14 @@ pub const LARGEST_KRYLOV: f64 = 0.8e9;
 /// Refuses a configuration whose meshes or vibration modes need more memory and time than is sensible; the error names
 /// the parameters that drive the size.
 pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
-    let reduced = config.solver.response == Response::Reduced;
+    let damped = [BodyDamping::wheel(config), BodyDamping::rail(config)].iter().any(|damping| !damping.is_none());
+    let with_modes = config.solver.response == Response::Reduced || damped;
     let check = |body, parameter, unknowns: f64, modes: usize| {
         if unknowns > LARGEST_UNKNOWNS {
             return Err(MechanicsError::TooLarge { body, unknowns, limit: LARGEST_UNKNOWNS, causes: causes(config) });
         }
         let memory = 8.0 * unknowns * crate::linalg::modes::usual_space(modes) as f64;
-        if reduced && memory > LARGEST_KRYLOV {
+        if with_modes && memory > LARGEST_KRYLOV {
             return Err(MechanicsError::TooManyModes { parameter, modes, unknowns, memory, limit: LARGEST_KRYLOV });
         }
         Ok(())

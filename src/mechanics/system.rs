@@ -20,6 +20,11 @@ pub struct BodySystem {
     pub damping: Option<CsrMatrix>,
     /// `C = ρ ∫ w·∂u` (per unit stream speed).
     pub gyroscopic: CsrMatrix,
+    /// `T = ρ ∫ w·(∂u − W u)` (per unit stream speed): the part of the material rate that the stream carries.
+    pub transport: CsrMatrix,
+    /// Matrices that tell vibration modes of the wheel apart: `n²`-weighted and circumferential mass (see
+    /// [`Stream::squared_diameters`], [`Stream::circumferential_mass`]); `None` for the rail.
+    pub circles: Option<[CsrMatrix; 2]>,
     /// `S − B`: minus the weak form of `ρ ∂∂u` (per unit stream speed squared); `B` is the Robin term of open ends.
     pub ale_inertia: CsrMatrix,
     /// `M r_k` for unit rigid accelerations in x, y and Ω (`r_Ω = (y, −x)`), hub or base nodes included;
@@ -45,12 +50,21 @@ impl BodySystem {
         let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, turning(|[x, y]| [y, -x])?];
         let inner = assemble(mesh, &dofs, |p| stream.ale_inertia(p, density))?;
         let ends = assemble_faces(mesh, &dofs, |p| stream.outflow(p, density))?;
+        let circles = match stream {
+            Stream::Rotation => Some([
+                assemble(mesh, &dofs, |p| Stream::squared_diameters(p, density))?,
+                assemble(mesh, &dofs, |p| Stream::circumferential_mass(p, density))?,
+            ]),
+            Stream::Translation => None,
+        };
         let unknowns = |&node: &usize| [dofs.unknown(node, 0), dofs.unknown(node, 1)];
         Ok(Self {
             stiffness: assemble(mesh, &dofs, |p| elasticity::stiffness(p, lame))?,
             mass: assemble(mesh, &dofs, mass)?,
             damping: None,
             gyroscopic: assemble(mesh, &dofs, |p| stream.gyroscopic(p, density))?,
+            transport: assemble(mesh, &dofs, |p| stream.transport(p, density))?,
+            circles,
             ale_inertia: CsrMatrix::combination(1.0, &inner, -1.0, &ends)?,
             rigid: DMatrix::from_columns(&rigid),
             centrifugal: turning(|x| x)?,

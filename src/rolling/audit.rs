@@ -13,7 +13,7 @@ pub fn energy(model: &Model, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
-        + model.contact.solver.correction_energy(&state.contact.traction)
+        + model.bodies.correction_energy(&*model.contact.solver, &state.contact.traction)
 }
 
 /// Balance at a stationary start.

@@ -2,9 +2,9 @@
 
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
-use crate::contact::ContactSolver;
-use crate::mechanics::MechanicsError;
+use crate::contact::{ContactSolver, Traction};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
+use crate::mechanics::{MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -20,6 +20,8 @@ pub struct Bodies {
     pub rail: Box<dyn BodyResponse>,
     /// What its base stands on; `None`: it is fixed.
     pub support: Option<TrackSupport>,
+    /// Whether the correction of the contact solver is part of them, because it is damped as they are.
+    hold_correction: bool,
 }
 
 /// Answers of both bodies for one step size, corrected for the contact solver.
@@ -43,6 +45,22 @@ pub struct OperatorCache {
 }
 
 impl Bodies {
+    /// Wheel and rail as `solver` sees them, the rail on its `support`.
+    pub fn new(pair: Pair, support: Option<TrackSupport>, solver: &dyn ContactSolver) -> Self {
+        let Pair { mut wheel, mut rail, surface_x, .. } = pair;
+        let ports = 2 * surface_x.len();
+        let mut layers = [DMatrix::zeros(ports, ports), DMatrix::zeros(ports, ports)];
+        let [of_wheel, of_rail] = &mut layers;
+        solver.correct(of_wheel, of_rail);
+        let hold_correction = wheel.take_layer(of_wheel) && rail.take_layer(of_rail);
+        Self { wheel, rail, support, hold_correction }
+    }
+
+    /// Elastic energy of the contact solver's correction, unless the bodies count it [J/m].
+    pub fn correction_energy(&self, solver: &dyn ContactSolver, traction: &Traction) -> f64 {
+        if self.hold_correction { 0.0 } else { solver.correction_energy(traction) }
+    }
+
     /// Operators for `a0`, from the cache if they are there.
     pub fn operators(
         &self,
@@ -59,7 +77,9 @@ impl Bodies {
             }
             let (mut wheel, mut rail) = (self.wheel.operator(a0)?, self.rail.operator(a0)?);
             let base = self.support.as_ref().map(|support| support.condense(&mut rail));
-            solver.correct(&mut wheel.surface, &mut rail.surface);
+            if !self.hold_correction {
+                solver.correct(&mut wheel.surface, &mut rail.surface);
+            }
             let relative = &wheel.surface + &rail.surface;
             recent.push(Arc::new(Operators { a0, wheel, rail, base, relative }));
         }
@@ -96,7 +116,8 @@ impl Bodies {
     /// Power that damping and open ends take out of the bodies and the track [W/m].
     pub fn dissipation(&self, state: &State) -> f64 {
         let track = self.support.as_ref().map_or(0.0, |support| support.dissipation(&state.base));
-        self.wheel.dissipation(&state.wheel) + self.rail.dissipation(&state.rail) + track
+        let [velocity, _, omega] = state.motion.values();
+        self.wheel.dissipation(&state.wheel, omega) + self.rail.dissipation(&state.rail, velocity) + track
     }
 
     /// Accepts the contact forces in `next`: writes the advanced deformation of both bodies and the motion of the rail
@@ -122,7 +143,8 @@ impl Bodies {
 
     /// Whether a state has the dimensions of these bodies.
     pub fn fits(&self, state: &State) -> bool {
-        let fits = |body: &BodyState, n: usize| {
+        let fits = |body: &BodyState, response: &dyn BodyResponse| {
+            let n = response.state_len();
             let arrays = [
                 &body.displacement,
                 &body.velocity,
@@ -130,8 +152,8 @@ impl Bodies {
                 &body.displacement_before,
                 &body.velocity_before,
             ];
-            arrays.iter().all(|array| array.len() == n)
+            arrays.iter().all(|array| array.len() == n) && body.retarded.fits(response.retarded_len())
         };
-        fits(&state.wheel, self.wheel.state_len()) && fits(&state.rail, self.rail.state_len())
+        fits(&state.wheel, &*self.wheel) && fits(&state.rail, &*self.rail)
     }
 }

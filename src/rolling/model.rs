@@ -77,8 +77,8 @@ impl Model {
         };
         Ok(Self {
             wheel: RigidWheel::new(&config),
+            bodies: Bodies::new(bodies, TrackSupport::new(&config), &*solver),
             contact: ContactModel::new(&config, solver),
-            bodies: Bodies { wheel: bodies.wheel, rail: bodies.rail, support: TrackSupport::new(&config) },
             thermal,
             zone,
             config,
