@@ -160,6 +160,8 @@ impl ContactSolver for Hertz {
             port_forces: forces,
             rigid,
             friction_power: 0.0,
+            friction: problem.friction.coefficient(slip),
+            tread_slip: slip,
             edges: vec![Interval { low: -half_width, high: half_width }],
             patches: vec![Interval { low: -half_width, high: half_width }],
             stick_fraction: 0.0,

@@ -129,6 +129,8 @@ parameters! {
                  0: constant";
             1064 softening_floor: f64 = 0.1, of "friction", from 0.0 to 1.0,
                 "Share of the friction coefficient that remains in a hot contact";
+            1065 memory_length: f64 = 0.0, of "friction", in "m" as "mm", from 0.0 to 1e3,
+                "Sliding distance over which the coefficient follows the law of slip and temperature; 0: at once";
             1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 1.0,
                 "Largest internal time step; longer communication steps are divided evenly";
             1096 tolerance: f64 = 0.0, of "solver", from 0.0 to 1.0,

@@ -21,6 +21,11 @@ pub struct Traction {
     pub resultant: [f64; 3],
     /// Power dissipated by friction [W/m].
     pub friction_power: f64,
+    /// Friction coefficient with which they were found \[1].
+    pub friction: f64,
+    /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
+    /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
+    pub tread_slip: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
     /// beside them.
     pub edges: Vec<Interval>,
@@ -57,7 +62,7 @@ impl Traction {
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.
     pub fn rest(&mut self) {
-        self.friction_power = 0.0;
+        (self.friction_power, self.tread_slip) = (0.0, 0.0);
         self.slip.value.fill(0.0);
         self.dissipation.value.fill(0.0);
     }

@@ -12,7 +12,7 @@ use super::model::{Model, Workspace};
 use super::state::{Motion, State, ThermalState};
 use super::substeps;
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, ContactError, Heating, RigidMotion};
+use crate::contact::{AxisDrive, ContactError, Friction, FrictionLaw, Heating, RigidMotion};
 use crate::mechanics::response::{BodyState, Convection};
 use crate::multistep::{History, TimeDerivative};
 
@@ -38,7 +38,7 @@ const AT_REST: f64 = 1e-9;
 /// `initial.creepage`; an unbalanced force or moment shows as acceleration, with the deformation it causes.
 pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
     inputs.validate()?;
-    let goal = Goal::new(model, inputs)?;
+    let mut goal = Goal::new(model, inputs)?;
     let mut state = settle(model, tuning, &goal, None, workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let mut change = f64::INFINITY;
@@ -49,6 +49,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
             thermal.average(&mut temperatures, before, 1.0 / (averaged + 2) as f64);
         }
         let force = state.contact.traction.resultant;
+        goal.roll(model, temperatures.deformation.radius_growth);
         state = settle(model, tuning, &goal, Some(temperatures), workspace)?;
         let settled = state.contact.traction.resultant;
         change = (0..2).map(|k| (settled[k] - force[k]).abs()).fold(0.0, f64::max) / scale(model, settled);
@@ -73,7 +74,9 @@ struct Goal {
     /// V [m/s] and Ω [rad/s].
     velocity: f64,
     omega: f64,
-    /// The same where the wheel moves; at standstill, where slip is a direction of motion, those of slow forward rolling.
+    /// Creepage that gives Ω where it is not prescribed.
+    creepage: Option<f64>,
+    /// V and Ω where the wheel moves; at standstill, where slip is a direction of motion, those of slow forward rolling.
     slip_speeds: [f64; 2],
     moving: bool,
 }
@@ -87,6 +90,7 @@ impl Goal {
             AxisDrive::Free { .. } => None,
         };
         let velocity = prescribed(0).unwrap_or(initial.velocity);
+        let creepage = prescribed(2).is_none().then_some(initial.creepage);
         let omega = prescribed(2).unwrap_or(peripheral_velocity(velocity, initial.creepage) / radius);
         model.wheel.check([velocity, 0.0, omega])?;
         if prescribed(1).is_none() && drive.load <= 0.0 {
@@ -95,7 +99,15 @@ impl Goal {
         let moving = velocity.abs() + (radius * omega).abs() > AT_REST;
         let slow = [1.0, peripheral_velocity(1.0, initial.creepage) / radius];
         let slip_speeds = if moving { [velocity, omega] } else { slow };
-        Ok(Self { drive, drives, velocity, omega, slip_speeds, moving })
+        Ok(Self { drive, drives, velocity, omega, creepage, slip_speeds, moving })
+    }
+
+    /// Gives a wheel that has grown by `growth` \[m] the rotation that belongs to its creepage.
+    fn roll(&mut self, model: &Model, growth: f64) {
+        let Some(creepage) = self.creepage else { return };
+        let radius = model.wheel.radius + growth;
+        self.omega = peripheral_velocity(self.velocity, creepage) / radius;
+        self.slip_speeds[1] = peripheral_velocity(self.slip_speeds[0], creepage) / radius;
     }
 
     /// The rigid motions of the contact problem at given accelerations: only the hub height can be unknown.
@@ -122,14 +134,15 @@ fn settle(
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
     let heating = thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-    let slip = goal.velocity - model.wheel.radius * goal.omega;
-    let friction = friction_law(tuning).coefficient(goal.drive.friction, slip, heating, 0.0);
+    // A wheel at rest does not slip, although its contact is that of slow rolling.
+    let falling_ratio = if goal.moving { tuning.falling_ratio } else { 1.0 };
+    let law = FrictionLaw { falling_ratio, ..friction_law(tuning) };
+    let friction = Friction::local(law, goal.drive.friction, heating, 0.0);
     let load = goal.drive.load / model.wheel.width;
     let mut state = State {
         wheel: BodyState::zeros(model.bodies.wheel.state_len()),
         rail: BodyState::zeros(model.bodies.rail.state_len()),
         contact: model.contact.hertzian_guess(load),
-        friction,
         available_friction: goal.drive.friction,
         prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
         restarted: true,
@@ -140,7 +153,7 @@ fn settle(
     let mut accelerations = [0.0; 3];
     let mut settled = false;
     for _ in 0..MAX_PASSES {
-        settled = pass(model, goal, &state, &mut accelerations, workspace, &mut next)?;
+        settled = pass(model, goal, friction, &state, &mut accelerations, workspace, &mut next)?;
         std::mem::swap(&mut state, &mut next);
         if settled {
             break;
@@ -158,6 +171,7 @@ fn settle(
 fn pass(
     model: &Model,
     goal: &Goal,
+    friction: Friction,
     state: &State,
     accelerations: &mut [f64; 3],
     workspace: &mut Workspace,
@@ -179,7 +193,7 @@ fn pass(
         time: td,
         place: [0.0; 2],
         deformation: state.deformation(),
-        friction: state.friction,
+        friction,
         edge_tolerance: EDGE_TOLERANCE,
     };
     let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);

@@ -7,9 +7,13 @@
 //!   a reversal of slip always passes through stick; a node that closes takes the state of its nearest closed neighbour
 //!   and sticks where it has none, unless the surfaces run against each other. Without these rules the iteration cycles.
 //!
+//! Where the friction coefficient depends on the slip, a search around this iteration finds the one that belongs to its own
+//! slip ([`super::coefficient`]); each of its evaluations starts from the states found before.
+//!
 //! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
 //! within which a node keeps its state grows from iteration to iteration.
 
+use super::coefficient::CoefficientSearch;
 use super::iterate::{GridScratch, Iterate};
 use super::rows::AffineRow;
 use super::state::Status;
@@ -33,6 +37,8 @@ const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
 const OVERLOAD: f64 = 3.0;
+/// Friction coefficients tried: smooth laws need five, steep ones in long steps some tens.
+const MAX_COEFFICIENTS: usize = 150;
 
 impl Iterate<'_> {
     /// Iterates from the states and forces of the start to the solution.
@@ -42,22 +48,62 @@ impl Iterate<'_> {
         if self.problem.time.is_stationary() {
             self.found_anew();
         }
-        let penalty = self.penalty();
+        let (penalty, friction) = (self.penalty(), self.problem.friction);
+        self.traction.friction = friction.coefficient(self.traction.tread_slip);
         self.update_upwind();
+        self.traction.iterations = self.find_states(penalty)?;
+        self.traction.tread_slip = self.mean_slip();
+        if friction.varies() {
+            self.find_coefficient(penalty)?;
+        }
+        self.check_zone()
+    }
+
+    /// Finds the states of all nodes at the present friction coefficient; returns the iterations made.
+    fn find_states(&mut self, penalty: f64) -> Result<usize, ContactError> {
         for iteration in 1..=MAX_ITERATIONS {
             if RESTARTS.contains(&iteration) {
                 self.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = Status::Stick);
                 self.found_anew();
             }
             self.solve_linear()?;
-            self.traction.iterations = iteration;
             let changed = self.update_states(penalty, iteration);
             let edge_change = self.update_upwind();
             if !changed && edge_change <= self.problem.edge_tolerance && self.sticks() {
-                return self.check_zone();
+                return Ok(iteration);
             }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+    }
+
+    /// Finds the coefficient that the law gives to the slip of the states that it leads to.
+    fn find_coefficient(&mut self, penalty: f64) -> Result<(), ContactError> {
+        let friction = self.problem.friction;
+        let mut search = CoefficientSearch::new(friction.bounds());
+        for _ in 0..MAX_COEFFICIENTS {
+            let law = friction.coefficient(self.traction.tread_slip);
+            let Some(next) = search.next(self.traction.friction, law) else { return Ok(()) };
+            self.traction.friction = next;
+            // With the weights of the last solution, whose edges were settled: they keep the slip a smooth function.
+            std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
+            // What decides between branches counts as an iteration, the smooth search on one of them does not.
+            self.traction.iterations += self.find_states(penalty)? - 1;
+            self.traction.tread_slip = self.mean_slip();
+        }
+        Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
+    }
+
+    /// Mean slip velocity of the closed nodes [m/s], weighted with their normal forces. It is that of the friction law, with
+    /// upwind differences, which vanishes where nodes stick.
+    fn mean_slip(&self) -> f64 {
+        let (mut sum, mut load) = (0.0, 0.0);
+        for (i, status) in self.state.status.iter().enumerate() {
+            let weight = self.normal(i).max(0.0);
+            load += weight;
+            // What is left of the slip at stuck nodes is round-off.
+            sum += if *status == Status::Stick { 0.0 } else { weight * self.state.slip[i] };
+        }
+        if load > 0.0 { sum / load } else { 0.0 }
     }
 
     /// State of a node without a past or a neighbour: it sticks, unless the surfaces run against each other, and that by
@@ -172,7 +218,7 @@ impl Iterate<'_> {
         let mut largest = 0.0f64;
         for (value, &i) in normal.iter_mut().zip(closed) {
             let port = self.grid.port(i);
-            let friction = self.state.status[i].friction_direction() * self.problem.friction;
+            let friction = self.state.status[i].friction_direction() * self.traction.friction;
             *value = forces[port + 1] + friction * forces[port];
             largest = largest.max(value.abs());
         }
@@ -203,7 +249,7 @@ impl Iterate<'_> {
         for (force, &i) in normal.iter().zip(closed) {
             let port = self.grid.port(i);
             forces[port + 1] = *force;
-            forces[port] = self.state.status[i].friction_direction() * self.problem.friction * force;
+            forces[port] = self.state.status[i].friction_direction() * self.traction.friction * force;
         }
         for (force, &i) in tangential.iter().zip(stuck) {
             forces[self.grid.port(i)] = *force;
@@ -240,7 +286,7 @@ impl Iterate<'_> {
 
     /// State of a node that has stuck: it slips where friction cannot hold it.
     fn stuck_state(&self, i: usize, tolerance: f64) -> Status {
-        let (t, n, friction) = (self.tangential(i), self.normal(i), self.problem.friction);
+        let (t, n, friction) = (self.tangential(i), self.normal(i), self.traction.friction);
         if t.abs() <= friction * n + tolerance * friction.min(1.0) && friction > 0.0 {
             Status::Stick
         } else if t >= 0.0 {
@@ -253,7 +299,7 @@ impl Iterate<'_> {
     /// State of a node that has slipped: it sticks where friction no longer opposes the slip.
     fn slipping_state(&self, i: usize, slipping: Status, tolerance: f64) -> Status {
         let opposes = slipping.friction_direction() * self.state.slip[i] <= tolerance;
-        if opposes || self.problem.friction == 0.0 { slipping } else { Status::Stick }
+        if opposes || self.traction.friction == 0.0 { slipping } else { Status::Stick }
     }
 
     /// Closes the nearest node where a static problem has no support; returns whether it did.
@@ -275,9 +321,9 @@ impl Iterate<'_> {
     /// forces and gaps then mean nothing yet.
     fn overloaded(&self) -> bool {
         let nodes = 0..self.grid.len();
-        let limit: f64 = nodes.clone().map(|i| self.normal(i).max(0.0)).sum::<f64>() * self.problem.friction;
+        let limit: f64 = nodes.clone().map(|i| self.normal(i).max(0.0)).sum::<f64>() * self.traction.friction;
         let stuck = nodes.filter(|&i| self.state.status[i] == Status::Stick).map(|i| self.tangential(i).abs());
-        stuck.sum::<f64>() > OVERLOAD * limit && self.problem.friction > 0.0
+        stuck.sum::<f64>() > OVERLOAD * limit && self.traction.friction > 0.0
     }
 
     /// State of a node that has just closed: that of the nearest closed node, or its own where it founds a patch, as

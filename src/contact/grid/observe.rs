@@ -28,11 +28,10 @@ pub(super) fn lever_arms(grid: &ContactGrid, radius: f64, gap: &[f64], wheel: &D
 }
 
 /// Fills everything in `traction` that follows from its port forces and surfaces under a wheel of the rolling radius
-/// `radius` \[m], for the friction coefficient `friction` \[1] and the slip velocities of the candidates `centred_slip`
-/// [m/s].
+/// `radius` \[m] and the slip velocities of the candidates `centred_slip` [m/s].
 pub fn read_off(
     grid: &ContactGrid,
-    [radius, friction]: [f64; 2],
+    radius: f64,
     state: &GridState,
     centred_slip: &[f64],
     traction: &mut Traction,
@@ -51,7 +50,7 @@ pub fn read_off(
         traction.edges.push(edges);
         traction.patches.push(stretch(grid, edges, &run));
         length += run.len() as f64;
-        let margin = |i: usize| (friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
+        let margin = |i: usize| (traction.friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
         stuck += stick_length(&state.status, margin, run);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };

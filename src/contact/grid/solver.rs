@@ -67,6 +67,7 @@ impl ContactSolver for GridSolver {
         let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
         state.copy_from(before);
         copy(&mut traction.port_forces, &start.traction.port_forces);
+        traction.tread_slip = start.traction.tread_slip;
         for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
             copy(ours, theirs);
         }
@@ -81,8 +82,7 @@ impl ContactSolver for GridSolver {
                 false => history.push(&problem.time, value),
             }
         }
-        let wheel = [problem.radius(), problem.friction];
-        observe::read_off(&self.grid, wheel, state, &scratch.centred_slip, traction);
+        observe::read_off(&self.grid, problem.radius(), state, &scratch.centred_slip, traction);
         Ok(())
     }
 
