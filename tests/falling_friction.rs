@@ -6,12 +6,12 @@ use common::*;
 use std::sync::Arc;
 use wheelrail::analytic::{Torsion, hub_torsion};
 use wheelrail::config::{Config, Tuning};
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
+use wheelrail::simulation::{Inputs, Model, Rotation, Simulation};
 
 /// Friction coefficient on the rail [1].
 const FRICTION: f64 = 0.4;
 /// Slip velocity of the sliding wheel [m/s].
-const SLIP: f64 = 0.5;
+const SLIP: f64 = 0.1;
 /// Share of the coefficient that remains at high slip.
 const RATIO: f64 = 0.4;
 
@@ -20,6 +20,7 @@ fn heavy_hub() -> Arc<Model> {
     let mut config = preset("paper_d", 8);
     config.thermal.enabled = false;
     config.wheel.hub_inertia = 1e6;
+    config.initial.velocity = 2.0;
     model(config)
 }
 
@@ -29,9 +30,10 @@ fn torsion(config: &Config) -> Torsion {
     hub_torsion(config.wheel.radius, config.wheel.hub_radius, (shear / material.density).sqrt())
 }
 
-/// The law `μ₀ (A + (1 − A) e^{−B s})` with the slope `slope` [s/m] at [`SLIP`] and that coefficient there.
-fn law_of_slope(config: &Config, slope: f64) -> (Tuning, f64) {
-    // Steeper than B = 1/s no such law is at s: half of it leaves room.
+/// The law `μ₀ (A + (1 − A) e^{−B s})` with the slope `slope` [s/m] at [`SLIP`]; beyond the range of the interface it may
+/// rise.
+fn law_of_slope(config: &Config, slope: f64) -> Tuning {
+    // At s no such law is steeper than that with B = 1/s.
     let ratio = if slope > 0.0 { 2.0 - RATIO } else { RATIO };
     let steep = |decay: f64| FRICTION * (ratio - 1.0) * decay * (-decay * SLIP).exp();
     let (mut low, mut high) = (0.0, 1.0 / SLIP);
@@ -40,8 +42,7 @@ fn law_of_slope(config: &Config, slope: f64) -> (Tuning, f64) {
         let middle = 0.5 * (low + high);
         if steep(middle).abs() < slope.abs() { low = middle } else { high = middle }
     }
-    let tuning = Tuning { falling_ratio: ratio, falling_decay: low, softening: 0.0, ..config.tuning.clone() };
-    (tuning, FRICTION * (ratio + (1.0 - ratio) * (-low * SLIP).exp()))
+    Tuning { falling_ratio: ratio, falling_decay: low, softening: 0.0, ..config.tuning.clone() }
 }
 
 /// A wheel that slides steadily under a moment, and its inputs.
@@ -54,8 +55,6 @@ fn sliding(model: &Arc<Model>, tuning: &Tuning) -> (Simulation, Inputs) {
     let held = Simulation::start(model.clone(), tuning.clone(), &inputs).unwrap();
     inputs.rotation = Rotation::Moment;
     inputs.drive.moment = held.outputs().hub_moment;
-    let mut start = config.clone();
-    start.initial.creepage = held.outputs().contact_creepage;
     (held, inputs)
 }
 
@@ -99,18 +98,32 @@ fn rings(model: &Arc<Model>, tuning: &Tuning, h: f64, time: f64) -> Vec<f64> {
     slips
 }
 
-#[test]
-fn torsion_grows_at_half_the_slope_of_friction_over_its_mass() {
-    let model = heavy_hub();
+/// Growth rate [1/s] and frequency [rad/s] of the torsion for friction of this slope, and the rate in closed form: a force
+/// `−μ(s) P` at the rim on the modal mass `m = ρ · rim_area` gives `q̈ + (P μ′/m) q̇ + ω² q = 0`.
+fn grown(model: &Arc<Model>, slope: f64, h: f64) -> [f64; 3] {
     let config = model.config();
-    let torsion = torsion(config);
-    let mass = config.material.density * torsion.rim_area * config.model.contact_width;
+    let mass = config.material.density * torsion(config).rim_area * config.model.contact_width;
+    let (rate, frequency) = growth(&rings(model, &law_of_slope(config, slope), h, 0.15), h);
+    let expected = -0.5 * config.model.nominal_load * slope / mass;
+    println!("h {h:.0e}, slope {slope:+.2} s/m: rate {rate:+.4} 1/s, closed form {expected:+.4}, {frequency:.1} rad/s");
+    [rate, frequency, expected]
+}
+
+#[test]
+fn falling_friction_excites_the_torsion_at_half_its_slope_over_the_mass_and_rising_friction_damps_it() {
+    let model = heavy_hub();
+    let exact = torsion(model.config()).frequency;
+    assert!((exact / 1777.3 - 1.0).abs() < 1e-3, "{exact}");
     for h in [2e-5, 1e-5] {
-        for slope in [0.0, 0.08, -0.05, -0.1, -0.2] {
-            let (tuning, _) = law_of_slope(config, slope);
-            let (rate, frequency) = growth(&rings(&model, &tuning, h, 0.15), h);
-            let expected = -0.5 * config.model.nominal_load * slope / mass;
-            println!("h {h:.0e}, slope {slope:+.2}: {rate:+.4} 1/s, expected {expected:+.4}, frequency {frequency:.1}");
+        // Constant friction neither damps nor excites; what is left is the energy that streams out with the rail, and the
+        // damping of the time formula.
+        let [constant, ..] = grown(&model, 0.0, h);
+        assert!(constant < 0.0 && constant > -0.1, "{constant}");
+        for slope in [-0.2, -0.4, -0.8, 0.4] {
+            let [rate, frequency, expected] = grown(&model, slope, h);
+            assert!(rate.signum() == -slope.signum(), "{rate}");
+            assert!((rate / expected - 1.0).abs() < 0.05, "{rate} for {expected}");
+            assert!((frequency / exact - 1.0).abs() < 0.01, "{frequency} for {exact}");
         }
     }
 }
