@@ -6,9 +6,9 @@ use common::*;
 use wheelrail::simulation::{Inputs, Outputs, Rotation, Simulation};
 
 /// Outputs of a wheel that rolls freely after 0.3 s, warmer than the rail by `excess` [K].
-fn rolls_freely(excess: f64) -> Outputs {
+fn rolls_freely(excess: f64, conductance: f64) -> Outputs {
     let mut config = preset("railway", 10);
-    config.thermal.wheel_excess = excess;
+    (config.thermal.wheel_excess, config.thermal.conductance) = (excess, conductance);
     let inputs = Inputs::rolling(&config);
     let mut simulation = Simulation::new(model(config), &inputs).unwrap();
     for _ in 0..300 {
@@ -17,25 +17,31 @@ fn rolls_freely(excess: f64) -> Outputs {
     simulation.outputs().clone()
 }
 
+/// Without conduction to the rail a hot wheel is a larger one. With it the rail chills the tread, which contracts in the
+/// contact and slips a little where it does: about 9e-8 of creepage per kelvin.
 #[test]
-fn free_rolling_of_a_hot_wheel_has_the_creepage_and_the_loss_of_the_cold_one() {
-    let cold = rolls_freely(0.0);
-    for excess in [100.0, 300.0] {
-        let hot = rolls_freely(excess);
-        println!(
-            "{excess} K: growth {:.3e} m, creepage {:+.4e} (cold {:+.4e}), loss {:.3e} W (cold {:.3e} W), force {:+.2} N",
-            hot.thermal_growth,
-            hot.contact_creepage,
-            cold.contact_creepage,
-            hot.friction_power,
-            cold.friction_power,
-            hot.contact_force_x
-        );
-        assert!(hot.thermal_growth > excess * 1.2e-5 * 0.46);
-        assert!((hot.contact_creepage - cold.contact_creepage).abs() < 1e-5);
-        assert!((hot.contact_slide - cold.contact_slide).abs() < 1e-5);
-        assert!((hot.contact_slip_velocity - cold.contact_slip_velocity).abs() < 1e-5 * hot.wheel_velocity);
-        assert!(hot.friction_power < cold.friction_power + 1.0 && hot.t_gamma < cold.t_gamma + 0.1);
+fn free_rolling_of_a_hot_wheel_has_the_creepage_of_the_cold_one_but_for_the_chill_of_its_tread() {
+    for (conductance, tolerance, loss) in [(0.0, [1e-7, 1e-7], 1e-6), (1e8, [1e-5, 3e-5], 1.0)] {
+        let cold = rolls_freely(0.0, conductance);
+        for (excess, tolerance) in [100.0, 300.0].into_iter().zip(tolerance) {
+            let hot = rolls_freely(excess, conductance);
+            println!(
+                "conductance {conductance:.0e} W/(m2 K), {excess} K: growth {:.3e} m, creepage {:+.4e} (cold {:+.4e}), \
+                 loss {:.2e} W (cold {:.2e} W), force {:+.3} N",
+                hot.thermal_growth,
+                hot.contact_creepage,
+                cold.contact_creepage,
+                hot.friction_power,
+                cold.friction_power,
+                hot.contact_force_x
+            );
+            assert!(hot.thermal_growth > excess * 1.2e-5 * 0.46);
+            assert!((hot.contact_creepage - cold.contact_creepage).abs() < tolerance);
+            assert!((hot.contact_slide - cold.contact_slide).abs() < tolerance);
+            let slip = hot.contact_slip_velocity - cold.contact_slip_velocity;
+            assert!(slip.abs() < 1.01 * tolerance * hot.wheel_velocity);
+            assert!(hot.friction_power < cold.friction_power + loss);
+        }
     }
 }
 
