@@ -116,9 +116,4 @@ impl ContactProblem<'_> {
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
     }
-
-    /// Whether the material arrives from `+x` at rigid motions (V, U, Ω).
-    pub fn upstream_right(&self, rigid: &[f64; 3]) -> bool {
-        rigid[0] + self.radius() * rigid[2] >= 0.0
-    }
 }

@@ -22,8 +22,8 @@ pub struct Placement<'a> {
     pub angle: f64,
     /// Thermal growth of the wheel radius \[m].
     pub growth: f64,
-    /// Swelling of the hot layers of both bodies under the contact \[m].
-    pub swelling: &'a Piecewise,
+    /// Swelling of the hot layers of wheel and rail under the contact \[m].
+    pub swelling: [&'a Piecewise; 2],
 }
 
 impl Surfaces {
@@ -40,7 +40,7 @@ impl Surfaces {
     pub fn gap(&self, x: f64, at: &Placement) -> f64 {
         // The form of r − √(r² − x²) without cancellation.
         let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
-        let mut gap = circle - at.swelling.at(x) - at.growth;
+        let mut gap = circle - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>() - at.growth;
         if !self.wheel.x.is_empty() {
             let turn = std::f64::consts::TAU;
             gap -= self.wheel.at((at.angle + x / self.radius).rem_euclid(turn));
@@ -56,8 +56,10 @@ impl Surfaces {
 mod tests {
     use super::*;
 
+    const NONE: &Piecewise = &Piecewise { x: Vec::new(), value: Vec::new() };
+
     fn place<'a>(distance: f64, angle: f64, growth: f64, swelling: &'a Piecewise) -> Placement<'a> {
-        Placement { distance, angle, growth, swelling }
+        Placement { distance, angle, growth, swelling: [swelling, NONE] }
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub struct Traction {
     /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
     /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
     pub tread_slip: f64,
+    /// Power that material adds by expanding and shrinking with its temperature as it passes the contact [W/m].
+    pub expansion_power: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
     /// beside them.
     pub edges: Vec<Interval>,
@@ -45,7 +47,7 @@ pub struct Traction {
     pub slip: Piecewise,
     /// Where friction dissipates [W/m²]; integrates to the friction power.
     pub dissipation: Piecewise,
-    /// Iterations that finding them took.
+    /// Iterations that finding them took, without those of the search for the coefficient.
     pub iterations: usize,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Every force has the impulse that the time formula gives it (see [`crate::multistep::TimeDerivative::impulse`]), so
 //! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the mean
-//! velocity. Derivation: `docs/theory/lever-arms.md`.
+//! velocity. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation: `docs/theory/lever-arms.md`.
 
 use super::model::Model;
 use super::state::{Audit, State};
@@ -24,25 +24,36 @@ pub fn dissipated_power(model: &Model, state: &State) -> f64 {
 /// Balance at a stationary start.
 pub fn start(model: &Model, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit { initial_energy: energy, energy, dissipated_power: dissipated_power(model, state), ..Audit::default() }
+    Audit {
+        initial_energy: energy,
+        energy,
+        dissipated_power: dissipated_power(model, state),
+        expansion_power: state.contact.traction.expansion_power,
+        ..Audit::default()
+    }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
 pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) -> Audit {
     let before = &state.audit;
-    let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.hub[k], state.hub[k], before.impulse[k]));
+    let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
     let power = dissipated_power(model, next);
     let dissipated = td.impulse(power, before.dissipated_power, before.dissipated);
+    let expansion_power = next.contact.traction.expansion_power;
+    let expanded = td.impulse(expansion_power, before.expansion_power, before.expanded);
     Audit {
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
+        thermal_work: before.thermal_work + expanded,
         dissipation: before.dissipation + dissipated,
         throughput: before.throughput + work.abs(),
         dissipated_power: power,
+        expansion_power,
         impulse,
         dissipated,
+        expanded,
     }
 }

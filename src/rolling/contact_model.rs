@@ -89,7 +89,7 @@ impl ContactModel {
             rigid: step.rigid,
             time: step.time,
             surfaces: &self.surfaces,
-            placement: Placement { distance, angle, growth: *radius_growth, swelling },
+            placement: Placement { distance, angle, growth: *radius_growth, swelling: [&swelling[0], &swelling[1]] },
             friction: step.friction,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,

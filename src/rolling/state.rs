@@ -30,6 +30,8 @@ pub struct State {
     pub thermal: Option<ThermalState>,
     /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
     pub hub: [f64; 3],
+    /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
+    pub driving: [f64; 3],
     /// Which motions (V, U, Ω) were prescribed in the last step.
     pub prescribed: [bool; 3],
     /// Friction coefficient that was available in the last step \[1].
@@ -116,8 +118,8 @@ pub struct ThermalState {
 pub struct ThermalDeformation {
     /// Growth of the wheel radius by the bulk temperature \[m].
     pub radius_growth: f64,
-    /// Swelling of both hot layers under the contact \[m].
-    pub swelling: Piecewise,
+    /// Swelling of the hot layers of wheel and rail under the contact \[m].
+    pub swelling: [Piecewise; 2],
     /// Membrane force of the hot layers of wheel and rail [N/m].
     pub membrane_force: [Piecewise; 2],
 }
@@ -126,7 +128,7 @@ impl ThermalDeformation {
     /// None at all.
     pub const NONE: Self = {
         const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
-        Self { radius_growth: 0.0, swelling: EMPTY, membrane_force: [EMPTY, EMPTY] }
+        Self { radius_growth: 0.0, swelling: [EMPTY, EMPTY], membrane_force: [EMPTY, EMPTY] }
     };
 }
 
@@ -148,22 +150,28 @@ pub struct Audit {
     pub energy: f64,
     /// Work of the hub forces [J/m].
     pub work: f64,
+    /// Work of thermal expansion against the contact forces [J/m].
+    pub thermal_work: f64,
     /// Energy lost to friction, damping and radiation [J/m].
     pub dissipation: f64,
     /// Sum of the absolute work of all steps [J/m]: the scale of the round-off.
     pub throughput: f64,
     /// Present power of friction, damping and radiation [W/m].
     pub dissipated_power: f64,
+    /// Present power of material that expands as it passes the contact [W/m].
+    pub expansion_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
     pub impulse: [f64; 3],
     /// Energy that was dissipated in it [J/m].
     pub dissipated: f64,
+    /// Work of the passing material in it [J/m].
+    pub expanded: f64,
 }
 
 impl Audit {
     /// Energy that has vanished in the numerics [J/m].
     pub fn imbalance(&self) -> f64 {
-        self.work - (self.energy - self.initial_energy) - self.dissipation
+        self.work + self.thermal_work - (self.energy - self.initial_energy) - self.dissipation
     }
 
     /// Imbalance relative to the dissipated energy \[1], or to the energy `stored` [J/m] in the loaded contact or a

@@ -209,6 +209,7 @@ fn pass(
             accelerations[k] = (load + resultant[k]) / model.wheel.inertia[k];
         }
     }
+    next.driving = next.hub;
     let unbalanced = |k: usize| (accelerations[k] - previous[k]).abs() * model.wheel.inertia[k];
     let (now, before) = (&next.contact.traction.port_forces, &state.contact.traction.port_forces);
     let change = now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

@@ -22,7 +22,10 @@ struct Plan {
     td: TimeDerivative,
     /// Whether the time formula starts afresh.
     restarted: bool,
+    /// Which motions are prescribed, and the forces whose impulses drive the others.
     drives: [AxisDrive; 3],
+    /// Forces that the inputs give at the end of the step, where they give any.
+    given: [AxisDrive; 3],
     /// Predicted V [m/s] and Ω [rad/s].
     speeds: [f64; 2],
     friction: Friction,
@@ -33,6 +36,8 @@ struct Plan {
 pub struct Demand<'a> {
     /// Which partners are prescribed.
     pub inputs: &'a Inputs,
+    /// Values of the inputs at the beginning of the step.
+    pub begin: &'a Drive,
     /// Values of the inputs at the end of the step.
     pub target: &'a Drive,
     /// Tunable parameters.
@@ -66,6 +71,8 @@ pub fn step(
             let step = HeatStep { dt: plan.dt, tread_heat, austenitisation };
             let touch = thermal.touch(&model.contact, &next.contact.traction);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
+            let growth = temperatures.deformation.radius_growth - before.deformation.radius_growth;
+            next.audit.thermal_work += growth * next.contact.traction.resultant[1];
             next.thermal = Some(temperatures);
         }
         _ => next.thermal = None,
@@ -75,19 +82,26 @@ pub fn step(
 
 impl Plan {
     fn new(model: &Model, state: &State, demand: &Demand, dt: f64) -> Self {
-        let drives = model.wheel.drives(demand.inputs, demand.target);
+        let [begin, given] = [demand.begin, demand.target].map(|drive| model.wheel.drives(demand.inputs, drive));
         let available = demand.target.friction;
-        let jumped = model.contact.jumped(state, &drives, available);
+        let jumped = model.contact.jumped(state, &begin, available);
         let before = if jumped { 0.0 } else { demand.last_step };
         let dt = settled(dt, before);
         let td = formula(&model.config.solver, dt, before);
+        let drives = std::array::from_fn(|k| match (begin[k], given[k]) {
+            (AxisDrive::Free { load: from }, AxisDrive::Free { load: to }) => {
+                let impulse = 0.5 * dt * (from + to);
+                AxisDrive::Free { load: td.force(impulse, state.driving[k], state.audit.impulse[k]) }
+            }
+            (_, prescribed) => prescribed,
+        });
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
         let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
         let traction = &state.contact.traction;
         let friction = Friction::local(friction_law(demand.tuning), available, heating, ratio);
         let friction = friction.after(dt, traction.friction, traction.tread_slip, heating);
-        Self { dt, td, restarted: before == 0.0, drives, speeds, friction }
+        Self { dt, td, restarted: before == 0.0, drives, given, speeds, friction }
     }
 }
 
@@ -129,7 +143,11 @@ fn solve_and_commit(
     model.bodies.commit(&operators, free, accelerations, td, state, next, &mut workspace.opposite);
     let traction = &next.contact.traction;
     let (forces, resultant) = (&traction.port_forces, traction.resultant);
-    next.hub = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);
+    next.driving = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);
+    next.hub = std::array::from_fn(|k| match plan.given[k] {
+        AxisDrive::Free { load } => load,
+        AxisDrive::Prescribed { .. } => next.driving[k],
+    });
     next.time = state.time + dt;
     next.pending = 0.0;
     next.distance = moved_by(state.distance, &state.motion.velocity, next.motion.velocity.now, *dt);

@@ -146,8 +146,8 @@ fn march(
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
-        let target = ramp.at((place.done + 1) as f64 / place.pieces as f64);
-        let demand = Demand { inputs: ramp.inputs, target: &target, tuning, last_step };
+        let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
+        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, last_step };
         match step(model, from, &demand, dt, workspace, next) {
             Ok(()) => {}
             Err(StepError::Contact { .. } | StepError::NotFinite { .. })

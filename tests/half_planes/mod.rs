@@ -83,7 +83,7 @@ impl HalfPlanes {
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             time: TimeDerivative::default(),
             surfaces: &self.surfaces,
-            placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: &flat },
+            placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: [&flat, &flat] },
             friction: Friction::constant(FRICTION),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,

@@ -15,12 +15,15 @@
 
 use super::coefficient::CoefficientSearch;
 use super::iterate::{GridScratch, Iterate};
+use super::observe::{self, Found};
+use super::power::Power;
 use super::rows::AffineRow;
 use super::state::Status;
 use super::streamline::upwind_rows;
 use crate::contact::error::ContactError;
 use crate::contact::problem::AxisDrive;
 use crate::linalg::DenseSystem;
+use crate::multistep::History;
 use std::ops::Range;
 
 /// Iterations allowed.
@@ -39,6 +42,9 @@ const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 const OVERLOAD: f64 = 3.0;
 /// Friction coefficients tried: smooth laws need five, steep ones in long steps some tens.
 const MAX_COEFFICIENTS: usize = 150;
+/// Largest change of the turn of the rim that counts as settled [rad]: it tilts the gap by less than a millionth of a
+/// micrometre.
+const TURN_TOLERANCE: f64 = 1e-10;
 
 impl Iterate<'_> {
     /// Iterates from the states and forces of the start to the solution.
@@ -51,12 +57,15 @@ impl Iterate<'_> {
         let (penalty, friction) = (self.penalty(), self.problem.friction);
         self.traction.friction = friction.coefficient(self.traction.tread_slip);
         self.update_upwind();
+        self.frame.turn = self.predicted_turn();
         self.traction.iterations = self.find_states(penalty)?;
         self.traction.tread_slip = self.mean_slip();
         if friction.varies() {
             self.find_coefficient(penalty)?;
         }
-        self.check_zone()
+        self.check_zone()?;
+        self.conclude();
+        Ok(())
     }
 
     /// Finds the states of all nodes at the present friction coefficient; returns the iterations made.
@@ -66,10 +75,12 @@ impl Iterate<'_> {
                 self.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = Status::Stick);
                 self.found_anew();
             }
+            let turn = self.frame.turn;
             self.solve_linear()?;
+            let turned = (self.frame.turn - turn).abs() > TURN_TOLERANCE;
             let changed = self.update_states(penalty, iteration);
             let edge_change = self.update_upwind();
-            if !changed && edge_change <= self.problem.edge_tolerance && self.sticks() {
+            if !changed && !turned && edge_change <= self.problem.edge_tolerance && self.sticks() {
                 return Ok(iteration);
             }
         }
@@ -86,8 +97,7 @@ impl Iterate<'_> {
             self.traction.friction = next;
             // With the weights of the last solution, whose edges were settled: they keep the slip a smooth function.
             std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
-            // What decides between branches counts as an iteration, the smooth search on one of them does not.
-            self.traction.iterations += self.find_states(penalty)? - 1;
+            self.find_states(penalty)?;
             self.traction.tread_slip = self.mean_slip();
         }
         Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
@@ -106,15 +116,20 @@ impl Iterate<'_> {
         if load > 0.0 { sum / load } else { 0.0 }
     }
 
+    /// Turn of the rim [rad] if it goes on turning as it does.
+    fn predicted_turn(&self) -> f64 {
+        let (turn, time) = (&self.state.turn, &self.problem.time);
+        if time.is_stationary() { turn.now } else { (turn.rate - turn.offset(time)) / time.a0 }
+    }
+
     /// State of a node without a past or a neighbour: it sticks, unless the surfaces run against each other, and that by
     /// more than a cell in the step. There sticking needs strains of order one; where both velocities are about opposite
     /// (`rΩ = −V`) its equation even loses its force coefficients, and their sign is no direction of friction.
     fn founding_state(&self) -> Status {
-        let [v, _, omega] = self.traction.rigid;
-        let v_c = self.problem.radius() * omega;
-        if v * v_c >= 0.0 || (v - v_c).abs() <= self.problem.time.a0 * self.grid.spacing {
+        let (v, rim) = (self.traction.rigid[0], self.rim_velocity());
+        if v * rim >= 0.0 || (v - rim).abs() <= self.problem.time.a0 * self.grid.spacing {
             Status::Stick
-        } else if v < v_c {
+        } else if v < rim {
             Status::SlipForward
         } else {
             Status::SlipBackward
@@ -138,7 +153,7 @@ impl Iterate<'_> {
 
     /// Upwind weights of the present states and pressures; returns their largest change.
     fn update_upwind(&mut self) -> f64 {
-        let to_right = self.problem.upstream_right(&self.traction.rigid);
+        let to_right = self.upstream_right();
         let (grid, forces) = (self.grid, &self.traction.port_forces);
         std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
         let pressure = |i: usize| forces[grid.port(i) + 1];
@@ -341,6 +356,28 @@ impl Iterate<'_> {
             (None, Some(r)) => before[i + 1 + r],
             (None, None) => self.founding_state(),
         }
+    }
+
+    /// Moves the histories on and reads off the traction.
+    fn conclude(self) {
+        let rim_velocity = self.rim_velocity();
+        let Self { grid, problem, state, traction, scratch, frame } = self;
+        let [wheel, rail] = &traction.surface;
+        let push = |history: &mut History, value: f64| match problem.time.is_stationary() {
+            true => *history = History::constant(value),
+            false => history.push(&problem.time, value),
+        };
+        for (i, history) in state.tangential_gap.iter_mut().enumerate() {
+            let port = grid.port(i);
+            push(history, wheel[port] - rail[port]);
+        }
+        push(&mut state.turn, frame.turn);
+        let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
+        let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
+        let (friction, expansion) = (power.friction(), power.expansion());
+        (traction.friction_power, traction.expansion_power) = (friction, expansion);
+        let found = Found { radius: problem.radius(), frame };
+        observe::read_off(grid, &found, state, &scratch.centred_slip, traction);
     }
 
     fn check_zone(&self) -> Result<(), ContactError> {

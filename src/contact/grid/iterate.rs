@@ -1,7 +1,7 @@
 //! One contact problem on its way to the solution, and the memory it needs.
 
 use super::candidates::ContactGrid;
-use super::observe;
+use super::frame::RimFrame;
 use super::state::{GridState, Status};
 use super::streamline::Upwind;
 use crate::contact::problem::ContactProblem;
@@ -19,10 +19,16 @@ pub struct GridScratch {
     pub(super) axes: Vec<usize>,
     /// Undeformed gap at the candidates [m].
     pub(super) gap: Vec<f64>,
+    /// See [`RimFrame::sagitta`].
+    pub(super) sagitta: Vec<f64>,
     /// Known part of `d_t` of the tangential gap [m/s].
     pub(super) slip_offset: Vec<f64>,
     /// Displacement of wheel and rail without contact forces and unknown motions [m].
     pub(super) known: [DVector<f64>; 2],
+    /// Swelling of the hot layers of wheel and rail at the candidates [m]; empty without any.
+    pub(super) swelling: [Vec<f64>; 2],
+    /// Displacement of wheel and rail by the membrane forces of their hot layers [m]; empty without any.
+    pub(super) membrane: [DVector<f64>; 2],
     pub(super) upwind: Vec<Upwind>,
     pub(super) upwind_before: Vec<Upwind>,
     pub(super) status_before: Vec<Status>,
@@ -40,6 +46,8 @@ pub(super) struct Iterate<'a> {
     pub state: &'a mut GridState,
     pub traction: &'a mut Traction,
     pub scratch: &'a mut GridScratch,
+    /// Turn of the rim in the present iterate.
+    pub frame: RimFrame<'a>,
 }
 
 impl Iterate<'_> {
@@ -53,14 +61,20 @@ impl Iterate<'_> {
         self.traction.port_forces[self.grid.port(i)]
     }
 
-    /// Sum of the speeds of both surfaces [m/s].
-    pub fn speed(&self) -> f64 {
-        self.traction.rigid[0].abs() + (self.problem.radius() * self.traction.rigid[2]).abs()
+    /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the turn against it.
+    pub fn rim_velocity(&self) -> f64 {
+        let turning = self.problem.time.a0 * self.frame.turn + self.state.turn.offset(&self.problem.time);
+        self.problem.radius() * (self.traction.rigid[2] - turning)
     }
 
-    /// Lever arms about the hub centre, see [`observe::lever_arms`] [m].
-    pub fn lever_arms(&self, i: usize) -> [f64; 2] {
-        observe::lever_arms(self.grid, self.problem.radius(), &self.state.gap, &self.traction.surface[0], i)
+    /// Sum of the speeds of both surfaces [m/s].
+    pub fn speed(&self) -> f64 {
+        self.traction.rigid[0].abs() + self.rim_velocity().abs()
+    }
+
+    /// Whether the material arrives from `+x`.
+    pub fn upstream_right(&self) -> bool {
+        self.traction.rigid[0] + self.rim_velocity() >= 0.0
     }
 }
 

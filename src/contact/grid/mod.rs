@@ -1,15 +1,17 @@
 //! Contact on a uniform grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
 //! [`rows`] writes gap, slip and balance as rows of a linear system, [`streamline`] gives the slip its upwind
-//! differences, [`active_set`] finds the states of the nodes, [`kernel`] corrects the compliance at grid scale, and
-//! [`observe`] reads the traction off the solution. Theory: `docs/theory/contact.md`.
+//! differences, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, [`kernel`] corrects the
+//! compliance at grid scale, [`observe`] reads the traction off the solution, and [`power`] balances its power. Theory: `docs/theory/contact.md`.
 
 mod active_set;
 mod candidates;
 mod coefficient;
+mod frame;
 pub(super) mod iterate;
 pub mod kernel;
 pub mod observe;
+mod power;
 mod rows;
 mod solver;
 pub(super) mod state;

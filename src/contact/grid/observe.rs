@@ -2,6 +2,7 @@
 //! nodes.
 
 use super::candidates::ContactGrid;
+use super::frame::RimFrame;
 use super::state::{GridState, Status, for_each_patch};
 use super::streamline::edge_offset;
 use crate::contact::traction::Traction;
@@ -14,33 +15,46 @@ const PEAK: f64 = 0.9;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
-/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m].
+/// What the traction is read off from, besides states and forces.
+pub(super) struct Found<'a> {
+    /// Rolling radius of the wheel [m].
+    pub radius: f64,
+    /// Turn of the rim.
+    pub frame: RimFrame<'a>,
+}
+
+/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m]; `wheel`: rolling radius,
+/// turn of the rim and surface displacement.
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
 /// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
 /// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²).
 /// Derivation: `docs/theory/lever-arms.md`.
-pub(super) fn lever_arms(grid: &ContactGrid, radius: f64, gap: &[f64], wheel: &DVector<f64>, i: usize) -> [f64; 2] {
+pub(super) fn lever_arms(
+    grid: &ContactGrid,
+    (radius, frame, u): (f64, &RimFrame, &DVector<f64>),
+    gap: &[f64],
+    i: usize,
+) -> [f64; 2] {
     let port = grid.port(i);
     let at = |k: Option<usize>| k.and_then(|k| gap.get(k)).copied().unwrap_or(0.0);
     let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / (2.0 * grid.spacing);
-    [radius - wheel[port + 1], grid.x[i] + wheel[port] - radius * slope]
+    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope]
 }
 
-/// Fills everything in `traction` that follows from its port forces and surfaces under a wheel of the rolling radius
-/// `radius` \[m] and the slip velocities of the candidates `centred_slip` [m/s].
-pub fn read_off(
+/// Fills everything in `traction` that follows from its port forces, surfaces, friction coefficient and friction power, and from the slip velocities
+/// of the candidates `centred_slip` [m/s].
+pub(super) fn read_off(
     grid: &ContactGrid,
-    radius: f64,
+    found: &Found,
     state: &GridState,
     centred_slip: &[f64],
     traction: &mut Traction,
 ) {
-    traction.resultant = resultant(grid, radius, state, traction);
+    traction.resultant = resultant(grid, found, state, traction);
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
-    traction.friction_power = -(0..grid.len()).map(|i| tangential(i) * centred_slip[i]).sum::<f64>();
     traction.pressure_max = pressure_peak(grid, normal);
     traction.edges.clear();
     traction.patches.clear();
@@ -70,12 +84,13 @@ pub fn read_off(
 }
 
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
-fn resultant(grid: &ContactGrid, radius: f64, state: &GridState, traction: &Traction) -> [f64; 3] {
+fn resultant(grid: &ContactGrid, found: &Found, state: &GridState, traction: &Traction) -> [f64; 3] {
+    let wheel = (found.radius, &found.frame, &traction.surface[0]);
     let mut sum = [0.0; 3];
     for i in 0..grid.len() {
         let port = grid.port(i);
         let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
-        let [arm_t, arm_n] = lever_arms(grid, radius, &state.gap, &traction.surface[0], i);
+        let [arm_t, arm_n] = lever_arms(grid, wheel, &state.gap, i);
         sum[0] += t;
         sum[1] += n;
         sum[2] -= arm_t * t + arm_n * n;

@@ -1,6 +1,7 @@
 //! Gap, slip and balances of momentum as rows of a linear system in contact forces and rigid motions.
 
-use super::iterate::{Iterate, copy};
+use super::iterate::{GridScratch, Iterate, copy};
+use super::observe;
 use super::streamline::Upwind;
 use nalgebra::{DMatrix, DVector};
 
@@ -19,9 +20,22 @@ impl Iterate<'_> {
         std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k] / self.grid.spacing))
     }
 
-    /// Upwind derivative `∂u_x/∂x` of a surface displacement at candidate `i`.
-    fn stretch(&self, u: &DVector<f64>, i: usize, row: Upwind, to_right: bool) -> f64 {
-        self.stencil(i, row, to_right).iter().map(|(port, weight)| weight * u[*port]).sum()
+    /// Upwind derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
+    fn stretches(&self, i: usize, row: Upwind, to_right: bool) -> [f64; 2] {
+        let [wheel, rail] = &self.traction.surface;
+        let stencil = self.stencil(i, row, to_right);
+        [
+            stencil.iter().map(|(port, weight)| weight * self.frame.tangential(wheel, *port)).sum(),
+            stencil.iter().map(|(port, weight)| weight * rail[*port]).sum(),
+        ]
+    }
+
+    /// Centred derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
+    fn centred_stretches(&self, i: usize) -> [f64; 2] {
+        let (port, length) = (self.grid.port(i), 2.0 * self.grid.spacing);
+        let [wheel, rail] = &self.traction.surface;
+        let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
+        [turned / length, (rail[port + 2] - rail[port - 2]) / length]
     }
 
     /// `g = 0` at a closed node; its force coefficients are the column of the relative compliance.
@@ -35,18 +49,18 @@ impl Iterate<'_> {
             }
         }
         let [wheel, rail] = &self.scratch.known;
-        let constant = self.scratch.gap[i] + wheel[port] - rail[port];
+        let constant = self.scratch.gap[i] + self.frame.normal(wheel, i) - rail[port];
         (AffineRow { rigid, constant }, column(bodies.relative, port))
     }
 
-    /// `s = 0` at a stuck node, linearised in V and Ω about the present iterate. Writes the force coefficients of the ports
-    /// `window` to `forces`.
+    /// `s = 0` at a stuck node, linearised in V and Ω about the present iterate, at its turn of the rim. Writes the force
+    /// coefficients of the ports `window` to `forces`.
     pub(super) fn slip_row(&self, i: usize, window: std::ops::Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
-        let to_right = problem.upstream_right(&self.traction.rigid);
+        let to_right = self.upstream_right();
         let port = self.grid.port(i);
-        let (v, v_c) = (self.traction.rigid[0], problem.radius() * self.traction.rigid[2]);
+        let (v, rim) = (self.traction.rigid[0], self.rim_velocity());
         let gain = problem.time.a0;
         let [wheel, rail] = &self.scratch.known;
         let add = |forces: &mut [f64], factor: f64, matrix: &DMatrix<f64>, port: usize| {
@@ -60,15 +74,15 @@ impl Iterate<'_> {
         let row = self.scratch.upwind[i];
         for (at, weight) in self.stencil(i, row, to_right) {
             add(forces, -v * weight, bodies.compliance[1], at);
-            add(forces, -v_c * weight, bodies.compliance[0], at);
+            add(forces, -rim * weight, bodies.compliance[0], at);
             for (k, load) in inertial.iter_mut().enumerate() {
-                *load -= v_c * weight * bodies.inertial[(at, k)];
+                *load -= rim * weight * bodies.inertial[(at, k)];
             }
-            constant += weight * (v * rail[at] - v_c * wheel[at]);
+            constant += weight * (v * rail[at] - rim * self.frame.tangential(wheel, at));
         }
-        let [stretch_wheel, stretch_rail] = [0, 1].map(|b| self.stretch(&self.traction.surface[b], i, row, to_right));
+        let [stretch_wheel, stretch_rail] = self.stretches(i, row, to_right);
         let mut rigid = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
-        constant += -v * stretch_rail + v_c * stretch_wheel;
+        constant += -v * stretch_rail + problem.radius() * self.traction.rigid[2] * stretch_wheel;
         for (k, motion) in problem.rigid.iter().enumerate() {
             if motion.target().is_none() {
                 rigid[k] += motion.gain * inertial[k];
@@ -111,20 +125,8 @@ impl Iterate<'_> {
     pub(super) fn prepare(&mut self) {
         let (grid, problem) = (self.grid, self.problem);
         for body in 0..2 {
-            let known = &mut self.scratch.known[body];
-            copy(known, problem.bodies.free[body]);
-            let membrane = problem.membrane[body];
-            if membrane.x.is_empty() {
-                continue;
-            }
-            let last = grid.len().saturating_sub(1);
-            for i in 0..=last {
-                let (before, after) = (grid.x[i.saturating_sub(1)], grid.x[(i + 1).min(last)]);
-                let force = -0.5 * (membrane.at(after) - membrane.at(before));
-                if force != 0.0 {
-                    known.axpy(force, &problem.bodies.compliance[body].column(grid.port(i)), 1.0);
-                }
-            }
+            copy(&mut self.scratch.known[body], problem.bodies.free[body]);
+            self.warm(body);
         }
         for (k, motion) in problem.rigid.iter().enumerate() {
             self.scratch.known[0].axpy(motion.known_acceleration(), &problem.bodies.inertial.column(k), 1.0);
@@ -135,6 +137,31 @@ impl Iterate<'_> {
         self.scratch.slip_offset.extend(self.state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
         self.scratch.row.resize(grid.ports(), 0.0);
         self.scratch.centred_slip.resize(grid.len(), 0.0);
+    }
+
+    /// Thermal displacement of one body: swelling at the candidates, and what the gradients of the membrane force cause.
+    fn warm(&mut self, body: usize) {
+        let (grid, problem) = (self.grid, self.problem);
+        let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
+        let GridScratch { known, swelling, membrane, .. } = &mut *self.scratch;
+        let (known, swelling, membrane) = (&mut known[body], &mut swelling[body], &mut membrane[body]);
+        swelling.clear();
+        swelling.extend(grid.x.iter().map(|&x| layer.at(x)).filter(|_| !layer.is_empty()));
+        if force.is_empty() {
+            *membrane = DVector::zeros(0);
+            return;
+        }
+        copy(membrane, known);
+        membrane.fill(0.0);
+        let last = grid.len().saturating_sub(1);
+        for i in 0..=last {
+            let (before, after) = (grid.x[i.saturating_sub(1)], grid.x[(i + 1).min(last)]);
+            let pull = -0.5 * (force.at(after) - force.at(before));
+            if pull != 0.0 {
+                membrane.axpy(pull, &problem.bodies.compliance[body].column(grid.port(i)), 1.0);
+            }
+        }
+        *known += &*membrane;
     }
 
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid values.
@@ -152,25 +179,29 @@ impl Iterate<'_> {
             let acceleration = motion.gain * self.traction.rigid[k];
             self.traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);
         }
+        self.frame.turn = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
         let [v, height, omega] = self.traction.rigid;
-        let v_c = problem.radius() * omega;
-        let to_right = problem.upstream_right(&self.traction.rigid);
+        let (v_c, rim, to_right) = (problem.radius() * omega, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
             if self.state.status[i].is_active() {
                 let dynamic = problem.time.a0 * (u_c[port] - u_p[port]) + self.scratch.slip_offset[i];
-                let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c * (1.0 + d_c) + dynamic;
-                let row = self.scratch.upwind[i];
-                let centred = |u: &DVector<f64>| (u[port + 2] - u[port - 2]) / (2.0 * grid.spacing);
-                let upwind = [u_c, u_p].map(|u| self.stretch(u, i, row, to_right));
-                self.scratch.centred_slip[i] = slip([u_c, u_p].map(centred));
+                let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
+                let upwind = self.stretches(i, self.scratch.upwind[i], to_right);
+                self.scratch.centred_slip[i] = slip(self.centred_stretches(i));
                 (self.state.slip[i], self.state.gap[i]) = (slip(upwind), 0.0);
             } else {
                 (self.state.slip[i], self.scratch.centred_slip[i]) = (0.0, 0.0);
-                self.state.gap[i] = self.scratch.gap[i] + u_c[port + 1] - u_p[port + 1] + height;
+                self.state.gap[i] = self.scratch.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
             }
         }
+    }
+
+    /// Lever arms about the hub centre, see [`observe::lever_arms`] [m].
+    fn lever_arms(&self, i: usize) -> [f64; 2] {
+        let wheel = (self.problem.radius(), &self.frame, &self.traction.surface[0]);
+        observe::lever_arms(self.grid, wheel, &self.state.gap, i)
     }
 }
 

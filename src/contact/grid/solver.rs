@@ -1,9 +1,9 @@
 //! The contact solver on a grid, behind the seam that all contact solvers share.
 
 use super::candidates::ContactGrid;
+use super::frame::{RimFrame, sagitta};
 use super::iterate::{Iterate, copy};
 use super::kernel::KernelCorrection;
-use super::observe;
 use super::state::{GridState, Status};
 use crate::contact::error::ContactError;
 use crate::contact::problem::ContactProblem;
@@ -47,6 +47,7 @@ impl ContactSolver for GridSolver {
             slip: vec![0.0; n],
             gap: vec![0.0; n],
             tangential_gap: vec![History::default(); n],
+            turn: History::default(),
         };
         let traction = Traction { port_forces: ports.clone(), surface: [ports.clone(), ports], ..Traction::default() };
         ContactState { traction, solver: SolverState::Grid(state) }
@@ -72,18 +73,13 @@ impl ContactSolver for GridSolver {
             copy(ours, theirs);
         }
         let scratch = &mut scratch.grid;
-        Iterate { grid: &self.grid, problem, state, traction, scratch }.run()?;
-        let [wheel, rail] = &traction.surface;
-        for (i, history) in state.tangential_gap.iter_mut().enumerate() {
-            let port = self.grid.port(i);
-            let value = wheel[port] - rail[port];
-            match problem.time.is_stationary() {
-                true => *history = History::constant(value),
-                false => history.push(&problem.time, value),
-            }
-        }
-        observe::read_off(&self.grid, problem.radius(), state, &scratch.centred_slip, traction);
-        Ok(())
+        let (grid, radius) = (&self.grid, problem.surfaces.radius);
+        let mut heights = std::mem::take(&mut scratch.sagitta);
+        sagitta(grid, radius, &mut heights);
+        let frame = RimFrame { grid, radius, sagitta: &heights, turn: 0.0 };
+        let solved = Iterate { grid, problem, state, traction, scratch, frame }.run();
+        scratch.sagitta = heights;
+        solved
     }
 
     fn surface_strain(&self, traction: &Traction) -> [Piecewise; 2] {

@@ -62,6 +62,9 @@ pub struct GridState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
+    /// Angle by which the rim under the contact has turned against the hub, and its history, positive where the tread
+    /// moves towards `+x` \[rad].
+    pub turn: History,
 }
 
 impl GridState {
@@ -71,5 +74,6 @@ impl GridState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
+        self.turn = other.turn;
     }
 }

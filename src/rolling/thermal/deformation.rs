@@ -46,13 +46,14 @@ impl Expansion {
     /// Writes the deformation that belongs to the temperatures `seen` at the positions `x` [m].
     pub fn deform(&self, x: &[f64], seen: &Observation, out: &mut ThermalDeformation) {
         out.radius_growth = self.radius_growth(seen.temperatures.wheel_mean);
-        let [wheel, rail] = &seen.layer;
-        let [of_wheel, of_rail] = &mut out.membrane_force;
-        [&mut out.swelling, &mut *of_wheel, &mut *of_rail].into_iter().for_each(|profile| profile.clear());
-        for (&x, (w, r)) in x.iter().zip(wheel.iter().zip(rail)) {
-            out.swelling.push(x, self.swelling * (w + r));
-            of_wheel.push(x, self.membrane * w);
-            of_rail.push(x, self.membrane * r);
+        for (body, layer) in seen.layer.iter().enumerate() {
+            let (swelling, force) = (&mut out.swelling[body], &mut out.membrane_force[body]);
+            swelling.clear();
+            force.clear();
+            for (&x, heat) in x.iter().zip(layer) {
+                swelling.push(x, self.swelling * heat);
+                force.push(x, self.membrane * heat);
+            }
         }
     }
 }

@@ -193,12 +193,8 @@ impl ThermalModel {
         mix(earlier, before.heating.before);
         let (ours, theirs) = (&mut thermal.deformation, &before.deformation);
         mix(&mut ours.radius_growth, theirs.radius_growth);
-        let [wheel, rail] = &mut ours.membrane_force;
-        for (now, before) in [&mut ours.swelling, wheel, rail].into_iter().zip([
-            &theirs.swelling,
-            &theirs.membrane_force[0],
-            &theirs.membrane_force[1],
-        ]) {
+        let layers = ours.swelling.iter_mut().chain(&mut ours.membrane_force);
+        for (now, before) in layers.zip(theirs.swelling.iter().chain(&theirs.membrane_force)) {
             now.value.iter_mut().zip(&before.value).for_each(|(now, before)| mix(now, *before));
         }
     }
@@ -206,7 +202,7 @@ impl ThermalModel {
     /// Whether temperatures have the dimensions of this model.
     pub fn fits(&self, thermal: &ThermalState) -> bool {
         let deformation = &thermal.deformation;
-        let profiles = deformation.membrane_force.iter().chain([&deformation.swelling]);
+        let profiles = deformation.membrane_force.iter().chain(&deformation.swelling);
         self.heat.fits(&thermal.fields)
             && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
             && profiles.clone().all(|profile| profile.check().is_ok())

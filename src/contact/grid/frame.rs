@@ -1,0 +1,57 @@
+//! The frame that turns with the rim.
+//!
+//! The torsion of the wheel between hub and rim turns the rim as a whole. For a round rim that is no change of geometry,
+//! but in linear kinematics a turn `θ` moves the surface by `θ (√(r² − x²), x)`: it tilts the gap and moves the patch to
+//! `−θr`. Gap, strains and lever arms are therefore those of the displacement *relative to the turned rim*,
+//! `û = u − θ (√(r² − x²), x)`, where `θ` makes the pressure-weighted mean of `û_x` vanish. The material passes the contact
+//! with the velocity of the rim, `r (Ω − θ̇)`. Derivation: `docs/theory/lever-arms.md`.
+
+use super::candidates::ContactGrid;
+use nalgebra::DVector;
+
+/// Displacements of the wheel surface as seen from the turned rim.
+#[derive(Clone, Copy)]
+pub(super) struct RimFrame<'a> {
+    pub grid: &'a ContactGrid,
+    /// Radius of the round wheel [m].
+    pub radius: f64,
+    /// Height of the circle over its lowest point at all nodes, guards included [m].
+    pub sagitta: &'a [f64],
+    /// Angle of the rim against the hub, positive where the tread moves towards `+x` [rad].
+    pub turn: f64,
+}
+
+impl RimFrame<'_> {
+    /// `û_x` [m] at an x port of the displacement `u` of the wheel surface.
+    pub fn tangential(&self, u: &DVector<f64>, port: usize) -> f64 {
+        u[port] - self.turn * (self.radius - self.sagitta[port / 2])
+    }
+
+    /// `û_y` [m] at candidate `i`.
+    pub fn normal(&self, u: &DVector<f64>, i: usize) -> f64 {
+        u[self.grid.port(i) + 1] - self.turn * self.grid.x[i]
+    }
+
+    /// Angle [rad] at which the mean of `û_x`, weighted with the nodal normal `forces`, vanishes; without any, that at which it
+    /// vanishes at the middle of the zone.
+    pub fn angle(&self, u: &DVector<f64>, forces: &DVector<f64>) -> f64 {
+        let (mut moved, mut arm) = (0.0, 0.0);
+        for i in 0..self.grid.len() {
+            let port = self.grid.port(i);
+            let weight = forces[port + 1].max(0.0);
+            moved += weight * u[port];
+            arm += weight * (self.radius - self.sagitta[port / 2]);
+        }
+        if arm > 0.0 { moved / arm } else { u[self.grid.port(self.grid.len() / 2)] / self.radius }
+    }
+}
+
+/// Writes the height of a circle over its lowest point at all nodes of the grid, guards included [m].
+pub(super) fn sagitta(grid: &ContactGrid, radius: f64, heights: &mut Vec<f64>) {
+    heights.clear();
+    let first = grid.x.first().copied().unwrap_or(0.0) - grid.guard as f64 * grid.spacing;
+    heights.extend((0..grid.ports() / 2).map(|node| {
+        let x = first + node as f64 * grid.spacing;
+        x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())
+    }));
+}
