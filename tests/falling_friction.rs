@@ -75,7 +75,8 @@ fn growth(values: &[f64], h: f64) -> (f64, f64) {
         let square: f64 = (0..values.len()).filter(inside).map(|k| (values[k] - mean).powi(2)).sum::<f64>() * h;
         points.push((0.5 * (period[0] + period[2]), 0.5 * (square / (period[2] - period[0])).ln()));
     }
-    let frequency = std::f64::consts::PI * (crossings.len() - 1) as f64 / (crossings[crossings.len() - 1] - crossings[0]);
+    let frequency =
+        std::f64::consts::PI * (crossings.len() - 1) as f64 / (crossings[crossings.len() - 1] - crossings[0]);
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
     let (xy, xx) = points.iter().fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x).powi(2)));
@@ -168,7 +169,10 @@ fn lock_up_breaking_loose_reversal_and_standstill_find_their_coefficient_at_ever
         (inputs.drive.omega, inputs.drive.velocity) = (0.0, 0.0);
         drive(&mut simulation, &inputs, h, steps(0.1));
         let o = simulation.outputs();
-        println!("h {h:.0e} s, load {load}: at rest slip {:+.2e} m/s, friction {:.4}", o.contact_tread_slip, o.friction);
+        println!(
+            "h {h:.0e} s, load {load}: at rest slip {:+.2e} m/s, friction {:.4}",
+            o.contact_tread_slip, o.friction
+        );
         assert!(o.contact_tread_slip.abs() < 0.1 && o.friction > 0.5, "{}", o.contact_tread_slip);
     }
 }
@@ -180,12 +184,13 @@ fn a_law_that_slip_does_not_change_costs_no_iteration() {
         let tuning = Tuning { falling_ratio: ratio, falling_decay: decay, ..model.config().tuning.clone() };
         let mut inputs = prescribed(&model, 20.0, 0.0);
         let mut simulation = Simulation::start(model, tuning, &inputs).unwrap();
-        (0..100u32).map(|k| {
-            inputs.drive.omega = 20.0 / 0.46 * (1.0 - 1e-5 * f64::from(k));
-            simulation.advance(&inputs, 1e-3).unwrap();
-            simulation.outputs().iterations
-        })
-        .sum::<u64>()
+        (0..100u32)
+            .map(|k| {
+                inputs.drive.omega = 20.0 / 0.46 * (1.0 - 1e-5 * f64::from(k));
+                simulation.advance(&inputs, 1e-3).unwrap();
+                simulation.outputs().iterations
+            })
+            .sum::<u64>()
     };
     let [constant, idle] = [iterations(1.0, 0.0), iterations(1.0, 5.0)];
     println!("{constant} iterations");
@@ -208,7 +213,8 @@ fn a_remembering_contact_follows_the_law_over_the_sliding_distance() {
     for k in 1..=400 {
         simulation.advance(&inputs, h).unwrap();
         let o = simulation.outputs();
-        let law = 0.5 * fresh * (tuning.falling_ratio + (1.0 - tuning.falling_ratio) * (-tuning.falling_decay * slip).exp());
+        let law =
+            0.5 * fresh * (tuning.falling_ratio + (1.0 - tuning.falling_ratio) * (-tuning.falling_decay * slip).exp());
         let expected = law + (start - law) * (-slip * f64::from(k) * h / length).exp();
         // The slip rings a little while the force falls.
         assert!((o.friction / expected - 1.0).abs() < 0.02, "{} for {expected} after {k} ms", o.friction);
@@ -257,7 +263,8 @@ fn derivatives_see_the_friction_that_falls() {
         };
         let mut inputs = *inputs;
         inputs.drive.velocity += by;
-        let checkpoint = wheelrail::simulation::Checkpoint { state: (**state).clone(), ..simulation.checkpoint().clone() };
+        let checkpoint =
+            wheelrail::simulation::Checkpoint { state: (**state).clone(), ..simulation.checkpoint().clone() };
         let mut repeated = Simulation::resume(model.clone(), tuning, checkpoint).unwrap();
         repeated.advance(&inputs, *length).unwrap();
         repeated.outputs().friction

@@ -160,6 +160,7 @@ impl ContactSolver for Hertz {
             port_forces: forces,
             rigid,
             friction_power: 0.0,
+            friction_work: 0.0,
             expansion_power: 0.0,
             friction: problem.friction.coefficient(slip),
             tread_slip: slip,

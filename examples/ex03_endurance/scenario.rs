@@ -116,7 +116,7 @@ impl Drive {
     /// Unaccounted and dissipated energy since the start, whole wheel [J].
     fn imbalance(&self) -> (f64, f64) {
         let (audit, width) = (&self.simulation.state().audit, self.simulation.model().config().model.contact_width);
-        (audit.imbalance() * width, audit.dissipation * width)
+        (audit.imbalance() * width, audit.dissipation() * width)
     }
 
     /// Inputs of the next step.

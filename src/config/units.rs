@@ -53,6 +53,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "N", exponents: [1, 1, -2, 0, 0], displays: &[times("kN", 1e-3)] },
     Unit { name: "N.m", exponents: [1, 2, -2, 0, 0], displays: &[times("kN.m", 1e-3)] },
     Unit { name: "Pa", exponents: [1, -1, -2, 0, 0], displays: &[times("MPa", 1e-6), times("GPa", 1e-9)] },
+    Unit { name: "J", exponents: [1, 2, -2, 0, 0], displays: &[times("kJ", 1e-3)] },
     Unit { name: "W", exponents: [1, 2, -3, 0, 0], displays: &[times("kW", 1e-3)] },
     Unit { name: "kg/m3", exponents: [1, -3, 0, 0, 0], displays: &[] },
     Unit { name: "kg.m2", exponents: [1, 2, 0, 0, 0], displays: &[] },

@@ -228,7 +228,9 @@ mod tests {
         let law = FrictionLaw { falling_ratio: 0.5, falling_decay: 1e3, softening: 0.0, memory_length: 0.01, ..LAW };
         let (mut mu, slip, dt) = (0.3, 2.0, 1e-3);
         for _ in 0..10 {
-            mu = Friction::local(law, 0.3, Heating::default(), 0.0).after(dt, mu, slip, Heating::default()).coefficient(slip);
+            mu = Friction::local(law, 0.3, Heating::default(), 0.0)
+                .after(dt, mu, slip, Heating::default())
+                .coefficient(slip);
         }
         assert!((mu - (0.15 + 0.15 * (-2.0f64).exp())).abs() < 1e-14);
         let stuck = Friction::local(law, 0.3, Heating::default(), 0.0).after(dt, mu, 0.0, Heating::default());

@@ -99,6 +99,8 @@ pub struct ContactProblem<'a> {
     pub rigid: [RigidMotion; 3],
     /// Formula for `d_t`; all zero: stationary.
     pub time: TimeDerivative,
+    /// Length of the step \[s]; zero: stationary.
+    pub duration: f64,
     /// Shapes of the undeformed surfaces.
     pub surfaces: &'a Surfaces,
     /// Where on them the wheel stands, and how heat has changed them.

@@ -68,6 +68,8 @@ impl ContactState {
         self.traction.rest();
         if let SolverState::Grid(grid) = &mut self.solver {
             grid.slip.fill(0.0);
+            grid.friction.slip.fill(0.0);
+            grid.friction.slope_power = 0.0;
         }
     }
 

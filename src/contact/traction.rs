@@ -26,6 +26,8 @@ pub struct Traction {
     /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
     /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
     pub tread_slip: f64,
+    /// Energy dissipated by friction in the step [J/m].
+    pub friction_work: f64,
     /// Power that material adds by expanding and shrinking with its temperature as it passes the contact [W/m].
     pub expansion_power: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
@@ -45,7 +47,8 @@ pub struct Traction {
     /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the friction
     /// power.
     pub slip: Piecewise,
-    /// Where friction dissipates [W/m²]; integrates to the friction power.
+    /// Where friction has dissipated in the step [W/m²]; integrates to the mean power of the step, in a stationary state to
+    /// the friction power.
     pub dissipation: Piecewise,
     /// Iterations that finding them took, without those of the search for the coefficient.
     pub iterations: usize,
@@ -64,7 +67,7 @@ impl Traction {
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.
     pub fn rest(&mut self) {
-        (self.friction_power, self.tread_slip) = (0.0, 0.0);
+        (self.friction_power, self.friction_work, self.tread_slip) = (0.0, 0.0, 0.0);
         self.slip.value.fill(0.0);
         self.dissipation.value.fill(0.0);
     }

@@ -109,6 +109,28 @@ impl HeatFlows {
         if largest > 0.0 { worst / largest } else { 0.0 }
     }
 
+    /// Adds a share of other flows: the sum over all steps with their shares of the time is the mean.
+    pub fn add(&mut self, share: f64, other: &Self) {
+        let Self { friction, tread, conduction, to_wheel, to_rail, to_hub, outflow, .. } = self;
+        let Self { wheel_to_air, rail_to_air, stored_wheel, stored_rail, iterations, .. } = other;
+        for (mean, flow) in [
+            (friction, other.friction),
+            (tread, other.tread),
+            (conduction, other.conduction),
+            (to_wheel, other.to_wheel),
+            (to_rail, other.to_rail),
+            (to_hub, other.to_hub),
+            (outflow, other.outflow),
+            (&mut self.wheel_to_air, *wheel_to_air),
+            (&mut self.rail_to_air, *rail_to_air),
+            (&mut self.stored_wheel, *stored_wheel),
+            (&mut self.stored_rail, *stored_rail),
+        ] {
+            *mean += share * flow;
+        }
+        self.iterations += iterations;
+    }
+
     fn all(&self) -> [f64; 9] {
         [
             self.friction,

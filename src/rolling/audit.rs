@@ -16,18 +16,13 @@ pub fn energy(model: &Model, state: &State) -> f64 {
         + model.contact.solver.correction_energy(&state.contact.traction)
 }
 
-/// Power that leaves the mechanical balance of a state: friction, damping, radiation [W/m].
-pub fn dissipated_power(model: &Model, state: &State) -> f64 {
-    state.contact.traction.friction_power + model.bodies.dissipation(state)
-}
-
 /// Balance at a stationary start.
 pub fn start(model: &Model, state: &State) -> Audit {
     let energy = energy(model, state);
     Audit {
         initial_energy: energy,
         energy,
-        dissipated_power: dissipated_power(model, state),
+        damping_power: model.bodies.dissipation(state),
         expansion_power: state.contact.traction.expansion_power,
         ..Audit::default()
     }
@@ -39,21 +34,23 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
-    let power = dissipated_power(model, next);
-    let dissipated = td.impulse(power, before.dissipated_power, before.dissipated);
-    let expansion_power = next.contact.traction.expansion_power;
+    let traction = &next.contact.traction;
+    let damping_power = model.bodies.dissipation(next);
+    let damped = td.impulse(damping_power, before.damping_power, before.damped);
+    let expansion_power = traction.expansion_power;
     let expanded = td.impulse(expansion_power, before.expansion_power, before.expanded);
     Audit {
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
         thermal_work: before.thermal_work + expanded,
-        dissipation: before.dissipation + dissipated,
+        friction: before.friction + traction.friction_work,
+        damping: before.damping + damped,
         throughput: before.throughput + work.abs(),
-        dissipated_power: power,
+        damping_power,
         expansion_power,
         impulse,
-        dissipated,
+        damped,
         expanded,
     }
 }

@@ -5,8 +5,8 @@ use super::error::StepError;
 use super::state::{State, ThermalDeformation};
 use crate::config::{Config, Tuning};
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, FrictionLaw, Placement, RigidMotion, Scratch,
-    SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, FrictionLaw, Placement,
+    RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
@@ -36,6 +36,8 @@ pub struct ContactStep<'a> {
     pub rigid: [RigidMotion; 3],
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
+    /// Length of the step \[s]; zero: stationary.
+    pub duration: f64,
     /// Distance travelled \[m] and angle turned \[rad] at the end of the step, as predicted.
     pub place: [f64; 2],
     /// How heat has deformed the bodies.
@@ -88,6 +90,7 @@ impl ContactModel {
             membrane: [&membrane_force[0], &membrane_force[1]],
             rigid: step.rigid,
             time: step.time,
+            duration: step.duration,
             surfaces: &self.surfaces,
             placement: Placement { distance, angle, growth: *radius_growth, swelling: [&swelling[0], &swelling[1]] },
             friction: step.friction,

@@ -297,7 +297,8 @@ mod tests {
     #[test]
     fn creepage_slide_and_energy_per_metre_know_one_standstill() {
         let all = |v: f64, v_c: f64| [creepage(v, v_c), slide(v, v_c), per_metre(1e3, v, v_c)];
-        for (v, v_c) in [(0.0, 0.0), (0.5, 0.49), (-0.9, 0.09), (0.0, -0.99)].map(|(v, c)| (v * STANDSTILL, c * STANDSTILL))
+        for (v, v_c) in
+            [(0.0, 0.0), (0.5, 0.49), (-0.9, 0.09), (0.0, -0.99)].map(|(v, c)| (v * STANDSTILL, c * STANDSTILL))
         {
             assert_eq!(all(v, v_c), [0.0; 3]);
         }

@@ -150,7 +150,7 @@ outputs! {
     502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,
         "Moment that drives the hub, prescribed or reaction, forward positive; conjugate to wheel.omega";
     600 friction_power: real "heat.friction_power", in "W" as "kW", nominal 1e4,
-        "Power dissipated by friction in the contact patch";
+        "Mean power dissipated by friction in the contact patch over the last communication step";
     312 friction: real "contact.friction", in "1", from 0.0, nominal 0.3,
         "Friction coefficient that holds now: rail.friction with the dependence on slip and temperature";
     313 contact_tread_slip: real "contact.tread_slip", in "m/s" as "mm/s", nominal 1e-2,
@@ -195,6 +195,17 @@ outputs! {
     802 energy_residual: real "solver.energy_residual", in "1", nominal 1e-2, start zero,
         "Energy balance since the start: unaccounted over dissipated energy, at least the elastic energy of the \
          contact";
+    810 hub_work: real "energy.hub_work", in "J" as "kJ", nominal 1e5, start zero,
+        "Work of the hub forces and the hub moment since the start";
+    811 thermal_work: real "energy.thermal_work", in "J" as "kJ", nominal 1e2, start zero,
+        "Work of thermal expansion against the contact forces since the start";
+    812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
+        "Growth of kinetic and elastic energy since the start; with friction, damping and solver.energy_residual it \
+         balances energy.hub_work + energy.thermal_work";
+    813 friction_energy: real "energy.friction", in "J" as "kJ", nominal 1e5, start zero,
+        "Energy dissipated by friction since the start";
+    814 damping_energy: real "energy.damping", in "J" as "kJ", nominal 1e2, start zero,
+        "Energy dissipated by damping since the start";
     10000 profile_x: profile "profile.x", in "m" as "mm", nominal 5e-3,
         "Position across the contact patch, positive ahead of the wheel centre";
     11000 profile_pressure: profile "profile.pressure", in "Pa" as "MPa", nominal 1e9, "Contact pressure";

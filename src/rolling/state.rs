@@ -46,6 +46,8 @@ pub struct State {
     pub internal_steps: u64,
     /// Contact iterations of the last communication step.
     pub iterations: u64,
+    /// Mean power of friction over the last communication step; at the start the stationary one [W/m].
+    pub friction_power: f64,
     /// Energy balance.
     pub audit: Audit,
 }
@@ -93,7 +95,7 @@ impl Motion {
 pub struct ThermalState {
     /// Both temperature fields.
     pub fields: HeatState,
-    /// Mean heat flows over the last step [W/m].
+    /// Mean heat flows over the last communication step [W/m].
     pub flows: HeatFlows,
     /// Excess temperatures \[K].
     pub temperatures: Temperatures,
@@ -152,31 +154,38 @@ pub struct Audit {
     pub work: f64,
     /// Work of thermal expansion against the contact forces [J/m].
     pub thermal_work: f64,
-    /// Energy lost to friction, damping and radiation [J/m].
-    pub dissipation: f64,
+    /// Energy lost to friction [J/m].
+    pub friction: f64,
+    /// Energy lost to damping and radiation [J/m].
+    pub damping: f64,
     /// Sum of the absolute work of all steps [J/m]: the scale of the round-off.
     pub throughput: f64,
-    /// Present power of friction, damping and radiation [W/m].
-    pub dissipated_power: f64,
+    /// Present power of damping and radiation [W/m].
+    pub damping_power: f64,
     /// Present power of material that expands as it passes the contact [W/m].
     pub expansion_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
     pub impulse: [f64; 3],
-    /// Energy that was dissipated in it [J/m].
-    pub dissipated: f64,
+    /// Energy lost to damping and radiation in it [J/m].
+    pub damped: f64,
     /// Work of the passing material in it [J/m].
     pub expanded: f64,
 }
 
 impl Audit {
+    /// Energy lost to friction, damping and radiation [J/m].
+    pub fn dissipation(&self) -> f64 {
+        self.friction + self.damping
+    }
+
     /// Energy that has vanished in the numerics [J/m].
     pub fn imbalance(&self) -> f64 {
-        self.work + self.thermal_work - (self.energy - self.initial_energy) - self.dissipation
+        self.work + self.thermal_work - (self.energy - self.initial_energy) - self.dissipation()
     }
 
     /// Imbalance relative to the dissipated energy \[1], or to the energy `stored` [J/m] in the loaded contact or a
     /// millionth of the energy moved, where those are more.
     pub fn residual(&self, stored: f64) -> f64 {
-        self.imbalance() / self.dissipation.max(1e-6 * self.throughput).max(stored)
+        self.imbalance() / self.dissipation().max(1e-6 * self.throughput).max(stored)
     }
 }

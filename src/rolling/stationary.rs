@@ -191,6 +191,7 @@ fn pass(
         free,
         rigid: goal.motions(model, *accelerations, height, free[0].momentum[1]),
         time: td,
+        duration: 0.0,
         place: [0.0; 2],
         deformation: state.deformation(),
         friction,
@@ -231,6 +232,7 @@ fn complete(model: &Model, goal: &Goal, accelerations: [f64; 3], mut state: Stat
         hub_velocity: History::default(),
     };
     state.control = substeps::unlimited(&state);
+    state.friction_power = state.contact.traction.friction_power;
     state.audit = audit::start(model, &state);
     state
 }

@@ -127,6 +127,7 @@ fn solve_and_commit(
         free,
         rigid: model.wheel.motions(&state.motion, drives, td, *speeds, free[0].momentum),
         time: *td,
+        duration: *dt,
         place: [
             moved_by(state.distance, &state.motion.velocity, speeds[0], *dt),
             moved_by(state.angle, &state.motion.omega, speeds[1], *dt),

@@ -19,6 +19,7 @@ use super::model::{Model, Workspace};
 use super::state::{State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
+use crate::heat::HeatFlows;
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -143,6 +144,7 @@ fn march(
         place.halve();
     }
     let (mut last_step, mut failures, mut begun, mut counts) = (state.last_step, 0, false, [0, 0]);
+    let mut flows = HeatFlows::default();
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
@@ -174,11 +176,18 @@ fn march(
             place.join(fewest);
         }
         counts = [counts[0] + 1, counts[1] + next.contact.traction.iterations as u64];
+        if let Some(thermal) = &next.thermal {
+            flows.add(dt / ramp.h, &thermal.flows);
+        }
         last_step = next.last_step;
         begun = true;
         std::mem::swap(now, next);
     }
     now.control = control;
+    now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
+    if let Some(thermal) = &mut now.thermal {
+        thermal.flows = flows;
+    }
     [now.internal_steps, now.iterations] = counts;
     Ok(())
 }

@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::grid::{ContactGrid, GridSolver, GridState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, Placement, RigidMotion, Scratch, SolverState,
-    SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, Placement, RigidMotion, Scratch,
+    SolverState, SurfaceResponse, Surfaces,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -82,6 +82,7 @@ impl HalfPlanes {
             membrane: [&flat, &flat],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             time: TimeDerivative::default(),
+            duration: 0.0,
             surfaces: &self.surfaces,
             placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: [&flat, &flat] },
             friction: Friction::constant(FRICTION),

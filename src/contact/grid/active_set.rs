@@ -15,7 +15,7 @@
 
 use super::coefficient::CoefficientSearch;
 use super::iterate::{GridScratch, Iterate};
-use super::observe::{self, Found};
+use super::observe;
 use super::power::Power;
 use super::rows::AffineRow;
 use super::state::Status;
@@ -374,10 +374,11 @@ impl Iterate<'_> {
         push(&mut state.turn, frame.turn);
         let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
         let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
-        let (friction, expansion) = (power.friction(), power.expansion());
-        (traction.friction_power, traction.expansion_power) = (friction, expansion);
-        let found = Found { radius: problem.radius(), frame };
-        observe::read_off(grid, &found, state, &scratch.centred_slip, traction);
+        let ([friction, work], expansion) = (power.friction(&problem.time, &mut state.friction), power.expansion());
+        (traction.friction_power, traction.friction_work, traction.expansion_power) = (friction, work, expansion);
+        let mean = if problem.duration > 0.0 { work / problem.duration } else { friction };
+        traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, traction);
+        observe::read_off(grid, mean.max(0.0), state, &scratch.centred_slip, traction);
     }
 
     fn check_zone(&self) -> Result<(), ContactError> {

@@ -21,4 +21,4 @@ pub use active_set::MAX_ITERATIONS;
 pub use candidates::ContactGrid;
 pub use iterate::GridScratch;
 pub use solver::GridSolver;
-pub use state::{GridState, Status, for_each_patch};
+pub use state::{FrictionHistory, GridState, Status, for_each_patch};

@@ -15,14 +15,6 @@ const PEAK: f64 = 0.9;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
-/// What the traction is read off from, besides states and forces.
-pub(super) struct Found<'a> {
-    /// Rolling radius of the wheel [m].
-    pub radius: f64,
-    /// Turn of the rim.
-    pub frame: RimFrame<'a>,
-}
-
 /// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m]; `wheel`: rolling radius,
 /// turn of the rim and surface displacement.
 ///
@@ -42,16 +34,9 @@ pub(super) fn lever_arms(
     [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope]
 }
 
-/// Fills everything in `traction` that follows from its port forces, surfaces, friction coefficient and friction power, and from the slip velocities
-/// of the candidates `centred_slip` [m/s].
-pub(super) fn read_off(
-    grid: &ContactGrid,
-    found: &Found,
-    state: &GridState,
-    centred_slip: &[f64],
-    traction: &mut Traction,
-) {
-    traction.resultant = resultant(grid, found, state, traction);
+/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the mean power of
+/// friction in the step `mean_power` [W/m] and the slip velocities of the candidates `centred_slip` [m/s].
+pub fn read_off(grid: &ContactGrid, mean_power: f64, state: &GridState, centred_slip: &[f64], traction: &mut Traction) {
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
@@ -80,12 +65,19 @@ pub(super) fn read_off(
         Status::Stick | Status::Open => 0.0,
     };
     over_patches(grid, status, patches, density, &mut traction.dissipation);
-    scale_to(&mut traction.dissipation, traction.friction_power, &traction.pressure);
+    scale_to(&mut traction.dissipation, mean_power, &traction.pressure);
 }
 
-/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
-fn resultant(grid: &ContactGrid, found: &Found, state: &GridState, traction: &Traction) -> [f64; 3] {
-    let wheel = (found.radius, &found.frame, &traction.surface[0]);
+/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling
+/// radius [m].
+pub(super) fn resultant(
+    grid: &ContactGrid,
+    radius: f64,
+    frame: &RimFrame,
+    state: &GridState,
+    traction: &Traction,
+) -> [f64; 3] {
+    let wheel = (radius, frame, &traction.surface[0]);
     let mut sum = [0.0; 3];
     for i in 0..grid.len() {
         let port = grid.port(i);

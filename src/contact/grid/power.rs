@@ -5,7 +5,9 @@
 
 use super::candidates::ContactGrid;
 use super::frame::RimFrame;
+use super::state::FrictionHistory;
 use crate::contact::traction::Traction;
+use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
 
 /// Contact forces and motions of a solution.
@@ -25,17 +27,34 @@ pub(super) struct Power<'a> {
 }
 
 impl Power<'_> {
-    /// Power [W/m] that friction dissipates: contact forces times relative velocity, tangential and normal. Where the
-    /// surfaces slide over each other, pressure acts on the slope of the deformed rail.
-    pub fn friction(&self) -> f64 {
-        let rigid_slip = self.traction.rigid[0] - self.rim_velocity;
+    /// Power [W/m] that friction dissipates, contact forces times relative velocity, and its energy in a step with the time
+    /// formula `time` [J/m]: the impulse of every force times the mean velocity.
+    pub fn friction(&self, time: &TimeDerivative, history: &mut FrictionHistory) -> [f64; 2] {
+        let slope_power = self.slope_power();
+        let (mut power, mut work) = (slope_power, 0.0);
+        for i in 0..self.grid.len() {
+            let ([force, _], slip) = (self.forces(i), self.slip[i]);
+            power -= force * slip;
+            if !time.is_stationary() {
+                history.impulse[i] = time.impulse(force, history.force[i], history.impulse[i]);
+                work -= history.impulse[i] * 0.5 * (history.slip[i] + slip);
+            }
+            (history.force[i], history.slip[i]) = (force, slip);
+        }
+        if !time.is_stationary() {
+            history.slope_work = time.impulse(slope_power, history.slope_power, history.slope_work);
+            work += history.slope_work;
+        }
+        history.slope_power = slope_power;
+        [power, work]
+    }
+
+    /// Power [W/m] of pressure on the slope of the deformed rail where the surfaces slide over each other.
+    fn slope_power(&self) -> f64 {
         let rail = &self.traction.surface[1];
-        let of_node = |i: usize| {
-            let [tangential, normal] = self.forces(i);
-            let slope = self.slope(rail, self.grid.port(i) + 1) + self.swelling_slope(1, i);
-            tangential * self.slip[i] + normal * rigid_slip * slope
-        };
-        -(0..self.grid.len()).map(of_node).sum::<f64>()
+        let slope = |i: usize| self.slope(rail, self.grid.port(i) + 1) + self.swelling_slope(1, i);
+        let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
+        (self.rim_velocity - self.traction.rigid[0]) * load
     }
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the change of

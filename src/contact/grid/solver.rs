@@ -4,7 +4,7 @@ use super::candidates::ContactGrid;
 use super::frame::{RimFrame, sagitta};
 use super::iterate::{Iterate, copy};
 use super::kernel::KernelCorrection;
-use super::state::{GridState, Status};
+use super::state::{FrictionHistory, GridState, Status};
 use crate::contact::error::ContactError;
 use crate::contact::problem::ContactProblem;
 use crate::contact::solver::{ContactSolver, ContactState, Scratch, SolverState};
@@ -47,6 +47,7 @@ impl ContactSolver for GridSolver {
             slip: vec![0.0; n],
             gap: vec![0.0; n],
             tangential_gap: vec![History::default(); n],
+            friction: FrictionHistory::none(n),
             turn: History::default(),
         };
         let traction = Traction { port_forces: ports.clone(), surface: [ports.clone(), ports], ..Traction::default() };
@@ -96,7 +97,9 @@ impl ContactSolver for GridSolver {
     fn fits(&self, state: &ContactState) -> bool {
         let SolverState::Grid(grid) = &state.solver else { return false };
         let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
+        let FrictionHistory { force, impulse, slip, .. } = &grid.friction;
         [grid.status.len(), grid.slip.len(), grid.gap.len(), grid.tangential_gap.len()] == [n; 4]
+            && [force.len(), impulse.len(), slip.len()] == [n; 3]
             && [traction.port_forces.len(), traction.surface[0].len(), traction.surface[1].len()] == [ports; 3]
             && traction.port_forces.iter().all(|f| f.is_finite())
     }

@@ -50,6 +50,37 @@ pub fn for_each_patch(status: &[Status], mut f: impl FnMut(std::ops::Range<usize
     }
 }
 
+/// Friction at the end of the last step, and what the time formula attributes to that step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FrictionHistory {
+    /// Friction forces on the wheel at the candidates [N/m].
+    pub force: Vec<f64>,
+    /// Their impulses in the last step [N s/m].
+    pub impulse: Vec<f64>,
+    /// Slip velocities there with central differences [m/s].
+    pub slip: Vec<f64>,
+    /// Power of pressure on the sliding slope of the rail [W/m].
+    pub slope_power: f64,
+    /// Its work in the last step [J/m].
+    pub slope_work: f64,
+}
+
+impl FrictionHistory {
+    /// Nothing has acted yet at `n` candidates.
+    pub fn none(n: usize) -> Self {
+        let zeros = || vec![0.0; n];
+        Self { force: zeros(), impulse: zeros(), slip: zeros(), slope_power: 0.0, slope_work: 0.0 }
+    }
+
+    /// Becomes equal to another one and keeps its memory.
+    fn copy_from(&mut self, other: &Self) {
+        self.force.clone_from(&other.force);
+        self.impulse.clone_from(&other.impulse);
+        self.slip.clone_from(&other.slip);
+        (self.slope_power, self.slope_work) = (other.slope_power, other.slope_work);
+    }
+}
+
 /// What the solver on the grid remembers from step to step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GridState {
@@ -62,6 +93,8 @@ pub struct GridState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
+    /// What the work of friction in the coming step depends on.
+    pub friction: FrictionHistory,
     /// Angle by which the rim under the contact has turned against the hub, and its history, positive where the tread
     /// moves towards `+x` \[rad].
     pub turn: History,
@@ -74,6 +107,7 @@ impl GridState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
+        self.friction.copy_from(&other.friction);
         self.turn = other.turn;
     }
 }

@@ -146,12 +146,7 @@ impl ThermalModel {
     }
 
     /// Fills all that follows from the temperature fields.
-    fn observe(
-        &self,
-        touch: &Touch,
-        thermal: &mut ThermalState,
-        seen: &mut Observation,
-    ) -> Result<(), StepError> {
+    fn observe(&self, touch: &Touch, thermal: &mut ThermalState, seen: &mut Observation) -> Result<(), StepError> {
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
         if self.thermoelastic.is_some() {
