@@ -61,7 +61,7 @@ struct Memory {
     slip: f64,
     /// Coefficient [1].
     coefficient: f64,
-    /// What the law gives at this slip and temperature [1].
+    /// What the law gives at this slip and at the temperature of this coefficient [1].
     local: f64,
 }
 
@@ -92,7 +92,9 @@ impl Friction {
     /// under the `heating` of that time; they matter if the law has a memory.
     pub fn after(mut self, dt: f64, coefficient: f64, slip: f64, heating: Heating) -> Self {
         if self.law.memory_length > 0.0 {
-            let local = Self::local(self.law, self.available, heating, 0.0).coefficient(slip);
+            let FrictionLaw { softening, softening_floor, .. } = self.law;
+            let hot = (1.0 - softening * heating.now.max(0.0) * coefficient).max(softening_floor);
+            let local = self.available * self.falling(slip) * hot;
             self.memory = Some(Memory { reach: dt / self.law.memory_length, slip: slip.abs(), coefficient, local });
         }
         self
@@ -105,10 +107,14 @@ impl Friction {
 
     /// Coefficient \[1] at the mean `slip` velocity [m/s] at the end of the step.
     pub fn coefficient(&self, slip: f64) -> f64 {
-        let FrictionLaw { falling_ratio, falling_decay, .. } = self.law;
-        let falling = falling_ratio + (1.0 - falling_ratio) * (-falling_decay * slip.abs()).exp();
         let [weight, rest] = self.memory.map_or([1.0, 0.0], |memory| memory.weights(slip.abs()));
-        self.softened(weight * self.available * falling, rest)
+        self.softened(weight * self.available * self.falling(slip), rest)
+    }
+
+    /// Share of the cold coefficient at the mean `slip` velocity.
+    fn falling(&self, slip: f64) -> f64 {
+        let FrictionLaw { falling_ratio, falling_decay, .. } = self.law;
+        falling_ratio + (1.0 - falling_ratio) * (-falling_decay * slip.abs()).exp()
     }
 
     /// The solution of `μ = cold · max(m, 1 − K θ μ) + rest`: of both branches the larger one.

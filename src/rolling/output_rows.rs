@@ -116,11 +116,12 @@ outputs! {
     302 contact_moment: real "contact.moment", in "N.m" as "kN.m", nominal 1e4,
         "Moment of the contact forces about the wheel centre, forward positive";
     303 contact_creepage: real "contact.creepage", in "1" as "%", nominal 1e-3,
-        "Creepage 2 (V - r omega)/(V + r omega), negative in traction; 0 at standstill";
+        "Creepage 2 (V - r omega)/(V + r omega) with the radius r that the wheel has now, negative in traction; 0 at \
+         standstill";
     304 contact_slide: real "contact.slide", in "1" as "%", nominal 1e-3,
         "Slide (V - r omega)/V, 1 when the wheel is locked; 0 at standstill";
     305 contact_slip_velocity: real "contact.slip_velocity", in "m/s" as "mm/s", nominal 1e-2,
-        "Rigid slip velocity V - r omega, negative in traction";
+        "Rigid slip velocity V - r omega with the radius r that the wheel has now, negative in traction";
     306 contact_adhesion: real "contact.adhesion", in "1", nominal 0.1,
         "Adhesion contact.force_x / contact.force_y; 0 without contact";
     307 contact_utilisation: real "contact.utilisation", in "1" as "%", from 0.0,

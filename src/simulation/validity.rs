@@ -123,9 +123,9 @@ impl Simulation {
             Limit::StickSlip => format!(
                 "friction falls with the slip of a sliding wheel, and its torsion of {:.0} rad/s turns by {value:.2} rad \
                  in an internal step, more than {bound:.1}: stick-slip that may arise is damped by the time formula; \
-                 lower solver.max_step to {:.0e} s to see it",
+                 lower solver.max_step to {:.1e} s to see it",
                 self.model().rolling.torsion,
-                bound / self.model().rolling.torsion
+                0.9 * bound / self.model().rolling.torsion
             ),
         }
     }

@@ -17,6 +17,8 @@ const PATIENCE: usize = 4;
 pub(super) struct CoefficientSearch {
     /// Between which the solution lies [1].
     bracket: [f64; 2],
+    /// Whether its ends were evaluated. The bounds of the law are solutions themselves where the contact sticks.
+    tried: [bool; 2],
     /// The evaluation before: coefficient and what it exceeds that of the law by [1].
     before: Option<[f64; 2]>,
     /// Width of the bracket when secants were last given a chance, and evaluations since.
@@ -27,7 +29,7 @@ pub(super) struct CoefficientSearch {
 impl CoefficientSearch {
     /// A search between the bounds of the law.
     pub fn new(bracket: [f64; 2]) -> Self {
-        Self { bracket, before: None, width: bracket[1] - bracket[0], since: 0 }
+        Self { bracket, tried: [false; 2], before: None, width: bracket[1] - bracket[0], since: 0 }
     }
 
     /// The coefficient to try next after `used` gave a slip at which the law gives `found`; `None` where both agree.
@@ -37,7 +39,7 @@ impl CoefficientSearch {
             return None;
         }
         let side = if excess > 0.0 { 1 } else { 0 };
-        self.bracket[side] = used;
+        (self.bracket[side], self.tried[side]) = (used, true);
         let [low, high] = self.bracket;
         if high - low <= NARROW * high.abs() {
             return None;
@@ -54,9 +56,12 @@ impl CoefficientSearch {
                 return Some(0.5 * (low + high));
             }
         }
-        // A proposal at a bound, or none at all, is worth less than the middle.
-        let inside = proposal > low && proposal < high;
-        Some(if inside { proposal } else { 0.5 * (low + high) })
+        Some(match proposal {
+            inside if inside > low && inside < high => inside,
+            above if above >= high && !self.tried[1] => high,
+            below if below <= low && !self.tried[0] => low,
+            _ => 0.5 * (low + high),
+        })
     }
 }
 
@@ -78,7 +83,7 @@ mod tests {
 
     #[test]
     fn smooth_laws_take_few_evaluations() {
-        for gain in [-5.0, -0.5, 0.0, 0.3, 0.8] {
+        for gain in [-2.0, -0.5, 0.0, 0.5, 5.0] {
             let law = |mu: f64| 0.3 * (0.4 + 0.6 * (-gain * (mu - 0.2)).exp()).clamp(0.4, 2.0);
             let (mu, count) = search(0.3, [0.12, 0.6], law);
             println!("gain {gain}: {mu} in {count}");
@@ -95,6 +100,13 @@ mod tests {
             println!("from {start}: {mu} in {count}");
             assert!((mu - law(mu)).abs() <= 1e-10 * mu && count < 60);
         }
+    }
+
+    #[test]
+    fn a_contact_that_sticks_reaches_the_bound_at_once() {
+        let law = |mu: f64| 0.3 * (0.4 + 0.6 * (-0.6 * (50.0 * (0.2 - mu)).max(0.0)).exp());
+        let (mu, count) = search(0.25, [0.12, 0.3], law);
+        assert_eq!((mu, count), (0.3, 2));
     }
 
     #[test]
