@@ -31,7 +31,7 @@ fn ordinary_rolling_is_within_all_limits() {
 fn pressure_beyond_what_steel_carries_is_told_with_both_numbers() {
     let simulation = at_start(small(|config| {
         config.thermal.enabled = false;
-        config.model.contact_width = 0.003;
+        config.model.contact_width = 0.0025;
     }));
     assert_eq!(limits(&simulation), [Limit::Yield]);
     let text = simulation.describe_limit(Limit::Yield);
