@@ -7,7 +7,16 @@ import pytest
 from conftest import ROOT
 from wheel import Refused
 
-PRESETS = ("railway", "paper_a", "paper_b", "paper_c", "paper_d")
+PRESETS = (
+    "railway",
+    "railway_dry",
+    "railway_wet",
+    "railway_low_adhesion",
+    "paper_a",
+    "paper_b",
+    "paper_c",
+    "paper_d",
+)
 
 
 def hertz(wheel):

@@ -60,6 +60,9 @@ pub struct Torsion {
     pub frequency: f64,
     /// Share of the moment of inertia about the axle that moves with it \[1].
     pub inertia_share: f64,
+    /// Its modal mass referred to the motion of the rim, over the density \[m²]: `∫u² dA/u_rim²`. A force at the rim meets the
+    /// mass per width `density · rim_area`.
+    pub rim_area: f64,
 }
 
 /// Lowest torsional vibration of an annulus in plane strain, held at its inner radius, free at the outer one; radii in \[m],
@@ -87,9 +90,14 @@ pub fn hub_torsion(outer: f64, inner: f64, shear_wave_speed: f64) -> Torsion {
     let at_hub = 2.0 / (PI * low * inner);
     let (square, inner_square) = (outer * outer, inner * inner);
     let momentum = inner_square * at_hub / low;
-    let norm = 0.5 * (square * combination(1, low, outer).powi(2) - inner_square * at_hub * at_hub);
+    let rim = combination(1, low, outer);
+    let norm = 0.5 * (square * rim * rim - inner_square * at_hub * at_hub);
     let inertia = 0.25 * (square * square - inner_square * inner_square);
-    Torsion { frequency: low * shear_wave_speed, inertia_share: momentum * momentum / (norm * inertia) }
+    Torsion {
+        frequency: low * shear_wave_speed,
+        inertia_share: momentum * momentum / (norm * inertia),
+        rim_area: 2.0 * PI * norm / (rim * rim),
+    }
 }
 
 /// Terms of the power series of Bessel functions, enough for arguments up to 20.
@@ -211,6 +219,8 @@ mod tests {
             assert!(u > 0.0 && momentum > 0.0, "the lowest shape has no node");
             let share = momentum * momentum / (norm * 0.25 * (1.0 - inner.powi(4)));
             assert!((torsion.inertia_share / share - 1.0).abs() < 1e-7, "{torsion:?} against {share}");
+            let area = 2.0 * PI * norm / (u * u);
+            assert!((torsion.rim_area / area - 1.0).abs() < 1e-7, "{torsion:?} against {area}");
         }
         // A rigid disc on a small hub: stiffness 4πμ r_i² over the inertia ½πρ r_o⁴.
         let disc = hub_torsion(1.0, 0.01, 3000.0);

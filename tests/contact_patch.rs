@@ -36,7 +36,8 @@ fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn
         traction.port_forces[grid.port(i)] = t;
         traction.port_forces[grid.port(i) + 1] = n;
     }
-    read_off(grid, [FRICTION, 0.0], &state, &vec![0.0; n], &mut traction);
+    traction.friction = FRICTION;
+    read_off(grid, 0.0, &state, &vec![0.0; n], &mut traction);
     traction
 }
 

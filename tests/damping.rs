@@ -311,7 +311,7 @@ fn braking(change: &dyn Fn(&mut Config)) -> [f64; 2] {
         friction += dt * simulation.outputs().friction_power / model.config().model.contact_width;
     }
     let outputs = simulation.outputs();
-    [outputs.energy_residual, simulation.state().audit.dissipation / friction - 1.0]
+    [outputs.energy_residual, simulation.state().audit.dissipation() / friction - 1.0]
 }
 
 #[test]

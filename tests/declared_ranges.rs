@@ -8,7 +8,8 @@ use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, Response, presets};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
-const PRESETS: [&str; 5] = ["railway", "paper_a", "paper_b", "paper_c", "paper_d"];
+const PRESETS: [&str; 8] =
+    ["railway", "paper_a", "paper_b", "paper_c", "paper_d", "railway_dry", "railway_wet", "railway_low_adhesion"];
 
 /// A preset on the coarsest mesh with fewer modes.
 fn coarse(name: &str) -> Config {

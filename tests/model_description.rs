@@ -83,7 +83,9 @@ fn descriptions_are_there_and_plain() {
 fn every_preset_is_valid() {
     let resources = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources");
     let names = presets::available(Some(&resources));
-    assert_eq!(names, ["paper_a", "paper_b", "paper_c", "paper_d", "railway"]);
+    let papers = ["paper_a", "paper_b", "paper_c", "paper_d"];
+    assert_eq!(names[..4], papers);
+    assert_eq!(names[4..], ["railway", "railway_dry", "railway_low_adhesion", "railway_wet"]);
     for name in names {
         let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));
         wheelrail::simulation::Inputs::rolling(&config).validate().unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -166,6 +166,8 @@ impl ContactSolver for Hertz {
             friction_power: 0.0,
             friction_work: 0.0,
             dissipation_excess: 0.0,
+            friction: problem.friction.coefficient(slip),
+            tread_slip: slip,
             edges: vec![Interval { low: -half_width, high: half_width }],
             patches: vec![Interval { low: -half_width, high: half_width }],
             stick_fraction: 0.0,

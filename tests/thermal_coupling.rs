@@ -153,11 +153,12 @@ fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
     assert!((o.thermal_growth / expected - 1.0).abs() < 1e-6);
     // Warm but for the cold hub, and a stationary contact that takes and gives a little heat.
     assert!((bulk / 60.0 - 1.0).abs() < 0.03);
-    // At the same creepage of the nominal radius the larger wheel pulls.
+    // At the same creepage of the radius that the wheel has it pulls no more than the cold one.
     let mut cold = config.clone();
     cold.thermal.wheel_excess = 0.0;
     let reference = Simulation::new(common::model(cold.clone()), &Inputs::rolling(&cold)).unwrap();
-    assert!(o.contact_force_x > reference.outputs().contact_force_x + 1000.0);
+    assert!((o.contact_creepage - reference.outputs().contact_creepage).abs() < 1e-8, "{:e}", o.contact_creepage);
+    assert!((o.contact_force_x - reference.outputs().contact_force_x).abs() < 10.0, "{}", o.contact_force_x);
     assert!(o.contact_approach < reference.outputs().contact_approach);
 }
 
@@ -169,8 +170,10 @@ fn falling_friction_lowers_the_force_of_a_fast_slide_exactly() {
     let inputs = prescribed(&model, 20.0, 0.2);
     let simulation = Simulation::new(model, &inputs).unwrap();
     let o = simulation.outputs();
-    let expected = 0.3 * (0.4 + 0.6 * (-0.6 * o.contact_slip_velocity).exp());
-    assert!((o.friction / expected - 1.0).abs() < 1e-12);
+    let expected = 0.3 * (0.4 + 0.6 * (-0.6 * o.contact_tread_slip).exp());
+    println!("tread slip {:.6} m/s, V - r omega {:.6} m/s", o.contact_tread_slip, o.contact_slip_velocity);
+    assert!((o.contact_tread_slip / o.contact_slip_velocity - 1.0).abs() < 0.01);
+    assert!((o.friction / expected - 1.0).abs() < 1e-9);
     assert!((o.contact_force_x.abs() / (expected * o.contact_force_y) - 1.0).abs() < 1e-9);
 }
 

@@ -173,8 +173,8 @@ fn the_damper_takes_what_the_vibration_loses() {
         (0..(0.2 / step).round() as usize).for_each(|_| simulation.advance(&inputs, step).unwrap());
         let audit = simulation.state().audit;
         let freed = 0.5 * 0.2 * load * (simulation.outputs().contact_approach - height);
-        let dissipated = audit.dissipation * simulation.model().config().model.contact_width;
-        [audit.imbalance() / audit.dissipation, dissipated / freed]
+        let dissipated = audit.dissipation() * simulation.model().config().model.contact_width;
+        [audit.imbalance() / audit.dissipation(), dissipated / freed]
     };
     let found = [2e-4, 1e-4, 5e-5].map(residual);
     println!("imbalance over dissipated energy, dissipated over freed energy: {found:?}");

@@ -122,6 +122,10 @@ pub struct OperatingPoint {
     pub velocity: f64,
 }
 
+/// Passes that find the growth of a wheel at a creepage of its grown radius, and what they may miss of the creepage.
+const GROWTH_PASSES: usize = 8;
+const GROWTH_TOLERANCE: f64 = 1e-8;
+
 impl OperatingPoint {
     /// The slave with preset and settings; `fixed` are what the command decides.
     pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
@@ -143,12 +147,20 @@ impl OperatingPoint {
         Ok(OperatingPoint { instance, velocity })
     }
 
-    /// Moves on to another creepage.
+    /// Moves on to another creepage, that of the radius to which the wheel then grows.
     pub fn set(&mut self, creepage: f64) -> Result<(), Failure> {
         let radius = self.instance.config().wheel.radius;
-        let omega = peripheral_velocity(self.velocity, creepage) / radius;
         let references = [find("drive.velocity", |_| true)?.reference, find("drive.omega", |_| true)?.reference];
-        self.instance.set(&references, vec![Value::Real(self.velocity), Value::Real(omega)]).map_err(wrong)
+        let mut growth = 0.0;
+        for _ in 0..GROWTH_PASSES {
+            let omega = peripheral_velocity(self.velocity, creepage) / (radius + growth);
+            self.instance.set(&references, vec![Value::Real(self.velocity), Value::Real(omega)]).map_err(wrong)?;
+            let before = std::mem::replace(&mut growth, self.real("thermal.growth")?);
+            if (growth - before).abs() <= GROWTH_TOLERANCE * radius {
+                break;
+            }
+        }
+        Ok(())
     }
 
     fn real(&mut self, name: &str) -> Result<f64, Failure> {

@@ -141,23 +141,25 @@ parameters! {
         ///
         /// The friction coefficient of a step is
         ///
-        /// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|V − rω|}) · max(m, 1 − K (T − T_ref))`
+        /// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|s|}) · max(m, 1 − K (T − T_ref))`
         ///
-        /// with `A` the falling ratio, `B` the falling decay, `K` the softening and `m` the softening floor, nominal slip
-        /// velocity `V − rω` and mean contact temperature `T` (O. Polach, *Wear* 258 (2005), for the falling part). Both
-        /// are predicted for the coming step: the slip velocity from its rate, the temperature as `T − T_ref = θ μ` with
+        /// with `A` the falling ratio, `B` the falling decay, `K` the softening and `m` the softening floor, mean slip velocity
+        /// `s` of the tread and mean contact temperature `T` (O. Polach, *Wear* 258 (2005), for the falling part), both at
+        /// the end of the step: the slip velocity is solved for with the contact, the temperature is `T − T_ref = θ μ` with
         /// the heating θ extrapolated, which makes the last factor `1/(1 + K θ · rail.friction · (…))`. Within a step the
         /// friction cone is exact.
         tuning: Tuning tunable {
             1061 falling_ratio: f64 = 1.0, of "friction", from 0.0 to 1.0,
                 "Share of the friction coefficient that remains at high slip velocity (Polach's A); 1: constant";
             1062 falling_decay: f64 = 0.0, of "friction", in "s/m", from 0.0 to 1e3,
-                "Decay of the rest with the slip velocity V - r omega (Polach's B)";
+                "Decay of the rest with the slip velocity of the tread (Polach's B)";
             1063 softening: f64 = 0.001, of "friction", in "1/K", from 0.0 to 1.0,
                 "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; \
                  0: constant";
             1064 softening_floor: f64 = 0.1, of "friction", from 0.0 to 1.0,
                 "Share of the friction coefficient that remains in a hot contact";
+            1065 memory_length: f64 = 0.0, of "friction", in "m" as "mm", from 0.0 to 1e3,
+                "Sliding distance over which the coefficient follows the law of slip and temperature; 0: at once";
             1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 1.0,
                 "Largest internal time step; longer communication steps are divided evenly";
             1096 tolerance: f64 = 0.0, of "solver", from 0.0 to 1.0,

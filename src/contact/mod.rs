@@ -15,7 +15,7 @@ pub mod surface;
 pub mod traction;
 
 pub use error::ContactError;
-pub use friction::{FrictionLaw, Heating};
+pub use friction::{Friction, FrictionLaw, Heating};
 pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
 pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Surfaces};

@@ -1,5 +1,6 @@
 //! The condensed contact problem of one step: what the contact needs to know of bodies, wheel and surfaces.
 
+use super::friction::Friction;
 use super::surface::{Placement, Surfaces};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
@@ -105,8 +106,8 @@ pub struct ContactProblem<'a> {
     pub surfaces: &'a Surfaces,
     /// Where on them the wheel stands, and how heat has changed them.
     pub placement: Placement<'a>,
-    /// Friction coefficient \[1].
-    pub friction: f64,
+    /// Friction coefficient as a function of the slip at the end of the step.
+    pub friction: Friction,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].

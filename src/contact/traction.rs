@@ -24,7 +24,12 @@ pub struct Traction {
     /// Power that friction turns from mechanical energy into heat, net of what hot material gives back by expanding as it
     /// passes the contact [W/m].
     pub friction_power: f64,
-    /// The same energy of the whole step [J/m].
+    /// Friction coefficient with which they were found \[1].
+    pub friction: f64,
+    /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
+    /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
+    pub tread_slip: f64,
+    /// Energy that friction has turned into heat in the step [J/m].
     pub friction_work: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
     /// beside them.
@@ -48,7 +53,8 @@ pub struct Traction {
     /// By how much the mean dissipation of the step exceeds that at its end, relative to the latter \[1]: with it,
     /// [`Self::dissipation`] integrates to the energy of the step.
     pub dissipation_excess: f64,
-    /// Iterations until all decisions between open, stick and slip were made.
+    /// Iterations until all decisions between open, stick and slip were made, without those of the search for the friction
+    /// coefficient.
     pub iterations: usize,
 }
 
@@ -65,7 +71,7 @@ impl Traction {
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.
     pub fn rest(&mut self) {
-        (self.friction_power, self.friction_work) = (0.0, 0.0);
+        (self.friction_power, self.friction_work, self.tread_slip) = (0.0, 0.0, 0.0);
         self.slip.value.fill(0.0);
         self.dissipation.value.fill(0.0);
         self.dissipation_excess = 0.0;

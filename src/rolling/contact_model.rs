@@ -5,8 +5,8 @@ use super::error::StepError;
 use super::state::{State, ThermalDeformation};
 use crate::config::{Config, Tuning};
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, FrictionLaw, Placement, RigidMotion, Scratch,
-    SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, FrictionLaw, Placement,
+    RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
@@ -42,8 +42,8 @@ pub struct ContactStep<'a> {
     pub place: [f64; 2],
     /// How heat has deformed the bodies.
     pub deformation: &'a ThermalDeformation,
-    /// Friction coefficient \[1].
-    pub friction: f64,
+    /// Friction coefficient as a function of the slip at the end of the step.
+    pub friction: Friction,
     /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
 }
@@ -146,5 +146,6 @@ pub fn friction_law(tuning: &Tuning) -> FrictionLaw {
         falling_decay: tuning.falling_decay,
         softening: tuning.softening,
         softening_floor: tuning.softening_floor,
+        memory_length: tuning.memory_length,
     }
 }

@@ -261,6 +261,12 @@ pub fn slide(v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) { 0.0 } else { (v - v_c) / v.abs().max(STANDSTILL).copysign(v) }
 }
 
+/// Dissipated energy per metre travelled \[N] of the dissipated `power` \[W]: 0 at standstill; of a wheel that spins on the
+/// spot it is given as if it travelled at the speed [`STANDSTILL`].
+pub fn per_metre(power: f64, v: f64, v_c: f64) -> f64 {
+    if at_rest(v, v_c) { 0.0 } else { power.max(0.0) / v.abs().max(STANDSTILL) }
+}
+
 /// The one rule of standstill: the speeds of travel and circumference [m/s] together are below [`STANDSTILL`].
 fn at_rest(v: f64, v_c: f64) -> bool {
     v.abs() + v_c.abs() < STANDSTILL
@@ -271,8 +277,8 @@ pub fn peripheral_velocity(v: f64, creepage: f64) -> f64 {
     v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage)
 }
 
-/// Sum of translational and peripheral speed below which creepage and slide are reported as zero [m/s]: a wheel at rest
-/// rocks on its elastic contact with some mm/s.
+/// Sum of translational and peripheral speed below which creepage, slide and the energy per metre are reported as zero
+/// [m/s]: a wheel at rest rocks on its elastic contact with some mm/s.
 pub const STANDSTILL: f64 = 0.02;
 
 #[cfg(test)]
@@ -287,6 +293,22 @@ mod tests {
         assert_eq!(creepage(0.0, 10.0), -2.0);
         assert_eq!(creepage(0.0, 0.0), 0.0);
         assert!((creepage(13.0, peripheral_velocity(13.0, 3e-4)) - 3e-4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn creepage_slide_and_energy_per_metre_know_one_standstill() {
+        let all = |v: f64, v_c: f64| [creepage(v, v_c), slide(v, v_c), per_metre(1e3, v, v_c)];
+        for (v, v_c) in
+            [(0.0, 0.0), (0.5, 0.49), (-0.9, 0.09), (0.0, -0.99)].map(|(v, c)| (v * STANDSTILL, c * STANDSTILL))
+        {
+            assert_eq!(all(v, v_c), [0.0; 3]);
+        }
+        for (v, v_c) in [(0.6, 0.5), (-0.9, 0.2), (0.0, -1.01)].map(|(v, c)| (v * STANDSTILL, c * STANDSTILL)) {
+            assert!(all(v, v_c).iter().all(|value| *value != 0.0), "{:?}", all(v, v_c));
+        }
+        // Locked, the energy per metre is the force; spinning on the spot it stays finite.
+        assert_eq!(per_metre(3e4 * 20.0, -20.0, 0.0), 3e4);
+        assert_eq!(per_metre(1e3, 0.0, 5.0), 1e3 / STANDSTILL);
     }
 
     #[test]

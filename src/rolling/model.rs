@@ -7,6 +7,7 @@ use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
+use crate::analytic;
 use crate::config::Config;
 use crate::contact::grid::{ContactGrid, GridSolver};
 use crate::contact::{self, ContactSolver};
@@ -28,6 +29,8 @@ pub struct Model {
     pub thermal: Option<ThermalModel>,
     /// Half-length of the zone in which contact is looked for \[m].
     pub zone: f64,
+    /// Torsion of the wheel on its hub, which falling friction can excite [rad/s].
+    pub torsion: f64,
 }
 
 /// Scratch space of the computations; never part of a state.
@@ -71,6 +74,7 @@ impl Model {
     /// Builds the model on given bodies and a contact solver that belongs to their ports.
     pub fn with_solver(config: Config, bodies: Pair, solver: Box<dyn ContactSolver>) -> Result<Self, ModelError> {
         let zone = bodies.surface_x[bodies.candidates.clone()].last().copied().unwrap_or(0.0);
+        let shear = Isotropic::from(&config.material).shear_wave_speed();
         let thermal = match config.thermal.enabled {
             true => Some(ThermalModel::new(&config, zone, bodies.spacing)?),
             false => None,
@@ -79,10 +83,16 @@ impl Model {
             wheel: RigidWheel::new(&config),
             bodies: Bodies::new(bodies, TrackSupport::new(&config), &*solver),
             contact: ContactModel::new(&config, solver),
+            torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
             zone,
             config,
         })
+    }
+
+    /// Outer radius of the wheel in a state \[m]: the cold one and its growth by the bulk temperature.
+    pub fn rolling_radius(&self, state: &State) -> f64 {
+        self.wheel.radius + state.deformation().radius_growth
     }
 
     /// Whether a state has the dimensions of this model and only finite numbers in its contact forces.

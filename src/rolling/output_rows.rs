@@ -116,11 +116,12 @@ outputs! {
     302 contact_moment: real "contact.moment", in "N.m" as "kN.m", nominal 1e4,
         "Moment of the contact forces about the wheel centre, forward positive";
     303 contact_creepage: real "contact.creepage", in "1" as "%", nominal 1e-3,
-        "Creepage 2 (V - r omega)/(V + r omega), negative in traction; 0 at standstill";
+        "Creepage 2 (V - r omega)/(V + r omega) with the radius r that the wheel has now, negative in traction; 0 at \
+         standstill";
     304 contact_slide: real "contact.slide", in "1" as "%", nominal 1e-3,
         "Slide (V - r omega)/V, 1 when the wheel is locked; 0 at standstill";
     305 contact_slip_velocity: real "contact.slip_velocity", in "m/s" as "mm/s", nominal 1e-2,
-        "Rigid slip velocity V - r omega, negative in traction";
+        "Rigid slip velocity V - r omega with the radius r that the wheel has now, negative in traction";
     306 contact_adhesion: real "contact.adhesion", in "1", nominal 0.1,
         "Adhesion contact.force_x / contact.force_y; 0 without contact";
     307 contact_utilisation: real "contact.utilisation", in "1" as "%", from 0.0,
@@ -154,6 +155,9 @@ outputs! {
          expands in the contact";
     312 friction: real "contact.friction", in "1", from 0.0, nominal 0.3,
         "Friction coefficient that holds now: rail.friction with the dependence on slip and temperature";
+    313 contact_tread_slip: real "contact.tread_slip", in "m/s" as "mm/s", nominal 1e-2,
+        "Slip velocity of the tread on the rail: pressure-weighted mean over the patch, deformation included, 0 where it \
+         sticks and without contact; what friction that depends on slip follows";
     610 temperature_wheel_max: real "temperature.wheel_max", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest surface temperature of the wheel in the contact zone (temperatures are absolute; 0 without \
          thermal.enabled)";
@@ -183,7 +187,8 @@ outputs! {
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
         "Heat balance since the start: unaccounted heat over heat supplied";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,
-        "Wear number |contact.force_x contact.creepage|: energy dissipated per metre travelled";
+        "Friction energy per metre travelled: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
+         standstill";
     800 internal_steps: count "solver.internal_steps", start zero, "Internal time steps in the last communication step";
     801 iterations: count "solver.iterations", start zero, "Contact iterations in the last communication step";
     804 suggested_step: real "solver.suggested_step", in "s", from 0.0, nominal 1e-3,

@@ -1,6 +1,6 @@
 //! Observables of a state, for the whole wheel in SI units.
 
-use super::control::{creepage, slide};
+use super::control::{creepage, per_metre, slide};
 use super::model::Model;
 use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_points};
@@ -14,24 +14,24 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
     let traction = &state.contact.traction;
     let [force_x, force_y, moment] = traction.resultant.map(|force| force * width);
     let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
-    let v_c = model.wheel.radius * omega;
-    let xi = creepage(v, v_c);
+    let v_c = model.rolling_radius(state) * omega;
     let points = profile_points(model.zone);
     let sampled = |profile: &Piecewise| points.iter().map(|&x| profile.at(x)).collect();
     Outputs {
         contact_force_x: force_x,
         contact_force_y: force_y,
         contact_moment: moment,
-        contact_creepage: xi,
+        contact_creepage: creepage(v, v_c),
         contact_slide: slide(v, v_c),
         contact_slip_velocity: v - v_c,
         contact_adhesion: ratio(force_x, force_y),
-        contact_utilisation: ratio(force_x.abs(), state.friction * force_y),
+        contact_utilisation: ratio(force_x.abs(), traction.friction * force_y),
         contact_stick_fraction: traction.stick_fraction,
         contact_half_width: traction.half_width(),
         contact_pressure_max: traction.pressure_max,
         contact_approach: -state.motion.height.now,
-        friction: state.friction,
+        friction: traction.friction,
+        contact_tread_slip: traction.tread_slip,
         wheel_velocity: v,
         wheel_omega: omega,
         wheel_distance: state.distance,
@@ -47,7 +47,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         stored_energy: (state.audit.energy - state.audit.initial_energy) * width,
         friction_energy: state.audit.friction * width,
         damping_energy: state.audit.damping * width,
-        t_gamma: (force_x * xi).abs(),
+        t_gamma: per_metre(state.friction_power * width, v, v_c),
         internal_steps: state.internal_steps,
         iterations: state.iterations,
         energy_residual: state.audit.residual(model.contact.nominal_energy()),

@@ -37,8 +37,6 @@ pub struct State {
     pub driving: [f64; 3],
     /// Which motions (V, U, Ω) were prescribed in the last step.
     pub prescribed: [bool; 3],
-    /// Friction coefficient of the last step \[1].
-    pub friction: f64,
     /// Friction coefficient that was available in the last step \[1].
     pub available_friction: f64,
     /// Length of the last internal step \[s]; 0: the time formula starts afresh.

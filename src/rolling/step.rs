@@ -8,7 +8,7 @@ use super::model::{Model, Workspace};
 use super::state::{Motion, State};
 use super::thermal::HeatStep;
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, Heating};
+use crate::contact::{AxisDrive, Friction, Heating};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative, formula, settled};
 
@@ -28,8 +28,7 @@ struct Plan {
     given: [AxisDrive; 3],
     /// Predicted V [m/s] and Ω [rad/s].
     speeds: [f64; 2],
-    /// Friction coefficient [1].
-    friction: f64,
+    friction: Friction,
 }
 
 /// What leads from one state to the next.
@@ -98,9 +97,10 @@ impl Plan {
         });
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
-        let slip = speeds[0] - model.wheel.radius * speeds[1];
         let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-        let friction = friction_law(demand.tuning).coefficient(available, slip, heating, ratio);
+        let traction = &state.contact.traction;
+        let friction = Friction::local(friction_law(demand.tuning), available, heating, ratio);
+        let friction = friction.after(dt, traction.friction, traction.tread_slip, heating);
         Self { dt, td, restarted: before == 0.0, drives, given, speeds, friction }
     }
 }
@@ -154,7 +154,6 @@ fn solve_and_commit(
     next.distance = moved_by(state.distance, &state.motion.velocity, next.motion.velocity.now, *dt);
     next.angle = moved_by(state.angle, &state.motion.omega, next.motion.omega.now, *dt);
     next.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
-    next.friction = plan.friction;
     next.available_friction = demand.target.friction;
     next.last_step = *dt;
     next.restarted = plan.restarted;

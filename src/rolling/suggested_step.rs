@@ -21,7 +21,7 @@ const SMALLEST: f64 = 1e-6;
 pub fn suggested_step(model: &Model, state: &State) -> f64 {
     let [x, y, rotation] = state.prescribed;
     let [mass, wheel, moment] = model.wheel.inertia;
-    let radius = model.wheel.radius;
+    let radius = model.rolling_radius(state);
     let traction = &state.contact.traction;
     let (load, approach) = (traction.resultant[1], -state.motion.height.now);
     let compliance = |prescribed: bool, inverse: f64| if prescribed { inverse } else { 0.0 };

@@ -14,27 +14,49 @@ pub enum Limit {
     Patch,
     /// Load for which the candidate zone is laid out.
     Zone,
+    /// Pressure that steel carries.
+    Yield,
+    /// Temperature up to which steel is solid.
+    Melting,
+    /// Internal step that resolves what falling friction excites.
+    StickSlip,
+}
+
+impl Limit {
+    /// All of them.
+    const ALL: [Self; 7] = {
+        use Limit::*;
+        [Speed, ThermalLoad, Patch, Zone, Yield, Melting, StickSlip]
+    };
 }
 
 /// Elements per half-width of the patch below which traction profiles are no more than a hint.
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Load that the candidate zone carries in any case, over the nominal load.
 pub(super) const ZONE_LOAD: f64 = 2.0;
+/// Pressure that cold wheel steel of 550 MPa yield stress (ER7, EN 13262) carries before it flows as a whole [Pa]: a flat
+/// punch sinks into a perfectly plastic half-plane at (2 + π)/√3 = 2.97 times the yield stress. The model stays elastic.
+const PLASTIC_PRESSURE: f64 = 2.97 * 550e6;
+/// Solidus of wheel steel [K], 1420 °C.
+const SOLIDUS: f64 = 1693.0;
+/// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
+/// formula damps it by a ratio of a quarter of its cube, 2e-3.
+const RESOLVED_PHASE: f64 = 0.2;
 
 impl Simulation {
     /// Limits that the present state is beyond.
     pub fn exceeded_limits(&self) -> impl Iterator<Item = Limit> {
-        [Limit::Speed, Limit::ThermalLoad, Limit::Patch, Limit::Zone].into_iter().filter(|limit| {
+        Limit::ALL.into_iter().filter(|limit| {
             let (value, bound) = self.against(*limit);
             match limit {
-                Limit::Speed | Limit::Zone => value > bound,
+                Limit::Speed | Limit::Zone | Limit::Yield | Limit::Melting | Limit::StickSlip => value > bound,
                 Limit::ThermalLoad | Limit::Patch => value > 0.0 && value < bound,
             }
         })
     }
 
-    /// The value that a limit is about, and its bound: speeds [m/s], loads [N] or elements [1]. The value is 0 without
-    /// contact, and that of heat without heat.
+    /// The value that a limit is about, and its bound: speeds [m/s], loads \[N], elements \[1], pressures \[Pa], temperatures
+    /// \[K] or phases \[rad]. The value is 0 without contact, and that of heat without heat.
     fn against(&self, limit: Limit) -> (f64, f64) {
         let (outputs, config) = (self.outputs(), self.model().config());
         let heat = if config.thermal.enabled { 1.0 } else { 0.0 };
@@ -48,7 +70,20 @@ impl Simulation {
                 (outputs.contact_half_width / element, FEWEST_ELEMENTS)
             }
             Limit::Zone => (load, ZONE_LOAD * nominal),
+            Limit::Yield => (outputs.contact_pressure_max, PLASTIC_PRESSURE),
+            Limit::Melting => (outputs.temperature_wheel_max.max(outputs.temperature_rail_max), SOLIDUS),
+            Limit::StickSlip => (self.unresolved_phase(), RESOLVED_PHASE),
         }
+    }
+
+    /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding contact
+    /// whose friction falls with the slip.
+    fn unresolved_phase(&self) -> f64 {
+        let tuning = self.tuning();
+        let falls = tuning.falling_ratio < 1.0 && tuning.falling_decay > 0.0;
+        let outputs = self.outputs();
+        let slides = outputs.contact_tread_slip != 0.0 && outputs.contact_stick_fraction == 0.0;
+        if falls && slides { self.model().rolling.torsion * self.state().last_step } else { 0.0 }
     }
 
     /// What a limit means for the present state, with both numbers and what to change.
@@ -72,6 +107,25 @@ impl Simulation {
                 "contact load {value:.0} N is above {ZONE_LOAD:.0} x model.nominal_load = {bound:.0} N, for which the \
                  contact zone is laid out: the patch may reach its end; raise model.nominal_load and set drive.load, \
                  which follows it unless set"
+            ),
+            Limit::Yield => format!(
+                "peak pressure {:.0} MPa is above {:.0} MPa, which wheel steel carries: the bodies stay elastic, and \
+                 patch, forces and temperatures are not those of steel that flows; check drive.load and \
+                 model.contact_width, or end the slide earlier",
+                value * 1e-6,
+                bound * 1e-6
+            ),
+            Limit::Melting => format!(
+                "contact temperature {value:.0} K is above the solidus of steel, {bound:.0} K: nothing melts in this \
+                 model, and temperatures further on are too high; end the slide earlier, or let the friction fall with \
+                 friction.softening or friction.falling_ratio"
+            ),
+            Limit::StickSlip => format!(
+                "friction falls with the slip of a sliding wheel, and its torsion of {:.0} rad/s turns by {value:.2} rad \
+                 in an internal step, more than {bound:.1}: stick-slip that may arise is damped by the time formula; \
+                 lower solver.max_step to {:.1e} s to see it",
+                self.model().rolling.torsion,
+                0.9 * bound / self.model().rolling.torsion
             ),
         }
     }

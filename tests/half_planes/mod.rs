@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::grid::{ContactGrid, GridSolver, GridState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Placement, RigidMotion, Scratch, SolverState,
-    SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, Placement, RigidMotion, Scratch,
+    SolverState, SurfaceResponse, Surfaces,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -85,7 +85,7 @@ impl HalfPlanes {
             duration: 0.0,
             surfaces: &self.surfaces,
             placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: [&flat, &flat] },
-            friction: FRICTION,
+            friction: Friction::constant(FRICTION),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
         };

@@ -7,9 +7,13 @@
 //!   a reversal of slip always passes through stick; a node that closes takes the state of its nearest closed neighbour
 //!   and sticks where it has none, unless the surfaces run against each other. Without these rules the iteration cycles.
 //!
+//! Where the friction coefficient depends on the slip, a search around this iteration finds the one that belongs to its own
+//! slip ([`super::coefficient`]); each of its evaluations starts from the states found before.
+//!
 //! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
 //! within which a node keeps its state grows from iteration to iteration.
 
+use super::coefficient::CoefficientSearch;
 use super::iterate::{GridScratch, Iterate, copy};
 use super::observe;
 use super::power::Power;
@@ -38,6 +42,8 @@ const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 const OVERLOAD: f64 = 3.0;
 /// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
 const ENDING: f64 = 0.2;
+/// Friction coefficients tried: smooth laws need five, steep ones in long steps some tens.
+const MAX_COEFFICIENTS: usize = 150;
 /// Largest change of the turn of the rim that counts as settled [rad]: it tilts the gap by less than a millionth of a
 /// micrometre.
 const TURN_TOLERANCE: f64 = 1e-10;
@@ -46,15 +52,27 @@ impl Iterate<'_> {
     /// Iterates from the states and forces of the start to the solution.
     pub fn run(mut self) -> Result<(), ContactError> {
         self.traction.rigid = self.problem.rigid.map(|motion| motion.start());
-        self.traction.iterations = 0;
         self.prepare();
         if self.problem.time.is_stationary() {
             self.found_anew();
         }
-        let penalty = self.penalty();
+        let (penalty, friction) = (self.penalty(), self.problem.friction);
+        self.traction.friction = friction.coefficient(self.traction.tread_slip);
         self.update_upwind();
         self.frame.turn = self.predicted_turn();
-        let mut settled = false;
+        self.traction.iterations = self.find_states(penalty)?;
+        self.traction.tread_slip = self.mean_slip();
+        if friction.varies() {
+            self.find_coefficient(penalty)?;
+        }
+        self.check_zone()?;
+        self.conclude();
+        Ok(())
+    }
+
+    /// Finds the states of all nodes at the present friction coefficient; returns the iterations made.
+    fn find_states(&mut self, penalty: f64) -> Result<usize, ContactError> {
+        let (mut settled, mut decided) = (false, 0);
         for iteration in 1..=MAX_ITERATIONS {
             if RESTARTS.contains(&iteration) {
                 self.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = Status::Stick);
@@ -65,15 +83,42 @@ impl Iterate<'_> {
             let turned = (self.frame.turn - turn).abs() > TURN_TOLERANCE;
             let changed = self.update_states(penalty, iteration);
             // Once states and edges are settled, only motions and turn are refined: smooth functions of the data.
-            self.traction.iterations += usize::from(!settled);
+            decided += usize::from(!settled);
             settled = !changed && (settled || self.update_upwind() <= self.problem.edge_tolerance);
             if settled && !turned && self.sticks() {
-                self.check_zone()?;
-                self.conclude();
-                return Ok(());
+                return Ok(decided);
             }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+    }
+
+    /// Finds the coefficient that the law gives to the slip of the states that it leads to.
+    fn find_coefficient(&mut self, penalty: f64) -> Result<(), ContactError> {
+        let friction = self.problem.friction;
+        let mut search = CoefficientSearch::new(friction.bounds());
+        for _ in 0..MAX_COEFFICIENTS {
+            let law = friction.coefficient(self.traction.tread_slip);
+            let Some(next) = search.next(self.traction.friction, law) else { return Ok(()) };
+            self.traction.friction = next;
+            // With the weights of the last solution, whose edges were settled: they keep the slip a smooth function.
+            std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
+            self.find_states(penalty)?;
+            self.traction.tread_slip = self.mean_slip();
+        }
+        Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
+    }
+
+    /// Mean slip velocity of the closed nodes [m/s], weighted with their normal forces. It is that of the friction law, with
+    /// upwind differences, which vanishes where nodes stick.
+    fn mean_slip(&self) -> f64 {
+        let (mut sum, mut load) = (0.0, 0.0);
+        for (i, status) in self.state.status.iter().enumerate() {
+            let weight = self.normal(i).max(0.0);
+            load += weight;
+            // What is left of the slip at stuck nodes is round-off.
+            sum += if *status == Status::Stick { 0.0 } else { weight * self.state.slip[i] };
+        }
+        if load > 0.0 { sum / load } else { 0.0 }
     }
 
     /// Turn of the rim [rad] if it goes on turning as it does.
@@ -193,7 +238,7 @@ impl Iterate<'_> {
         let mut largest = 0.0f64;
         for (value, &i) in normal.iter_mut().zip(closed) {
             let port = self.grid.port(i);
-            let friction = self.state.status[i].friction_direction() * self.problem.friction;
+            let friction = self.state.status[i].friction_direction() * self.traction.friction;
             *value = forces[port + 1] + friction * forces[port];
             largest = largest.max(value.abs());
         }
@@ -224,7 +269,7 @@ impl Iterate<'_> {
         for (force, &i) in normal.iter().zip(closed) {
             let port = self.grid.port(i);
             forces[port + 1] = *force;
-            forces[port] = self.state.status[i].friction_direction() * self.problem.friction * force;
+            forces[port] = self.state.status[i].friction_direction() * self.traction.friction * force;
         }
         for (force, &i) in tangential.iter().zip(stuck) {
             forces[self.grid.port(i)] = *force;
@@ -261,7 +306,7 @@ impl Iterate<'_> {
 
     /// State of a node that has stuck: it slips where friction cannot hold it.
     fn stuck_state(&self, i: usize, tolerance: f64) -> Status {
-        let (t, n, friction) = (self.tangential(i), self.normal(i), self.problem.friction);
+        let (t, n, friction) = (self.tangential(i), self.normal(i), self.traction.friction);
         if t.abs() <= friction * n + tolerance * friction.min(1.0) && friction > 0.0 {
             Status::Stick
         } else if t >= 0.0 {
@@ -274,7 +319,7 @@ impl Iterate<'_> {
     /// State of a node that has slipped: it sticks where friction no longer opposes the slip.
     fn slipping_state(&self, i: usize, slipping: Status, tolerance: f64) -> Status {
         let opposes = slipping.friction_direction() * self.state.slip[i] <= tolerance;
-        if opposes || self.problem.friction == 0.0 { slipping } else { Status::Stick }
+        if opposes || self.traction.friction == 0.0 { slipping } else { Status::Stick }
     }
 
     /// Closes the nearest node where a static problem has no support; returns whether it did.
@@ -296,9 +341,9 @@ impl Iterate<'_> {
     /// forces and gaps then mean nothing yet.
     fn overloaded(&self) -> bool {
         let nodes = 0..self.grid.len();
-        let limit: f64 = nodes.clone().map(|i| self.normal(i).max(0.0)).sum::<f64>() * self.problem.friction;
+        let limit: f64 = nodes.clone().map(|i| self.normal(i).max(0.0)).sum::<f64>() * self.traction.friction;
         let stuck = nodes.filter(|&i| self.state.status[i] == Status::Stick).map(|i| self.tangential(i).abs());
-        stuck.sum::<f64>() > OVERLOAD * limit && self.problem.friction > 0.0
+        stuck.sum::<f64>() > OVERLOAD * limit && self.traction.friction > 0.0
     }
 
     /// State of a node that has just closed: that of the nearest closed node, or its own where it founds a patch, as
@@ -347,8 +392,7 @@ impl Iterate<'_> {
         let power = if friction > ENDING * mean { friction } else { mean };
         traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
         traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, traction);
-        let friction = [problem.friction, power];
-        observe::read_off(grid, friction, state, &scratch.centred_slip, traction);
+        observe::read_off(grid, power, state, &scratch.centred_slip, traction);
     }
 
     fn check_zone(&self) -> Result<(), ContactError> {

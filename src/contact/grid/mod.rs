@@ -6,6 +6,7 @@
 
 mod active_set;
 mod candidates;
+mod coefficient;
 mod frame;
 pub(super) mod iterate;
 pub mod kernel;

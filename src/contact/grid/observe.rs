@@ -34,15 +34,9 @@ pub(super) fn lever_arms(
     [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope]
 }
 
-/// Fills patches, profiles and peaks in `traction` from its port forces, for the friction coefficient `friction` \[1], the
-/// power `power` of friction [W/m] and the slip velocities of the candidates `centred_slip` [m/s].
-pub fn read_off(
-    grid: &ContactGrid,
-    [friction, power]: [f64; 2],
-    state: &GridState,
-    centred_slip: &[f64],
-    traction: &mut Traction,
-) {
+/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
+/// friction [W/m] and the slip velocities of the candidates `centred_slip` [m/s].
+pub fn read_off(grid: &ContactGrid, power: f64, state: &GridState, centred_slip: &[f64], traction: &mut Traction) {
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
@@ -55,7 +49,7 @@ pub fn read_off(
         traction.edges.push(edges);
         traction.patches.push(stretch(grid, edges, &run));
         length += run.len() as f64;
-        let margin = |i: usize| (friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
+        let margin = |i: usize| (traction.friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
         stuck += stick_length(&state.status, margin, run);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };

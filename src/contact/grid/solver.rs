@@ -70,6 +70,7 @@ impl ContactSolver for GridSolver {
         let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
         state.copy_from(before);
         copy(&mut traction.port_forces, &start.traction.port_forces);
+        traction.tread_slip = start.traction.tread_slip;
         for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
             copy(ours, theirs);
         }

@@ -52,8 +52,7 @@ impl Goal {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }
         let velocity = prescribed(0).unwrap_or(initial.velocity);
-        let of_creepage = initial.creepage.map(|creepage| peripheral_velocity(velocity, creepage) / radius);
-        let omega = prescribed(2).or(of_creepage);
+        let omega = prescribed(2);
         let moving = velocity.abs() + (radius * omega.unwrap_or(velocity / radius)).abs() > AT_REST;
         let axis = match (omega, moving) {
             (None, _) => Some(2),

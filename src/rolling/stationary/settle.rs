@@ -8,7 +8,7 @@ use super::super::state::{Motion, State, ThermalState};
 use super::super::substeps;
 use super::goal::{Goal, Trial};
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, ContactError, Heating};
+use crate::contact::{AxisDrive, ContactError, Friction, FrictionLaw, Heating};
 use crate::mechanics::response::{BodyState, Convection};
 use crate::multistep::{History, TimeDerivative};
 
@@ -52,15 +52,14 @@ pub(super) fn settle(
     };
     let radius = model.wheel.radius + state.deformation().radius_growth;
     let mut trial = goal.trial(radius);
+    let friction = friction(tuning, goal, &state);
     let mut next = state.clone();
     let mut change = f64::INFINITY;
     for number in 0..MAX_PASSES {
-        next.friction = friction(model, tuning, goal, &trial, &state);
-        state.friction = next.friction;
         // The first pass finds out where wheel and rail touch, and whether they do.
         let touching = number > 0 && state.contact.traction.resultant[1] > 0.0;
         let sought = goal.sought.filter(|_| touching);
-        let passed = Pass { model, goal, sought }.run(&state, &mut trial, workspace, &mut next)?;
+        let passed = Pass { model, goal, friction, sought }.run(&state, &mut trial, workspace, &mut next)?;
         change = if sought == goal.sought || !touching && number > 0 { passed } else { f64::INFINITY };
         std::mem::swap(&mut state, &mut next);
         if change <= TOLERANCE {
@@ -75,18 +74,19 @@ pub(super) fn settle(
     Ok(complete(model, goal, &trial, state))
 }
 
-/// Friction coefficient of a trial.
-fn friction(model: &Model, tuning: &Tuning, goal: &Goal, trial: &Trial, state: &State) -> f64 {
+/// Friction at given temperatures. A wheel at rest does not slip, although its contact is that of slow rolling.
+fn friction(tuning: &Tuning, goal: &Goal, state: &State) -> Friction {
     let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-    let [velocity, omega] = goal.actual(trial.speeds);
-    let slip = velocity - model.wheel.radius * omega;
-    friction_law(tuning).coefficient(goal.drive.friction, slip, heating, 0.0)
+    let falling_ratio = if goal.moving { tuning.falling_ratio } else { 1.0 };
+    let law = FrictionLaw { falling_ratio, ..friction_law(tuning) };
+    Friction::local(law, goal.drive.friction, heating, 0.0)
 }
 
 /// One pass: contact at the present deformation and accelerations, then deformation and accelerations of its forces.
 struct Pass<'a> {
     model: &'a Model,
     goal: &'a Goal,
+    friction: Friction,
     /// The axis whose speed is sought in this pass.
     sought: Option<usize>,
 }
@@ -119,7 +119,7 @@ impl Pass<'_> {
             duration: 0.0,
             place: [0.0; 2],
             deformation: state.deformation(),
-            friction: state.friction,
+            friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };
         let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
@@ -150,12 +150,13 @@ impl Pass<'_> {
         let width = self.model.wheel.width;
         let asked = self.goal.tangential_force(self.model.wheel.inertia, trial) * width;
         let load = state.contact.traction.resultant[1] * width;
-        let carried = state.friction * load;
+        let friction = state.contact.traction.friction;
+        let carried = friction * load;
         if self.sought.is_none() || asked.abs() < share * carried {
             return Ok(());
         }
         let demand = self.goal.demand(width);
-        Err(StepError::BeyondAdhesion { demand, asked, carried, friction: state.friction, load })
+        Err(StepError::BeyondAdhesion { demand, asked, carried, friction, load })
     }
 }
 

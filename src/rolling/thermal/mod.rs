@@ -114,7 +114,7 @@ impl ThermalModel {
             thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
             thermal.flows = flows;
         }
-        self.observe(touch, state.friction, &mut thermal, &mut Observation::default())?;
+        self.observe(touch, &mut thermal, &mut Observation::default())?;
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
@@ -135,7 +135,7 @@ impl ThermalModel {
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(touch, next.friction, &mut thermal, seen)?;
+        self.observe(touch, &mut thermal, seen)?;
         thermal.heating.before = before.heating.now;
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         let above = if hottest > austenitisation { dt } else { 0.0 };
@@ -146,13 +146,7 @@ impl ThermalModel {
     }
 
     /// Fills all that follows from the temperature fields.
-    fn observe(
-        &self,
-        touch: &Touch,
-        friction: f64,
-        thermal: &mut ThermalState,
-        seen: &mut Observation,
-    ) -> Result<(), StepError> {
+    fn observe(&self, touch: &Touch, thermal: &mut ThermalState, seen: &mut Observation) -> Result<(), StepError> {
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
         if self.thermoelastic.is_some() {
@@ -177,6 +171,7 @@ impl ThermalModel {
             [0, 1].map(|body| piecewise::mean(zone, &seen.surface[body], patch.low, patch.high))
         });
         let mean = 0.5 * (thermal.patch_mean[0] + thermal.patch_mean[1]);
+        let friction = touch.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         match &self.expansion {
             Some(expansion) => expansion.deform(zone, seen, &mut thermal.deformation),

@@ -1,0 +1,100 @@
+//! Creepage, slip and dissipated energy as the tread has them: with the radius that the wheel has now.
+
+mod common;
+
+use common::*;
+use wheelrail::simulation::{Inputs, Outputs, Rotation, Simulation};
+
+/// Outputs of a wheel that rolls freely after 0.3 s, warmer than the rail by `excess` [K].
+fn rolls_freely(excess: f64, conductance: f64) -> Outputs {
+    let mut config = preset("railway", 10);
+    (config.thermal.wheel_excess, config.thermal.conductance) = (excess, conductance);
+    let inputs = Inputs::rolling(&config);
+    let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+    for _ in 0..300 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    simulation.outputs().clone()
+}
+
+/// Without conduction to the rail a hot wheel is a larger one. With it the rail chills the tread, which contracts in the
+/// contact and slips a little where it does: about 9e-8 of creepage per kelvin.
+#[test]
+fn free_rolling_of_a_hot_wheel_has_the_creepage_of_the_cold_one_but_for_the_chill_of_its_tread() {
+    for (conductance, tolerance, loss) in [(0.0, [1e-7, 1e-7], 1e-6), (1e8, [1e-5, 3e-5], 1.0)] {
+        let cold = rolls_freely(0.0, conductance);
+        for (excess, tolerance) in [100.0, 300.0].into_iter().zip(tolerance) {
+            let hot = rolls_freely(excess, conductance);
+            println!(
+                "conductance {conductance:.0e} W/(m2 K), {excess} K: growth {:.3e} m, creepage {:+.4e} (cold {:+.4e}), \
+                 loss {:.2e} W (cold {:.2e} W), force {:+.3} N",
+                hot.thermal_growth,
+                hot.contact_creepage,
+                cold.contact_creepage,
+                hot.friction_power,
+                cold.friction_power,
+                hot.contact_force_x
+            );
+            assert!(hot.thermal_growth > excess * 1.2e-5 * 0.46);
+            assert!((hot.contact_creepage - cold.contact_creepage).abs() < tolerance);
+            assert!((hot.contact_slide - cold.contact_slide).abs() < tolerance);
+            let slip = hot.contact_slip_velocity - cold.contact_slip_velocity;
+            assert!(slip.abs() < 1.01 * tolerance * hot.wheel_velocity);
+            assert!(hot.friction_power < cold.friction_power + loss);
+        }
+    }
+}
+
+/// Stationary rolling at a creepage.
+fn stationary(creepage: f64) -> Outputs {
+    let mut config = preset("railway", 10);
+    config.thermal.enabled = false;
+    let model = model(config);
+    let inputs = prescribed(&model, 20.0, creepage);
+    Simulation::new(model, &inputs).unwrap().outputs().clone()
+}
+
+#[test]
+fn t_gamma_is_the_friction_energy_per_metre() {
+    // Between mild creep and a locked wheel; the work of the force over the slip counts from free rolling.
+    let (low, high) = (stationary(-1e-3), stationary(1e-3));
+    let free = {
+        let (a, b) = (stationary(-1e-4), stationary(1e-4));
+        a.contact_creepage - a.contact_force_x * 2e-4 / (b.contact_force_x - a.contact_force_x)
+    };
+    println!("free rolling at {free:+.3e}");
+    for o in [low, high] {
+        let expected = (o.contact_force_x * (o.contact_creepage - free)).abs();
+        println!("creepage {:+.1e}: {:.4} N per metre, |F xi| {expected:.4}", o.contact_creepage, o.t_gamma);
+        assert!((o.t_gamma / expected - 1.0).abs() < 0.01);
+    }
+    let locked = stationary(2.0);
+    println!("locked: {} N per metre, force {} N", locked.t_gamma, locked.contact_force_x);
+    assert!((locked.t_gamma / locked.contact_force_x.abs() - 1.0).abs() < 2e-3);
+    let half = stationary(2.0 / 3.0);
+    assert!((half.t_gamma / (half.contact_force_x * half.contact_slide).abs() - 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn nothing_is_lost_per_metre_at_standstill() {
+    let mut config = preset("railway", 8);
+    config.thermal.enabled = false;
+    config.initial.velocity = 0.0;
+    let model = model(config);
+    let mut inputs = prescribed(&model, 0.0, 0.0);
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    for _ in 0..5 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let o = simulation.outputs();
+        assert_eq!([o.t_gamma, o.contact_creepage, o.contact_slide], [0.0; 3]);
+    }
+    // Spinning on the spot: finite.
+    inputs.rotation = Rotation::Velocity;
+    inputs.drive.omega = 2.0;
+    for _ in 0..50 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let o = simulation.outputs();
+    assert_eq!(o.contact_creepage, -2.0);
+    assert!((o.t_gamma * 0.02 / o.friction_power - 1.0).abs() < 1e-12 && o.friction_power > 1e3);
+}

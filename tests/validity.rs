@@ -1,0 +1,71 @@
+//! Limits of the model of which a run is warned: each in a case beyond it, none in ordinary rolling.
+
+mod common;
+
+use common::*;
+use wheelrail::config::Config;
+use wheelrail::simulation::validity::Limit;
+use wheelrail::simulation::{Inputs, Rotation, Simulation};
+
+fn limits(simulation: &Simulation) -> Vec<Limit> {
+    simulation.exceeded_limits().collect()
+}
+
+fn small(change: impl Fn(&mut Config)) -> Config {
+    let mut config = preset("railway", 8);
+    change(&mut config);
+    config
+}
+
+fn at_start(config: Config) -> Simulation {
+    let inputs = Inputs::rolling(&config);
+    Simulation::new(model(config), &inputs).unwrap()
+}
+
+#[test]
+fn ordinary_rolling_is_within_all_limits() {
+    assert_eq!(limits(&at_start(small(|_| {}))), []);
+}
+
+#[test]
+fn pressure_beyond_what_steel_carries_is_told_with_both_numbers() {
+    let simulation = at_start(small(|config| {
+        config.thermal.enabled = false;
+        config.model.contact_width = 0.0025;
+    }));
+    assert_eq!(limits(&simulation), [Limit::Yield]);
+    let text = simulation.describe_limit(Limit::Yield);
+    let pressure = format!("{:.0} MPa", simulation.outputs().contact_pressure_max * 1e-6);
+    assert!([&pressure, "1634 MPa", "model.contact_width"].iter().all(|word| text.contains(*word)), "{text}");
+}
+
+#[test]
+fn a_melting_contact_is_told() {
+    let simulation = at_start(small(|config| config.thermal.wheel_excess = 1500.0));
+    assert!(limits(&simulation).contains(&Limit::Melting), "{:?}", limits(&simulation));
+    assert!(simulation.describe_limit(Limit::Melting).contains("1693 K"));
+}
+
+#[test]
+fn falling_friction_in_steps_that_cannot_show_stick_slip_is_told_and_the_advice_helps() {
+    let mut config = preset("railway_dry", 8);
+    config.thermal.enabled = false;
+    let model = model(config);
+    let mut inputs = prescribed(&model, 10.0, 0.0);
+    inputs.rotation = Rotation::Velocity;
+    let rolling = Simulation::new(model.clone(), &inputs).unwrap();
+    assert_eq!(limits(&rolling), []);
+    inputs.drive.omega = 9.0 / 0.46;
+    let mut tuning = model.config().tuning.clone();
+    let mut coarse = Simulation::new(model.clone(), &inputs).unwrap();
+    coarse.advance(&inputs, 1e-3).unwrap();
+    assert_eq!(limits(&coarse), [Limit::StickSlip]);
+    // The step that the message names.
+    let text = coarse.describe_limit(Limit::StickSlip);
+    let step = text.split("solver.max_step to ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    tuning.max_step = step.parse().unwrap();
+    println!("{text}");
+    let mut fine = Simulation::start(model, tuning, &inputs).unwrap();
+    fine.advance(&inputs, 1e-3).unwrap();
+    assert_eq!(limits(&fine), []);
+}
