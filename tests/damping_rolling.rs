@@ -15,7 +15,7 @@ fn powers(model: &Arc<Model>, velocity: f64, creepage: f64, friction: f64) -> [f
     let outputs = simulation.outputs();
     let hub = outputs.hub_force_x * outputs.wheel_velocity + outputs.hub_moment * outputs.wheel_omega;
     let width = model.config().model.contact_width;
-    [hub - outputs.friction_power, simulation.state().audit.dissipated_power * width - outputs.friction_power]
+    [hub - outputs.friction_power, simulation.state().audit.damping_power * width]
 }
 
 fn cold(change: impl Fn(&mut Damping)) -> Arc<Model> {

@@ -159,3 +159,71 @@ fn a_start_beyond_adhesion_is_refused_with_a_way_out() {
     assert_eq!(slave.exit(), fmi2OK);
     assert!((slave.real("contact.utilisation") - 1.0).abs() < 1e-9);
 }
+
+#[test]
+fn a_tolerance_given_deliberately_is_used_unless_the_parameter_is_set_and_the_log_says_which() {
+    let dll = load();
+    let default = real_start("solver.tolerance");
+    let run = |given: Option<f64>, set: Option<f64>| {
+        let slave = Slave::coarse(&dll);
+        assert_eq!(slave.set_logging(true, &["logEvents"]), fmi2OK);
+        if let Some(value) = set {
+            assert_eq!(slave.set_real("solver.tolerance", value), fmi2OK);
+        }
+        let (defined, tolerance) = (i32::from(given.is_some()), given.unwrap_or(0.0));
+        // SAFETY: a component of this library.
+        assert_eq!(unsafe { dll.fmi2SetupExperiment(slave.component, defined, tolerance, 0.0, 0, 0.0) }, fmi2OK);
+        assert_eq!((slave.enter(), slave.exit()), (fmi2OK, fmi2OK));
+        let texts: Vec<_> = slave.messages().into_iter().map(|m| (m.status == fmi2Warning, m.text)).collect();
+        let warned = texts.iter().any(|(warning, text)| *warning && text.contains("tolerance"));
+        let told = texts.into_iter().map(|(_, text)| text).find(|text| text.contains("initialized")).unwrap();
+        slave.set_real("drive.moment", -8000.0);
+        assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+        let found = slave.real("solver.tolerance");
+        assert!(told.contains(&format!("solver.tolerance = {found:?} ")), "{told}");
+        (found, warned, told, slave.outputs())
+    };
+    let plain = run(None, None);
+    assert_eq!((plain.0, plain.1), (default, false));
+    assert!(plain.2.ends_with("of preset \"railway\""), "{}", plain.2);
+    // What fmpy hands back from the model description changes nothing.
+    assert_eq!(run(Some(default), None), plain);
+    // Tolerances of the master's own solver are not ours.
+    for usual in [1e-3, 1e-4, 1e-6, 2.0] {
+        let (found, warned, _, outputs) = run(Some(usual), None);
+        assert_eq!((found, warned, &outputs), (default, true, &plain.3), "{usual}");
+    }
+    let coarse = run(Some(0.05), None);
+    assert_eq!((coarse.0, coarse.1), (0.05, false));
+    assert!(coarse.2.ends_with("as the experiment asks") && coarse.3 != plain.3);
+    let set = run(Some(1e-6), Some(0.05));
+    assert_eq!((set.0, set.1, &set.3), (0.05, false, &coarse.3));
+    assert!(set.2.ends_with("as set"));
+}
+
+#[test]
+fn the_tolerance_of_an_experiment_survives_in_states_and_ends_with_a_reset() {
+    let dll = load();
+    let [first, second] = [0, 1].map(|_| Slave::coarse(&dll));
+    // SAFETY: a component of this library.
+    assert_eq!(unsafe { dll.fmi2SetupExperiment(first.component, 1, 0.05, 0.0, 0, 0.0) }, fmi2OK);
+    assert_eq!((first.enter(), first.exit()), (fmi2OK, fmi2OK));
+    second.initialize();
+    let mut state = std::ptr::null_mut();
+    assert_eq!(first.save(&mut state), fmi2OK);
+    let bytes = first.serialize(state);
+    let mut copy = std::ptr::null_mut();
+    assert_eq!(second.deserialize(&bytes, &mut copy), fmi2OK);
+    assert_eq!(second.restore(copy), fmi2OK);
+    assert_eq!(second.real("solver.tolerance"), 0.05);
+    for slave in [&first, &second] {
+        assert_eq!(slave.set_real("drive.moment", -8000.0), fmi2OK);
+        assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+    }
+    assert_eq!(first.outputs(), second.outputs());
+    assert_eq!((first.free_state(&mut state), second.free_state(&mut copy)), (fmi2OK, fmi2OK));
+    assert_eq!(first.reset(), fmi2OK);
+    first.coarsen();
+    first.initialize();
+    assert_eq!(first.real("solver.tolerance"), real_start("solver.tolerance"));
+}

@@ -171,11 +171,11 @@ fn varied(slave: &Slave, mut time: f64) -> Vec<Vec<u64>> {
             9 => assert_eq!(slave.set_real("drive.tread_heat", 2e4), fmi2OK),
             12 => {
                 assert_eq!(slave.set_integer("control.vertical", 2), fmi2OK);
-                assert_eq!(slave.set_real("drive.displacement", 1e-4), fmi2OK);
+                assert_eq!(slave.set_real("drive.displacement", 1e-5), fmi2OK);
             }
             14 => {
                 assert_eq!(slave.set_integer("control.vertical", 1), fmi2OK);
-                assert_eq!(slave.set_real("drive.load", 1e5), fmi2OK);
+                assert_eq!(slave.set_real("drive.load", 3e4), fmi2OK);
             }
             _ => {}
         }

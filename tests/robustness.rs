@@ -7,7 +7,9 @@ use wheelrail::simulation::{Inputs, LONGEST_STEP, Rotation, Simulation, StepErro
 
 #[test]
 fn a_thousand_random_starts_converge_without_shortening_a_step() {
-    let model = model(preset("paper_d", 20));
+    let mut config = preset("paper_d", 20);
+    config.tuning.tolerance = 0.0;
+    let model = model(config);
     let mut random = Random(1);
     let mut simulation = Simulation::new(model.clone(), &prescribed(&model, 10.0, 0.0)).unwrap();
     let (mut worst, mut total) = (0, 0);
@@ -63,7 +65,10 @@ fn wheel_starts_from_rest_under_a_driving_force() {
 
 #[test]
 fn wheel_lifts_off_falls_back_and_carries_the_load_again() {
-    let model = model(preset("railway", 10));
+    let mut config = preset("railway", 10);
+    // Long steps damp the bounce, whose first impact exceeds the candidate zone.
+    config.tuning.tolerance = 0.0;
+    let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     inputs.vertical = Vertical::Displacement;
     inputs.drive.displacement = 1e-4;
@@ -111,7 +116,9 @@ fn a_motion_beyond_the_range_of_the_model_is_refused_and_the_run_goes_on() {
 /// Rounding leaves such steps at the end of a run.
 #[test]
 fn steps_too_short_to_be_computed_wait_for_the_next_one() {
-    let model = model(preset("railway", 5));
+    let mut config = preset("railway", 5);
+    config.tuning.tolerance = 0.0;
+    let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     let run = |steps: &[f64], inputs: &Inputs| {
         let mut simulation = Simulation::new(model.clone(), inputs).unwrap();
@@ -134,7 +141,7 @@ fn steps_too_short_to_be_computed_wait_for_the_next_one() {
 #[test]
 fn the_longest_communication_step_is_carried_out() {
     let mut config = preset("railway", 5);
-    config.tuning.max_step = 1.0;
+    (config.tuning.max_step, config.tuning.tolerance) = (1.0, 0.0);
     let model = model(config);
     let inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model, &inputs).unwrap();

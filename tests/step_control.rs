@@ -109,3 +109,92 @@ fn impact_force_of_a_dropped_wheel_needs_control() {
     assert!((controlled / exact - 1.0).abs() < 0.03);
     assert!((plain / exact - 1.0).abs() > 3.0 * (controlled / exact - 1.0).abs());
 }
+
+/// Time within which events agree between communication steps at the default tolerance [s].
+const RESOLUTION: f64 = 2e-5;
+
+/// The default tolerance.
+fn defaults() -> f64 {
+    preset("railway", 10).tuning.tolerance
+}
+
+#[test]
+fn force_after_a_moment_step_is_right_with_default_settings_and_quiet_driving_costs_nothing() {
+    let step = |inputs: &mut Inputs, _: f64| inputs.drive.moment = -8000.0;
+    let (exact, _) = run(0.0, 2e-5, 1e-3, 0.012, step);
+    let (seen, steps) = run(defaults(), 0.1, 1e-3, 0.012, step);
+    println!("{steps} internal steps in {}", seen.len());
+    for ms in [2, 4, 10] {
+        let (force, reference) = (seen[ms - 1].contact_force_x, exact[ms - 1].contact_force_x);
+        println!("{ms} ms: {force:.0} N, converged {reference:.0} N");
+        assert!((force / reference - 1.0).abs() < 0.02, "{ms} ms");
+    }
+    // The ramp begins when the start has settled.
+    let brake = |inputs: &mut Inputs, t: f64| inputs.drive.moment = -7000.0 * ((t - 0.05) / 0.2).clamp(0.0, 1.0);
+    let (seen, _) = run(defaults(), 0.1, 1e-3, 0.3, brake);
+    assert!(seen[50..].iter().all(|o| o.internal_steps == 1));
+}
+
+#[test]
+fn take_off_and_landing_are_located_independently_of_the_communication_step() {
+    // Raised until it hangs free, then released under 40 % of the nominal load: the same motion for all steps.
+    let drop = |h: f64| {
+        move |inputs: &mut Inputs, t: f64| {
+            inputs.drive.load = 4e4;
+            inputs.drive.displacement = -1.78e-4 + 1.8e-4 * (t / 0.02).min(1.0);
+            let released = t - h > 0.03 - 1e-9;
+            inputs.vertical = if released { Vertical::Force } else { Vertical::Displacement };
+        }
+    };
+    // Every millisecond, whatever the step.
+    let each = |seen: Vec<Outputs>, h: f64| -> Vec<f64> {
+        let skip = (1e-3 / h).round() as usize;
+        seen.iter().skip(skip - 1).step_by(skip).map(|o| o.contact_force_y).collect()
+    };
+    let forces = |tolerance: f64, max_step: f64, h: f64| each(run(tolerance, max_step, h, 0.04, drop(h)).0, h);
+    let exact = forces(0.0, 5e-6, 1e-3);
+    let take_off = exact.iter().position(|&f| f == 0.0).unwrap();
+    let landing = exact.iter().rposition(|&f| f == 0.0).unwrap() + 1;
+    let coarse = forces(defaults(), 0.1, 1e-3);
+    let fine = forces(defaults(), 0.1, 1e-4);
+    // The force next to the event, over its rate, tells when it was.
+    for (name, k, rate, limit) in [
+        ("take-off", take_off - 1, exact[take_off - 1] - exact[take_off - 2], 5.0 * RESOLUTION),
+        ("landing", landing, exact[landing + 1] - exact[landing], RESOLUTION),
+    ] {
+        let late = |seen: &[f64]| 1e-3 * ((exact[k] - seen[k]) / rate).abs();
+        let apart = 1e-3 * ((coarse[k] - fine[k]) / rate).abs();
+        println!("{name}: {:.1e} s, {:.1e} s from the exact time, {apart:.1e} s apart", late(&coarse), late(&fine));
+        assert!(apart < RESOLUTION && late(&coarse) < limit && late(&fine) < limit);
+    }
+}
+
+#[test]
+fn breaking_loose_and_catching_again_are_located_independently_of_the_communication_step() {
+    // A moment beyond adhesion on a damp rail; then it is taken away.
+    let drive = |h: f64| {
+        move |inputs: &mut Inputs, t: f64| {
+            let begin = ((t - h) / 1e-3 + 1e-6).floor() * 1e-3;
+            inputs.drive.friction = 0.15;
+            inputs.drive.moment = if (0.0295..0.0395).contains(&begin) { -1e4 } else { 0.0 };
+        }
+    };
+    let slips = |tolerance: f64, max_step: f64, h: f64| -> Vec<(f64, f64)> {
+        let skip = (1e-3 / h).round() as usize;
+        let seen = run(tolerance, max_step, h, 0.1, drive(h)).0;
+        seen.iter().skip(skip - 1).step_by(skip).map(|o| (o.contact_slip_velocity, o.contact_stick_fraction)).collect()
+    };
+    let exact = slips(0.0, 1e-5, 1e-3);
+    let loose = exact.iter().position(|o| o.1 == 0.0).unwrap();
+    let caught = exact.iter().rposition(|o| o.1 == 0.0).unwrap();
+    println!("loose after {loose} ms, caught after {caught} ms");
+    let coarse = slips(defaults(), 0.1, 1e-3);
+    let fine = slips(defaults(), 0.1, 2e-4);
+    for (name, k) in [("loose", loose + 1), ("caught", caught)] {
+        let rate = exact[k].0 - exact[k - 1].0;
+        let late = |seen: &[(f64, f64)]| 1e-3 * ((exact[k].0 - seen[k].0) / rate).abs();
+        let apart = 1e-3 * ((coarse[k].0 - fine[k].0) / rate).abs();
+        println!("{name}: {:.1e} s, {:.1e} s from the exact time, {apart:.1e} s apart", late(&coarse), late(&fine));
+        assert!(apart < RESOLUTION && late(&coarse) < 5.0 * RESOLUTION && late(&fine) < 5.0 * RESOLUTION);
+    }
+}

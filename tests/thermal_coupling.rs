@@ -55,6 +55,8 @@ fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
 #[test]
 fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     let mut config = preset("railway", 10);
+    // Resolved, the torsion winds up the tread until the patch leaves the candidate zone.
+    config.tuning.tolerance = 0.0;
     config.thermal.max_speed = 30.0;
     let (heat_ratio, width, reference) =
         (config.thermal.heat_ratio, config.model.contact_width, config.thermal.reference);
@@ -217,7 +219,9 @@ fn brake_blocks_heat_the_tread_and_the_rail_chills_it() {
 
 #[test]
 fn long_steps_do_not_undershoot_and_find_the_peak_of_a_ramp_within_fifteen_percent() {
-    let model = model(preset("railway", 10));
+    let mut config = preset("railway", 10);
+    config.tuning.tolerance = 0.0;
+    let model = model(config);
     // A wheel that spins too fast while the vehicle is stopped under it, in steps h; then friction vanishes.
     let extremes = |h: f64| {
         let mut inputs = prescribed(&model, 20.0, 0.0);

@@ -177,7 +177,7 @@ fn time_schemes_agree_on_a_resolved_ramp() {
 #[test]
 fn input_rates_and_internal_steps_replace_short_communication_steps() {
     let mut config = preset("railway", 10);
-    config.tuning.max_step = 1e-3;
+    (config.tuning.max_step, config.tuning.tolerance) = (1e-3, 0.0);
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     let mut short = Simulation::new(model.clone(), &inputs).unwrap();

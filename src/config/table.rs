@@ -162,9 +162,9 @@ parameters! {
                 "Sliding distance over which the coefficient follows the law of slip and temperature; 0: at once";
             1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 1.0,
                 "Largest internal time step; longer communication steps are divided evenly";
-            1096 tolerance: f64 = 0.0, of "solver", from 0.0 to 1.0,
-                "Error that halves an internal step: contact force over model.nominal_load, contact temperature over \
-                 its rise or 100 K; 0: no error control";
+            1096 tolerance: f64 = 0.002, of "solver", from 0.0 to 1.0,
+                "Error that halves an internal step: contact force over load, moment over load times radius, slip over \
+                 that of a sliding patch, temperature over its rise or 100 K; 0: no error control";
             1125 austenitisation: f64 = 1000.0, of "thermal", in "K" as "degC", from 1.0 to 1e4,
                 "Austenitisation temperature Ac1";
         }

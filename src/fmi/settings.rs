@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 /// Set values by value reference.
 pub type SetValues = BTreeMap<Reference, Value>;
 
-/// The configuration `base` with explicit parameters.
-pub fn with_parameters(base: &Config, parameters: &SetValues) -> Config {
+/// The configuration `base` with what the experiment asks for and, above it, explicit parameters.
+pub fn with_parameters(base: &Config, experiment: &SetValues, parameters: &SetValues) -> Config {
     let mut config = base.clone();
-    for (reference, value) in parameters {
+    for (reference, value) in experiment.iter().chain(parameters) {
         if let Some(variable) = find(*reference) {
             variable.set_parameter(&mut config, value);
         }

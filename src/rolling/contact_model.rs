@@ -66,6 +66,11 @@ impl ContactModel {
         self.nominal_load / self.width
     }
 
+    /// Half-width of the Hertzian patch under the nominal load \[m].
+    pub fn nominal_half_width(&self) -> f64 {
+        self.nominal_half_width
+    }
+
     /// Solves for the contact forces; `start` is the result of the step before.
     pub fn solve(
         &self,

@@ -142,8 +142,29 @@ impl ThermalDeformation {
 pub struct StepControl {
     /// Largest internal step that the errors so far allow \[s].
     pub step: f64,
-    /// Controlled quantities one internal step before: contact forces x, y [N/m], highest temperature rise \[K].
-    pub before: [f64; 3],
+    /// Controlled quantities one internal step before.
+    pub before: Controlled,
+    /// Largest error that shorter steps were lately seen not to cure \[1].
+    pub noise: f64,
+    /// Error of a doubled step that failed, until it is clear whether its halves are quiet; zero: none \[1].
+    pub suspect: f64,
+    /// How many quiet steps have followed it.
+    pub quiet: u32,
+}
+
+/// What a step is measured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Controlled {
+    /// Contact forces on the wheel (x, y, moment) [N/m, N/m, N].
+    pub forces: [f64; 3],
+    /// Mean slip of the tread in the patch [m/s].
+    pub slip: f64,
+    /// Mean rises of temperature of wheel and rail in the patch \[K].
+    pub temperatures: [f64; 2],
+    /// Translational velocity [m/s].
+    pub velocity: f64,
+    /// Angular velocity [rad/s].
+    pub omega: f64,
 }
 
 /// Energy balance since the start, per metre of width.

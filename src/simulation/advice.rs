@@ -12,9 +12,9 @@ use crate::rolling::ModelError;
 /// The message of a step that failed, with advice.
 pub fn failed_step(error: &StepError, config: &Config) -> String {
     let shorter = format!(
-        "take shorter communication steps, lower solver.max_step (now {:?} s) or set solver.tolerance, for example to \
-         0.01, and change prescribed velocities and loads more gently",
-        config.tuning.max_step
+        "take shorter communication steps, lower solver.max_step (now {:?} s) or solver.tolerance (now {:?}; 0: not \
+         used), and change prescribed velocities and loads more gently",
+        config.tuning.max_step, config.tuning.tolerance
     );
     let advice = match error {
         StepError::ZoneExceeded { load, .. } => zone(*load, config).unwrap_or(shorter),

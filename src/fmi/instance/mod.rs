@@ -3,6 +3,7 @@
 //! Every refused call leaves the instance as it was, so a master may report the error and go on.
 
 pub mod derivatives;
+mod experiment;
 mod running;
 mod values;
 
@@ -31,9 +32,11 @@ pub struct Instance {
     preset: String,
     /// Parameters of the preset.
     base: Config,
-    /// Explicitly set parameters, which override the preset.
+    /// Parameters that follow from `fmi2SetupExperiment` and override the preset.
+    experiment: SetValues,
+    /// Explicitly set parameters, which override both.
     parameters: SetValues,
-    /// `base` with `parameters`.
+    /// `base` with `experiment` and `parameters`.
     config: Config,
     /// Explicitly set inputs; the others follow from the parameters.
     inputs: SetValues,
@@ -68,6 +71,7 @@ impl Instance {
             preset: presets::DEFAULT.to_owned(),
             config: base.clone(),
             base,
+            experiment: SetValues::new(),
             parameters: SetValues::new(),
             inputs: SetValues::new(),
             bumpless: SetValues::new(),
@@ -134,26 +138,6 @@ impl Instance {
         self.log.switch(on, categories)
     }
 
-    /// Times \[s]; the solver chooses its own tolerances, so that of the master is only checked.
-    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Outcome {
-        self.allow(Call::SetupExperiment)?;
-        if let Some(tolerance) = tolerance
-            && !(tolerance.is_finite() && tolerance > 0.0)
-        {
-            return Err(CallError::error(format!("tolerance = {tolerance:?} is outside its range: positive numbers")));
-        }
-        if !start.is_finite() {
-            return Err(CallError::error(format!("startTime = {start:?} s is outside its range: finite numbers")));
-        }
-        if let Some(stop) = stop
-            && !(stop.is_finite() && stop >= start)
-        {
-            return Err(CallError::error(format!("stopTime = {stop:?} s is outside its range: at least {start:?} s")));
-        }
-        (self.time, self.stop) = (start, stop);
-        Ok(())
-    }
-
     /// Begins Initialization Mode.
     pub fn enter_initialization(&mut self) -> Outcome {
         self.allow(Call::EnterInitializationMode)?;
@@ -167,7 +151,7 @@ impl Instance {
         self.simulation()?;
         self.phase = Phase::StepComplete;
         self.warn_of_limits();
-        self.log.report(Status::Ok, &format!("initialized at t = {} s", self.time));
+        self.log.report(Status::Ok, &format!("initialized at t = {} s, {}", self.time, self.tolerance_in_use()));
         Ok(())
     }
 
@@ -187,6 +171,7 @@ impl Instance {
         self.preset = presets::DEFAULT.to_owned();
         self.config = base.clone();
         self.base = base;
+        self.experiment.clear();
         self.parameters.clear();
         self.inputs.clear();
         self.bumpless.clear();

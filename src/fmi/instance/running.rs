@@ -19,6 +19,7 @@ impl Instance {
             phase: self.phase,
             preset: self.preset.clone(),
             base: self.base.clone(),
+            experiment: self.experiment.clone(),
             parameters: self.parameters.clone(),
             inputs: self.inputs.clone(),
             bumpless: self.bumpless.clone(),
@@ -32,7 +33,7 @@ impl Instance {
     /// Continues from a snapshot, of this instance or another; on failure nothing changes.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Outcome {
         self.allow(Call::FmuState)?;
-        let config = with_parameters(&snapshot.base, &snapshot.parameters);
+        let config = with_parameters(&snapshot.base, &snapshot.experiment, &snapshot.parameters);
         let refused = |error| CallError::error(format!("state cannot be set: {error}"));
         match (&snapshot.checkpoint, &mut self.simulation) {
             (None, _) => self.simulation = None,
@@ -49,6 +50,7 @@ impl Instance {
         self.phase = snapshot.phase;
         self.preset.clone_from(&snapshot.preset);
         self.base.clone_from(&snapshot.base);
+        self.experiment.clone_from(&snapshot.experiment);
         self.parameters.clone_from(&snapshot.parameters);
         self.config = config;
         self.inputs.clone_from(&snapshot.inputs);

@@ -64,7 +64,7 @@ impl Instance {
                 _ => drop(parameters.insert(variable.reference, value)),
             }
         }
-        let config = with_parameters(&base, &parameters);
+        let config = with_parameters(&base, &self.experiment, &parameters);
         if !early {
             self.take_over(&with_inputs(&config, &bumpless, &inputs, rates), &mut bumpless);
         }

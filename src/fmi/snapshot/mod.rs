@@ -20,6 +20,8 @@ pub struct Snapshot {
     pub preset: String,
     /// Parameters of the preset before explicit ones override them.
     pub base: Config,
+    /// Parameters that follow from `fmi2SetupExperiment`.
+    pub experiment: SetValues,
     /// Explicitly set parameters.
     pub parameters: SetValues,
     /// Explicitly set inputs.
@@ -171,7 +173,7 @@ mod tests {
     #[test]
     fn a_made_up_state_with_a_valid_checksum_is_refused_or_steps_or_is_refused_a_step() {
         let original = snapshot();
-        let config = with_parameters(&original.base, &original.parameters);
+        let config = with_parameters(&original.base, &original.experiment, &original.parameters);
         let payload = postcard::to_stdvec(&original).unwrap();
         assert_eq!(sealed(&payload), original.to_bytes().unwrap());
         let mut instance = Instance::new(None, Log::new(Box::new(|_, _, _| {}), false)).unwrap();
@@ -184,7 +186,7 @@ mod tests {
             let Ok(state) = Snapshot::from_bytes(&sealed(&mutated(&payload, &mut random))) else { continue };
             read += 1;
             // Another configuration is a model of its own, judged by its ranges and long to prepare.
-            let theirs = with_parameters(&state.base, &state.parameters);
+            let theirs = with_parameters(&state.base, &state.experiment, &state.parameters);
             if theirs != config {
                 let _ = theirs.validate();
                 continue;

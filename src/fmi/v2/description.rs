@@ -60,7 +60,9 @@ fn write(guid: &str) -> io::Result<String> {
             CATEGORIES.iter().try_for_each(|c| empty(xml, "Category", &[("name", c.0), ("description", c.1)]))
         })?;
         let (stop, step) = (format!("{DEFAULT_STOP_TIME:?}"), format!("{DEFAULT_STEP_SIZE:?}"));
-        empty(xml, "DefaultExperiment", &[("startTime", "0.0"), ("stopTime", &stop), ("stepSize", &step)])?;
+        let tolerance = number(Config::default().tuning.tolerance);
+        let attributes = [("startTime", "0.0"), ("stopTime", &*stop), ("tolerance", &*tolerance), ("stepSize", &*step)];
+        empty(xml, "DefaultExperiment", &attributes)?;
         list(xml, "ModelVariables", model_variables)?;
         list(xml, "ModelStructure", model_structure)
     })?;

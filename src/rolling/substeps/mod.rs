@@ -5,13 +5,14 @@
 //! errors allow. A piece is halved
 //!
 //! - where the contact finds no state;
-//! - with a `solver.tolerance`, where contact force or contact temperature miss their prediction by more than that. The
-//!   prediction continues the line through the two states before, or the last state after a jump of the inputs. What is
-//!   missed is of second order in the step and larger than the error of the second-order formula, so that loss of contact,
-//!   re-contact, lock-up and breaking loose need no rules of their own. The sliding of a wheel that has broken loose shows
-//!   little in it: the force is that of friction whatever the wheel does;
+//! - with a `solver.tolerance`, where the contact misses its [`prediction`] by more than that. Loss of contact, re-contact,
+//!   lock-up and breaking loose need no rules of their own: all of them bend forces or slip, and steps are halved until the
+//!   bend within one step is below the tolerance, down to steps of some 10 µs ([`control`] says when);
 //! - where the contact heats or cools by hundreds of kelvin in one long piece, with or without a tolerance: friction that
 //!   falls with the temperature follows the temperatures of the steps before.
+
+mod control;
+mod prediction;
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
@@ -20,6 +21,8 @@ use super::state::{State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
 use crate::heat::HeatFlows;
+use control::Control;
+use prediction::{Found, controlled};
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -31,25 +34,9 @@ pub const SHORTEST_STEP: f64 = 5e-7;
 const MOST_PIECES: u64 = 40_000;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
-/// Internal step below which errors do not refine any further [s]: forces may jump, with the friction coefficient.
-const FINEST: f64 = 1e-5;
-/// Change of the highest contact temperature [K] that always refines steps longer than this [s].
-const HEATING: (f64, f64) = (300.0, 1e-3);
-/// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
-const GROWTH: f64 = 0.125;
-/// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
-const WARM: f64 = 100.0;
-
 /// Control of a stationary start: the errors do not limit the step yet.
 pub fn unlimited(state: &State) -> StepControl {
-    StepControl { step: f64::INFINITY, before: controlled(state) }
-}
-
-/// Forces on the wheel [N/m] and highest rise of temperature in the contact [K].
-fn controlled(state: &State) -> [f64; 3] {
-    let [force_x, force_y, _] = state.contact.traction.resultant;
-    let temperatures = state.thermal.as_ref().map(|thermal| &thermal.temperatures);
-    [force_x, force_y, temperatures.map_or(0.0, |t| t.wheel_max.max(t.rail_max))]
+    StepControl { step: f64::INFINITY, before: controlled(state), ..StepControl::default() }
 }
 
 /// Place within a communication step: `done` of `pieces` equal pieces lie behind.
@@ -139,8 +126,8 @@ fn march(
         return Err(StepError::TooManySteps { step, max_step, pieces: fewest, most: MOST_PIECES });
     }
     let mut place = Place { done: 0, pieces: fewest };
-    let mut control = state.control;
-    while tuning.tolerance > 0.0 && ramp.h / place.pieces as f64 > control.step * (1.0 + 1e-9) {
+    let mut control = Control::new(tuning, state.control);
+    while !control.allows(ramp.h / place.pieces as f64) {
         place.halve();
     }
     let (mut last_step, mut failures, mut begun, mut counts) = (state.last_step, 0, false, [0, 0]);
@@ -162,17 +149,15 @@ fn march(
             }
             Err(error) => return Err(error),
         }
-        let found = Found::compare(model, from, next, &control, last_step, dt);
-        if found.too_rough(tuning.tolerance, dt) {
-            control.step = 0.5 * dt;
+        let found = Found::compare(model, from, next, &control.memory.before, last_step, dt);
+        if control.refuses(&found, dt) {
             place.halve();
             continue;
         }
-        control.before = controlled(from);
+        control.memory.before = controlled(from);
         place.done += 1;
         failures = 0;
-        if found.allows_growth(tuning.tolerance) {
-            control.step = control.step.max(2.0 * dt);
+        if control.grows(&found, dt) {
             place.join(fewest);
         }
         counts = [counts[0] + 1, counts[1] + next.contact.traction.iterations as u64];
@@ -183,40 +168,11 @@ fn march(
         begun = true;
         std::mem::swap(now, next);
     }
-    now.control = control;
+    now.control = control.memory;
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
     if let Some(thermal) = &mut now.thermal {
         thermal.flows = flows;
     }
     [now.internal_steps, now.iterations] = counts;
     Ok(())
-}
-
-/// How far an internal step was from its prediction.
-struct Found {
-    /// Largest deviation of the controlled quantities from their prediction [1].
-    error: f64,
-    /// Change of the highest contact temperature [K].
-    heating: f64,
-}
-
-impl Found {
-    fn compare(model: &Model, from: &State, to: &State, control: &StepControl, last_step: f64, dt: f64) -> Self {
-        let (before, now, found) = (control.before, controlled(from), controlled(to));
-        let load = model.contact.nominal_line_load();
-        let scales = [load, load, WARM.max(found[2].abs())];
-        // The first step after a jump of the inputs has no history.
-        let ratio = if to.restarted || last_step == 0.0 { 0.0 } else { dt / last_step };
-        let missed = |k: usize| (found[k] - now[k] - ratio * (now[k] - before[k])).abs() / scales[k];
-        Self { error: (0..3).map(missed).fold(0.0, f64::max), heating: (found[2] - now[2]).abs() }
-    }
-
-    fn too_rough(&self, tolerance: f64, dt: f64) -> bool {
-        let inaccurate = tolerance > 0.0 && self.error > tolerance && dt > 2.0 * FINEST;
-        inaccurate || (self.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9))
-    }
-
-    fn allows_growth(&self, tolerance: f64) -> bool {
-        (tolerance == 0.0 || self.error <= GROWTH * tolerance) && self.heating <= GROWTH * HEATING.0
-    }
 }

@@ -1,0 +1,94 @@
+//! When an internal step is too long, and when the next one may be longer.
+//!
+//! A step is too long where its [error](super::prediction) exceeds the tolerance. Halving it must then make the error
+//! smaller: fourfold where the motion is smooth, twofold where it bends. What does not become smaller is no error of the time
+//! formula but noise: forces that jump with the state of a contact node, or that depend on the length of the step itself.
+//! Shorter steps do not cure it, so the control learns its size and lets it pass, up to [`NOISIEST`] times the tolerance,
+//! until it fades. It learns
+//!
+//! - where half a step misses by no less than the whole one;
+//! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
+
+use super::prediction::Found;
+use crate::config::Tuning;
+use crate::rolling::state::StepControl;
+
+/// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
+/// located to twice this time at best.
+const FINEST: f64 = 1e-5;
+/// Change of the highest contact temperature [K] that always refines steps longer than this [s].
+const HEATING: (f64, f64) = (300.0, 1e-3);
+/// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
+const GROWTH: f64 = 0.125;
+/// Largest noise that passes, in tolerances [1].
+const NOISIEST: f64 = 5.0;
+/// Share of an error below which that of half the step is smaller.
+const SMALLER: f64 = 0.9;
+/// Allowance for noise of the size learned, and how fast it fades with every step [1].
+const ALLOWANCE: f64 = 1.5;
+const FADING: f64 = 0.95;
+
+/// Control of the internal steps of one communication step.
+pub struct Control<'a> {
+    tuning: &'a Tuning,
+    /// What is remembered from one communication step to the next.
+    pub memory: StepControl,
+    /// Error of the last attempt from the present state, which failed; zero if there was none.
+    failed: f64,
+}
+
+impl<'a> Control<'a> {
+    /// Goes on where the last communication step ended.
+    pub fn new(tuning: &'a Tuning, memory: StepControl) -> Self {
+        Self { tuning, memory, failed: 0.0 }
+    }
+
+    /// Whether the errors so far allow a step of `dt` seconds.
+    pub fn allows(&self, dt: f64) -> bool {
+        self.tuning.tolerance == 0.0 || dt <= self.memory.step * (1.0 + 1e-9)
+    }
+
+    /// Whether a step of `dt` seconds was too long; then half of it is allowed.
+    pub fn refuses(&mut self, found: &Found, dt: f64) -> bool {
+        let tolerance = self.tuning.tolerance;
+        if !found.first && self.failed > 0.0 && found.error > SMALLER * self.failed {
+            self.learn(found.error);
+        }
+        let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
+        let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * FINEST;
+        let refused = inaccurate || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
+        if refused {
+            self.memory.step = 0.5 * dt;
+            self.failed = found.error;
+            let doubled = inaccurate && found.doubled;
+            (self.memory.suspect, self.memory.quiet) = if doubled { (found.error, 0) } else { (0.0, 0) };
+        }
+        refused
+    }
+
+    /// Takes note of a step of `dt` seconds that was not refused, and says whether the next one may be longer.
+    pub fn grows(&mut self, found: &Found, dt: f64) -> bool {
+        let tolerance = self.tuning.tolerance;
+        self.failed = 0.0;
+        self.memory.noise *= FADING;
+        let quiet = found.error <= GROWTH * tolerance;
+        if self.memory.suspect > 0.0 {
+            self.memory.quiet = if quiet { self.memory.quiet + 1 } else { 0 };
+            if self.memory.quiet == 2 {
+                self.learn(self.memory.suspect);
+            }
+            if !quiet || self.memory.quiet == 2 {
+                self.memory.suspect = 0.0;
+            }
+        }
+        let grows = (tolerance == 0.0 || quiet) && found.heating <= GROWTH * HEATING.0;
+        if grows {
+            self.memory.step = self.memory.step.max(2.0 * dt);
+        }
+        grows
+    }
+
+    fn learn(&mut self, noise: f64) {
+        self.memory.noise = self.memory.noise.max(noise);
+    }
+}

@@ -1,0 +1,87 @@
+//! What a step is expected to find, and how far it was from that.
+//!
+//! The prediction continues the line through the two states before, or the last state after a jump of the inputs. What is
+//! missed is of second order in the step and larger than the error of the second-order formula.
+//!
+//! Four kinds of quantities are predicted, each with the scale that makes one tolerance meaningful for all:
+//!
+//! | quantity | scale |
+//! |---|---|
+//! | contact forces x, y | nominal load P |
+//! | contact moment about the hub | P r |
+//! | mean slip of the tread in the patch | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
+//! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
+//!
+//! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
+//! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
+//! its value; `(a/r)a` is the displacement that breaks a standing wheel loose, over μ. So the scale holds at standstill, too,
+//! and short steps need not follow what the elasticity of the patch takes up. What a prescribed velocity explains of a missed
+//! slip is no error.
+
+use crate::rolling::model::Model;
+use crate::rolling::state::{Controlled, State};
+
+/// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
+const WARM: f64 = 100.0;
+
+/// The predicted quantities of a state.
+pub fn controlled(state: &State) -> Controlled {
+    let traction = &state.contact.traction;
+    Controlled {
+        forces: traction.resultant,
+        slip: traction.tread_slip,
+        temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.patch_mean),
+        velocity: state.motion.velocity.now,
+        omega: state.motion.omega.now,
+    }
+}
+
+/// How far an internal step was from its prediction.
+pub struct Found {
+    /// Largest deviation of the predicted quantities, relative to their scales \[1].
+    pub error: f64,
+    /// Change of the highest contact temperature \[K].
+    pub heating: f64,
+    /// Whether it was the first step after a jump of the inputs: it has no history.
+    pub first: bool,
+    /// Whether it was longer than the step before.
+    pub doubled: bool,
+}
+
+impl Found {
+    /// Judges the step of `dt` \[s] that led `from` one state `to` the next; the step before took `last_step` \[s].
+    /// `before` are the quantities at its beginning.
+    pub fn compare(model: &Model, from: &State, to: &State, before: &Controlled, last_step: f64, dt: f64) -> Self {
+        let (now, found) = (controlled(from), controlled(to));
+        let first = to.restarted || last_step == 0.0;
+        let ratio = if first { 0.0 } else { dt / last_step };
+        let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
+        let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
+        let arms = [1.0, 1.0, radius];
+        let forces = (0..3).map(|k| missed(&|c| c.forces[k]).abs() / (load * arms[k]));
+        let mut error = forces.fold(0.0, f64::max);
+        // What slip and temperature of the patch are without a patch is a convention.
+        if touching(from) && touching(to) {
+            let [translation, _, rotation] = to.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
+            let explained = missed(&|c| translation * c.velocity - rotation * radius * c.omega).abs();
+            let half_width = model.contact.nominal_half_width();
+            let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());
+            let scale = (half_width / radius * (speed + half_width / dt)).max(found.slip.abs());
+            error = error.max((missed(&|c| c.slip).abs() - explained) / scale);
+            for body in 0..2 {
+                let rise = |c: &Controlled| c.temperatures[body];
+                error = error.max(missed(&rise).abs() / WARM.max(rise(&found).abs()));
+            }
+        }
+        Self { error, heating: (hottest(to) - hottest(from)).abs(), first, doubled: ratio > 1.5 }
+    }
+}
+
+fn touching(state: &State) -> bool {
+    !state.contact.traction.patches.is_empty()
+}
+
+/// Highest rise of temperature in the contact [K].
+fn hottest(state: &State) -> f64 {
+    state.thermal.as_ref().map_or(0.0, |thermal| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max))
+}
