@@ -14,16 +14,13 @@
 //! within which a node keeps its state grows from iteration to iteration.
 
 use super::coefficient::CoefficientSearch;
-use super::iterate::{GridScratch, Iterate, copy};
-use super::observe;
-use super::power::Power;
+use super::iterate::{GridScratch, Iterate};
 use super::rows::AffineRow;
 use super::state::Status;
 use super::streamline::upwind_rows;
 use crate::contact::error::ContactError;
 use crate::contact::problem::AxisDrive;
 use crate::linalg::DenseSystem;
-use crate::multistep::History;
 use std::ops::Range;
 
 /// Iterations allowed.
@@ -40,8 +37,6 @@ const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Stuck nodes that carry more than this multiple of what friction allows say nothing about pressures and gaps yet.
 const OVERLOAD: f64 = 3.0;
-/// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
-const ENDING: f64 = 0.2;
 /// Friction coefficients tried: smooth laws need five, steep ones in long steps some tens.
 const MAX_COEFFICIENTS: usize = 150;
 /// Largest change of the turn of the rim that counts as settled [rad]: it tilts the gap by less than a millionth of a
@@ -59,6 +54,7 @@ impl Iterate<'_> {
         let (penalty, friction) = (self.penalty(), self.problem.friction);
         self.traction.friction = friction.coefficient(self.traction.tread_slip);
         self.update_upwind();
+        self.turn_of_surface = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
         self.frame.turn = self.predicted_turn();
         self.traction.iterations = self.find_states(penalty)?;
         self.traction.tread_slip = self.mean_slip();
@@ -361,38 +357,6 @@ impl Iterate<'_> {
             (None, Some(r)) => before[i + 1 + r],
             (None, None) => self.founding_state(),
         }
-    }
-
-    /// Moves the histories on and reads off the traction.
-    fn conclude(self) {
-        let rim_velocity = self.rim_velocity();
-        let Self { grid, problem, state, traction, scratch, frame } = self;
-        let [wheel, rail] = &traction.surface;
-        let push = |history: &mut History, value: f64| match problem.time.is_stationary() {
-            true => *history = History::constant(value),
-            false => history.push(&problem.time, value),
-        };
-        for (i, history) in state.tangential_gap.iter_mut().enumerate() {
-            let port = grid.port(i);
-            push(history, wheel[port] - rail[port]);
-        }
-        push(&mut state.turn, frame.turn);
-        for (body, sign) in [(0, 1.0), (1, -1.0)] {
-            let loads = &mut traction.loads[body];
-            copy(loads, &traction.port_forces);
-            *loads *= sign;
-            scratch.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
-        }
-        let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
-        let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
-        let [friction, work] = power.friction(&problem.time, &mut state.friction);
-        (traction.friction_power, traction.friction_work) = (friction, work);
-        let mean = if problem.duration > 0.0 { (work / problem.duration).max(0.0) } else { friction };
-        // Where friction has all but ended within the step, its mean stands for it.
-        let power = if friction > ENDING * mean { friction } else { mean };
-        traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
-        traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, traction);
-        observe::read_off(grid, power, state, &scratch.centred_slip, traction);
     }
 
     fn check_zone(&self) -> Result<(), ContactError> {

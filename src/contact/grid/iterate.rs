@@ -50,6 +50,9 @@ pub(super) struct Iterate<'a> {
     pub scratch: &'a mut GridScratch,
     /// Turn of the rim in the present iterate.
     pub frame: RimFrame<'a>,
+    /// The turn that belongs to the surface displacements at hand: in the first iteration those of the start, while
+    /// [`Self::frame`] is predicted [rad].
+    pub turn_of_surface: f64,
 }
 
 impl Iterate<'_> {

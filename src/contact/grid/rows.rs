@@ -1,5 +1,6 @@
 //! Gap, slip and balances of momentum as rows of a linear system in contact forces and rigid motions.
 
+use super::frame::RimFrame;
 use super::iterate::{GridScratch, Iterate, copy};
 use super::observe;
 use super::streamline::Upwind;
@@ -184,7 +185,8 @@ impl Iterate<'_> {
             let acceleration = motion.gain * self.traction.rigid[k];
             self.traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);
         }
-        self.frame.turn = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
+        self.turn_of_surface = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
+        self.frame.turn = self.turn_of_surface;
         let [v, height, omega] = self.traction.rigid;
         let (v_c, rim, to_right) = (problem.radius() * omega, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
@@ -205,7 +207,8 @@ impl Iterate<'_> {
 
     /// Lever arms about the hub centre, see [`observe::lever_arms`] [m].
     fn lever_arms(&self, i: usize) -> [f64; 2] {
-        let wheel = (self.problem.radius(), &self.frame, &self.traction.surface[0]);
+        let frame = RimFrame { turn: self.turn_of_surface, ..self.frame };
+        let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
         observe::lever_arms(self.grid, wheel, &self.state.gap, i)
     }
 }

@@ -79,7 +79,7 @@ impl ContactSolver for GridSolver {
         let mut heights = std::mem::take(&mut scratch.sagitta);
         sagitta(grid, radius, &mut heights);
         let frame = RimFrame { grid, radius, sagitta: &heights, turn: 0.0 };
-        let solved = Iterate { grid, problem, state, traction, scratch, frame }.run();
+        let solved = Iterate { grid, problem, state, traction, scratch, frame, turn_of_surface: 0.0 }.run();
         scratch.sagitta = heights;
         solved
     }
