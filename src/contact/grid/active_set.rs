@@ -79,7 +79,7 @@ impl Iterate<'_> {
             let changed = self.update_states(penalty, iteration);
             // Once states and edges are settled, only motions and turn are refined: smooth functions of the data.
             decided += usize::from(!settled);
-            settled = !changed && (settled || self.update_upwind() <= self.problem.edge_tolerance);
+            settled = !changed && (settled || self.edges_settled());
             if settled && !turned && self.sticks() {
                 return Ok(decided);
             }
@@ -95,8 +95,6 @@ impl Iterate<'_> {
             let law = friction.coefficient(self.traction.tread_slip);
             let Some(next) = search.next(self.traction.friction, law) else { return Ok(()) };
             self.traction.friction = next;
-            // With the weights of the last solution, whose edges were settled: they keep the slip a smooth function.
-            std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
             self.find_states(penalty)?;
             self.traction.tread_slip = self.mean_slip();
         }
@@ -149,6 +147,16 @@ impl Iterate<'_> {
             self.problem.bodies.relative[(port, port)]
         };
         self.grid.len() as f64 / (0..self.grid.len()).map(stiffness).sum::<f64>()
+    }
+
+    /// Whether the edges of the patches are settled. The weights of the present solution are kept if so: with weights that
+    /// change from one coefficient to the next the slip would be no function of the coefficient.
+    fn edges_settled(&mut self) -> bool {
+        let settled = self.update_upwind() <= self.problem.edge_tolerance;
+        if settled {
+            std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
+        }
+        settled
     }
 
     /// Upwind weights of the present states and pressures; returns their largest change.
