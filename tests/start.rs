@@ -29,15 +29,15 @@ fn start(model: &Arc<Model>, inputs: &Inputs) -> Outputs {
     Simulation::new(model.clone(), inputs).unwrap().outputs().clone()
 }
 
-/// Largest tangential force [N] of a run, its start included.
-fn largest_force(model: &Arc<Model>, inputs: &Inputs, dt: f64, time: f64) -> f64 {
+/// Tangential force [N] of a run at its start, and its largest change.
+fn force_and_change(model: &Arc<Model>, inputs: &Inputs, dt: f64, time: f64) -> [f64; 2] {
     let mut simulation = Simulation::new(model.clone(), inputs).unwrap();
-    let mut largest = simulation.outputs().contact_force_x.abs();
+    let (first, mut change) = (simulation.outputs().contact_force_x, 0.0f64);
     for _ in 0..(time / dt).round() as usize {
         simulation.advance(inputs, dt).unwrap();
-        largest = largest.max(simulation.outputs().contact_force_x.abs());
+        change = change.max((simulation.outputs().contact_force_x - first).abs());
     }
-    largest
+    [first, change]
 }
 
 /// Mass with vehicle [kg] and moment of inertia [kg m²] of the whole wheel.
@@ -47,7 +47,7 @@ fn inertia(config: &Config) -> [f64; 2] {
     [mass, wheel_inertia(config) * width + config.wheel.hub_inertia]
 }
 
-/// The largest force of all runs is 3e-6 N.
+/// What is left is the rolling resistance of the damping, up to 0.03 N at 80 m/s; it does not change.
 #[test]
 fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_step() {
     for velocity in [0.0, 0.1, 5.0, 30.0, 80.0, -30.0] {
@@ -55,10 +55,32 @@ fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_s
             let model = model(railway(velocity, heat));
             // A tenth of the step where it is cheap.
             let (dt, time) = if heat { (1e-3, 1.0) } else { (1e-4, if velocity == 30.0 { 1.0 } else { 0.1 }) };
-            let largest = largest_force(&model, &driven(&model, 0.0, 0.0), dt, time);
-            println!("V {velocity} m/s, heat {heat}, step {dt} s: {largest:.1e} N");
-            assert!(largest < 1e-2, "{velocity} m/s, heat {heat}: {largest} N");
+            let [force, change] = force_and_change(&model, &driven(&model, 0.0, 0.0), dt, time);
+            println!("V {velocity} m/s, heat {heat}, step {dt} s: {force:.1e} N, change {change:.1e} N");
+            assert!(force.abs() < 5e-2 && change < 1e-5, "{velocity} m/s, heat {heat}: {force} N, {change} N");
         }
+    }
+}
+
+/// The decelerated wheel loses the power that damping takes: `m V̇ = F_x = −P/V · m/(m + I/r²)`. The balance of forces and
+/// the audit agree about it within 2.5 %.
+#[test]
+fn without_damping_a_plain_start_is_free_of_any_force_and_with_it_of_all_but_rolling_resistance() {
+    for velocity in [5.0, 80.0, -30.0] {
+        let mut config = railway(velocity, false);
+        config.damping.modal = false;
+        let undamped = common::model(config);
+        let [force, change] = force_and_change(&undamped, &driven(&undamped, 0.0, 0.0), 1e-3, 0.3);
+        let model = model(railway(velocity, false));
+        let ([mass, moment_of_inertia], radius) = (inertia(model.config()), model.config().wheel.radius);
+        let mut simulation = Simulation::new(model.clone(), &driven(&model, 0.0, 0.0)).unwrap();
+        let resistance = simulation.outputs().contact_force_x;
+        simulation.advance(&driven(&model, 0.0, 0.0), 1e-3).unwrap();
+        let power = simulation.outputs().damping_energy / 1e-3;
+        let expected = -power / velocity * mass / (mass + moment_of_inertia / (radius * radius));
+        println!("V {velocity}: {force:.1e} N, change {change:.1e} N; damped {resistance:.4e} N for {expected:.4e} N");
+        assert!(force.abs() < 1e-6 && change < 1e-5);
+        assert!((resistance / expected - 1.0).abs() < 0.04);
     }
 }
 
@@ -68,34 +90,55 @@ fn a_plain_start_is_free_of_tangential_force_under_little_and_much_load_and_in_o
     for share in [0.01, 1.9] {
         let mut inputs = driven(&model, 0.0, 0.0);
         inputs.drive.load *= share;
-        let largest = largest_force(&model, &inputs, 1e-3, 0.3);
-        println!("load {share}: {largest:.1e} N");
-        assert!(largest < 1e-2, "{share}: {largest} N");
+        let [force, change] = force_and_change(&model, &inputs, 1e-3, 0.3);
+        println!("load {share}: {force:.1e} N, change {change:.1e} N");
+        assert!(force.abs() < 5e-2 && change < 1e-5, "{share}: {force} N, {change} N");
     }
     for name in ["paper_a", "paper_b", "paper_d"] {
         let model = common::model(preset(name, 10));
-        let largest = largest_force(&model, &driven(&model, 0.0, 0.0), 1e-3, 0.3);
-        println!("{name}: {largest:.1e} N");
-        assert!(largest < 1e-2, "{name}: {largest} N");
+        let [force, change] = force_and_change(&model, &driven(&model, 0.0, 0.0), 1e-3, 0.3);
+        println!("{name}: {force:.1e} N, change {change:.1e} N");
+        assert!(force.abs() < 5e-2 && change < 1e-5, "{name}: {force} N, {change} N");
     }
 }
 
-/// The start of a hot wheel is free of force, too. In the following steps the surfaces that touch exchange heat, which the
-/// start does not know; that is not asserted here.
+/// A railway wheel that starts hot; excess temperature [K].
+fn hot(velocity: f64, excess: f64) -> Arc<Model> {
+    let mut config = railway(velocity, true);
+    config.thermal.wheel_excess = excess;
+    model(config)
+}
+
+/// The start knows the heat that the tread gives to the rail in passing. What that leaves, up to 1.9 N at 300 K, comes from
+/// the coefficients of the first steps. The layers that it heats and chills pull at both surfaces, which shifts the creepage
+/// by 1e-5 per 100 K.
 #[test]
-fn a_hot_wheel_starts_without_tangential_force_rolling_and_standing() {
-    for excess in [100.0, 300.0] {
-        for velocity in [0.0, 30.0, -30.0] {
-            let mut config = railway(velocity, true);
-            config.thermal.wheel_excess = excess;
-            let model = model(config);
-            let outputs = start(&model, &driven(&model, 0.0, 0.0));
-            let expected = velocity / (model.config().wheel.radius + outputs.thermal_growth);
-            let creepage = if velocity == 0.0 { 0.0 } else { 1.0 - outputs.wheel_omega / expected };
-            println!("{excess} K, V {velocity}: {:.1e} N, creepage {creepage:.3e}", outputs.contact_force_x);
-            assert!(outputs.contact_force_x.abs() < 1e-2);
-            assert!(creepage.abs() < 1e-4, "rolls with the present radius: {creepage}");
+fn a_hot_wheel_rolls_on_freely_with_its_present_radius() {
+    let cold = start(&model(railway(30.0, true)), &driven(&model(railway(30.0, true)), 0.0, 0.0));
+    for (excess, limit, shift) in [(100.0, 1.0, 1e-5), (300.0, 3.0, 3e-5)] {
+        for (velocity, dt, time) in [(30.0, 1e-3, 0.2), (30.0, 1e-4, 0.2), (-30.0, 1e-3, 0.2), (5.0, 1e-3, 0.2)] {
+            let model = hot(velocity, excess);
+            let inputs = driven(&model, 0.0, 0.0);
+            let outputs = start(&model, &inputs);
+            let [force, change] = force_and_change(&model, &inputs, dt, time);
+            let shifted = outputs.contact_creepage - cold.contact_creepage;
+            println!(
+                "{excess} K, V {velocity}, step {dt}: {force:.1e} N, change {change:.1e} N, creepage {shifted:+.1e}"
+            );
+            assert!(force.abs() + change < limit);
+            assert!(velocity != 30.0 || shifted.abs() < shift);
+            assert!(outputs.contact_creepage.abs() < 1e-4);
         }
+    }
+}
+
+#[test]
+fn a_hot_wheel_stands_without_tangential_force() {
+    for excess in [100.0, 300.0] {
+        let model = hot(0.0, excess);
+        let [force, change] = force_and_change(&model, &driven(&model, 0.0, 0.0), 1e-3, 0.2);
+        println!("{excess} K at rest: {force:.1e} N, change {change:.1e} N");
+        assert!(force.abs() + change < 1e-2);
     }
 }
 
@@ -127,9 +170,7 @@ fn force_and_accelerations_at_the_start_are_those_of_quasi_steady_rolling() {
     }
 }
 
-/// With heat the angular acceleration of the light wheel changes by up to 0.7 %
-/// in steps of 0.1 ms: membrane forces of the hot layers deform the bodies by what they answer within a step. Without
-/// thermal expansion that is gone.
+/// The largest change is 9e-4, of the angular acceleration where moment and force nearly balance.
 #[test]
 fn a_start_under_moment_and_force_has_no_transient() {
     for velocity in [0.0, 5.0, 30.0, 80.0, -30.0] {
@@ -156,8 +197,7 @@ fn a_start_under_moment_and_force_has_no_transient() {
                         }
                     }
                     println!("V {velocity}, heat {heat}, {moment} N m, {force} N, step {dt}: {worst:?}");
-                    let limits = [5e-3, 5e-3, if heat { 1e-2 } else { 5e-3 }, 5e-3];
-                    assert!(worst.iter().zip(limits).all(|(change, limit)| *change < limit), "{worst:?}");
+                    assert!(worst.iter().all(|change| *change < 2e-3), "{worst:?}");
                 }
             }
         }

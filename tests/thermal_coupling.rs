@@ -155,12 +155,14 @@ fn a_warm_wheel_grows_by_the_thermoelastic_annulus() {
     assert!((o.thermal_growth / expected - 1.0).abs() < 1e-6);
     // Warm but for the cold hub, and a stationary contact that takes and gives a little heat.
     assert!((bulk / 60.0 - 1.0).abs() < 0.03);
-    // At the same creepage of the radius that the wheel has it pulls no more than the cold one.
+    // It rolls with the radius that it has: only what the tread gives to the rail in passing shifts the creepage.
     let mut cold = config.clone();
     cold.thermal.wheel_excess = 0.0;
     let reference = Simulation::new(common::model(cold.clone()), &Inputs::rolling(&cold)).unwrap();
-    assert!((o.contact_creepage - reference.outputs().contact_creepage).abs() < 1e-8, "{:e}", o.contact_creepage);
-    assert!((o.contact_force_x - reference.outputs().contact_force_x).abs() < 10.0, "{}", o.contact_force_x);
+    let shift = o.contact_creepage - reference.outputs().contact_creepage;
+    println!("creepage shifted by {shift:e}, force {} N", o.contact_force_x);
+    assert!(shift.abs() < 1e-5, "{shift:e}");
+    assert!(o.contact_force_x.abs() < 0.1, "{}", o.contact_force_x);
     assert!(o.contact_approach < reference.outputs().contact_approach);
 }
 

@@ -124,7 +124,7 @@ pub struct OperatingPoint {
 
 /// Passes that find the growth of a wheel at a creepage of its grown radius, and what they may miss of the creepage.
 const GROWTH_PASSES: usize = 8;
-const GROWTH_TOLERANCE: f64 = 1e-8;
+const GROWTH_TOLERANCE: f64 = 1e-12;
 
 impl OperatingPoint {
     /// The slave with preset and settings; `fixed` are what the command decides.

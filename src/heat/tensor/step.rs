@@ -2,14 +2,14 @@
 
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
-use super::modal::StageCoefficients;
+use super::modal::{StageCoefficients, dot};
 use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageKey};
 use super::state::{BoundaryState, HeatState};
 use crate::heat::error::HeatError;
-use crate::heat::exchange::Exchange;
+use crate::heat::exchange::{Exchange, TreadHeat};
 use crate::heat::model::{HeatFlows, LARGEST_STEP, SMALLEST_STEP};
 use crate::heat::parameters::HeatConfig;
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Storage that keeps the preconditioner of the stationary state regular, relative to `κ/r_o²` [1].
 const REGULARISATION: f64 = 1e-3;
@@ -114,6 +114,42 @@ impl Heat {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
         Ok((HeatState { field, last: Some(boundary(speeds, &loads)) }, flows))
+    }
+
+    /// What a wheel loses and the rail gains where they touch, as after many turns, if the mean temperature of the tread is
+    /// `tread` \[K]; of `exchange` only patches and pressure count.
+    ///
+    /// It is the stationary state of a wheel that is kept warm by even heat on its tread, less the mean along every
+    /// streamline of the wheel, which changes within minutes. The modal solver is exact enough for it: what it neglects
+    /// acts on the mean.
+    pub fn passing(&self, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Result<HeatState, HeatError> {
+        check_speeds(speeds)?;
+        let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
+        let even = Exchange {
+            patches: exchange.patches.clone(),
+            pressure: exchange.pressure.clone(),
+            tread: vec![TreadHeat { angle: 0.0, width: 2.0 * PI, heat: 1.0 }],
+            ..Exchange::default()
+        };
+        self.set_loads(&even, &mut loads)?;
+        let storage = REGULARISATION * self.config.diffusivity() / self.config.wheel.radius.powi(2);
+        let coefficients = StageCoefficients { storage, flow: 1.0 };
+        stage.set(self, &loads, StageKey { speeds, coefficients, rate: 0.0, curved: false })?;
+        let mut field = Vec::new();
+        stage.set_loads(self, &loads, &mut field);
+        stage.solve(self, coefficients, &mut field)?;
+        let (wheel, mut mean) = (&self.wheel, Vec::new());
+        wheel.integrate(&field[..wheel.size()], &mut mean);
+        mean.iter_mut().for_each(|sum| *sum /= wheel.line.closed);
+        for row in field[..wheel.size()].chunks_exact_mut(wheel.modes.len()) {
+            row.iter_mut().zip(&mean).for_each(|(value, mean)| *value -= mean);
+        }
+        let scale = tread / dot(&mean, &wheel.modes.surface);
+        field.iter_mut().for_each(|value| *value *= scale);
+        if !field.iter().all(|value| value.is_finite()) {
+            return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
+        }
+        Ok(HeatState { field, last: None })
     }
 }
 

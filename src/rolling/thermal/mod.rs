@@ -102,17 +102,23 @@ impl ThermalModel {
         Touch { traction, reversible }
     }
 
-    /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel on top. At
-    /// standstill, where nothing carries heat away, only the latter.
+    /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel on top and what
+    /// it warms in passing. At standstill, where nothing carries heat away, only the excess temperature.
     pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
         let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
         let mut thermal = ThermalState { fields: self.heat.initial(self.wheel_excess), ..ThermalState::default() };
-        if v.abs() > AT_REST || (omega * self.radius).abs() > AT_REST {
+        let moving = [v, omega * self.radius].map(|speed| speed.abs() > AT_REST);
+        if moving != [false; 2] {
             let mut exchange = Exchange::default();
             touch.fill(&self.blocks, tread_heat, &mut exchange);
             let (stationary, flows) = self.heat.stationary(v, omega, &exchange)?;
             thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
             thermal.flows = flows;
+            // Where one of both surfaces stays, it warms or cools for ever.
+            if moving == [true; 2] && self.wheel_excess != 0.0 && !exchange.patches.is_empty() {
+                let passing = self.heat.passing([v, omega], &exchange, self.wheel_excess)?;
+                thermal.fields = self.heat.sum(&passing, &thermal.fields)?;
+            }
         }
         self.observe(touch, &mut thermal, &mut Observation::default())?;
         thermal.heating.before = thermal.heating.now;
