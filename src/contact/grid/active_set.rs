@@ -83,10 +83,6 @@ impl Iterate<'_> {
             if settled && !turned && self.sticks() {
                 return Ok(decided);
             }
-            // A node at the edge may open and close with the turn that the other of both brings.
-            if changed && iteration > STRICT_ITERATIONS {
-                self.frame.turn = 0.5 * (turn + self.frame.turn);
-            }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
     }
