@@ -41,6 +41,25 @@ fn half_width_is_smooth_and_hertzian() {
     assert!(mean.abs() <= 1e-3 && spread <= 2e-3, "mean {mean}, peak to peak {spread}");
 }
 
+/// The torsion of the wheel turns the rim against the hub: for a round rim no change of geometry.
+#[test]
+fn a_rigid_turn_of_the_rim_by_five_millimetres_changes_nothing_in_the_contact() {
+    for (load, creepage) in [(NOMINAL, 3e-4), (0.1 * NOMINAL, -1e-4), (1.9 * NOMINAL, 2.0), (NOMINAL, 0.0)] {
+        let found = [0.0, 5e-3, -5e-3].map(|moved| {
+            let bodies = HalfPlanes::new(20).turned(moved / RADIUS);
+            bodies.roll(load, creepage, &bodies.start()).unwrap().traction
+        });
+        for turned in &found[1..] {
+            let patch = |t: &wheelrail::contact::Traction| t.extent().map(|p| [p.low, p.high]).unwrap();
+            let moved = (0..2).map(|k| (patch(turned)[k] - patch(&found[0])[k]).abs()).fold(0.0, f64::max);
+            let force = (0..3).map(|k| (turned.resultant[k] - found[0].resultant[k]).abs()).fold(0.0, f64::max);
+            let half_width = found[0].half_width();
+            println!("load {load}, creepage {creepage}: edges {:.1e}, force {:.1e}", moved / half_width, force / load);
+            assert!(moved < 1e-6 * half_width && force < 1e-6 * load, "{moved:e} m, {force:e} N/m");
+        }
+    }
+}
+
 #[test]
 fn carter_error_falls_with_order_one_and_a_half_or_better() {
     let spread = |n: usize| {

@@ -224,12 +224,14 @@ fn restitution(model: &Arc<Model>, retardation: f64, speed: f64, mass: f64) -> f
 }
 
 /// The closed form is of first order in the damping ratio. Vibrations of the wheel on its hub that the throw leaves behind
-/// exchange some 1e-4 of the energy.
+/// exchange some 1e-4 of the energy. The steps are fixed: their control would refine the coarse ones.
 #[test]
 fn rebound_of_a_dropped_wheel_converges_with_the_step_to_the_damped_closed_form() {
     let errors = |damping_ratio: f64| {
         let retardation = 2.0 * damping_ratio / 455.0;
-        let model = model(rayleigh(heavy_hub(10), retardation));
+        let mut config = rayleigh(heavy_hub(10), retardation);
+        config.tuning.tolerance = 0.0;
+        let model = model(config);
         [1e-4, 5e-5, 2.5e-5].map(|dt| {
             let [before, after] = impact(&model, dt);
             let exact = restitution(&model, retardation, before, bouncing_mass(model.config()));
@@ -316,11 +318,15 @@ fn braking(change: &dyn Fn(&mut Config)) -> [f64; 2] {
 
 #[test]
 fn energy_of_a_braking_stop_stays_balanced_with_damping() {
-    let none = braking(&|c| c.damping.modal = false);
+    // The damper of the track takes what is left at the stop, 14 % of the little that a gentle brake loses to friction.
+    let none = braking(&|c| {
+        c.damping.modal = false;
+        (c.rail.restraint_stiffness, c.rail.restraint_damping) = (0.0, 0.0);
+    });
     let modal = braking(&|_| {});
     let strong = braking(&|c| (c.damping.rayleigh_mass, c.damping.rayleigh_stiffness) = (20.0, 1e-4));
     println!("residual, damping over friction: none {none:?}, default {modal:?}, Rayleigh {strong:?}");
-    assert!(none[1].abs() < 0.02);
+    assert!(none[1].abs() < 1e-9);
     for [residual, _] in [none, modal, strong] {
         assert!(residual.abs() < 5e-3);
     }

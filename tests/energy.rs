@@ -3,7 +3,8 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
+use wheelrail::config::Config;
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Braking from 10 m/s: moment ramp, hold, at walking speed the brake holds the wheel. Outputs at the end.
 fn braking_stop(model: &Arc<Model>, step: f64) -> Outputs {
@@ -60,22 +61,96 @@ fn steady_creep_dissipates_what_the_drive_supplies() {
 #[test]
 fn energy_residual_of_gentle_traction_falls_with_the_step() {
     let mut config = preset("railway", 20);
-    config.tuning.tolerance = 0.0;
     config.initial.velocity = 20.0;
+    config.tuning.tolerance = 0.0;
     let model = model(config);
     let residual = |step: f64| {
         let mut inputs = Inputs::rolling(model.config());
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
         for k in 0..(3.0 / step) as usize {
-            inputs.drive.moment = 1000.0 * (k as f64 * step).sin();
+            let moment = |k: usize| 1000.0 * (k as f64 * step).sin();
+            inputs.drive.moment = moment(k);
+            inputs.rate.moment = (moment(k + 1) - moment(k)) / step;
             simulation.advance(&inputs, step).unwrap();
         }
         simulation.outputs().energy_residual
     };
     let residuals = [2e-2, 1e-2, 5e-3, 2.5e-3].map(|step| residual(step).abs());
     println!("residuals with steps of 20 to 2.5 ms: {residuals:?}");
-    // First order, on top of some 0.1 % of the dissipation that no step removes: the normals are those of the undeformed
-    // bodies.
-    assert!(residuals[0] < 0.04 && residuals[3] < 0.008, "{residuals:?}");
-    assert!(residuals.windows(2).all(|r| r[1] < 0.75 * r[0]), "{residuals:?}");
+    assert!(residuals.iter().all(|r| *r < 3e-3), "{residuals:?}");
+}
+
+/// Balance of the energy since the start as seen by someone who has nothing but the outputs: what the hub did, with the
+/// exchanged forces and the angles and distances of each step, less the kinetic energy of the masses and what friction and
+/// damping dissipated, relative to the latter; and what the model says of it.
+fn observed(config: &Config, moment: f64, friction: f64, step: f64, end: f64) -> [f64; 2] {
+    let model = model(config.clone());
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.friction = friction;
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let (r, i, width) = (config.wheel.radius, config.wheel.hub_radius, config.model.contact_width);
+    let surface = std::f64::consts::PI * config.material.density * width;
+    let mass = surface * (r * r - i * i) + config.wheel.hub_mass + config.vehicle.mass;
+    let inertia = 0.5 * surface * (r.powi(4) - i.powi(4)) + config.wheel.hub_inertia;
+    let kinetic = |o: &Outputs| 0.5 * (mass * o.wheel_velocity.powi(2) + inertia * o.wheel_omega.powi(2));
+    let start = simulation.outputs().clone();
+    let (mut before, mut work, mut dissipated) = (start.clone(), 0.0, 0.0);
+    for k in 0..(end / step).round() as usize {
+        // The brake grips and lets go, so that nothing is strained at the end.
+        let t = k as f64 * step;
+        inputs.drive.moment = if t < 0.02 || t > 0.75 * end { 0.0 } else { moment };
+        simulation.advance(&inputs, step).unwrap();
+        let now = simulation.outputs().clone();
+        work += now.hub_moment * (now.wheel_angle - before.wheel_angle);
+        work += now.hub_force_x * (now.wheel_distance - before.wheel_distance);
+        work -= now.hub_force_y * (now.contact_approach - before.contact_approach);
+        dissipated += step * now.friction_power + now.damping_energy - before.damping_energy;
+        before = now;
+    }
+    let seen = (work - (kinetic(&before) - kinetic(&start)) - dissipated) / dissipated;
+    [seen, before.energy_residual]
+}
+
+#[test]
+fn an_observer_of_a_moment_brake_finds_the_energy_balance_of_the_model_at_every_step() {
+    for (heat, moment, friction) in [(true, -8000.0, 0.3), (false, -8000.0, 0.3), (true, -16000.0, 0.4)] {
+        let mut config = preset("railway", 10);
+        config.thermal.enabled = heat;
+        for step in [1e-4, 1e-3, 5e-3, 2e-2] {
+            let [seen, own] = observed(&config, moment, friction, step, 0.4);
+            println!("{moment} N m, heat {heat}, {} ms: seen {seen:+.2e}, own {own:+.2e}", step * 1e3);
+            assert!(seen.abs() < 1e-3 && (seen - own).abs() < 1e-4, "{seen} {own}");
+        }
+    }
+}
+
+/// The tread rings at some metres per second after a wheel has locked within a tenth of a turn.
+#[test]
+fn the_balance_holds_while_the_torsion_rings() {
+    let mut config = preset("railway", 10);
+    (config.thermal.enabled, config.damping.modal) = (false, false);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+    inputs.drive.friction = 0.05;
+    for step in [1e-4_f64, 2e-5] {
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        inputs.drive.omega = 0.0;
+        let (mut before, mut work, mut dissipated, mut slips) =
+            (simulation.outputs().clone(), 0.0, 0.0, (0.0f64, 99.0f64));
+        for k in 0..(0.05 / step).round() as usize {
+            // Locked within 8 ms.
+            inputs.drive.omega = model.config().initial.velocity / 0.46 * (1.0 - (k + 1) as f64 * step / 8e-3).max(0.0);
+            simulation.advance(&inputs, step).unwrap();
+            let now = simulation.outputs().clone();
+            work += step * now.hub_force_x * 0.5 * (before.wheel_velocity + now.wheel_velocity);
+            dissipated += step * now.friction_power;
+            let slip = now.contact_tread_slip;
+            slips = if k as f64 * step > 0.01 { (slips.0.max(slip), slips.1.min(slip)) } else { slips };
+            before = now;
+        }
+        println!("{} us: slip {slips:.2?} m/s, residual {:+.2e}", step * 1e6, before.energy_residual);
+        assert!(before.energy_residual.abs() < 3e-3 && work > dissipated * 0.5);
+        inputs.drive.omega = model.config().initial.velocity / 0.46;
+    }
 }

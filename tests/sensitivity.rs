@@ -209,8 +209,8 @@ fn derivatives_by_heat_that_is_off_and_after_a_tunable_change_are_those_of_the_s
     let model = model(preset("railway", 5));
     let mut inputs = Inputs::rolling(model.config());
     inputs.drive.friction = 0.08;
-    inputs.drive.moment = -6000.0;
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.drive.moment = -6000.0;
     for _ in 0..50 {
         simulation.advance(&inputs, 1e-3).unwrap();
     }

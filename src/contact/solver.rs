@@ -59,7 +59,7 @@ pub enum SolverState {
     #[default]
     Stateless,
     /// Of the solver on a grid of paired nodes.
-    Grid(GridState),
+    Grid(Box<GridState>),
 }
 
 impl ContactState {

@@ -27,7 +27,8 @@ pub struct HalfPlanes {
     /// Compliance of each half-plane, and of both.
     half: DMatrix<f64>,
     relative: DMatrix<f64>,
-    free: DVector<f64>,
+    /// Displacement of the surfaces of wheel and rail without forces [m].
+    pub free: [DVector<f64>; 2],
     none: [DMatrix<f64>; 3],
 }
 
@@ -52,8 +53,19 @@ impl HalfPlanes {
         // The compliance is that of half-planes already, so that the correction vanishes.
         let solver = GridSolver::new(grid.clone(), &half, &half, modulus());
         let none = [DMatrix::zeros(n, 3), DMatrix::zeros(3, n), DMatrix::zeros(3, 3)];
-        let (relative, free) = (2.0 * &half, DVector::zeros(n));
+        let (relative, free) = (2.0 * &half, [DVector::zeros(n), DVector::zeros(n)]);
         Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none }
+    }
+
+    /// Turns the rim by an angle about the wheel centre [rad], positive where the tread moves towards `+x`.
+    pub fn turned(mut self, angle: f64) -> Self {
+        let ContactGrid { x, spacing, guard } = &self.grid;
+        for node in 0..self.grid.ports() / 2 {
+            let x = x[0] + (node as f64 - *guard as f64) * spacing;
+            let depth = (RADIUS * RADIUS - x * x).sqrt();
+            (self.free[0][2 * node], self.free[0][2 * node + 1]) = (angle * depth, angle * x);
+        }
+        self
     }
 
     /// Shapes the rail so that the gap at the candidates is `gap` [m].
@@ -74,7 +86,7 @@ impl HalfPlanes {
             bodies: SurfaceResponse {
                 compliance: [&self.half, &self.half],
                 relative: &self.relative,
-                free: [&self.free, &self.free],
+                free: [&self.free[0], &self.free[1]],
                 inertial: &self.none[0],
                 momentum: &self.none[1],
                 deformation_inertia: &self.none[2],

@@ -35,14 +35,18 @@ impl RimFrame<'_> {
     /// Angle [rad] at which the mean of `û_x`, weighted with the nodal normal `forces`, vanishes; without any, that at which it
     /// vanishes at the middle of the zone.
     pub fn angle(&self, u: &DVector<f64>, forces: &DVector<f64>) -> f64 {
-        let (mut moved, mut arm) = (0.0, 0.0);
-        for i in 0..self.grid.len() {
-            let port = self.grid.port(i);
-            let weight = forces[port + 1].max(0.0);
-            moved += weight * u[port];
-            arm += weight * (self.radius - self.sagitta[port / 2]);
-        }
-        if arm > 0.0 { moved / arm } else { u[self.grid.port(self.grid.len() / 2)] / self.radius }
+        self.weights(forces).map(|(port, weight)| weight * u[port]).sum()
+    }
+
+    /// What the displacements at the x ports contribute to this angle [1/m].
+    pub fn weights(&self, forces: &DVector<f64>) -> impl Iterator<Item = (usize, f64)> {
+        let grid = self.grid;
+        let normal = move |i: usize| forces[grid.port(i) + 1].max(0.0);
+        let arm = |i: usize| self.radius - self.sagitta[grid.port(i) / 2];
+        let sum: f64 = (0..grid.len()).map(|i| normal(i) * arm(i)).sum();
+        let middle = (sum == 0.0).then(|| (grid.port(grid.len() / 2), 1.0 / self.radius));
+        let loaded = (0..grid.len()).filter(move |&i| normal(i) > 0.0);
+        loaded.map(move |i| (grid.port(i), normal(i) / sum)).chain(middle)
     }
 }
 

@@ -34,10 +34,24 @@ pub struct GridScratch {
     pub(super) upwind: Vec<Upwind>,
     pub(super) upwind_before: Vec<Upwind>,
     pub(super) status_before: Vec<Status>,
+    pub(super) turn: AffineTurn,
     /// Coefficients of all port forces in the row at hand.
     pub(super) row: Vec<f64>,
     /// Slip velocity with centred differences: what dissipates. The upwind one counts its own numerical dissipation.
     pub(super) centred_slip: Vec<f64>,
+}
+
+/// Turn of the rim as an affine function.
+#[derive(Default)]
+pub(super) struct AffineTurn {
+    /// Coefficients of all port forces [rad/(N/m)].
+    pub forces: Vec<f64>,
+    /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
+    pub inertial: [f64; 3],
+    /// What is known of it [rad].
+    pub known: f64,
+    /// Its value in the present solution, with the weights of the one before [rad].
+    pub expected: f64,
 }
 
 /// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
@@ -50,6 +64,9 @@ pub(super) struct Iterate<'a> {
     pub scratch: &'a mut GridScratch,
     /// Turn of the rim in the present iterate.
     pub frame: RimFrame<'a>,
+    /// The turn that belongs to the surface displacements at hand: in the first iteration those of the start, while
+    /// [`Self::frame`] is predicted [rad].
+    pub turn_of_surface: f64,
 }
 
 impl Iterate<'_> {

@@ -7,6 +7,7 @@
 mod active_set;
 mod candidates;
 mod coefficient;
+mod conclude;
 mod frame;
 pub(super) mod iterate;
 pub mod kernel;

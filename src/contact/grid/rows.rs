@@ -1,9 +1,11 @@
 //! Gap, slip and balances of momentum as rows of a linear system in contact forces and rigid motions.
 
+use super::frame::RimFrame;
 use super::iterate::{GridScratch, Iterate, copy};
 use super::observe;
 use super::streamline::Upwind;
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// A row: coefficients of the rigid motions and the constant; those of the port forces come beside it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,24 +40,43 @@ impl Iterate<'_> {
         [turned / length, (rail[port + 2] - rail[port - 2]) / length]
     }
 
-    /// `g = 0` at a closed node; its force coefficients are the column of the relative compliance.
-    pub(super) fn gap_row(&self, i: usize) -> (AffineRow, &[f64]) {
-        let bodies = &self.problem.bodies;
+    /// Writes the turn of the rim as an affine function of port forces and accelerations of the rigid motions to the scratch
+    /// space: the mean of [`RimFrame::angle`](super::frame::RimFrame::angle) with the weights of the present iterate.
+    pub(super) fn write_turn(&mut self) {
+        let (grid, bodies) = (self.grid, &self.problem.bodies);
+        let mut turn = std::mem::take(&mut self.scratch.turn);
+        turn.forces.clear();
+        turn.forces.resize(grid.ports(), 0.0);
+        (turn.inertial, turn.known) = ([0.0; 3], 0.0);
+        for (port, weight) in self.frame.weights(&self.traction.port_forces) {
+            let compliance = column(bodies.compliance[0], port);
+            turn.forces.iter_mut().zip(compliance).for_each(|(t, c)| *t += weight * c);
+            turn.inertial.iter_mut().enumerate().for_each(|(k, t)| *t += weight * bodies.inertial[(port, k)]);
+            turn.known += weight * self.scratch.known[0][port];
+        }
+        self.scratch.turn = turn;
+    }
+
+    /// `g = 0` at a closed node. Writes the force coefficients of the ports `window` to `forces`.
+    pub(super) fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        let (bodies, turn, x) = (&self.problem.bodies, &self.scratch.turn, self.grid.x[i]);
         let port = self.grid.port(i) + 1;
+        let compliance = column(bodies.relative, port)[window.clone()].iter().zip(&turn.forces[window.clone()]);
+        forces[window].iter_mut().zip(compliance).for_each(|(f, (c, t))| *f = c - x * t);
         let mut rigid = [0.0, 1.0, 0.0];
         for (k, motion) in self.problem.rigid.iter().enumerate() {
             if motion.target().is_none() {
-                rigid[k] += motion.gain * bodies.inertial[(port, k)];
+                rigid[k] += motion.gain * (bodies.inertial[(port, k)] - x * turn.inertial[k]);
             }
         }
         let [wheel, rail] = &self.scratch.known;
-        let constant = self.scratch.gap[i] + self.frame.normal(wheel, i) - rail[port];
-        (AffineRow { rigid, constant }, column(bodies.relative, port))
+        let constant = self.scratch.gap[i] + wheel[port] - x * turn.known - rail[port];
+        AffineRow { rigid, constant }
     }
 
-    /// `s = 0` at a stuck node, linearised in V and Ω about the present iterate, at its turn of the rim. Writes the force
+    /// `s = 0` at a stuck node, linearised in V, Ω and the turn of the rim about the present iterate. Writes the force
     /// coefficients of the ports `window` to `forces`.
-    pub(super) fn slip_row(&self, i: usize, window: std::ops::Range<usize>, forces: &mut [f64]) -> AffineRow {
+    pub(super) fn slip_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
         let to_right = self.upstream_right();
@@ -81,6 +102,14 @@ impl Iterate<'_> {
             constant += weight * (v * rail[at] - rim * self.frame.tangential(wheel, at));
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, row, to_right);
+        // A turn of the rim tilts the surface and slows the rim.
+        let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
+        let tilt: f64 = self.stencil(i, row, to_right).iter().map(|(at, weight)| weight * height(*at)).sum();
+        let by_turn = rim * tilt + problem.radius() * gain * stretch_wheel;
+        let turn = &self.scratch.turn;
+        forces[window.clone()].iter_mut().zip(&turn.forces[window.clone()]).for_each(|(f, t)| *f += by_turn * t);
+        inertial.iter_mut().zip(turn.inertial).for_each(|(load, t)| *load += by_turn * t);
+        constant += by_turn * (turn.known - self.frame.turn);
         let mut rigid = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
         constant += -v * stretch_rail + problem.radius() * self.traction.rigid[2] * stretch_wheel;
         for (k, motion) in problem.rigid.iter().enumerate() {
@@ -180,11 +209,16 @@ impl Iterate<'_> {
                 surface.axpy(sign * force, &bodies.compliance[body].column(port), 1.0);
             }
         }
+        let turn = &mut self.scratch.turn;
+        turn.expected = turn.known;
+        turn.expected += turn.forces.iter().zip(self.traction.port_forces.iter()).map(|(t, f)| t * f).sum::<f64>();
         for (k, motion) in problem.rigid.iter().enumerate().filter(|(_, motion)| motion.target().is_none()) {
             let acceleration = motion.gain * self.traction.rigid[k];
             self.traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);
+            turn.expected += acceleration * turn.inertial[k];
         }
-        self.frame.turn = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
+        self.turn_of_surface = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
+        self.frame.turn = self.turn_of_surface;
         let [v, height, omega] = self.traction.rigid;
         let (v_c, rim, to_right) = (problem.radius() * omega, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
@@ -205,7 +239,8 @@ impl Iterate<'_> {
 
     /// Lever arms about the hub centre, see [`observe::lever_arms`] [m].
     fn lever_arms(&self, i: usize) -> [f64; 2] {
-        let wheel = (self.problem.radius(), &self.frame, &self.traction.surface[0]);
+        let frame = RimFrame { turn: self.turn_of_surface, ..self.frame };
+        let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
         observe::lever_arms(self.grid, wheel, &self.state.gap, i)
     }
 }

@@ -52,7 +52,7 @@ impl ContactSolver for GridSolver {
         };
         let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
         let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };
-        ContactState { traction, solver: SolverState::Grid(state) }
+        ContactState { traction, solver: SolverState::Grid(Box::new(state)) }
     }
 
     fn solve(
@@ -65,7 +65,7 @@ impl ContactSolver for GridSolver {
         let SolverState::Grid(before) = &start.solver else { return Err(ContactError::ForeignState) };
         let ContactState { traction, solver } = found;
         if !matches!(solver, SolverState::Grid(_)) {
-            *solver = SolverState::Grid(GridState::default());
+            *solver = SolverState::Grid(Box::default());
         }
         let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
         state.copy_from(before);
@@ -79,7 +79,7 @@ impl ContactSolver for GridSolver {
         let mut heights = std::mem::take(&mut scratch.sagitta);
         sagitta(grid, radius, &mut heights);
         let frame = RimFrame { grid, radius, sagitta: &heights, turn: 0.0 };
-        let solved = Iterate { grid, problem, state, traction, scratch, frame }.run();
+        let solved = Iterate { grid, problem, state, traction, scratch, frame, turn_of_surface: 0.0 }.run();
         scratch.sagitta = heights;
         solved
     }

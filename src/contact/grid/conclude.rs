@@ -1,0 +1,43 @@
+//! What is done once with a solution: histories move on, loads and power are taken, the traction is read off.
+
+use super::iterate::{GridScratch, Iterate, copy};
+use super::observe;
+use super::power::Power;
+use crate::multistep::History;
+
+/// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
+const ENDING: f64 = 0.2;
+
+impl Iterate<'_> {
+    /// Moves the histories on and reads off the traction.
+    pub(super) fn conclude(self) {
+        let rim_velocity = self.rim_velocity();
+        let Self { grid, problem, state, traction, scratch, frame, .. } = self;
+        let [wheel, rail] = &traction.surface;
+        let push = |history: &mut History, value: f64| match problem.time.is_stationary() {
+            true => *history = History::constant(value),
+            false => history.push(&problem.time, value),
+        };
+        for (i, history) in state.tangential_gap.iter_mut().enumerate() {
+            let port = grid.port(i);
+            push(history, wheel[port] - rail[port]);
+        }
+        push(&mut state.turn, frame.turn);
+        for (body, sign) in [(0, 1.0), (1, -1.0)] {
+            let loads = &mut traction.loads[body];
+            copy(loads, &traction.port_forces);
+            *loads *= sign;
+            scratch.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
+        }
+        let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
+        let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
+        let [friction, work] = power.friction(&problem.time, &mut state.friction);
+        (traction.friction_power, traction.friction_work) = (friction, work);
+        let mean = if problem.duration > 0.0 { (work / problem.duration).max(0.0) } else { friction };
+        // Where friction has all but ended within the step, its mean stands for it.
+        let power = if friction > ENDING * mean { friction } else { mean };
+        traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
+        traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, traction);
+        observe::read_off(grid, power, state, &scratch.centred_slip, traction);
+    }
+}
