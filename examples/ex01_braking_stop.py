@@ -212,7 +212,7 @@ def arguments():
 def run(options):
     """The demonstration."""
     speed = options.speed_kmh / 3.6
-    parameters = {"preset": options.preset, "initial.velocity": speed, "initial.creepage": 0.0}
+    parameters = {"preset": options.preset, "initial.velocity": speed}
     inputs = {"control.rotation": "moment", "control.translation": "force", "control.vertical": "force"}
     with Fmu(options.fmu) as fmu, Wheel(fmu, parameters, inputs) as wheel:
         friction, load, radius = wheel.get("rail.friction", "drive.load", "wheel.radius")

@@ -172,12 +172,15 @@ def test_every_master_reaches_the_presets(unit, master):
 
 
 def test_a_master_that_sets_every_start_value_computes_the_same(unit, braking):
-    """Start values of the description are those of the default preset, so setting them all changes nothing."""
+    """Start values of the description are those of the default preset, so setting them all changes nothing.
+
+    The creepage of the start is the exception: unset, it is sought; its start value 0 would prescribe it.
+    """
     starts = {"Real": float, "Integer": int, "Boolean": lambda text: text == "true", "String": str}
     everything = {
         variable.name: starts.get(variable.type, int)(variable.start)
         for variable in unit.description.modelVariables
-        if variable.start is not None and variable.causality == "parameter"
+        if variable.start is not None and variable.causality == "parameter" and variable.name != "initial.creepage"
     }
     assert len(everything) > 30
     assert_same(in_steps(unit, everything | START, MOMENTS), braking)

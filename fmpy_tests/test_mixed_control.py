@@ -11,7 +11,7 @@ CREEPAGE = 5e-4
 RADIUS = 0.46
 OMEGA = V * (2.0 - CREEPAGE) / (2.0 + CREEPAGE) / RADIUS
 LOAD = 1e5
-STATE = {"initial.velocity": V, "initial.creepage": CREEPAGE}
+STATE = {"initial.velocity": V}  # the start finds the creepage that belongs to omega or to the moment
 KINEMATIC = {"control.rotation": "velocity", "control.translation": "velocity"}
 
 

@@ -9,7 +9,7 @@ def drive(wheel, outputs, first, count):
     """Steps with inputs that change every time, control switches included; all outputs of all steps."""
     record = []
     for k in range(first, first + count):
-        wheel.set({"drive.moment": -3000.0 - 40.0 * k, "drive.load": 1e5 + 1e4 * (k % 7)})
+        wheel.set({"drive.moment": -3000.0 - 40.0 * k, "drive.load": 1e5 + 4e3 * (k % 7)})
         if k % 20 == 10:
             velocity = (k // 20) % 2 == 0
             wheel.set({"control.rotation": "velocity" if velocity else "moment"})

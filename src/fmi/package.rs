@@ -40,7 +40,7 @@ macro_rules! theory {
 }
 
 /// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 11] = theory![
+const THEORY: [(&str, &[u8]); 12] = theory![
     "README.md",
     "ale-balance.md",
     "condensation.md",
@@ -52,6 +52,7 @@ const THEORY: [(&str, &[u8]); 11] = theory![
     "heat.md",
     "kernel-correction.md",
     "time-formula.md",
+    "track-support.md",
 ];
 
 /// Platforms of FMI 2.0 and the extension of their shared libraries.
