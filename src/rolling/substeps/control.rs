@@ -8,6 +8,10 @@
 //!
 //! - where half a step misses by no less than the whole one;
 //! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
+//!
+//! Events are over after some milliseconds. Where the finest steps go on without end (long dry slides, in which heat,
+//! expansion and pressure excite each other), they serve nobody: the more steps were taken of late, the longer is the
+//! shortest one that errors ask for ([`PERSISTENCE`]).
 
 use super::prediction::Found;
 use crate::config::Tuning;
@@ -16,6 +20,9 @@ use crate::rolling::state::StepControl;
 /// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
 /// located to twice this time at best.
 const FINEST: f64 = 1e-5;
+/// Time in which internal steps are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
+/// make it five times as long. The shortest steps fall from sixty in a millisecond to some six if they go on.
+const PERSISTENCE: (f64, f64) = (0.3, 500.0);
 /// Change of the highest contact temperature [K] that always refines steps longer than this [s].
 const HEATING: (f64, f64) = (300.0, 1e-3);
 /// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
@@ -55,7 +62,8 @@ impl<'a> Control<'a> {
             self.learn(found.error);
         }
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
-        let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * FINEST;
+        let finest = FINEST * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
+        let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
         let refused = inaccurate || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
         if refused {
             self.memory.step = 0.5 * dt;
@@ -71,6 +79,7 @@ impl<'a> Control<'a> {
         let tolerance = self.tuning.tolerance;
         self.failed = 0.0;
         self.memory.noise *= FADING;
+        self.memory.effort = 1.0 + self.memory.effort * (-dt / PERSISTENCE.0).exp();
         let quiet = found.error <= GROWTH * tolerance;
         if self.memory.suspect > 0.0 {
             self.memory.quiet = if quiet { self.memory.quiet + 1 } else { 0 };
