@@ -184,9 +184,11 @@ fn the_damper_takes_what_the_vibration_loses() {
     assert!(found[2][0].abs() < 5e-3 && found.windows(2).all(|f| f[1][0].abs() < 0.3 * f[0][0].abs()));
 }
 
-/// How a wheel is stopped from 2 m/s.
+/// How a wheel is stopped.
 #[derive(Clone, Copy, Debug)]
 struct Stop {
+    /// From this speed [m/s].
+    speed: f64,
     /// Load over the nominal one.
     load: f64,
     /// Moment over that at the limit of adhesion; 1: the wheel is locked at once and slides.
@@ -203,7 +205,7 @@ fn held_stop(model: &Arc<Model>, stop: Stop, step: f64) -> Vec<f64> {
     let peak = stop.brake * config.friction.coefficient * load * config.wheel.radius;
     let mut inputs = Inputs::rolling(config);
     inputs.drive.load = load;
-    (inputs.translation, inputs.drive.velocity) = (Translation::Velocity, 2.0 * direction);
+    (inputs.translation, inputs.drive.velocity) = (Translation::Velocity, stop.speed * direction);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     inputs.translation = Translation::Force;
     let mut time = 0.0_f64;
@@ -261,7 +263,7 @@ fn rocking(model: &Arc<Model>, stop: Stop, step: f64) -> [f64; 2] {
 #[test]
 fn a_held_stop_comes_to_rest_with_default_settings() {
     let model = model(preset("railway", 10));
-    let stop = Stop { load: 1.0, brake: 0.4, reversed: false };
+    let stop = Stop { speed: 2.0, load: 1.0, brake: 0.4, reversed: false };
     let found = [1e-3, 1e-4].map(|step| rocking(&model, stop, step));
     assert!(found.iter().all(|[late, _]| *late < 0.05), "{found:?}");
     assert!((found[0][1] / found[1][1] - 1.0).abs() < 0.1, "{found:?}");
@@ -270,17 +272,21 @@ fn a_held_stop_comes_to_rest_with_default_settings() {
 #[test]
 fn a_held_stop_comes_to_rest_whatever_stopped_it() {
     let model = model(preset("railway", 10));
-    let plain = Stop { load: 1.0, brake: 0.4, reversed: false };
-    // Steps of 1 ms are too long for the thermal expansion of a patch that has slid: near reversals of the motion the force
-    // jumps from step to step, on a fixed base as well.
-    let stops = [
-        (Stop { load: 0.1, ..plain }, 1e-3),
-        (Stop { load: 1.9, ..plain }, 1e-3),
-        (Stop { reversed: true, ..plain }, 1e-3),
-        (Stop { brake: 1.0, ..plain }, 1e-4),
-    ];
-    let found = stops.map(|(stop, step)| rocking(&model, stop, step)[0]);
+    let plain = Stop { speed: 2.0, load: 1.0, brake: 0.4, reversed: false };
+    let stops = [Stop { load: 0.1, ..plain }, Stop { load: 1.9, ..plain }, Stop { reversed: true, ..plain }];
+    let found = stops.map(|stop| rocking(&model, stop, 1e-3)[0]);
     assert!(found.iter().all(|late| *late < 0.05), "{found:?}");
+}
+
+/// A patch that has slid is hot and rough: near reversals of the motion its expansion makes the forces jump from step to step, so
+/// that the control takes steps down to some 20 µs, in which the contact has to be solved to round-off. On a coarse mesh
+/// and from a low speed to save time; from 2 m/s with ten elements 3.5 % of the first swing are left.
+#[test]
+fn a_locked_wheel_comes_to_rest_on_its_hot_patch() {
+    let model = model(preset("railway", 6));
+    let stop = Stop { speed: 0.5, load: 1.0, brake: 1.0, reversed: false };
+    let [late, _] = rocking(&model, stop, 1e-4);
+    assert!(late < 0.05, "{late}");
 }
 
 /// Modes and all finite elements on a base that moves in both directions, in a braking ramp of 50 ms.

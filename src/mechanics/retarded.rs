@@ -95,9 +95,15 @@ impl RetardedLayer {
     }
 }
 
-/// `xᵀ A x` without a temporary; columns of zeros in `x` (nodes out of contact) cost nothing.
+/// `xᵀ A x` of a symmetric matrix without a temporary; entries of zero in `x` (nodes out of contact) cost little.
 pub(super) fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
-    x.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(j, value)| value * a.column(j).dot(x)).sum()
+    let (n, columns, x) = (a.nrows(), a.as_slice(), x.as_slice());
+    let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
+    let term = |j: usize| {
+        let above = columns[j * n + first..j * n + j].iter().zip(&x[first..j]).map(|(a, x)| a * x).sum::<f64>();
+        x[j] * (columns[j * n + j] * x[j] + 2.0 * above)
+    };
+    (first..x.len()).filter(|&j| x[j] != 0.0).map(term).sum()
 }
 
 /// Gives a buffer its length; allocates at the first use only.
