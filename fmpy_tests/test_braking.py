@@ -37,9 +37,7 @@ def test_stopping_distance_does_not_depend_on_the_communication_step(stops):
 
 
 def test_brake_beyond_adhesion_locks_the_wheel_and_slides_to_rest(start):
-    # Without temperatures: hot, it slides five seconds, over which contact and thermal expansion excite each other, since
-    # nothing yields or melts in this model, until the patch outgrows its zone.
-    wheel = start({"initial.velocity": 8.0, "thermal.enabled": False})
+    wheel = start({"initial.velocity": 8.0})
     table = brake_to_standstill(wheel, 2.0 * MOMENT, 1e-3)
     sliding = (column(table, "wheel.omega") == 0.0) & (column(table, "wheel.velocity") > 0.5)
     assert sliding.sum() > 100
