@@ -9,9 +9,10 @@
 //! - where half a step misses by no less than the whole one;
 //! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
 //!
-//! Events are over after some milliseconds. Where the finest steps go on without end (long dry slides, in which heat,
-//! expansion and pressure excite each other), they serve nobody: the more steps were taken of late, the longer is the
-//! shortest one that errors ask for ([`PERSISTENCE`]).
+//! Events are over after some milliseconds, and vibrations deserve their steps. In long dry slides, however, heat, expansion
+//! and pressure excite each other without end, since nothing yields or melts, and the finest steps serve nobody: where the
+//! contact is beyond Ac1, the more steps were taken of late, the longer is the shortest one that errors ask for
+//! ([`PERSISTENCE`]).
 
 use super::prediction::Found;
 use crate::config::Tuning;
@@ -20,7 +21,7 @@ use crate::rolling::state::StepControl;
 /// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
 /// located to twice this time at best.
 const FINEST: f64 = 1e-5;
-/// Time in which internal steps are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
+/// Time in which internal steps of a contact beyond Ac1 are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
 /// make it five times as long. The shortest steps fall from sixty in a millisecond to some six if they go on.
 const PERSISTENCE: (f64, f64) = (0.3, 500.0);
 /// Change of the highest contact temperature [K] that always refines steps longer than this [s].
@@ -79,7 +80,8 @@ impl<'a> Control<'a> {
         let tolerance = self.tuning.tolerance;
         self.failed = 0.0;
         self.memory.noise *= FADING;
-        self.memory.effort = 1.0 + self.memory.effort * (-dt / PERSISTENCE.0).exp();
+        let counted = if found.hottest > self.tuning.austenitisation { 1.0 } else { 0.0 };
+        self.memory.effort = counted + self.memory.effort * (-dt / PERSISTENCE.0).exp();
         let quiet = found.error <= GROWTH * tolerance;
         if self.memory.suspect > 0.0 {
             self.memory.quiet = if quiet { self.memory.quiet + 1 } else { 0 };

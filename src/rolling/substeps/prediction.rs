@@ -42,6 +42,8 @@ pub struct Found {
     pub error: f64,
     /// Change of the highest contact temperature \[K].
     pub heating: f64,
+    /// Highest absolute contact temperature at the end \[K]; zero without heat.
+    pub hottest: f64,
     /// Whether it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
     /// Whether it was longer than the step before.
@@ -73,7 +75,9 @@ impl Found {
                 error = error.max(missed(&rise).abs() / WARM.max(rise(&found).abs()));
             }
         }
-        Self { error, heating: (hottest(to) - hottest(from)).abs(), first, doubled: ratio > 1.5 }
+        let reference = model.thermal.as_ref().map_or(0.0, |thermal| thermal.reference());
+        let (heating, hottest) = ((hottest(to) - hottest(from)).abs(), reference + hottest(to));
+        Self { error, heating, hottest, first, doubled: ratio > 1.5 }
     }
 }
 

@@ -24,6 +24,9 @@ use thermoelastic::Thermoelastic;
 
 /// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
 const AT_REST: f64 = 1e-3;
+/// Excess temperature of a wheel up to which the start knows what it warms in passing [K]: the layers of a wheel hotter than
+/// any steel tear the stationary contact apart.
+const HOTTEST_PASSING: f64 = 1000.0;
 
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
@@ -115,7 +118,8 @@ impl ThermalModel {
             thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
             thermal.flows = flows;
             // Where one of both surfaces stays, it warms or cools for ever.
-            if moving == [true; 2] && self.wheel_excess != 0.0 && !exchange.patches.is_empty() {
+            let warm = self.wheel_excess != 0.0 && self.wheel_excess.abs() <= HOTTEST_PASSING;
+            if moving == [true; 2] && warm && !exchange.patches.is_empty() {
                 let passing = self.heat.passing([v, omega], &exchange, self.wheel_excess)?;
                 thermal.fields = self.heat.sum(&passing, &thermal.fields)?;
             }
