@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import ex02_masters
 from ex02_masters import SPEED, Split, coupled, errors, monolithic, slip_growth
 
 DURATION = 0.4  # s of the braking
@@ -36,16 +37,19 @@ def test_explicit_master_of_the_vehicle_converges_with_order_one(fmu, reference,
     assert np.log2(coarse / fine) == pytest.approx(1.0, abs=0.2)
 
 
-@pytest.mark.parametrize(
-    ("master", "speed", "stable", "unstable"),
-    [("Gauss-Seidel", 10.0, 0.3, 1.5), ("Gauss-Seidel", 2.0, 0.3, 8.0), ("Jacobi", 10.0, 0.1, 0.75), ("Jacobi", 2.0, 0.1, 2.5)],
-)  # fmt: skip
-def test_explicit_master_of_the_wheel_is_stable_below_carters_limit_and_not_far_above(fmu, master, speed, stable, unstable):
-    """Steps in units of 2 m/c on Carter's slope: the limit falls with the speed, and is smaller for Jacobi.
+@pytest.mark.parametrize("speed", [10.0, 2.0])
+@pytest.mark.parametrize(("master", "stable", "unstable"), [("Gauss-Seidel", 0.3, 1.5), ("Jacobi", 0.1, 0.75)])
+def test_explicit_master_of_the_wheel_is_stable_only_below_carters_limit(
+    fmu, monkeypatch, speed, master, stable, unstable
+):
+    """Steps in units of 2 m/c on Carter's slope: the limit falls with the speed, and is 1/3 as large for Jacobi.
 
-    Carter's slope holds for slip that lasts for a passage through the contact, 3 ms at 2 m/s. There the limit is two
-    hundredths of a millisecond, and instability sets in at 5 (Jacobi 2) times as much.
+    The rail base is fixed here: the damper of the restrained rail lies in series with the creep, and at 2 m/s it is the
+    softer one of both.
     """
+    rolling = ex02_masters.free_rolling
+    rigid = {"rail.restraint_stiffness": 0.0, "rail.restraint_damping": 0.0}
+    monkeypatch.setattr(ex02_masters, "free_rolling", lambda *arguments: rolling(*arguments) | rigid)
     split = Split(fmu, "wheel", speed)
     limit = split.rolling.carter_limit(speed)
     split.close()

@@ -46,7 +46,7 @@ impl TimeDerivative {
         (now - self.b1 * before + self.a2 * last) / self.a0
     }
 
-    /// Force [N] that has the impulse `now` [N s] over a step: the inverse of [`Self::impulse`], for forces that are held or
+    /// Force \[N] that has the impulse `now` [N s] over a step: the inverse of [`Self::impulse`], for forces that are held or
     /// vary linearly during the step, so that their impulse is known.
     pub fn force(&self, now: f64, before: f64, last: f64) -> f64 {
         self.a0 * now + self.b1 * before - self.a2 * last

@@ -49,7 +49,7 @@ pub enum StepError {
     BeyondAdhesion {
         /// The inputs that ask for it, with their values.
         demand: String,
-        /// Tangential force on the wheel that they need [N].
+        /// Tangential force on the wheel that they need \[N].
         asked: f64,
         /// Largest one \[N].
         carried: f64,

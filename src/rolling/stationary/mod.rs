@@ -2,7 +2,7 @@
 //!
 //! What is given and what is sought follows from the control ([`goal`]). Contact forces, convective terms, creepage and
 //! accelerations depend on each other; they are brought together by passes of the linear contact problem at fixed
-//! temperatures ([`settle`]). Around them, temperatures and contact follow each other until neither forces nor creepage
+//! temperatures (`settle`). Around them, temperatures and contact follow each other until neither forces nor creepage
 //! change any longer ([`start`]). Derivation: `docs/theory/friction-and-coupling.md`.
 
 mod goal;
