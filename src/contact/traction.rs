@@ -46,7 +46,7 @@ pub struct Traction {
     /// Friction traction on the wheel, forward positive \[Pa].
     pub shear: Piecewise,
     /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the friction
-    /// power.
+    /// power, but for the thousandths that pressure on the inclined surface and expanding material add to it.
     pub slip: Piecewise,
     /// Where friction dissipates at the end of the step [W/m²].
     pub dissipation: Piecewise,

@@ -2,10 +2,11 @@
 //!
 //! Every force has the impulse that the time formula gives it (see [`crate::multistep::TimeDerivative::impulse`]), so
 //! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the mean
-//! velocity. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation: `docs/theory/lever-arms.md`.
+//! velocity. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation:
+//! `docs/theory/lever-arms.md`.
 
 use super::model::Model;
-use super::state::{Audit, State};
+use super::state::{Audit, State, ThermalDeformation};
 use crate::multistep::TimeDerivative;
 
 /// Kinetic and elastic energy of a state [J/m].
@@ -42,4 +43,10 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         impulse,
         damped,
     }
+}
+
+/// Adds the work of the wheel that grows from `before` in the heat step of `state` and lifts its load.
+pub fn grow(state: &mut State, before: &ThermalDeformation) {
+    let growth = state.deformation().radius_growth - before.radius_growth;
+    state.audit.thermal_work += growth * state.contact.traction.resultant[1];
 }

@@ -103,7 +103,8 @@ impl Bodies {
         }
     }
 
-    /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇, Ω) included [J/m].
+    /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇, Ω)
+    /// included [J/m].
     pub fn energy(&self, state: &State, velocities: [f64; 3]) -> f64 {
         let [on_wheel, on_rail] = &state.contact.traction.loads;
         let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));

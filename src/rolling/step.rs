@@ -71,9 +71,8 @@ pub fn step(
             let step = HeatStep { dt: plan.dt, tread_heat, austenitisation };
             let touch = thermal.touch(&model.contact, &next.contact.traction);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
-            let growth = temperatures.deformation.radius_growth - before.deformation.radius_growth;
-            next.audit.thermal_work += growth * next.contact.traction.resultant[1];
             next.thermal = Some(temperatures);
+            audit::grow(next, &before.deformation);
         }
         _ => next.thermal = None,
     }

@@ -59,7 +59,7 @@ impl Power<'_> {
     }
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the change of
-    /// the expansion in time adds, force times expansion, is not counted: joules in a whole run.
+    /// the expansion in time adds, force times expansion, is not counted: hundredths of a joule in a whole run.
     fn expansion(&self) -> f64 {
         let velocity = [self.rim_velocity, self.traction.rigid[0]];
         let of_node = |i: usize| {

@@ -106,8 +106,8 @@ impl Goal {
 
     /// Accelerations under the contact forces `resultant`.
     ///
-    /// Where speeds are given, and off the rail, every free axis accelerates by what is left of its own balance. Where one is sought, the
-    /// creepage stays constant, `Ω̇/V̇ = Ω/V = k`, and the sum of both balances, `m V̇ + k I Ω̇ = F + k M + (F_x + k M_c)`,
+    /// Where speeds are given, and off the rail, every free axis accelerates by what is left of its own balance. Where one is
+    /// sought, the creepage stays constant, `Ω̇/V̇ = Ω/V = k`, and the sum of both balances, `m V̇ + k I Ω̇ = F + k M + (F_x + k M_c)`,
     /// gives the acceleration: the tangential force drops out, and what remains in brackets is the small loss of rolling.
     pub fn accelerations(&self, inertia: [f64; 3], speeds: [f64; 2], resultant: [f64; 3]) -> [f64; 3] {
         let [force, moment] = self.free_loads();
