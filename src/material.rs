@@ -16,7 +16,7 @@ pub struct Isotropic {
 
 impl From<&Material> for Isotropic {
     fn from(material: &Material) -> Self {
-        let &Material { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat } = material;
+        let &Material { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat, .. } = material;
         Self { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat }
     }
 }
@@ -91,6 +91,29 @@ impl Isotropic {
         reference * self.expansion * self.youngs_modulus / (1.0 - 2.0 * self.poissons_ratio) / self.heat_capacity()
     }
 }
+
+/// Largest mean pressure of a plastic indentation of a half-plane over the yield strength in tension: Prandtl's `2 + π` times
+/// the yield strength in shear, which is that in tension over `√3` (von Mises) \[1].
+pub const INDENTATION: f64 = (2.0 + std::f64::consts::PI) / SQRT_3;
+/// Largest friction traction of yielding steel over its largest pressure: its yield strength in shear \[1].
+pub const SHEAR: f64 = 1.0 / (2.0 + std::f64::consts::PI);
+const SQRT_3: f64 = 1.732_050_807_568_877_2;
+
+/// Share of its cold yield strength that steel keeps over the temperature \[K].
+///
+/// Reduction factors for structural steel at 2 % strain, EN 1993-1-2:2005, table 3.1, linear between the given temperatures
+/// and constant beyond the last one; taken for wheel and rail steels, for which no such table was found.
+pub fn yield_share(temperature: f64) -> f64 {
+    const CELSIUS: [f64; 9] = [400.0, 500.0, 600.0, 700.0, 800.0, 900.0, 1000.0, 1100.0, 1180.0];
+    const SHARE: [f64; 9] = [1.0, 0.78, 0.47, 0.23, 0.11, 0.06, 0.04, 0.02, 0.004];
+    let celsius = (temperature - CELSIUS_ZERO).clamp(CELSIUS[0], CELSIUS[8]);
+    crate::piecewise::interpolate(&CELSIUS, &SHARE, celsius)
+}
+
+/// 0 °C \[K].
+const CELSIUS_ZERO: f64 = 273.15;
+/// Temperature up to which steel keeps its yield strength \[K].
+pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 
 #[cfg(test)]
 mod tests {

@@ -177,6 +177,19 @@ pub fn mean(x: &[f64], values: &[f64], low: f64, high: f64) -> f64 {
     if high > low { integral / (high - low) } else { 0.0 }
 }
 
+/// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule); zero for
+/// a weight without integral.
+pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
+    let (mut sum, mut total) = (0.0, 0.0);
+    for (i, &at) in weight.x.iter().enumerate() {
+        let (before, after) = (weight.x[i.saturating_sub(1)], weight.x[(i + 1).min(weight.x.len() - 1)]);
+        let share = 0.5 * (after - before) * weight.value[i];
+        total += share;
+        sum += share * interpolate(x, values, at);
+    }
+    if total > 0.0 { sum / total } else { 0.0 }
+}
+
 /// Maximum of the cubic Hermite interpolant whose slopes at the nodes are those of the parabolas through three
 /// neighbours: continuous in the values, wherever the maximum moves. Nodes are distinct; `−∞` without any.
 pub fn peak(x: &[f64], values: &[f64]) -> f64 {

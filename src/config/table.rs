@@ -58,6 +58,8 @@ parameters! {
                 "Coefficient of linear thermal expansion of both bodies";
             1054 conductivity: f64 = 50.0, in "W/(m.K)", from 1e-3 to 1e5, "Thermal conductivity of both bodies";
             1055 specific_heat: f64 = 470.0, in "J/(kg.K)", from 1.0 to 1e5, "Specific heat capacity of both bodies";
+            1056 yield_strength: f64 = 550e6, in "Pa" as "MPa", from 1e5 to 1e12,
+                "Yield strength of cold steel; up to 400 degC it is kept, at 600 degC 47 %, at 800 degC 11 % of it are left";
         }
         /// Damping of the deformation of both bodies, on the rate of the *material*; all zero: none.
         damping: Damping fixed {
@@ -113,6 +115,9 @@ parameters! {
             1070 centrifugal: bool = true, "Centrifugal load of the spinning wheel";
             1071 thermal_expansion: bool = true, "Thermal expansion and stress act back on the contact";
             1072 thermoelastic_heating: bool = false, "Reversible (Gough-Joule) heating of compressed material";
+            1073 yielding: bool = true,
+                "Steel yields: the pressure stays below 2.97 times the yield strength, what it cannot carry flattens the \
+                 surface for good";
         }
         /// Layout of the graded meshes.
         mesh: MeshParameters fixed {

@@ -7,15 +7,19 @@
 //! rail receives the opposite.
 
 pub mod error;
+pub mod flattening;
 pub mod friction;
 pub mod grid;
+pub mod limits;
 pub mod problem;
 pub mod solver;
 pub mod surface;
 pub mod traction;
 
 pub use error::ContactError;
+pub use flattening::Flattening;
 pub use friction::{Friction, FrictionLaw, Heating};
+pub use limits::Limits;
 pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
 pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Surfaces};

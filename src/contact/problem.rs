@@ -1,6 +1,7 @@
 //! The condensed contact problem of one step: what the contact needs to know of bodies, wheel and surfaces.
 
 use super::friction::Friction;
+use super::limits::Limits;
 use super::surface::{Placement, Surfaces};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
@@ -108,6 +109,8 @@ pub struct ContactProblem<'a> {
     pub placement: Placement<'a>,
     /// Friction coefficient as a function of the slip at the end of the step.
     pub friction: Friction,
+    /// What the steel bears.
+    pub limits: Limits<'a>,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].

@@ -73,11 +73,21 @@ impl ContactState {
         }
     }
 
+    /// Angle by which the rim under the contact has turned against the hub, positive where the tread moves towards `+x` \[rad].
+    pub fn turn(&self) -> f64 {
+        match &self.solver {
+            SolverState::Grid(grid) => grid.turn.now,
+            SolverState::Stateless => 0.0,
+        }
+    }
+
     /// Whether both were found with the same decisions between open, stick and slip everywhere: along such states the
     /// solution is a smooth function of the data.
     pub fn same_branch(&self, other: &Self) -> bool {
         match (&self.solver, &other.solver) {
-            (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status,
+            (SolverState::Grid(a), SolverState::Grid(b)) => {
+                a.status == b.status && a.yielded == b.yielded
+            }
             (SolverState::Stateless, SolverState::Stateless) => true,
             _ => false,
         }

@@ -1,5 +1,6 @@
 //! Shapes of the surfaces: the gap between the bodies before they deform.
 
+use super::flattening::Flattening;
 use crate::piecewise::Piecewise;
 
 /// Undeformed surfaces of wheel and rail.
@@ -24,6 +25,8 @@ pub struct Placement<'a> {
     pub growth: f64,
     /// Swelling of the hot layers of wheel and rail under the contact \[m].
     pub swelling: [&'a Piecewise; 2],
+    /// Permanent flattening of wheel and rail.
+    pub flattening: [&'a Flattening; 2],
 }
 
 impl Surfaces {
@@ -48,6 +51,13 @@ impl Surfaces {
         if !self.rail.x.is_empty() {
             gap -= self.rail.at(at.distance + x);
         }
+        let [wheel, rail] = at.flattening;
+        if !wheel.is_empty() {
+            gap += wheel.depth(at.angle * self.radius + x);
+        }
+        if !rail.is_empty() {
+            gap += rail.depth(at.distance + x);
+        }
         gap
     }
 }
@@ -58,8 +68,10 @@ mod tests {
 
     const NONE: &Piecewise = &Piecewise { x: Vec::new(), value: Vec::new() };
 
+    static UNDAMAGED: std::sync::LazyLock<Flattening> = std::sync::LazyLock::new(|| Flattening::none(0.0));
+
     fn place<'a>(distance: f64, angle: f64, growth: f64, swelling: &'a Piecewise) -> Placement<'a> {
-        Placement { distance, angle, growth, swelling: [swelling, NONE] }
+        Placement { distance, angle, growth, swelling: [swelling, NONE], flattening: [&UNDAMAGED, &UNDAMAGED] }
     }
 
     #[test]

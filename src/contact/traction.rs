@@ -53,6 +53,12 @@ pub struct Traction {
     /// By how much the mean dissipation of the step exceeds that at its end, relative to the latter \[1]: with it,
     /// [`Self::dissipation`] integrates to the energy of the step.
     pub dissipation_excess: f64,
+    /// Depth by which yielding steel lies in the way of the other surface \[m], with zeros at its ends; empty where nothing yields.
+    pub overlap: Piecewise,
+    /// Work of that part of it which has become permanent in the step [J/m].
+    pub plastic_work: f64,
+    /// Share of the contact length that yields \[1].
+    pub yielding: f64,
     /// Iterations until all decisions between open, stick and slip were made, without those of the search for the friction
     /// coefficient.
     pub iterations: usize,

@@ -46,6 +46,11 @@ pub trait HeatModel {
 
     /// Replaces `seen` by what a state shows; its memory is reused.
     fn observe(&self, state: &Self::State, seen: &mut Observation) -> Result<(), HeatError>;
+
+    /// Replaces `out` by the mean temperatures of wheel and rail between the surface and `depth` \[m] at the positions of
+    /// [`Self::zone_x`], over the reference \[K]. Depths from a tenth to four half-widths at the nominal load are told
+    /// apart.
+    fn mean_over_depth(&self, state: &Self::State, depth: f64, out: &mut [Vec<f64>; 2]) -> Result<(), HeatError>;
 }
 
 /// What the rest of the program sees of a state; pairs are wheel and rail.
@@ -58,6 +63,8 @@ pub struct Observation {
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
     /// wheel less its mean along the tread, of the rail.
     pub layer: [Vec<f64>; 2],
+    /// Mean temperatures over a depth, see [`HeatModel::mean_over_depth`]; filled on demand only.
+    pub core: [Vec<f64>; 2],
     /// Work space: a field summed along the streamlines.
     pub(super) sums: Vec<f64>,
 }

@@ -37,6 +37,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         work: before.work + work,
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
+        plastic: before.plastic,
         damping: before.damping + damped,
         throughput: before.throughput + work.abs(),
         damping_power,

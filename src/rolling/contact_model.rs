@@ -2,12 +2,13 @@
 
 use super::bodies::Operators;
 use super::error::StepError;
-use super::state::{State, ThermalDeformation};
+use super::state::{State, ThermalDeformation, Weakening};
 use crate::config::{Config, Tuning};
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, FrictionLaw, Placement,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits, Placement,
     RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
+use crate::material::INDENTATION;
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
@@ -24,6 +25,8 @@ pub struct ContactModel {
     nominal_half_width: f64,
     /// Width of the line contact [m].
     width: f64,
+    /// Pressure at which cold steel yields [Pa]; infinite: never.
+    yield_pressure: f64,
 }
 
 /// Everything that distinguishes one contact problem of a model from another.
@@ -42,6 +45,10 @@ pub struct ContactStep<'a> {
     pub place: [f64; 2],
     /// How heat has deformed the bodies.
     pub deformation: &'a ThermalDeformation,
+    /// Permanent flattening of wheel and rail.
+    pub flattening: &'a [Flattening; 2],
+    /// What heat has left of the steel's strength.
+    pub weakening: &'a Weakening,
     /// Friction coefficient as a function of the slip at the end of the step.
     pub friction: Friction,
     /// Largest change of the weights at the contact edges that counts as converged \[1].
@@ -58,6 +65,10 @@ impl ContactModel {
             nominal_load: config.model.nominal_load,
             nominal_half_width: mechanics::nominal_half_width(config),
             width: config.model.contact_width,
+            yield_pressure: match config.physics.yielding {
+                true => INDENTATION * config.material.yield_strength,
+                false => f64::INFINITY,
+            },
         }
     }
 
@@ -97,7 +108,18 @@ impl ContactModel {
             time: step.time,
             duration: step.duration,
             surfaces: &self.surfaces,
-            placement: Placement { distance, angle, growth: *radius_growth, swelling: [&swelling[0], &swelling[1]] },
+            placement: Placement {
+                distance,
+                angle,
+                growth: *radius_growth,
+                swelling: [&swelling[0], &swelling[1]],
+                flattening: [&step.flattening[0], &step.flattening[1]],
+            },
+            limits: Limits {
+                pressure: self.yield_pressure,
+                softened: &step.weakening.strength,
+                film: &step.weakening.film,
+            },
             friction: step.friction,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,

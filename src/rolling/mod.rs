@@ -16,6 +16,7 @@ pub mod contact_model;
 pub mod control;
 pub mod error;
 pub mod fields;
+pub mod flattening;
 pub mod model;
 pub mod output_rows;
 pub mod outputs;

@@ -184,6 +184,12 @@ outputs! {
         "Growth of the wheel radius by its bulk temperature";
     701 austenitised_time: real "damage.time_above_ac1", in "s", from 0.0, nominal 1e-2, start zero,
         "Time during which the hottest contact point was above thermal.austenitisation";
+    702 yielded: real "damage.yielded", in "1" as "%", from 0.0 to 1.0, nominal 0.1,
+        "Share of the contact width in which the steel yields now";
+    703 flattening: real "damage.flattening", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+        "Depth of the deepest permanent flattening of the wheel so far";
+    704 flattening_rail: real "damage.flattening_rail", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+        "Depth of the deepest permanent flattening of the modelled piece of rail";
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
         "Heat balance since the start: unaccounted heat over heat supplied";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,
@@ -206,6 +212,8 @@ outputs! {
          balances energy.hub_work + energy.thermal_work";
     813 friction_energy: real "energy.friction", in "J" as "kJ", nominal 1e5, start zero,
         "Energy that friction has turned into heat since the start";
+    815 plastic_energy: real "energy.plastic", in "J" as "kJ", nominal 1e2, start zero,
+        "Work of permanent flattening since the start";
     814 damping_energy: real "energy.damping", in "J" as "kJ", nominal 1e2, start zero,
         "Energy dissipated by damping since the start";
     10000 profile_x: profile "profile.x", in "m" as "mm", nominal 5e-3,

@@ -1,7 +1,7 @@
 //! All data that a restart needs, and nothing else. Per metre of width.
 
 use super::support::BaseMotion;
-use crate::contact::{ContactState, Heating};
+use crate::contact::{ContactState, Flattening, Heating};
 use crate::heat::{HeatFlows, HeatState, Temperatures};
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
@@ -29,6 +29,8 @@ pub struct State {
     pub base: BaseMotion,
     /// Contact: result of the last step and start of the next one.
     pub contact: ContactState,
+    /// Permanent flattening of wheel and rail.
+    pub flattening: [Flattening; 2],
     /// Temperatures, unless the thermal part is switched off.
     pub thermal: Option<ThermalState>,
     /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
@@ -60,6 +62,12 @@ impl State {
     pub fn deformation(&self) -> &ThermalDeformation {
         static NONE: ThermalDeformation = ThermalDeformation::NONE;
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.deformation)
+    }
+
+    /// What heat leaves of the strength of the steel.
+    pub fn weakening(&self) -> &Weakening {
+        static NONE: Weakening = Weakening::NONE;
+        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
     }
 }
 
@@ -104,7 +112,10 @@ pub struct ThermalState {
     pub temperatures: Temperatures,
     /// Mean excess temperatures of the surfaces in the patch: wheel, rail \[K].
     pub patch_mean: [f64; 2],
-    /// Mean of both over the friction coefficient \[K].
+    /// The same weighted with the pressure: the temperatures at which friction acts. The edges of the patch, where nothing
+    /// presses, do not disturb them.
+    pub loaded_mean: [f64; 2],
+    /// Mean of these over the friction coefficient \[K].
     pub heating: Heating,
     /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included \[K].
     pub surface: [Vec<f64>; 2],
@@ -116,6 +127,33 @@ pub struct ThermalState {
     pub received: f64,
     /// How the heat deforms the bodies.
     pub deformation: ThermalDeformation,
+    /// What the heat leaves of their strength.
+    pub weakening: Weakening,
+}
+
+/// What heat leaves of the strength of the steel under the contact, over x.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Weakening {
+    /// Share of the yield strength, of the softer body \[1]; empty: all of it.
+    pub strength: Piecewise,
+    /// Share of the friction coefficient, where a surface melts \[1]; empty: all of it.
+    pub film: Piecewise,
+    /// Mean temperature of the wheel less that of the rail over the depth in which the contact pressure acts \[K]: which of
+    /// them is softer; empty: neither.
+    pub warmer_wheel: Piecewise,
+}
+
+impl Weakening {
+    /// None at all.
+    pub const NONE: Self = {
+        const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
+        Self { strength: EMPTY, film: EMPTY, warmer_wheel: EMPTY }
+    };
+
+    /// Becomes that of cold steel and keeps its memory.
+    pub fn clear(&mut self) {
+        [&mut self.strength, &mut self.film, &mut self.warmer_wheel].into_iter().for_each(Piecewise::clear);
+    }
 }
 
 /// Deformation by heat, as far as it acts on the contact.
@@ -161,7 +199,7 @@ pub struct Controlled {
     pub forces: [f64; 3],
     /// Mean slip of the tread in the patch [m/s].
     pub slip: f64,
-    /// Mean rises of temperature of wheel and rail in the patch \[K].
+    /// Pressure-weighted mean rises of temperature of wheel and rail in the patch \[K].
     pub temperatures: [f64; 2],
     /// Translational velocity [m/s].
     pub velocity: f64,
@@ -182,6 +220,8 @@ pub struct Audit {
     pub thermal_work: f64,
     /// Energy that friction has turned into heat [J/m].
     pub friction: f64,
+    /// Work of plastic flattening [J/m].
+    pub plastic: f64,
     /// Energy lost to damping and radiation [J/m].
     pub damping: f64,
     /// Sum of the absolute work of all steps [J/m]: the scale of the round-off.
@@ -195,9 +235,9 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// Energy lost to friction, damping and radiation [J/m].
+    /// Energy lost to friction, plastic flattening, damping and radiation [J/m].
     pub fn dissipation(&self) -> f64 {
-        self.friction + self.damping
+        self.friction + self.plastic + self.damping
     }
 
     /// Energy that has vanished in the numerics [J/m].

@@ -4,6 +4,7 @@ use super::audit;
 use super::contact_model::{ContactStep, friction_law};
 use super::control::{Drive, Inputs};
 use super::error::StepError;
+use super::flattening;
 use super::model::{Model, Workspace};
 use super::state::{Motion, State};
 use super::thermal::HeatStep;
@@ -59,6 +60,7 @@ pub fn step(
     let plan = Plan::new(model, state, demand, dt);
     solve_and_commit(model, state, demand, &plan, workspace, next)?;
     next.audit = audit::advance(model, &plan.td, state, next);
+    next.audit.plastic += next.contact.traction.plastic_work;
     let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub, [next.audit.energy; 3]];
     if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
         return Err(StepError::NotFinite { time: state.time, step: plan.dt });
@@ -121,17 +123,21 @@ fn solve_and_commit(
     ];
     model.bodies.free_responses(&operators, state, td, streams, &mut workspace.free);
     let free = &workspace.free;
+    // Where the material lies goes by the rim under the contact.
+    let place = [
+        moved_by(state.distance, &state.motion.velocity, speeds[0], *dt),
+        moved_by(state.angle, &state.motion.omega, speeds[1], *dt) - state.contact.turn(),
+    ];
     let contact = ContactStep {
         operators: &operators,
         free,
         rigid: model.wheel.motions(&state.motion, drives, td, *speeds, free[0].momentum),
         time: *td,
         duration: *dt,
-        place: [
-            moved_by(state.distance, &state.motion.velocity, speeds[0], *dt),
-            moved_by(state.angle, &state.motion.omega, speeds[1], *dt),
-        ],
+        place,
         deformation: state.deformation(),
+        flattening: &state.flattening,
+        weakening: state.weakening(),
         friction: plan.friction,
         edge_tolerance: EDGE_TOLERANCE,
     };
@@ -155,6 +161,7 @@ fn solve_and_commit(
     next.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     next.available_friction = demand.target.friction;
     next.last_step = *dt;
+    flattening::press(model, state, place, next);
     next.restarted = plan.restarted;
     Ok(())
 }

@@ -37,7 +37,9 @@ impl Iterate<'_> {
         // Where friction has all but ended within the step, its mean stands for it.
         let power = if friction > ENDING * mean { friction } else { mean };
         traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
-        traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, traction);
-        observe::read_off(grid, power, state, &scratch.centred_slip, traction);
+        traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, &scratch.dents, traction);
+        observe::overlap(grid, state, &scratch.overlap, traction);
+        let limit = scratch.limit.iter().copied().reduce(f64::max).unwrap_or(f64::INFINITY);
+        observe::read_off(grid, (power, limit), state, &scratch.centred_slip, traction);
     }
 }

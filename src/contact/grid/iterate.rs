@@ -6,6 +6,7 @@ use super::state::{GridState, Status};
 use super::streamline::Upwind;
 use crate::contact::problem::ContactProblem;
 use crate::contact::traction::Traction;
+use crate::material::SHEAR;
 use crate::linalg::DenseSystem;
 use nalgebra::DVector;
 
@@ -15,6 +16,16 @@ pub struct GridScratch {
     pub(super) system: DenseSystem,
     /// Nodes and axes whose forces and motions are unknown.
     pub(super) closed: Vec<usize>,
+    /// Nodes whose normal force is the limit.
+    pub(super) yielding: Vec<usize>,
+    /// Largest normal force at the candidates [N/m]; empty: steel does not yield.
+    pub(super) limit: Vec<f64>,
+    /// Share of the friction coefficient at the candidates where the surface melts [1]; empty: all of it everywhere.
+    pub(super) film: Vec<f64>,
+    /// Gap at yielding nodes, where steel lies in the way: below zero; zero elsewhere [m].
+    pub(super) overlap: Vec<f64>,
+    /// Rise of the gap along the material by flattening of wheel and rail, at the candidates [1]; empty without any.
+    pub(super) dents: [Vec<f64>; 2],
     pub(super) stuck: Vec<usize>,
     pub(super) axes: Vec<usize>,
     /// Undeformed gap at the candidates [m].
@@ -78,6 +89,13 @@ impl Iterate<'_> {
     /// Nodal tangential force on the wheel at candidate `i` [N/m].
     pub fn tangential(&self, i: usize) -> f64 {
         self.traction.port_forces[self.grid.port(i)]
+    }
+
+    /// Friction force that candidate `i` can bear over its normal force [1].
+    pub fn coefficient(&self, i: usize) -> f64 {
+        let film = self.scratch.film.get(i).copied().unwrap_or(1.0);
+        let coefficient = film * self.traction.friction;
+        if self.state.yielded[i] { coefficient.min(SHEAR) } else { coefficient }
     }
 
     /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the turn against it.

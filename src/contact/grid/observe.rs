@@ -20,27 +20,37 @@ const MARGIN: f64 = 1e-3;
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
 /// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
-/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²).
+/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²). The
+/// slope of a flattened tread, `dents`, tilts the normal force.
 /// Derivation: `docs/theory/lever-arms.md`.
 pub(super) fn lever_arms(
     grid: &ContactGrid,
     (radius, frame, u): (f64, &RimFrame, &DVector<f64>),
     gap: &[f64],
+    dents: &[f64],
     i: usize,
 ) -> [f64; 2] {
     let port = grid.port(i);
     let at = |k: Option<usize>| k.and_then(|k| gap.get(k)).copied().unwrap_or(0.0);
     let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / (2.0 * grid.spacing);
-    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope]
+    let dent = radius * dents.get(i).copied().unwrap_or(0.0);
+    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope - dent]
 }
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
-/// friction [W/m] and the slip velocities of the candidates `centred_slip` [m/s].
-pub fn read_off(grid: &ContactGrid, power: f64, state: &GridState, centred_slip: &[f64], traction: &mut Traction) {
+/// friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest nodal force `limit` that the
+/// steel bears anywhere [N/m].
+pub fn read_off(
+    grid: &ContactGrid,
+    (power, limit): (f64, f64),
+    state: &GridState,
+    centred_slip: &[f64],
+    traction: &mut Traction,
+) {
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
-    traction.pressure_max = pressure_peak(grid, normal);
+    traction.pressure_max = pressure_peak(grid, normal).min(limit / grid.spacing);
     traction.edges.clear();
     traction.patches.clear();
     let (mut length, mut stuck) = (0.0, 0.0);
@@ -68,6 +78,19 @@ pub fn read_off(grid: &ContactGrid, power: f64, state: &GridState, centred_slip:
     scale_to(&mut traction.dissipation, power, &traction.pressure);
 }
 
+/// Fills the yielding part of `traction` from the gaps `overlap` at yielding candidates [m].
+pub(super) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], traction: &mut Traction) {
+    traction.overlap.clear();
+    let closed = state.status.iter().filter(|s| s.is_active()).count();
+    let yielding = state.yielded.iter().filter(|yields| **yields).count();
+    traction.yielding = if closed > 0 { yielding as f64 / closed as f64 } else { 0.0 };
+    let first = state.yielded.iter().position(|yields| *yields);
+    let (Some(first), Some(last)) = (first, state.yielded.iter().rposition(|yields| *yields)) else { return };
+    for i in first.saturating_sub(1)..=(last + 1).min(grid.len() - 1) {
+        traction.overlap.push(grid.x[i], if state.yielded[i] { (-overlap[i]).max(0.0) } else { 0.0 });
+    }
+}
+
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling
 /// radius [m].
 pub(super) fn resultant(
@@ -75,6 +98,7 @@ pub(super) fn resultant(
     radius: f64,
     frame: &RimFrame,
     state: &GridState,
+    dents: &[Vec<f64>; 2],
     traction: &Traction,
 ) -> [f64; 3] {
     let wheel = (radius, frame, &traction.surface[0]);
@@ -82,8 +106,8 @@ pub(super) fn resultant(
     for i in 0..grid.len() {
         let port = grid.port(i);
         let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
-        let [arm_t, arm_n] = lever_arms(grid, wheel, &state.gap, i);
-        sum[0] += t;
+        let [arm_t, arm_n] = lever_arms(grid, wheel, &state.gap, &dents[0], i);
+        sum[0] += t + n * dents[1].get(i).copied().unwrap_or(0.0);
         sum[1] += n;
         sum[2] -= arm_t * t + arm_n * n;
     }

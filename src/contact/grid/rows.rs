@@ -128,7 +128,10 @@ impl Iterate<'_> {
         for i in 0..grid.len() {
             let port = grid.port(i);
             match axis {
-                0 => forces[port] -= 1.0,
+                0 => {
+                    forces[port] -= 1.0;
+                    forces[port + 1] -= self.scratch.dents[1].get(i).copied().unwrap_or(0.0);
+                }
                 1 => forces[port + 1] -= 1.0,
                 _ => {
                     let [arm_t, arm_n] = self.lever_arms(i);
@@ -168,7 +171,36 @@ impl Iterate<'_> {
         self.scratch.slip_offset.clear();
         self.scratch.slip_offset.extend(self.state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
         self.scratch.row.resize(grid.ports(), 0.0);
+        self.scratch.overlap.clear();
+        self.scratch.overlap.resize(grid.len(), 0.0);
+        self.limit();
+        self.dent();
         self.scratch.centred_slip.resize(grid.len(), 0.0);
+    }
+
+    /// Largest normal forces and molten films at the candidates.
+    fn limit(&mut self) {
+        let (grid, limits) = (self.grid, &self.problem.limits);
+        let GridScratch { limit, film, .. } = &mut *self.scratch;
+        limit.clear();
+        limit.extend(grid.x.iter().map(|&x| grid.spacing * limits.pressure_at(x)).filter(|_| limits.is_limited()));
+        film.clear();
+        film.extend(grid.x.iter().map(|&x| limits.film_at(x)).filter(|_| !limits.film.is_empty()));
+        if limit.is_empty() {
+            self.state.yielded.fill(false);
+        }
+    }
+
+    /// Slopes of the flattened surfaces at the candidates.
+    fn dent(&mut self) {
+        let (grid, placement) = (self.grid, &self.problem.placement);
+        let places = [placement.angle * self.problem.surfaces.radius, placement.distance];
+        for ((slopes, flattening), place) in self.scratch.dents.iter_mut().zip(placement.flattening).zip(places) {
+            slopes.clear();
+            let depth = |x: f64| flattening.depth(place + x);
+            let slope = |x: &f64| (depth(x + grid.spacing) - depth(x - grid.spacing)) / (2.0 * grid.spacing);
+            slopes.extend(grid.x.iter().map(slope).filter(|_| !flattening.is_empty()));
+        }
     }
 
     /// Thermal displacement of one body: swelling at the candidates, and what the gradients of the membrane force cause.
@@ -224,6 +256,8 @@ impl Iterate<'_> {
         for i in 0..grid.len() {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
+            let normal = || self.scratch.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
+            self.scratch.overlap[i] = if self.state.yielded[i] { normal() } else { 0.0 };
             if self.state.status[i].is_active() {
                 let dynamic = problem.time.a0 * (u_c[port] - u_p[port]) + self.scratch.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
@@ -232,7 +266,7 @@ impl Iterate<'_> {
                 (self.state.slip[i], self.state.gap[i]) = (slip(upwind), 0.0);
             } else {
                 (self.state.slip[i], self.scratch.centred_slip[i]) = (0.0, 0.0);
-                self.state.gap[i] = self.scratch.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
+                self.state.gap[i] = normal();
             }
         }
     }
@@ -241,7 +275,7 @@ impl Iterate<'_> {
     fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { turn: self.turn_of_surface, ..self.frame };
         let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
-        observe::lever_arms(self.grid, wheel, &self.state.gap, i)
+        observe::lever_arms(self.grid, wheel, &self.state.gap, &self.scratch.dents[0], i)
     }
 }
 

@@ -44,6 +44,7 @@ impl ContactSolver for GridSolver {
         let (n, ports) = (self.grid.len(), DVector::zeros(self.grid.ports()));
         let state = GridState {
             status: self.grid.x.iter().map(touches).collect(),
+            yielded: vec![false; n],
             slip: vec![0.0; n],
             gap: vec![0.0; n],
             tangential_gap: vec![History::default(); n],
@@ -100,7 +101,7 @@ impl ContactSolver for GridSolver {
         let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
         let FrictionHistory { force, impulse, slip, .. } = &grid.friction;
         [grid.status.len(), grid.slip.len(), grid.gap.len(), grid.tangential_gap.len()] == [n; 4]
-            && [force.len(), impulse.len(), slip.len()] == [n; 3]
+            && [force.len(), impulse.len(), slip.len(), grid.yielded.len()] == [n; 4]
             && traction.loads.iter().chain(&traction.surface).all(|values| values.len() == ports)
             && traction.port_forces.len() == ports
             && traction.port_forces.iter().all(|f| f.is_finite())

@@ -86,6 +86,8 @@ impl FrictionHistory {
 pub struct GridState {
     /// States of the candidates.
     pub status: Vec<Status>,
+    /// Whether the pressure of a closed pair is at its limit: the steel yields.
+    pub yielded: Vec<bool>,
     /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
     /// differences; zero elsewhere [m/s].
     pub slip: Vec<f64>,
@@ -104,6 +106,7 @@ impl GridState {
     /// Becomes equal to another state and keeps its memory.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.status.clone_from(&other.status);
+        self.yielded.clone_from(&other.yielded);
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);

@@ -21,7 +21,15 @@ pub struct Heat {
     pub(super) zone_cells: usize,
     /// Integrals of the modes over the layer whose expansion acts on the contact, of wheel and rail [m].
     pub(super) layer_weights: [Vec<f64>; 2],
+    /// Means of the modes from the surface down to depths that grow by the factor [`CORE_GROWTH`] from
+    /// [`CORE_DEPTH`] half-widths on, of wheel and rail [1].
+    pub(super) core_weights: [Vec<Vec<f64>>; 2],
 }
+
+/// Shallowest and number of depths over which means are prepared, in half-widths at the nominal load, and their growth.
+const CORE_DEPTH: f64 = 0.1;
+const CORE_DEPTHS: i32 = 9;
+const CORE_GROWTH: f64 = 1.6;
 
 /// First layer across the streamlines in thicknesses of the thermal boundary layer, and at most in half-widths.
 const FIRST_LAYER: f64 = 0.25;
@@ -73,7 +81,11 @@ impl Heat {
             modes(c.rail.height, 0.0, false)?,
         );
         let layer_weights = [&wheel, &rail].map(|body| body.modes.integrals(FLASH_DEPTH * c.half_width));
-        Ok(Self { wheel, rail, zone_cells: zone.len() - 1, layer_weights, config: c })
+        let core_weights = [&wheel, &rail].map(|body| {
+            let depths = (0..CORE_DEPTHS).map(|k| CORE_DEPTH * c.half_width * CORE_GROWTH.powi(k));
+            depths.map(|depth| body.modes.integrals(depth).iter().map(|i| i / depth).collect()).collect()
+        });
+        Ok(Self { wheel, rail, zone_cells: zone.len() - 1, layer_weights, core_weights, config: c })
     }
 
     /// Surface positions of the common nodes in the contact zone [m], ascending.
@@ -84,6 +96,14 @@ impl Heat {
     /// The parameters this was made from.
     pub fn config(&self) -> &HeatConfig {
         &self.config
+    }
+
+    /// Place of a depth [m] among the prepared ones: the one above it and the share of the next.
+    pub(super) fn core_place(&self, depth: f64) -> (usize, f64) {
+        let place = (depth / (CORE_DEPTH * self.config.half_width)).ln() / CORE_GROWTH.ln();
+        let place = place.clamp(0.0, f64::from(CORE_DEPTHS - 1));
+        let above = (place.floor() as usize).min(CORE_DEPTHS as usize - 2);
+        (above, place - above as f64)
     }
 
     /// Number of unknown temperatures.

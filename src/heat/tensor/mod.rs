@@ -94,4 +94,18 @@ impl HeatModel for Heat {
         };
         Ok(())
     }
+
+    fn mean_over_depth(&self, state: &HeatState, depth: f64, out: &mut [Vec<f64>; 2]) -> Result<(), HeatError> {
+        self.check_state(state)?;
+        let (wheel, rail) = self.split(state);
+        let (above, share) = self.core_place(depth);
+        for (i, (body, field)) in [(&self.wheel, wheel), (&self.rail, rail)].into_iter().enumerate() {
+            let (nodes, nm) = (self.zone_nodes(body), body.modes.len());
+            let [low, high] = [above, above + 1].map(|k| &self.core_weights[i][k]);
+            let rows = field[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
+            out[i].clear();
+            out[i].extend(rows.map(|row| (1.0 - share) * dot(row, low) + share * dot(row, high)));
+        }
+        Ok(())
+    }
 }

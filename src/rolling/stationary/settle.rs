@@ -3,6 +3,7 @@
 use super::super::audit;
 use super::super::contact_model::{ContactStep, friction_law};
 use super::super::error::StepError;
+use super::super::flattening;
 use super::super::model::{Model, Workspace};
 use super::super::state::{Motion, State, ThermalState};
 use super::super::substeps;
@@ -47,6 +48,7 @@ pub(super) fn settle(
         available_friction: goal.drive.friction,
         prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
         restarted: true,
+        flattening: flattening::none(model),
         thermal,
         ..State::default()
     };
@@ -119,6 +121,8 @@ impl Pass<'_> {
             duration: 0.0,
             place: [0.0; 2],
             deformation: state.deformation(),
+            flattening: &state.flattening,
+            weakening: state.weakening(),
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };

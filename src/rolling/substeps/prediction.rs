@@ -30,7 +30,7 @@ pub fn controlled(state: &State) -> Controlled {
     Controlled {
         forces: traction.resultant,
         slip: traction.tread_slip,
-        temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.patch_mean),
+        temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
         velocity: state.motion.velocity.now,
         omega: state.motion.omega.now,
     }

@@ -15,6 +15,7 @@ use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
+use crate::material::{SOFTENS, yield_share};
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
@@ -27,6 +28,10 @@ const AT_REST: f64 = 1e-3;
 /// Excess temperature of a wheel up to which the start knows what it warms in passing [K]: the layers of a wheel hotter than
 /// any steel tear the stationary contact apart.
 const HOTTEST_PASSING: f64 = 1000.0;
+
+/// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact is near
+/// its maximum, and a hotter but thinner skin does not yield on its own.
+const LOADED_DEPTH: f64 = 0.5;
 
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
@@ -41,6 +46,8 @@ pub struct ThermalModel {
     expansion: Option<Expansion>,
     /// If `physics.thermoelastic_heating` is on.
     thermoelastic: Option<Thermoelastic>,
+    /// Unless `physics.yielding` is off.
+    yielding: bool,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
 }
@@ -85,6 +92,7 @@ impl ThermalModel {
             blocks: BrakeBlocks::new(config),
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
+            yielding: config.physics.yielding,
             points: profile_points(zone),
         })
     }
@@ -180,12 +188,32 @@ impl ThermalModel {
         thermal.patch_mean = touch.traction.extent().map_or([0.0; 2], |patch| {
             [0, 1].map(|body| piecewise::mean(zone, &seen.surface[body], patch.low, patch.high))
         });
-        let mean = 0.5 * (thermal.patch_mean[0] + thermal.patch_mean[1]);
+        thermal.loaded_mean =
+            [0, 1].map(|body| piecewise::weighted_mean(&touch.traction.pressure, zone, &seen.surface[body]));
+        let mean = 0.5 * (thermal.loaded_mean[0] + thermal.loaded_mean[1]);
         let friction = touch.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         match &self.expansion {
             Some(expansion) => expansion.deform(zone, seen, &mut thermal.deformation),
             None => thermal.deformation = ThermalDeformation::NONE,
+        }
+        self.weaken(touch.traction, thermal, seen)?;
+        Ok(())
+    }
+
+    /// What the temperatures leave of the strength of the steel under the contact.
+    fn weaken(&self, traction: &Traction, thermal: &mut ThermalState, seen: &mut Observation) -> Result<(), StepError> {
+        thermal.weakening.clear();
+        let hottest = thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
+        if !self.yielding || self.reference + hottest <= SOFTENS || traction.patches.is_empty() {
+            return Ok(());
+        }
+        let length: f64 = traction.patches.iter().map(|patch| patch.high - patch.low).sum();
+        self.heat.mean_over_depth(&thermal.fields, LOADED_DEPTH * 0.5 * length, &mut seen.core)?;
+        let [wheel, rail] = &seen.core;
+        for ((&x, wheel), rail) in self.heat.zone_x().iter().zip(wheel).zip(rail) {
+            thermal.weakening.strength.push(x, yield_share(self.reference + wheel.max(*rail)));
+            thermal.weakening.warmer_wheel.push(x, wheel - rail);
         }
         Ok(())
     }

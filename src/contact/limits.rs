@@ -1,0 +1,32 @@
+//! What steel bears in the contact: a largest pressure, and less friction where its surface melts.
+
+use crate::piecewise::{Piecewise, interpolate};
+
+/// Limits of the contact forces. In the plane, the pressure under which steel flows sideways is that of a rigid-plastic
+/// half-plane under a punch (see [`crate::material::INDENTATION`]); it falls with the temperature of what lies below.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits<'a> {
+    /// Largest pressure of cold steel \[Pa]; infinite: it does not yield.
+    pub pressure: f64,
+    /// Share of it that remains, over x \[1]; empty: all of it.
+    pub softened: &'a Piecewise,
+    /// Share of the friction coefficient that remains where the surface melts, over x \[1]; empty: all of it.
+    pub film: &'a Piecewise,
+}
+
+impl Limits<'_> {
+    /// Whether the pressure is limited at all.
+    pub fn is_limited(&self) -> bool {
+        self.pressure.is_finite()
+    }
+
+    /// Share of the friction coefficient at `x` \[m] that is left \[1].
+    pub fn film_at(&self, x: f64) -> f64 {
+        if self.film.is_empty() { 1.0 } else { interpolate(&self.film.x, &self.film.value, x) }
+    }
+
+    /// Largest pressure at `x` \[m] \[Pa].
+    pub fn pressure_at(&self, x: f64) -> f64 {
+        if self.softened.is_empty() { self.pressure } else { self.pressure * interpolate(&self.softened.x, &self.softened.value, x) }
+    }
+}

@@ -1,0 +1,67 @@
+//! Flattening that stays: what has yielded in a step becomes part of the surface.
+//!
+//! Pressure at its limit lets the surfaces overlap, and the softer one gives way. Steel that stands under the contact, or moves
+//! slowly through it, keeps the overlap as a dent. Steel that rolls through keeps none: it flows forward at the leading edge and
+//! back at the trailing one, and since its volume stays, a dent all around the wheel is none.
+
+use super::model::Model;
+use super::state::State;
+use crate::contact::Flattening;
+use crate::piecewise::Piecewise;
+
+/// Time in which material has to pass the contact so that it keeps no dent [s].
+const PASSING: f64 = 0.01;
+/// Difference of the mean temperatures of wheel and rail above which only the warmer body gives way [K].
+const WARMER: f64 = 1.0;
+
+/// Undamaged surfaces of wheel and rail.
+pub fn none(model: &Model) -> [Flattening; 2] {
+    [Flattening::none(std::f64::consts::TAU * model.contact.surfaces.radius), Flattening::none(0.0)]
+}
+
+/// Presses the overlap of the contact in `next` into the material at `place` (distance \[m], angle of the rim \[rad]) and
+/// notes the work.
+pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
+    next.flattening.clone_from(&state.flattening);
+    let traction = &mut next.contact.traction;
+    traction.plastic_work = 0.0;
+    let Some(patch) = traction.extent().filter(|_| !traction.overlap.is_empty()) else { return };
+    let radius = model.contact.surfaces.radius;
+    let (velocity, omega) = (next.motion.velocity.now, next.motion.omega.now);
+    let slowest = (patch.high - patch.low) / PASSING.max(next.last_step);
+    let stands = [omega * radius, velocity].map(|speed| speed.abs() < slowest);
+    if stands == [false; 2] {
+        return;
+    }
+    traction.plastic_work = work(&traction.overlap, &traction.pressure);
+    let spacing = traction.overlap.x.windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
+    let warmer = &state.weakening().warmer_wheel;
+    for (body, at) in [place[1] * radius, place[0]].into_iter().enumerate() {
+        let share = |x: f64| share(body, stands, warmer.at(x));
+        let overlap = &traction.overlap;
+        let mut by = overlap.clone();
+        by.value.iter_mut().zip(&overlap.x).for_each(|(depth, &x)| *depth *= share(x));
+        if by.value.iter().any(|depth| *depth > 0.0) {
+            next.flattening[body].press(at, &by, spacing);
+        }
+    }
+    next.flattening[1].forget_beyond(place[0], model.config.rail.length);
+}
+
+/// Share of the overlap that the wheel (0) or the rail (1) takes \[1], of those that stand the softer one.
+fn share(body: usize, stands: [bool; 2], warmer_wheel: f64) -> f64 {
+    let wheel = match stands {
+        [true, true] if warmer_wheel.abs() < WARMER => 0.5,
+        [true, true] if warmer_wheel > 0.0 => 1.0,
+        [true, false] => 1.0,
+        _ => 0.0,
+    };
+    if body == 0 { wheel } else { 1.0 - wheel }
+}
+
+/// Work of the pressure on the overlap [J/m], node by node.
+fn work(overlap: &Piecewise, pressure: &Piecewise) -> f64 {
+    let x = &overlap.x;
+    let width = |i: usize| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);
+    (0..x.len()).map(|i| width(i) * overlap.value[i] * pressure.at(x[i])).sum()
+}
