@@ -8,6 +8,8 @@ use crate::piecewise::{Piecewise, interpolate};
 pub struct Limits<'a> {
     /// Largest pressure of cold steel \[Pa]; infinite: it does not yield.
     pub pressure: f64,
+    /// Viscosity of yielding steel: pressure above the limit per velocity with which the surface gives way [Pa s/m].
+    pub viscosity: f64,
     /// Share of it that remains, over x \[1]; empty: all of it.
     pub softened: &'a Piecewise,
     /// Share of the friction coefficient that remains where the surface melts, over x \[1]; empty: all of it.
@@ -27,6 +29,10 @@ impl Limits<'_> {
 
     /// Largest pressure at `x` \[m] \[Pa].
     pub fn pressure_at(&self, x: f64) -> f64 {
-        if self.softened.is_empty() { self.pressure } else { self.pressure * interpolate(&self.softened.x, &self.softened.value, x) }
+        if self.softened.is_empty() {
+            self.pressure
+        } else {
+            self.pressure * interpolate(&self.softened.x, &self.softened.value, x)
+        }
     }
 }

@@ -85,9 +85,7 @@ impl ContactState {
     /// solution is a smooth function of the data.
     pub fn same_branch(&self, other: &Self) -> bool {
         match (&self.solver, &other.solver) {
-            (SolverState::Grid(a), SolverState::Grid(b)) => {
-                a.status == b.status && a.yielded == b.yielded
-            }
+            (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status && a.yielded == b.yielded,
             (SolverState::Stateless, SolverState::Stateless) => true,
             _ => false,
         }

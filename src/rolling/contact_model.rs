@@ -5,8 +5,8 @@ use super::error::StepError;
 use super::state::{State, ThermalDeformation, Weakening};
 use crate::config::{Config, Tuning};
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits, Placement,
-    RigidMotion, Scratch, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
+    Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
 use crate::material::INDENTATION;
 use crate::mechanics;
@@ -117,6 +117,7 @@ impl ContactModel {
             },
             limits: Limits {
                 pressure: self.yield_pressure,
+                viscosity: VISCOSITY,
                 softened: &step.weakening.strength,
                 film: &step.weakening.film,
             },
@@ -165,6 +166,10 @@ impl ContactModel {
 /// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
 /// restarts the multistep formula.
 const JUMP: f64 = 0.02;
+
+/// Viscosity of yielding steel [Pa s/m]: so low that pressures exceed the limit by less than a thousandth, but enough for a
+/// definite rate of flattening where the whole contact yields.
+const VISCOSITY: f64 = 1e8;
 
 /// The friction law with the present tunable parameters.
 pub fn friction_law(tuning: &Tuning) -> FrictionLaw {

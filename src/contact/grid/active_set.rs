@@ -16,7 +16,7 @@
 use super::coefficient::CoefficientSearch;
 use super::iterate::{GridScratch, Iterate};
 use super::rows::AffineRow;
-use super::state::{GridState, Status};
+use super::state::Status;
 use super::streamline::upwind_rows;
 use crate::contact::error::ContactError;
 use crate::contact::problem::AxisDrive;
@@ -198,15 +198,12 @@ impl Iterate<'_> {
     }
 
     fn list_unknowns(&mut self) {
-        let GridState { status, yielded, .. } = &*self.state;
-        let GridScratch { closed, yielding, stuck, axes, .. } = &mut *self.scratch;
-        let active = |i: &usize| status[*i].is_active();
+        let status = &self.state.status;
+        let GridScratch { closed, stuck, axes, .. } = &mut *self.scratch;
         closed.clear();
-        closed.extend((0..status.len()).filter(active).filter(|&i| !yielded[i]));
-        yielding.clear();
-        yielding.extend((0..status.len()).filter(active).filter(|&i| yielded[i]));
+        closed.extend((0..status.len()).filter(|&i| status[i].is_active()));
         stuck.clear();
-        stuck.extend((0..status.len()).filter(|&i| status[i] == Status::Stick));
+        stuck.extend(closed.iter().filter(|&&i| status[i] == Status::Stick));
         axes.clear();
         axes.extend((0..3).filter(|&k| self.problem.rigid[k].target().is_none()));
     }
@@ -237,18 +234,15 @@ impl Iterate<'_> {
 
     /// Ports from the first to the last closed node.
     fn window(&self) -> Range<usize> {
-        let ends = |nodes: &[usize]| Some((*nodes.first()?, *nodes.last()?));
-        let GridScratch { closed, yielding, .. } = &*self.scratch;
-        let both = ends(closed).into_iter().chain(ends(yielding));
-        match both.reduce(|(a, b), (c, d)| (a.min(c), b.max(d))) {
-            Some((first, last)) => self.grid.port(first)..self.grid.port(last) + 2,
-            None => 0..0,
+        match (self.scratch.closed.first(), self.scratch.closed.last()) {
+            (Some(&first), Some(&last)) => self.grid.port(first)..self.grid.port(last) + 2,
+            _ => 0..0,
         }
     }
 
     /// Writes one equation, scaled to a largest coefficient of one.
     fn write(&self, (target, rhs): (&mut [f64], &mut f64), row: &AffineRow, forces: &[f64]) {
-        let GridScratch { closed, yielding, limit, stuck, axes, .. } = &*self.scratch;
+        let GridScratch { closed, stuck, axes, .. } = &*self.scratch;
         let (normal, rest) = target.split_at_mut(closed.len());
         let (tangential, rigid) = rest.split_at_mut(stuck.len());
         let mut largest = 0.0f64;
@@ -263,11 +257,6 @@ impl Iterate<'_> {
             largest = largest.max(value.abs());
         }
         let mut constant = row.constant;
-        for &i in yielding {
-            let port = self.grid.port(i);
-            let friction = self.state.status[i].friction_direction() * self.coefficient(i);
-            constant += limit[i] * (forces[port + 1] + friction * forces[port]);
-        }
         for (k, motion) in self.problem.rigid.iter().enumerate() {
             constant += row.rigid[k] * motion.target().unwrap_or(0.0);
         }
@@ -283,14 +272,13 @@ impl Iterate<'_> {
     /// Takes the solution of the linear problem: port forces and free motions.
     fn accept(&mut self, solution: &[f64]) {
         let mut forces = std::mem::take(&mut self.traction.port_forces);
-        let GridScratch { closed, yielding, limit, stuck, axes, .. } = &*self.scratch;
+        let GridScratch { closed, stuck, axes, .. } = &*self.scratch;
         let (normal, rest) = solution.split_at(closed.len());
         let (tangential, rigid) = rest.split_at(stuck.len());
         forces.fill(0.0);
-        let known = yielding.iter().map(|&i| (i, limit[i]));
-        for (i, force) in closed.iter().copied().zip(normal.iter().copied()).chain(known) {
+        for (&i, force) in closed.iter().zip(normal) {
             let port = self.grid.port(i);
-            forces[port + 1] = force;
+            forces[port + 1] = *force;
             forces[port] = self.state.status[i].friction_direction() * self.coefficient(i) * force;
         }
         for (force, &i) in tangential.iter().zip(stuck) {
@@ -313,7 +301,7 @@ impl Iterate<'_> {
         let mut changed = false;
         for i in 0..self.grid.len() {
             let old = self.scratch.status_before[i];
-            let indicator = self.normal(i) - penalty * (self.state.gap[i] + self.scratch.overlap[i].max(0.0));
+            let indicator = self.normal(i) - penalty * self.state.gap[i];
             let closed = if overloaded || indicator.abs() <= force { old.is_active() } else { indicator > 0.0 };
             let new = match (closed, old) {
                 (false, _) => Status::Open,
@@ -321,7 +309,7 @@ impl Iterate<'_> {
                 (true, Status::Stick) => self.stuck_state(i, force),
                 (true, slipping) => self.slipping_state(i, slipping, slip),
             };
-            let yields = new.is_active() && self.yields(i, penalty, force);
+            let yields = new.is_active() && self.yields(i, force);
             changed |= new != old || yields != self.state.yielded[i];
             self.state.status[i] = new;
             self.state.yielded[i] = yields;
@@ -329,15 +317,11 @@ impl Iterate<'_> {
         self.support() || changed
     }
 
-    /// Whether the pressure of a closed node is at its limit: what is closed yields where it would bear more, what yields
-    /// closes again where nothing lies in the way.
-    fn yields(&self, i: usize, penalty: f64, tolerance: f64) -> bool {
+    /// Whether the steel at a node yields: where it bears more than its limit.
+    fn yields(&self, i: usize, tolerance: f64) -> bool {
         let Some(limit) = self.scratch.limit.get(i) else { return false };
-        if self.state.yielded[i] {
-            penalty * self.scratch.overlap[i] <= tolerance
-        } else {
-            self.state.status[i].is_active() && self.normal(i) > limit + tolerance
-        }
+        let excess = self.normal(i) - limit;
+        if excess.abs() <= tolerance { self.state.yielded[i] } else { excess > 0.0 }
     }
 
     /// State of a node that has stuck: it slips where friction cannot hold it.

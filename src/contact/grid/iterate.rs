@@ -6,8 +6,8 @@ use super::state::{GridState, Status};
 use super::streamline::Upwind;
 use crate::contact::problem::ContactProblem;
 use crate::contact::traction::Traction;
-use crate::material::SHEAR;
 use crate::linalg::DenseSystem;
+use crate::material::SHEAR;
 use nalgebra::DVector;
 
 /// Buffers of the solver on a grid; nothing in them outlives a solution.
@@ -16,13 +16,11 @@ pub struct GridScratch {
     pub(super) system: DenseSystem,
     /// Nodes and axes whose forces and motions are unknown.
     pub(super) closed: Vec<usize>,
-    /// Nodes whose normal force is the limit.
-    pub(super) yielding: Vec<usize>,
-    /// Largest normal force at the candidates [N/m]; empty: steel does not yield.
+    /// Normal force at the candidates above which steel yields [N/m]; empty: it does not.
     pub(super) limit: Vec<f64>,
     /// Share of the friction coefficient at the candidates where the surface melts [1]; empty: all of it everywhere.
     pub(super) film: Vec<f64>,
-    /// Gap at yielding nodes, where steel lies in the way: below zero; zero elsewhere [m].
+    /// Depth by which yielding nodes have given way in the step; zero elsewhere [m].
     pub(super) overlap: Vec<f64>,
     /// Rise of the gap along the material by flattening of wheel and rail, at the candidates [1]; empty without any.
     pub(super) dents: [Vec<f64>; 2],
@@ -65,6 +63,9 @@ pub(super) struct AffineTurn {
     pub expected: f64,
 }
 
+/// Time that yielding steel has in a stationary state [s].
+const SETTLED: f64 = 1.0;
+
 /// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
 /// motions) hold the present iterate.
 pub(super) struct Iterate<'a> {
@@ -89,6 +90,12 @@ impl Iterate<'_> {
     /// Nodal tangential force on the wheel at candidate `i` [N/m].
     pub fn tangential(&self, i: usize) -> f64 {
         self.traction.port_forces[self.grid.port(i)]
+    }
+
+    /// Depth [m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
+    pub fn creep(&self) -> f64 {
+        let duration = if self.problem.duration > 0.0 { self.problem.duration } else { SETTLED };
+        duration / (self.problem.limits.viscosity * self.grid.spacing)
     }
 
     /// Friction force that candidate `i` can bear over its normal force [1].

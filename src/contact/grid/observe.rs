@@ -12,6 +12,8 @@ use std::ops::Range;
 
 /// Share of the peak above which nodes beside it take part in the fit of the pressure maximum [1].
 const PEAK: f64 = 0.9;
+/// Ratio of the two outermost nodal pressures below which the outer node is fading out [1].
+const FADING: f64 = 0.2;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
@@ -78,7 +80,7 @@ pub fn read_off(
     scale_to(&mut traction.dissipation, power, &traction.pressure);
 }
 
-/// Fills the yielding part of `traction` from the gaps `overlap` at yielding candidates [m].
+/// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].
 pub(super) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], traction: &mut Traction) {
     traction.overlap.clear();
     let closed = state.status.iter().filter(|s| s.is_active()).count();
@@ -87,7 +89,7 @@ pub(super) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], tr
     let first = state.yielded.iter().position(|yields| *yields);
     let (Some(first), Some(last)) = (first, state.yielded.iter().rposition(|yields| *yields)) else { return };
     for i in first.saturating_sub(1)..=(last + 1).min(grid.len() - 1) {
-        traction.overlap.push(grid.x[i], if state.yielded[i] { (-overlap[i]).max(0.0) } else { 0.0 });
+        traction.overlap.push(grid.x[i], overlap[i].max(0.0));
     }
 }
 
@@ -129,14 +131,27 @@ fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
 /// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.
 fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
     let (first, last) = (run.start, run.end - 1);
-    let offset = |edge: usize, inner: usize| {
-        let inner = if edge == inner { 0.0 } else { normal(inner) };
-        grid.spacing * edge_offset(normal(edge), inner)
+    let pressure = |i: Option<usize>| i.filter(|i| run.contains(i)).map_or(0.0, &normal);
+    let offset = |nodes: [Option<usize>; 3]| {
+        let [edge, inner, next] = nodes.map(&pressure);
+        grid.spacing * continuous_offset(edge, inner, next)
     };
     Interval {
-        low: grid.x[first] - offset(first, (first + 1).min(last)),
-        high: grid.x[last] + offset(last, last.max(first + 1) - 1),
+        low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k))),
+        high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k))),
     }
+}
+
+/// Distance of the contact edge beyond the outermost of three nodes [cells]. As its pressure vanishes, the edge tends to
+/// where it is without this node, whatever the shape of the pressure.
+fn continuous_offset(edge: f64, inner: f64, next: f64) -> f64 {
+    let own = edge_offset(edge, inner);
+    let ratio = if inner > 0.0 { edge / inner } else { 1.0 };
+    if ratio >= FADING || next <= 0.0 {
+        return own;
+    }
+    let share = (ratio / FADING).max(0.0);
+    share * own + (1.0 - share) * (edge_offset(inner, next) - 1.0)
 }
 
 /// The patch of a run of closed nodes with these edges. An edge up to a quarter of a cell inside the outermost node is moved

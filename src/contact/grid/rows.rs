@@ -57,7 +57,7 @@ impl Iterate<'_> {
         self.scratch.turn = turn;
     }
 
-    /// `g = 0` at a closed node. Writes the force coefficients of the ports `window` to `forces`.
+    /// `g = 0` at a closed node, `g + c (λ_n − Λ) = 0` at one that yields above the force `Λ`. Writes the force coefficients of the ports `window` to `forces`.
     pub(super) fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let (bodies, turn, x) = (&self.problem.bodies, &self.scratch.turn, self.grid.x[i]);
         let port = self.grid.port(i) + 1;
@@ -70,7 +70,12 @@ impl Iterate<'_> {
             }
         }
         let [wheel, rail] = &self.scratch.known;
-        let constant = self.scratch.gap[i] + wheel[port] - x * turn.known - rail[port];
+        let mut constant = self.scratch.gap[i] + wheel[port] - x * turn.known - rail[port];
+        if self.state.yielded[i] {
+            let creep = self.creep();
+            forces[port] += creep;
+            constant -= creep * self.scratch.limit[i];
+        }
         AffineRow { rigid, constant }
     }
 
@@ -256,8 +261,8 @@ impl Iterate<'_> {
         for i in 0..grid.len() {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
-            let normal = || self.scratch.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
-            self.scratch.overlap[i] = if self.state.yielded[i] { normal() } else { 0.0 };
+            let excess = || self.traction.port_forces[port + 1] - self.scratch.limit[i];
+            self.scratch.overlap[i] = if self.state.yielded[i] { self.creep() * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
                 let dynamic = problem.time.a0 * (u_c[port] - u_p[port]) + self.scratch.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
@@ -266,7 +271,7 @@ impl Iterate<'_> {
                 (self.state.slip[i], self.state.gap[i]) = (slip(upwind), 0.0);
             } else {
                 (self.state.slip[i], self.scratch.centred_slip[i]) = (0.0, 0.0);
-                self.state.gap[i] = normal();
+                self.state.gap[i] = self.scratch.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
             }
         }
     }

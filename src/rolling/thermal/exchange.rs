@@ -57,7 +57,7 @@ impl Touch<'_> {
     pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, exchange: &mut Exchange) {
         let contact = self.traction;
         exchange.clear();
-        exchange.patches.extend(&contact.patches);
+        exchange.patches.extend(&contact.edges);
         copy(&contact.pressure, &mut exchange.pressure);
         copy(&contact.dissipation, &mut exchange.friction_power);
         exchange.friction_excess = contact.dissipation_excess;

@@ -33,6 +33,11 @@ const HOTTEST_PASSING: f64 = 1000.0;
 /// its maximum, and a hotter but thinner skin does not yield on its own.
 const LOADED_DEPTH: f64 = 0.5;
 
+/// Share of the way that the feedback of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
+/// touches, steel shrinks, the edge recedes, and steel warms and swells again: one step later, so that the feedback of one step
+/// on the next is below −1 and whole swellings would flip from step to step. Half of the way it is below −3 that they do.
+const DAMPED: f64 = 0.5;
+
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
     heat: Heat,
@@ -156,6 +161,9 @@ impl ThermalModel {
         self.observe(touch, &mut thermal, seen)?;
         thermal.heating.before = before.heating.now;
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
+        if hottest > SOFTENS {
+            self.average(&mut thermal, before, DAMPED);
+        }
         let above = if hottest > austenitisation { dt } else { 0.0 };
         thermal.austenitised = before.austenitised + above;
         thermal.supplied = before.supplied + dt * supplied(&thermal.flows);
