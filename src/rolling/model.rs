@@ -99,6 +99,7 @@ impl Model {
     pub fn fits(&self, state: &State) -> bool {
         self.bodies.fits(state)
             && self.contact.solver.fits(&state.contact)
+            && state.flattening.iter().all(contact::Flattening::is_sound)
             && match (&state.thermal, &self.thermal) {
                 (Some(temperatures), Some(model)) => model.fits(temperatures),
                 (None, None) => true,

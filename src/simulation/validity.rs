@@ -1,6 +1,7 @@
 //! Where the results of a run begin to lose their meaning although every step succeeds.
 
 use super::Simulation;
+use crate::material::INDENTATION;
 use crate::mechanics::nominal_half_width;
 
 /// A limit of what the meshes resolve.
@@ -14,7 +15,7 @@ pub enum Limit {
     Patch,
     /// Load for which the candidate zone is laid out.
     Zone,
-    /// Pressure that steel carries.
+    /// Pressure that steel carries, where it is not limited by yielding.
     Yield,
     /// Temperature up to which steel is solid.
     Melting,
@@ -34,9 +35,6 @@ impl Limit {
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Load that the candidate zone carries in any case, over the nominal load.
 pub(super) const ZONE_LOAD: f64 = 2.0;
-/// Pressure that cold wheel steel of 550 MPa yield stress (ER7, EN 13262) carries before it flows as a whole [Pa]: a flat
-/// punch sinks into a perfectly plastic half-plane at (2 + π)/√3 = 2.97 times the yield stress. The model stays elastic.
-const PLASTIC_PRESSURE: f64 = 2.97 * 550e6;
 /// Solidus of wheel steel [K], 1420 °C.
 const SOLIDUS: f64 = 1693.0;
 /// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
@@ -70,7 +68,10 @@ impl Simulation {
                 (outputs.contact_half_width / element, FEWEST_ELEMENTS)
             }
             Limit::Zone => (load, ZONE_LOAD * nominal),
-            Limit::Yield => (outputs.contact_pressure_max, PLASTIC_PRESSURE),
+            Limit::Yield => {
+                let elastic = if config.physics.yielding { 0.0 } else { 1.0 };
+                (elastic * outputs.contact_pressure_max, INDENTATION * config.material.yield_strength)
+            }
             Limit::Melting => (outputs.temperature_wheel_max.max(outputs.temperature_rail_max), SOLIDUS),
             Limit::StickSlip => (self.unresolved_phase(), RESOLVED_PHASE),
         }
@@ -109,9 +110,9 @@ impl Simulation {
                  which follows it unless set"
             ),
             Limit::Yield => format!(
-                "peak pressure {:.0} MPa is above {:.0} MPa, which wheel steel carries: the bodies stay elastic, and \
-                 patch, forces and temperatures are not those of steel that flows; check drive.load and \
-                 model.contact_width, or end the slide earlier",
+                "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
+                 stay elastic, and patch, forces and temperatures are not those of steel that flows; set \
+                 physics.yielding, or check drive.load and model.contact_width",
                 value * 1e-6,
                 bound * 1e-6
             ),

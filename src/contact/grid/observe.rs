@@ -22,8 +22,9 @@ const MARGIN: f64 = 1e-3;
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
 /// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
-/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²). The
-/// slope of a flattened tread, `dents`, tilts the normal force.
+/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²). What
+/// streams through the patch is the elastic displacement: its slope is that of the round wheel and of the flattened tread,
+/// `dents`, together.
 /// Derivation: `docs/theory/lever-arms.md`.
 pub(super) fn lever_arms(
     grid: &ContactGrid,
@@ -36,7 +37,7 @@ pub(super) fn lever_arms(
     let at = |k: Option<usize>| k.and_then(|k| gap.get(k)).copied().unwrap_or(0.0);
     let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / (2.0 * grid.spacing);
     let dent = radius * dents.get(i).copied().unwrap_or(0.0);
-    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope - dent]
+    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope + dent]
 }
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of

@@ -36,7 +36,7 @@ const LOADED_DEPTH: f64 = 0.5;
 /// Share of the way that the feedback of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
 /// touches, steel shrinks, the edge recedes, and steel warms and swells again: one step later, so that the feedback of one step
 /// on the next is below −1 and whole swellings would flip from step to step. Half of the way it is below −3 that they do.
-const DAMPED: f64 = 0.5;
+const DAMPED: f64 = 0.25;
 
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
