@@ -168,7 +168,11 @@ def line(r):
 
 
 def spread(runs, names=("p max", "T max", "force")):
-    """Largest distance of each figure from that of the finest run, over the latter."""
+    """Largest distance of each figure from that of the finest run, over the latter, and that run; of runs that reached
+    their end, if there are any."""
+    runs = [r for r in runs if not r["error"]]
+    if not runs:
+        return {}, None
     finest = min(runs, key=lambda r: (r["step"], -r["elements"]))
     return {name: max(abs(r[name] / finest[name] - 1.0) for r in runs) for name in names}, finest
 
@@ -197,12 +201,15 @@ def report(results):
         failures += [f"{name} differs by more than {SPREAD:.0%}" for name, d in distances.items() if d > SPREAD]
         count += len(failures)
         words = ", ".join(f"{name} {d * 100:.1f} %" for name, d in distances.items())
-        print(f"{speed:5g} km/h: {words}")
+        print(f"{speed:5g} km/h: {words or 'no run reached its end'}")
         for text in dict.fromkeys(failures):
             print(f"            ! {text} ({failures.count(text)})")
     print("\nFriction coefficient of the locked wheel over speed (finest run of each; Galton: from memory, not checked)")
     for speed in sorted({r["speed"] for r in results}):
         finest = spread([r for r in results if r["speed"] == speed])[1]
+        if finest is None:
+            print(f"{speed:5g} km/h: -")
+            continue
         trial = galton(speed)
         beside = "beyond his trials" if trial is None else f"{trial:.3f}"
         print(f"{speed:5g} km/h: {finest['mu']:.4f}   Galton {beside}")
