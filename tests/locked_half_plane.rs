@@ -94,9 +94,9 @@ fn closed_solution(config: &Config, a: f64, power: &dyn Fn(f64) -> f64) -> Vec<[
     let rail = DMatrix::from_fn(n, n, ahead);
     // Times that grow, through those of the comparison.
     let mut times = vec![0.0];
-    for (&start, &end) in [1e-5].iter().chain(&TIMES).zip(&TIMES) {
-        let steps = ((end / start as f64).ln() / 0.04).ceil();
-        times.extend((0..steps as usize).map(|k| start * (end / start as f64).powf(k as f64 / steps)));
+    for (&start, &end) in [1e-5_f64].iter().chain(&TIMES).zip(&TIMES) {
+        let steps = ((end / start).ln() / 0.04).ceil();
+        times.extend((0..steps as usize).map(|k| start * (end / start).powf(k as f64 / steps)));
     }
     times.push(TIMES[TIMES.len() - 1]);
     let unit = |time: f64| -> Vec<f64> {
@@ -117,9 +117,9 @@ fn closed_solution(config: &Config, a: f64, power: &dyn Fn(f64) -> f64) -> Vec<[
         // The rail brings what it took up ahead a little earlier: friction heat less the wheel's share of that time.
         let (mut present, mut known) = (DMatrix::zeros(n, n), DVector::zeros(n));
         for i in 0..n {
-            for j in i..n {
+            for (j, part) in shape.iter().enumerate().skip(i) {
                 let then = now - (x[j] - x[i]) / SPEED;
-                known[i] += rail[(i, j)] * shape[j] * power(then);
+                known[i] += rail[(i, j)] * part * power(then);
                 for (k, share) in at(&times[..=step], then) {
                     match fluxes.get(k) {
                         Some(flux) => known[i] -= rail[(i, j)] * share * flux[j],
