@@ -2,6 +2,8 @@
 # make test      every test, Rust and fmpy
 # make fmu       target/wheelrail.fmu
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
+# make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
+# make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make bench     speed of steps, starts and the reduced basis
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
@@ -29,7 +31,7 @@ MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu masters bench endurance random-parameters leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters flat locked-wheels bench endurance random-parameters leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -47,6 +49,12 @@ fmu: $(FMU)
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
+
+flat: $(FMU) $(INSTALLED)
+	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
+
+locked-wheels: $(BUILT)
+	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
 
 bench:
 	$(CARGO) bench --locked

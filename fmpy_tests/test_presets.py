@@ -9,6 +9,7 @@ from wheel import Refused
 
 PRESETS = (
     "railway",
+    "railway_damage",
     "railway_dry",
     "railway_wet",
     "railway_low_adhesion",

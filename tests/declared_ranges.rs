@@ -8,8 +8,17 @@ use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, Response, presets};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
-const PRESETS: [&str; 8] =
-    ["railway", "paper_a", "paper_b", "paper_c", "paper_d", "railway_dry", "railway_wet", "railway_low_adhesion"];
+const PRESETS: [&str; 9] = [
+    "railway",
+    "paper_a",
+    "paper_b",
+    "paper_c",
+    "paper_d",
+    "railway_damage",
+    "railway_dry",
+    "railway_wet",
+    "railway_low_adhesion",
+];
 
 /// A preset on the coarsest mesh with fewer modes.
 fn coarse(name: &str) -> Config {

@@ -85,7 +85,7 @@ fn every_preset_is_valid() {
     let names = presets::available(Some(&resources));
     let papers = ["paper_a", "paper_b", "paper_c", "paper_d"];
     assert_eq!(names[..4], papers);
-    assert_eq!(names[4..], ["railway", "railway_dry", "railway_low_adhesion", "railway_wet"]);
+    assert_eq!(names[4..], ["railway", "railway_damage", "railway_dry", "railway_low_adhesion", "railway_wet"]);
     for name in names {
         let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));
         wheelrail::simulation::Inputs::rolling(&config).validate().unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -40,13 +40,14 @@ macro_rules! theory {
 }
 
 /// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 12] = theory![
+const THEORY: [(&str, &[u8]); 13] = theory![
     "README.md",
     "ale-balance.md",
     "condensation.md",
     "contact.md",
     "damping.md",
     "edge-consistent-rows.md",
+    "equivalent-width.md",
     "lever-arms.md",
     "friction-and-coupling.md",
     "heat.md",

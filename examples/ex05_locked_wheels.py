@@ -1,0 +1,273 @@
+"""Example 5: locked wheels. Wheels that slide for two seconds, at several speeds, steps and meshes, without an FMU master.
+
+    make locked-wheels
+    python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20
+
+A wheel rolls, its rotation is stopped within 20 ms while the vehicle goes on, and it slides. Every run is one call of the
+command line, two at a time. Printed for each run:
+
+    p max, p end   highest peak pressure, and that of the end, in MPa
+    T max          highest surface temperature of wheel and rail in the contact, in °C
+    force, mu      mean tangential force while locked in kN, and mean friction coefficient: force over load
+    signs          share of the steps whose change of the wheel's temperature has the other sign than that before (both more
+                   than 0.1 K), in %: a solution that jumps from step to step has 100
+    energy         residual of the energy audit at the end, in %
+    Ac1            time from the start of braking until wheel or rail is austenitic, in ms
+    halved         share of the steps that the error control had to divide, in %
+    ended          when a run stopped early (a discarded step), with its message
+
+Then for each speed: how far the results of coarser steps and meshes are from those of the finest, which limits are kept,
+and friction over speed beside Galton's trials of 1878, as they are remembered (`GALTON`).
+"""
+
+import argparse
+import csv
+import itertools
+import json
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as ElementTree
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+KELVIN = 273.15  # K at 0 °C
+LOCK = 0.02  # s, in which the rotation stops
+SETTLED = 0.05  # s, from which on the slide counts
+NOISE = 0.1  # K: smaller changes of a temperature have no sign
+MPH = 1.609344  # km/h
+
+# What the results must keep.
+YIELD = 2.97 * 550e6  # Pa: pressure at which a cold wheel steel flows in a line contact, (2 + pi)/sqrt(3) times its yield stress
+LIQUIDUS = 1490.0  # °C, of wheel steel, from memory: 1490 +- 20
+SIGNS = 0.10  # share of the steps
+AUDIT = 0.01  # of the dissipation
+SPREAD = 0.05  # of the result of the finest run
+
+# Steel tyre sliding on a dry steel rail, speed in mph and friction coefficient. D. Galton and G. Westinghouse, Proc. IMechE
+# 1878-79; quoted FROM MEMORY, the table of the reports could not be read. Published and read: the force of a skidding
+# wheel is less than a third of that of a braked, rolling one, and falls with speed and sliding time.
+GALTON = ((7, 0.088), (14, 0.072), (27, 0.070), (34, 0.065), (41, 0.057), (55, 0.038), (60, 0.027))
+
+OUTPUTS = (
+    "wheel.omega", "contact.force_x", "contact.force_y", "contact.pressure_max", "contact.half_width",
+    "contact.friction", "temperature.wheel_max", "temperature.rail_max", "solver.energy_residual",
+    "solver.internal_steps",
+)  # fmt: skip
+# Written, too, if the binary has them.
+IF_THERE = ("damage.yielded", "damage.melted", "damage.flattening")
+
+
+def galton(speed):
+    """Friction coefficient after Galton at a speed [km/h], linear between his speeds; `None` beyond them."""
+    mph = speed / MPH
+    for (low, mu), (high, nu) in itertools.pairwise(GALTON):
+        if low <= mph <= high:
+            return mu + (nu - mu) * (mph - low) / (high - low)
+    return None
+
+
+def sign_changes(values):
+    """Share of the steps of a sequence whose change has the other sign than the one before."""
+    changes = [b - a for a, b in itertools.pairwise(values)]
+    turns = [a * b < 0.0 and min(abs(a), abs(b)) > NOISE for a, b in itertools.pairwise(changes)]
+    return sum(turns) / max(1, len(turns))
+
+
+def crossing(times, values, limit):
+    """First time at which a sequence passes a limit, linear between its points; `None` if it does not."""
+    for (s, a), (t, b) in itertools.pairwise(zip(times, values)):
+        if a < limit <= b:
+            return s + (t - s) * (limit - a) / (b - a)
+    return None
+
+
+def figures(table, austenitisation):
+    """Figures of a slide from its table, a dictionary of columns with `time`."""
+    late = [i for i, t in enumerate(table["time"]) if t >= SETTLED]
+    hottest = [max(pair) for pair in zip(table["temperature.wheel_max"], table["temperature.rail_max"])]
+    mean = lambda name: sum(table[name][i] for i in late) / max(1, len(late))
+    force = -mean("contact.force_x")
+    divided = [n > 1 for n in table["solver.internal_steps"]]
+    found = {
+        "p max": max(table["contact.pressure_max"]),
+        "p end": table["contact.pressure_max"][-1],
+        "T max": max(hottest) - KELVIN,
+        "force": force,
+        "mu": force / mean("contact.force_y") if late else 0.0,
+        "signs": sign_changes([table["temperature.wheel_max"][i] for i in late]),
+        "energy": table["solver.energy_residual"][-1],
+        "Ac1": crossing(table["time"], hottest, austenitisation),
+        "halved": sum(divided) / len(divided),
+        "end": table["time"][-1],
+    }
+    return found | {name: max(table[name]) for name in IF_THERE if name in table}
+
+
+class Binary:
+    """The command line tool, with what a run needs to know about it."""
+
+    def __init__(self, options):
+        self.options = options
+        described = subprocess.run([options.binary, "describe"], capture_output=True, text=True, check=True).stdout
+        model = ElementTree.fromstring(described)
+        self.starts = {v.get("name"): v[0].get("start") for v in model.iter("ScalarVariable") if len(v)}
+        preset = json.loads((options.resources / f"{options.preset}.json").read_text())
+        self.starts |= {f"{group}.{name}": v for group, content in preset.items() for name, v in content.items()}
+        self.starts |= dict(setting.split("=", 1) for setting in options.set)
+        self.outputs = OUTPUTS + tuple(name for name in IF_THERE if name in self.starts)
+
+    def number(self, name):
+        """A parameter of the runs."""
+        return float(self.starts[name])
+
+    def slide(self, directory, speed, step, elements):
+        """Runs a slide from a speed [km/h] with a step [s] on a mesh; returns its figures."""
+        velocity, name = speed / 3.6, f"{speed:g}kmh_{step * 1e3:g}ms_{elements}"
+        omega = velocity / self.number("wheel.radius")
+        scenario, out = directory / f"{name}_scenario.csv", directory / f"{name}.csv"
+        fixed = f"velocity,velocity,{velocity!r}"
+        head = "time,control.rotation,control.translation,drive.velocity,drive.omega\n"
+        scenario.write_text(f"{head}0,{fixed},{omega!r}\n{LOCK},{fixed},0\n{self.options.stop},{fixed},0\n")
+        settings = {"initial.velocity": velocity, "mesh.elements_per_half_width": elements}
+        settings = [f"{key}={value!r}" for key, value in settings.items()] + self.options.set
+        o = self.options
+        command = [o.binary, "simulate", "--preset", o.preset, "--resources", o.resources, "--cache", o.cache]
+        command += ["--scenario", scenario, "--step", repr(step), "--stop", repr(o.stop), "--out", out]
+        command += ["--outputs", ",".join(self.outputs)] + [word for s in settings for word in ("--set", s)]
+        began = time.perf_counter()
+        run = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+        errors = [line for line in run.stderr.splitlines() if line.startswith("error")]
+        if not out.is_file():
+            sys.exit("\n".join(errors) or run.stderr)
+        with open(out, newline="") as file:
+            rows = list(csv.reader(file))
+        table = dict(zip(rows[0], zip(*[[float(value) for value in row] for row in rows[1:]])))
+        found = figures(table, self.number("thermal.austenitisation"))
+        found["error"] = " ".join(errors) if run.returncode else ""
+        return found | {"speed": speed, "step": step, "elements": elements, "wall": time.perf_counter() - began}
+
+
+HEAD = (
+    f"{'km/h':>5} {'step':>8} {'mesh':>5} {'p max':>8} {'p end':>8} {'T max':>8} {'force':>7} {'mu':>7} {'signs':>6} "
+    f"{'energy':>7} {'Ac1':>6} {'halved':>6} {'wall':>6}"
+)
+
+
+def line(r):
+    """A run as a line of the table."""
+    ac1 = "-" if r["Ac1"] is None else f"{r['Ac1'] * 1e3:.2f}"
+    ended = f"  ended at {r['end']:.4g} s: {r['error'][:150]}" if r["error"] else ""
+    extra = "".join(f"  {name.split('.')[1]} {r[name]:.3g}" for name in IF_THERE if name in r)
+    return (
+        f"{r['speed']:5g} {r['step'] * 1e3:5g} ms {r['elements']:5d} {r['p max'] / 1e6:8.0f} {r['p end'] / 1e6:8.0f} "
+        f"{r['T max']:8.0f} {r['force'] / 1e3:7.3f} {r['mu']:7.4f} {r['signs'] * 100:6.1f} {r['energy'] * 100:7.3f} "
+        f"{ac1:>6} {r['halved'] * 100:6.2f} {r['wall']:6.1f}{extra}{ended}"
+    )
+
+
+def spread(runs, names=("p max", "T max", "force")):
+    """Largest distance of each figure from that of the finest run, over the latter, and that run; of runs that reached
+    their end, if there are any."""
+    runs = [r for r in runs if not r["error"]]
+    if not runs:
+        return {}, None
+    finest = min(runs, key=lambda r: (r["step"], -r["elements"]))
+    return {name: max(abs(r[name] / finest[name] - 1.0) for r in runs) for name in names}, finest
+
+
+def broken(r):
+    """The limits that a run does not keep."""
+    checks = (
+        (r["p max"] > YIELD * 1.001, f"peak pressure above {YIELD / 1e6:.0f} MPa"),
+        (r["T max"] > LIQUIDUS + 50.0, f"temperature above {LIQUIDUS + 50:.0f} °C"),
+        (r["signs"] > SIGNS, f"more than {SIGNS:.0%} sign changes"),
+        (abs(r["energy"]) > AUDIT, f"energy audit beyond {AUDIT:.0%}"),
+        (bool(r["error"]), "a discarded step"),
+        (r["speed"] == 60.0 and not (r["Ac1"] and 1e-3 <= r["Ac1"] <= 0.03), "Ac1 not within 1 to 30 ms"),
+    )
+    return [text for wrong, text in checks if wrong]
+
+
+def report(results):
+    """Prints, speed by speed, what the runs show together; returns how many limits are broken."""
+    count = 0
+    print("\nDistance from the finest run, limits broken (number of runs)")
+    for speed in sorted({r["speed"] for r in results}):
+        runs = [r for r in results if r["speed"] == speed]
+        distances, finest = spread(runs)
+        failures = [text for r in runs for text in broken(r)]
+        failures += [f"{name} differs by more than {SPREAD:.0%}" for name, d in distances.items() if d > SPREAD]
+        count += len(failures)
+        words = ", ".join(f"{name} {d * 100:.1f} %" for name, d in distances.items())
+        print(f"{speed:5g} km/h: {words or 'no run reached its end'}")
+        for text in dict.fromkeys(failures):
+            print(f"            ! {text} ({failures.count(text)})")
+    print("\nFriction coefficient of the locked wheel over speed (finest run of each; Galton: from memory, not checked)")
+    for speed in sorted({r["speed"] for r in results}):
+        finest = spread([r for r in results if r["speed"] == speed])[1]
+        if finest is None:
+            print(f"{speed:5g} km/h: -")
+            continue
+        trial = galton(speed)
+        beside = "beyond his trials" if trial is None else f"{trial:.3f}"
+        print(f"{speed:5g} km/h: {finest['mu']:.4f}   Galton {beside}")
+    print(f"\n{count} broken limits in {len(results)} runs")
+    return count
+
+
+def numbers(text):
+    """A list of numbers on the command line."""
+    return [float(word) for word in text.split(",")]
+
+
+def arguments():
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--binary", type=Path, default=Path("target/release/wheelrail"), help="default: %(default)s")
+    parser.add_argument("--resources", type=Path, default=Path("resources"), help="directory of the presets")
+    parser.add_argument("--cache", type=Path, default=Path("target"), help="directory that keeps computed bases")
+    parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the table")
+    parser.add_argument("--keep", type=Path, help="directory for the CSV files of all runs")
+    parser.add_argument("--preset", default="railway")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="parameter, repeatable")
+    parser.add_argument("--speeds", type=numbers, default=[40.0, 60.0, 80.0, 120.0, 160.0], help="km/h")
+    parser.add_argument("--steps", type=numbers, default=[1e-3, 2e-4, 5e-5], help="communication steps [s]")
+    parser.add_argument("--meshes", type=numbers, default=[10, 20, 40], help="elements per half-width")
+    parser.add_argument("--stop", type=float, default=2.0, help="end of the slide [s]")
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
+    parser.add_argument("--strict", action="store_true", help="exit with 1 if a limit is broken")
+    return parser.parse_args()
+
+
+def study(options):
+    """All runs."""
+    binary = Binary(options)
+    cases = list(itertools.product(options.speeds, options.steps, [int(n) for n in options.meshes]))
+    # Long runs first: no process idles at the end.
+    cases.sort(key=lambda case: (case[1], -case[2]))
+    results = []
+    with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(options.jobs) as pool:
+        directory = options.keep or Path(temporary)
+        directory.mkdir(parents=True, exist_ok=True)
+        waiting = [pool.submit(binary.slide, directory, *case) for case in cases]
+        print(f"{len(cases)} runs of {options.stop:g} s, {options.jobs} at a time\n{HEAD}", flush=True)
+        for done in as_completed(waiting):
+            results.append(done.result())
+            print(f"{line(results[-1])}  [{len(results)}/{len(cases)}]", flush=True)
+    results.sort(key=lambda r: (r["speed"], -r["step"], r["elements"]))
+    print(f"\nIn order:\n{HEAD}\n" + "\n".join(line(r) for r in results))
+    count = report(results)
+    options.out.mkdir(parents=True, exist_ok=True)
+    table = options.out / "locked_wheels.csv"
+    with open(table, "w", newline="") as file:
+        writer = csv.DictWriter(file, results[0])
+        writer.writeheader()
+        writer.writerows(results)
+    print(f"written: {table}")
+    return 1 if options.strict and count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(study(arguments()))
