@@ -63,6 +63,8 @@ pub struct Observation {
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
     /// wheel less its mean along the tread, of the rail.
     pub layer: [Vec<f64>; 2],
+    /// Mean depth of the heat in that layer \[m].
+    pub layer_depth: [f64; 2],
     /// Mean temperatures over a depth, see [`HeatModel::mean_over_depth`]; filled on demand only.
     pub core: [Vec<f64>; 2],
     /// Work space: a field summed along the streamlines.

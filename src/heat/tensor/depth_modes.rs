@@ -96,15 +96,25 @@ impl DepthModes {
         (0..self.len()).map(|m| (0..3).map(|i| shape[i] * node(2 * element + i, m)).sum()).collect()
     }
 
-    /// Integral of every mode from the surface down to `depth` (Simpson's rule on intervals that grow with depth) [m].
+    /// Integral of every mode from the surface down to `depth` \[m].
     pub fn integrals(&self, depth: f64) -> Vec<f64> {
+        self.weighted_integrals(depth, |_| 1.0)
+    }
+
+    /// Integral of every mode times the depth, down to `depth` [m²].
+    pub fn moments(&self, depth: f64) -> Vec<f64> {
+        self.weighted_integrals(depth, |z| z)
+    }
+
+    /// Integrals of all modes times a weight (Simpson's rule on intervals that grow with depth).
+    fn weighted_integrals(&self, depth: f64, weight: impl Fn(f64) -> f64) -> Vec<f64> {
         let mut integrals = vec![0.0; self.len()];
         let (mut from, mut step) = (0.0, 1e-3 * depth);
         while from < depth {
             let to = (from + step).min(depth);
             for (z, share) in [(from, 1.0), (0.5 * (from + to), 4.0), (to, 1.0)] {
                 for (integral, mode) in integrals.iter_mut().zip(self.at(z)) {
-                    *integral += share / 6.0 * (to - from) * mode;
+                    *integral += share / 6.0 * (to - from) * weight(z) * mode;
                 }
             }
             (from, step) = (to, 1.3 * step);

@@ -21,6 +21,8 @@ pub struct Heat {
     pub(super) zone_cells: usize,
     /// Integrals of the modes over the layer whose expansion acts on the contact, of wheel and rail [m].
     pub(super) layer_weights: [Vec<f64>; 2],
+    /// First moments of the modes over that layer, of wheel and rail [m²].
+    pub(super) layer_moments: [Vec<f64>; 2],
     /// Means of the modes from the surface down to depths that grow by the factor [`CORE_GROWTH`] from
     /// [`CORE_DEPTH`] half-widths on, of wheel and rail [1].
     pub(super) core_weights: [Vec<Vec<f64>>; 2],
@@ -81,11 +83,12 @@ impl Heat {
             modes(c.rail.height, 0.0, false)?,
         );
         let layer_weights = [&wheel, &rail].map(|body| body.modes.integrals(FLASH_DEPTH * c.half_width));
+        let layer_moments = [&wheel, &rail].map(|body| body.modes.moments(FLASH_DEPTH * c.half_width));
         let core_weights = [&wheel, &rail].map(|body| {
             let depths = (0..CORE_DEPTHS).map(|k| CORE_DEPTH * c.half_width * CORE_GROWTH.powi(k));
             depths.map(|depth| body.modes.integrals(depth).iter().map(|i| i / depth).collect()).collect()
         });
-        Ok(Self { wheel, rail, zone_cells: zone.len() - 1, layer_weights, core_weights, config: c })
+        Ok(Self { wheel, rail, zone_cells: zone.len() - 1, layer_weights, layer_moments, core_weights, config: c })
     }
 
     /// Surface positions of the common nodes in the contact zone [m], ascending.

@@ -81,7 +81,8 @@ impl HeatModel for Heat {
             let nm = body.modes.len();
             let rows = field[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
             seen.layer[i].clear();
-            seen.layer[i].extend(rows.map(|row| dot(row, weights) - along));
+            seen.layer[i].extend(rows.clone().map(|row| dot(row, weights) - along));
+            seen.layer_depth[i] = mean_depth(rows.map(|row| dot(row, &self.layer_moments[i])), &seen.layer[i]);
         }
         let [wheel, rail] = &seen.surface;
         seen.temperatures = Temperatures {
@@ -108,4 +109,10 @@ impl HeatModel for Heat {
         }
         Ok(())
     }
+}
+
+/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns; zero where nothing is warm.
+fn mean_depth(moments: impl Iterator<Item = f64>, layer: &[f64]) -> f64 {
+    let (moment, content) = (moments.sum::<f64>(), layer.iter().sum::<f64>());
+    if content > 0.0 && moment > 0.0 { moment / content } else { 0.0 }
 }

@@ -6,6 +6,7 @@
 
 mod deformation;
 mod exchange;
+mod smoothing;
 mod thermoelastic;
 
 use super::contact_model::ContactModel;
@@ -21,6 +22,7 @@ use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 pub use exchange::Touch;
+use smoothing::Smoothing;
 use thermoelastic::Thermoelastic;
 
 /// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
@@ -51,6 +53,8 @@ pub struct ThermalModel {
     expansion: Option<Expansion>,
     /// If `physics.thermoelastic_heating` is on.
     thermoelastic: Option<Thermoelastic>,
+    /// Distance of the contact nodes [m].
+    spacing: f64,
     /// Unless `physics.yielding` is off.
     yielding: bool,
     /// Positions at which the surface temperatures are reported [m].
@@ -73,7 +77,14 @@ pub struct HeatStep {
 pub struct Scratch {
     heat: heat::Scratch,
     exchange: Exchange,
+    sight: Sight,
+}
+
+/// What is seen of a state, and how it acts through its depth.
+#[derive(Default)]
+struct Sight {
     seen: Observation,
+    smoothing: [Smoothing; 2],
 }
 
 /// Refuses, before any memory is taken, what [`ThermalModel::new`] would refuse on the mesh of the configuration: too many
@@ -97,6 +108,7 @@ impl ThermalModel {
             blocks: BrakeBlocks::new(config),
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
+            spacing: margin,
             yielding: config.physics.yielding,
             points: profile_points(zone),
         })
@@ -137,7 +149,7 @@ impl ThermalModel {
                 thermal.fields = self.heat.sum(&passing, &thermal.fields)?;
             }
         }
-        self.observe(touch, &mut thermal, &mut Observation::default())?;
+        self.observe(touch, &mut thermal, &mut Sight::default())?;
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
@@ -154,11 +166,11 @@ impl ThermalModel {
         scratch: &mut Scratch,
     ) -> Result<ThermalState, StepError> {
         let HeatStep { dt, tread_heat, austenitisation } = step;
-        let Scratch { heat, exchange, seen } = scratch;
+        let Scratch { heat, exchange, sight } = scratch;
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(touch, &mut thermal, seen)?;
+        self.observe(touch, &mut thermal, sight)?;
         thermal.heating.before = before.heating.now;
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
@@ -172,7 +184,8 @@ impl ThermalModel {
     }
 
     /// Fills all that follows from the temperature fields.
-    fn observe(&self, touch: &Touch, thermal: &mut ThermalState, seen: &mut Observation) -> Result<(), StepError> {
+    fn observe(&self, touch: &Touch, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
+        let Sight { seen, smoothing } = sight;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
         if self.thermoelastic.is_some() {
@@ -202,7 +215,12 @@ impl ThermalModel {
         let friction = touch.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         match &self.expansion {
-            Some(expansion) => expansion.deform(zone, seen, &mut thermal.deformation),
+            Some(expansion) => {
+                for ((layer, depth), smoothing) in seen.layer.iter_mut().zip(seen.layer_depth).zip(smoothing) {
+                    smoothing.apply(zone, layer, depth, self.spacing);
+                }
+                expansion.deform(zone, seen, &mut thermal.deformation);
+            }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
         self.weaken(touch.traction, thermal, seen)?;
