@@ -7,6 +7,7 @@ use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Constant data of a reduced body with `m` modes and `n` surface nodes, per metre of width.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,6 +78,19 @@ impl ReducedBasis {
         };
         progress(1.0);
         Ok(basis)
+    }
+
+    /// The same body with only the surface components `ports`.
+    pub fn cut(&self, ports: Range<usize>) -> Self {
+        let (first, count) = (ports.start, ports.len());
+        let square = self.residual.view((first, first), (count, count));
+        Self {
+            shapes: self.shapes.rows(first, count).into_owned(),
+            residual: square.into_owned(),
+            rigid_residual: self.rigid_residual.rows(first, count).into_owned(),
+            centrifugal_residual: self.centrifugal_residual.rows(first, count).into_owned(),
+            ..self.clone()
+        }
     }
 
     /// Number of modes.

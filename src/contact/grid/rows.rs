@@ -18,8 +18,8 @@ impl Iterate<'_> {
     /// Ports of the candidate nodes that an upwind difference at node `i` touches, with the weights of `∂u/∂x` [1/m].
     fn stencil(&self, i: usize, row: Upwind, to_right: bool) -> [(usize, f64); 3] {
         let (port, step) = (self.grid.port(i) as isize, if to_right { 2 } else { -2 });
-        let weights = row.stencil(to_right);
-        std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k] / self.grid.spacing))
+        let weights = row.stencil(to_right, self.grid.cells_beside(i, to_right));
+        std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k]))
     }
 
     /// Upwind derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
@@ -34,7 +34,7 @@ impl Iterate<'_> {
 
     /// Centred derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     fn centred_stretches(&self, i: usize) -> [f64; 2] {
-        let (port, length) = (self.grid.port(i), 2.0 * self.grid.spacing);
+        let (port, length) = (self.grid.port(i), self.grid.span(i));
         let [wheel, rail] = &self.traction.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
         [turned / length, (rail[port + 2] - rail[port - 2]) / length]
