@@ -15,8 +15,10 @@ pub const GUARDS: usize = 3;
 /// Growth of the cell size per cell along the surface and into the depth.
 const GROWTH: f64 = 1.2;
 /// Growth of the cells in the wings by this many uniform ones per half-width, `h(s) = h (1 + 2 s/a)`, so that finer meshes
-/// are finer everywhere; but no more than by [`GROWTH`] per cell.
+/// are finer everywhere; but no more than by [`GROWTH`] per cell, nor less than by 7 %: very fine meshes stay
+/// affordable.
 const WING_SLOPE: f64 = 2.0;
+const LEAST_WING_GROWTH: f64 = 1.07;
 const DEPTH_GROWTH: f64 = 1.15;
 /// Largest cell of the wheel along the circumference [rad]; its chords stiffen the torsion by about `0.4 angle²`.
 const LARGEST_ANGLE: f64 = 0.05;
@@ -75,7 +77,7 @@ impl ContactZone {
     /// Length of each wing [m] and its grading.
     fn wings(&self) -> Option<(f64, Grading)> {
         let (first, length) = (self.spacing(), self.reach - self.core());
-        let slope = (WING_SLOPE * first / self.half_width).min(GROWTH.ln());
+        let slope = (WING_SLOPE * first / self.half_width).clamp(LEAST_WING_GROWTH.ln(), GROWTH.ln());
         let grading = Grading::one_sided(first, slope.exp(), first + slope * length);
         (length > 0.0 && grading.cells(length) > GUARDS as f64).then_some((length, grading))
     }
@@ -285,15 +287,16 @@ mod tests {
 
     #[test]
     fn wings_are_paired_and_as_fine_as_the_zone_that_they_continue() {
-        for (elements, nodes) in [(10, 11), (20, 22), (40, 43)] {
+        for (elements, nodes) in [(10, 12), (20, 22), (40, 35)] {
             let zone = ContactZone { half_width: 7.6e-4, elements, reach: 5.5 * 7.6e-4 };
             let (w, r) = (wheel(0.5, 0.05, zone).unwrap(), rail(1.0, 0.1, 0.025, zone).unwrap());
             let x = w.surface_x();
-            assert_eq!((&x, zone.wing_nodes()), (&r.surface_x(), nodes));
+            assert_eq!(zone.wing_nodes(), nodes);
+            assert!(x == r.surface_x());
             let cells: Vec<f64> = x.windows(2).map(|x| (x[1] - x[0]) / zone.half_width).collect();
             println!("{elements} elements per half-width: the largest cell has {:.3}", cells[0]);
             assert!(cells.windows(2).all(|pair| (pair[1] / pair[0]).ln().abs() < 1.02 * GROWTH.ln()));
-            assert!(cells[0] < 10.0 / elements as f64 && (x[0] / zone.half_width + 5.5).abs() < 1e-12);
+            assert!(cells[0] < 9.0 / elements as f64 && (x[0] / zone.half_width + 5.5).abs() < 1e-12);
             assert!(x.iter().zip(x.iter().rev()).all(|(a, b)| a + b == 0.0));
         }
     }

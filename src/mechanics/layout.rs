@@ -21,7 +21,7 @@ pub fn contact_modulus(config: &Config) -> f64 {
 
 /// Distance from the contact point up to which surface nodes are paired, in nominal half-widths: patches of softened steel
 /// grow to about 3.5 of them within two seconds of sliding, and thermal expansion may move them.
-const REACH: f64 = 5.5;
+const REACH: f64 = 6.0;
 /// The same at most, in radii of the wheel, thicknesses of its rim, lengths and heights of the rail: the heat model has room
 /// for it.
 const SHARES: [f64; 4] = [0.19, 1.5, 0.22, 1.5];
