@@ -16,7 +16,8 @@ pub struct ReducedBasis {
     pub squared_frequencies: DVector<f64>,
     /// Modes on the surface `Φ_s`, `2n × m` [√(m/kg)].
     pub shapes: DMatrix<f64>,
-    /// Residual flexibility `F_res`, `2n × 2n` [m/(N/m)].
+    /// Residual flexibility `F_res`, `2n × 2n`, symmetric: half of it is stored [m/(N/m)].
+    #[serde(with = "super::triangle")]
     pub residual: DMatrix<f64>,
     /// `Φᵀ M r_k`, `m × 3`; the rail has no `r_Ω`.
     pub rigid: DMatrix<f64>,

@@ -72,8 +72,8 @@ impl Model {
 
     /// Builds the model on given bodies and a contact solver that belongs to their ports.
     pub fn with_solver(config: Config, bodies: Pair, solver: Box<dyn ContactSolver>) -> Result<Self, ModelError> {
-        let zone = bodies.surface_x[bodies.candidates.clone()].last().copied().unwrap_or(0.0);
-        let reach = bodies.wide.as_ref().and_then(|wide| wide.surface_x.last()).copied().unwrap_or(0.0);
+        let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
+        let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
         let shear = Isotropic::from(&config.material).shear_wave_speed();
         let thermal = match config.thermal.enabled {
             true => Some(ThermalModel::new(&config, zone, bodies.spacing, reach)?),

@@ -35,7 +35,7 @@ const GROWTH: f64 = 1.5;
 const EDGE: f64 = 0.2;
 const EDGE_GROWTH: f64 = 1.3;
 /// Growth of the elements between the zones of ordinary and of wide patches.
-const WING_GROWTH: f64 = 1.3;
+const WING_GROWTH: f64 = 1.4;
 const LARGEST_ALONG: f64 = 0.15;
 const LARGEST_ALONG_RAIL: f64 = 0.05;
 /// Depth of the layer whose expansion acts on the contact, in half-widths at the nominal load.
