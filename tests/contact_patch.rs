@@ -16,7 +16,7 @@ const FRICTION: f64 = 0.3;
 /// A grid of unit half-width whose nodes are shifted by `shift` cells.
 fn grid(shift: f64) -> ContactGrid {
     let h = 1.0 / CELLS;
-    ContactGrid { x: (-30..=30).map(|i| (i as f64 + shift) * h).collect(), spacing: h, guard: 3 }
+    ContactGrid::uniform((-30..=30).map(|i| (i as f64 + shift) * h).collect(), h, 3)
 }
 
 /// The traction of these nodal forces; closed where they press, stuck where they stay below the friction limit.

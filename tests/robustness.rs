@@ -241,7 +241,7 @@ fn a_load_beyond_the_candidate_zone_is_refused_and_the_run_goes_on() {
     inputs.drive.load = 2.0 * model.config().model.nominal_load;
     let mut twice = Simulation::new(model.clone(), &inputs).unwrap();
     assert!((twice.outputs().contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9);
-    inputs.drive.load *= 3.0;
+    inputs.drive.load *= 15.0;
     let error = twice.restart(&inputs).unwrap_err();
     assert!(matches!(error, StepError::ZoneExceeded { .. }), "{error}");
     let advice = advice::failed_start(&error, model.config());

@@ -34,6 +34,18 @@ pub trait ContactSolver: Send + Sync {
         scratch: &mut Scratch,
     ) -> Result<(), ContactError>;
 
+    /// The same state with room for wider patches, where [`Self::solve`] found them to exceed the zone; its `port_forces` are
+    /// those of a wider surface. `None` if there is no more room.
+    fn widened(&self, _state: &ContactState) -> Option<ContactState> {
+        None
+    }
+
+    /// The same state without that room, if it has it and the patches under about the load `nominal_load` [N/m] no longer
+    /// need it.
+    fn narrowed(&self, _state: &ContactState, _nominal_load: f64) -> Option<ContactState> {
+        None
+    }
+
     /// Tangential strains `∂u_x/∂x` of the surfaces of wheel and rail \[1]; empty where the solver does not know them.
     fn surface_strain(&self, _traction: &Traction) -> [Piecewise; 2] {
         Default::default()

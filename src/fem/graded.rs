@@ -1,7 +1,8 @@
 //! Streamline-aligned graded meshes: polar in the wheel, rectangular in the rail, fine at the contact.
 //!
-//! Surface nodes of both bodies lie at `x_i = i h` in and around the contact zone and are paired one to one. Away from
-//! it the cell size grows by a constant factor per cell.
+//! Surface nodes of both bodies lie at `x_i = i h` in and around the contact zone and are paired one to one. Beyond, in the
+//! wings of the zone, they are still paired, at distances that grow slowly: there is room for patches much wider than those
+//! for which the mesh is laid out. Away from both the cell size grows by a constant factor per cell.
 
 use super::grading::Grading;
 use super::{Face, FemError, Mesh};
@@ -13,6 +14,11 @@ const ZONE: f64 = 1.5;
 pub const GUARDS: usize = 3;
 /// Growth of the cell size per cell along the surface and into the depth.
 const GROWTH: f64 = 1.2;
+/// Growth of the cells in the wings by this many uniform ones per half-width, `h(s) = h (1 + 2 s/a)`, so that finer meshes
+/// are finer everywhere; but no more than by [`GROWTH`] per cell, nor less than by 7 %: very fine meshes stay
+/// affordable.
+const WING_SLOPE: f64 = 2.0;
+const LEAST_WING_GROWTH: f64 = 1.07;
 const DEPTH_GROWTH: f64 = 1.15;
 /// Largest cell of the wheel along the circumference [rad]; its chords stiffen the torsion by about `0.4 angle²`.
 const LARGEST_ANGLE: f64 = 0.05;
@@ -31,6 +37,9 @@ pub struct ContactZone {
     pub half_width: f64,
     /// Elements per half-width.
     pub elements: usize,
+    /// Distance from the contact point up to which surface nodes are paired \[m]. No further than the uniform zone: no
+    /// wings.
+    pub reach: f64,
 }
 
 impl ContactZone {
@@ -39,25 +48,50 @@ impl ContactZone {
         self.half_width / self.elements.max(1) as f64
     }
 
-    /// Number of candidate nodes, odd.
+    /// Number of candidate nodes in the uniform zone, odd.
     pub fn candidates(&self) -> usize {
         2 * (ZONE * self.elements as f64).ceil() as usize + 1
     }
 
-    /// Number of surface nodes of each body: candidates and guards.
+    /// Number of surface nodes of each body: candidates, guards and those of the wings.
     pub fn surface_nodes(&self) -> usize {
-        self.candidates() + 2 * GUARDS
+        self.candidates() + 2 * (GUARDS + self.wing_nodes())
     }
 
-    /// x of candidates and guards, ascending, symmetric about zero \[m].
+    /// x of candidates, guards and wings, ascending, symmetric about zero \[m].
     pub fn surface_x(&self) -> Vec<f64> {
-        let half = (self.candidates() / 2 + GUARDS) as isize;
-        (-half..=half).map(|i| i as f64 * self.spacing()).collect()
+        let (half, core) = ((self.candidates() / 2 + GUARDS) as isize, self.core());
+        let wing: Vec<f64> = match self.wings() {
+            Some((length, grading)) => grading.positions(length).iter().skip(1).map(|s| core + s).collect(),
+            None => Vec::new(),
+        };
+        let uniform = (-half..=half).map(|i| i as f64 * self.spacing());
+        wing.iter().rev().map(|x| -x).chain(uniform).chain(wing.iter().copied()).collect()
     }
 
-    /// Distance of the outermost surface node from the contact point [m].
-    fn reach(&self) -> f64 {
+    /// Number of surface nodes in each wing: none, or more than there are guards.
+    pub fn wing_nodes(&self) -> usize {
+        self.wings().map_or(0, |(length, grading)| grading.cells(length) as usize)
+    }
+
+    /// Length of each wing [m] and its grading.
+    fn wings(&self) -> Option<(f64, Grading)> {
+        let (first, length) = (self.spacing(), self.reach - self.core());
+        let slope = (WING_SLOPE * first / self.half_width).clamp(LEAST_WING_GROWTH.ln(), GROWTH.ln());
+        let grading = Grading::one_sided(first, slope.exp(), first + slope * length);
+        (length > 0.0 && grading.cells(length) > GUARDS as f64).then_some((length, grading))
+    }
+
+    /// Distance of the outermost uniformly spaced surface node from the contact point [m].
+    fn core(&self) -> f64 {
         (self.candidates() / 2 + GUARDS) as f64 * self.spacing()
+    }
+
+    /// Distance of the outermost surface node from the contact point, and length of the cell before it [m].
+    fn end(&self) -> [f64; 2] {
+        let x = self.surface_x();
+        let last = x.len() - 1;
+        [x[last], x[last] - x[last - 1]]
     }
 
     /// Number of uniform layers below the surface.
@@ -85,7 +119,7 @@ impl ContactZone {
 
     fn check(&self, limit: f64, what: &'static str) -> Result<(), FemError> {
         positive(self.half_width, "contact half-width")?;
-        let zone = self.reach();
+        let [zone, _] = self.end();
         if zone > limit {
             Err(FemError::ZoneTooLarge { zone, half_width: self.half_width, limit, what })
         } else {
@@ -117,9 +151,10 @@ fn wheel_layout(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Layou
     zone.check(2.0 * thickness, "twice the depth of the wheel's rim")?;
     let largest = (LARGEST * radius).min(0.25 * thickness);
     let last = (HUB * hub_radius).min(thickness / 12.0);
+    let [reach, cell] = zone.end();
     Ok(Layout {
-        side: Grading::one_sided(zone.spacing() / radius, GROWTH, LARGEST_ANGLE),
-        side_length: PI - (zone.reach() / radius).asin(),
+        side: Grading::one_sided(cell / radius, GROWTH, LARGEST_ANGLE),
+        side_length: PI - (reach / radius).asin(),
         depth: Grading { first: zone.spacing(), growth: DEPTH_GROWTH, largest, last, growth_last: HUB_GROWTH },
     })
 }
@@ -132,9 +167,10 @@ fn rail_layout(length: f64, height: f64, largest: f64, zone: ContactZone) -> Res
     zone.check(0.45 * length, "0.45 rail lengths")?;
     zone.check(2.0 * height, "twice the rail height")?;
     let depth = Grading::one_sided(zone.spacing(), GROWTH, largest.min(0.25 * height));
+    let [reach, cell] = zone.end();
     Ok(Layout {
-        side: Grading::one_sided(zone.spacing(), GROWTH, largest.min(0.25 * length)),
-        side_length: 0.5 * length - zone.reach(),
+        side: Grading::one_sided(cell, GROWTH, largest.min(0.25 * length)),
+        side_length: 0.5 * length - reach,
         depth: Grading { growth: DEPTH_GROWTH, ..depth },
     })
 }
@@ -158,7 +194,7 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
     let layout = wheel_layout(radius, hub_radius, zone)?;
     let surface_x = zone.surface_x();
     let mut angles: Vec<f64> = surface_x.iter().map(|x| (x / radius).asin()).collect();
-    let edge = (zone.reach() / radius).asin();
+    let edge = (zone.end()[0] / radius).asin();
     let side = layout.side.positions(layout.side_length);
     angles.extend(side.iter().skip(1).map(|s| edge + s));
     angles.extend(side.iter().rev().skip(1).take(side.len() - 2).map(|s| -edge - s));
@@ -190,7 +226,7 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
 pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result<Mesh, FemError> {
     let layout = rail_layout(length, height, largest, zone)?;
     let surface_x = zone.surface_x();
-    let edge = zone.reach();
+    let [edge, _] = zone.end();
     let side = layout.side.positions(layout.side_length);
     let mut xs: Vec<f64> = side.iter().rev().take(side.len() - 1).map(|s| -edge - s).collect();
     let first = xs.len();
@@ -232,7 +268,7 @@ mod tests {
 
     #[test]
     fn surface_nodes_of_both_bodies_are_paired() {
-        let zone = ContactZone { half_width: 7.6e-4, elements: 20 };
+        let zone = ContactZone { half_width: 7.6e-4, elements: 20, reach: 0.0 };
         let (w, r) = (wheel(0.5, 0.05, zone).unwrap(), rail(1.0, 0.1, 0.025, zone).unwrap());
         assert_eq!((zone.candidates(), w.surface.len()), (61, 67));
         assert_eq!(w.surface_x(), r.surface_x());
@@ -250,9 +286,26 @@ mod tests {
     }
 
     #[test]
+    fn wings_are_paired_and_as_fine_as_the_zone_that_they_continue() {
+        for (elements, nodes) in [(10, 12), (20, 22), (40, 35)] {
+            let zone = ContactZone { half_width: 7.6e-4, elements, reach: 5.5 * 7.6e-4 };
+            let (w, r) = (wheel(0.5, 0.05, zone).unwrap(), rail(1.0, 0.1, 0.025, zone).unwrap());
+            let x = w.surface_x();
+            assert_eq!(zone.wing_nodes(), nodes);
+            assert!(x == r.surface_x());
+            let cells: Vec<f64> = x.windows(2).map(|x| (x[1] - x[0]) / zone.half_width).collect();
+            println!("{elements} elements per half-width: the largest cell has {:.3}", cells[0]);
+            assert!(cells.windows(2).all(|pair| (pair[1] / pair[0]).ln().abs() < 1.02 * GROWTH.ln()));
+            assert!(cells[0] < 9.0 / elements as f64 && (x[0] / zone.half_width + 5.5).abs() < 1e-12);
+            assert!(x.iter().zip(x.iter().rev()).all(|(a, b)| a + b == 0.0));
+        }
+    }
+
+    #[test]
     fn number_of_unknowns_is_known_before_the_mesh_is_made() {
-        for (half_width, elements) in [(7.6e-4, 20), (1e-4, 4), (1.1e-2, 31)] {
-            let zone = ContactZone { half_width, elements };
+        for (half_width, elements, wide) in [(7.6e-4, 20, 5.5), (1e-4, 4, 5.5), (1.1e-2, 31, 0.0), (1e-3, 10, 1.8)] {
+            let zone = ContactZone { half_width, elements, reach: wide * half_width };
+            assert_eq!(zone.surface_nodes(), zone.surface_x().len());
             let count = |mesh: &Mesh| (2 * (mesh.nodes.len() - mesh.fixed.len())) as f64;
             assert_eq!(count(&wheel(0.5, 0.05, zone).unwrap()), wheel_unknowns(0.5, 0.05, zone).unwrap());
             assert_eq!(count(&rail(1.0, 0.1, 0.025, zone).unwrap()), rail_unknowns(1.0, 0.1, 0.025, zone).unwrap());
@@ -261,7 +314,7 @@ mod tests {
 
     #[test]
     fn oversized_contact_zones_are_refused() {
-        let zone = ContactZone { half_width: 0.2, elements: 8 };
+        let zone = ContactZone { half_width: 0.2, elements: 8, reach: 0.0 };
         assert!(matches!(wheel(0.5, 0.05, zone), Err(FemError::ZoneTooLarge { .. })));
         assert!(matches!(rail(0.5, 0.05, 0.1, zone), Err(FemError::ZoneTooLarge { .. })));
         assert!(matches!(wheel(0.5, 0.6, zone), Err(FemError::BadLength { .. })));

@@ -19,8 +19,11 @@ pub struct HeatConfig {
     pub elements_per_half_width: usize,
     /// Half-width of the contact at the nominal load \[m]; the mesh is finest at its edges.
     pub half_width: f64,
-    /// Half-length of the finely meshed zone that every patch and all friction heat stay within \[m].
+    /// Half-length of the finely meshed zone that ordinary patches and their friction heat stay within \[m].
     pub zone: f64,
+    /// Half-length of the zone that every patch and all friction heat stay within \[m]; beyond [`Self::zone`] the elements
+    /// grow.
+    pub reach: f64,
 }
 
 impl HeatConfig {
@@ -50,9 +53,11 @@ impl HeatConfig {
                 Err(ConfigError { name, value, range: display_range([low, high], "1") })
             }
         };
-        within("rail.length", c.rail.length, 4.0 * c.zone, f64::INFINITY)?;
+        let longest = c.zone.max(c.reach);
+        within("rail.length", c.rail.length, 4.0 * longest, f64::INFINITY)?;
         within("half-width at model.nominal_load", c.half_width, 1e-6, 0.1 * radius)?;
         within("half-length of the contact zone", c.zone, c.half_width, 0.2 * radius)?;
+        within("half-length of the zone for wide patches", c.reach, c.zone, 0.2 * radius)?;
         let elements = c.zone / c.smallest_half_width() * c.elements_per_half_width as f64;
         let name = "contact zone in elements, from thermal.smallest_load_ratio and mesh.elements_per_half_width";
         within(name, elements, 2.0, 500.0)

@@ -9,7 +9,7 @@ use crate::config::Config;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
-const MAGIC: &[u8; 8] = b"WHLRAIL2";
+const MAGIC: &[u8; 8] = b"WHLRAIL3";
 /// Digest of the code that the data depend on (meshes, elements, reduction), from the build script.
 pub const CODE: &str = env!("BASIS_CODE");
 /// Name space of keys and checksums.

@@ -12,6 +12,7 @@ use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// State: all free nodal displacements.
@@ -70,6 +71,18 @@ impl FullBody {
             .then(|| RetardedLayer { flexibility: DMatrix::zeros(ports, ports), time: damping.stiffness });
         body.damping = Some(FullDamping { rayleigh: [damping.mass, damping.stiffness], modes, layer });
         Ok(body)
+    }
+
+    /// The same body with only the surface components `ports`.
+    pub fn cut(&self, ports: Range<usize>) -> Self {
+        let mut system = self.system.clone();
+        system.surface = system.surface[ports.clone()].to_vec();
+        let damping = self.damping.as_ref().map(|FullDamping { rayleigh, modes, layer }| FullDamping {
+            rayleigh: *rayleigh,
+            modes: modes.clone(),
+            layer: layer.as_ref().map(|layer| layer.cut(ports)),
+        });
+        Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping }
     }
 
     fn rayleigh(&self) -> [f64; 2] {

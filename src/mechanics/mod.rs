@@ -20,6 +20,7 @@ pub mod solver;
 pub mod system;
 #[cfg(test)]
 pub mod testing;
+mod triangle;
 
 pub use basis::{Basis, BasisError};
 pub use damping::BodyDamping;

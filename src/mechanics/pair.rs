@@ -24,6 +24,15 @@ pub struct Pair {
     pub spacing: f64,
     /// Surface nodes that can carry contact; the others are guards.
     pub candidates: Range<usize>,
+    /// The same bodies with the paired nodes of the wings, among which these are the middle ones; `None` without wings.
+    pub wide: Option<Box<Pair>>,
+}
+
+impl Pair {
+    fn new(wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, surface_x: Vec<f64>, spacing: f64) -> Self {
+        let candidates = GUARDS..surface_x.len() - GUARDS;
+        Self { wheel, rail, surface_x, spacing, candidates, wide: None }
+    }
 }
 
 /// Builds the bodies: reduced ones from a basis that fits the configuration, full ones without.
@@ -37,11 +46,19 @@ pub fn bodies(
     let zone = contact_zone(config);
     let centrifugal = config.physics.centrifugal;
     let damping = [BodyDamping::wheel(config), BodyDamping::rail(config)];
-    let (wheel, rail): (Box<dyn BodyResponse>, Box<dyn BodyResponse>) = match basis {
-        Some(Basis { wheel, rail, .. }) => (
-            Box::new(ReducedBody::new(wheel, centrifugal, &damping[0])),
-            Box::new(ReducedBody::new(rail, false, &damping[1])),
-        ),
+    let (surface_x, wing) = (zone.surface_x(), zone.wing_nodes());
+    let core = wing..surface_x.len() - wing;
+    let ports = 2 * core.start..2 * core.end;
+    type Bodies = [Box<dyn BodyResponse>; 2];
+    let [narrow, wide]: [Bodies; 2] = match basis {
+        Some(Basis { wheel, rail, .. }) => {
+            [(wheel.cut(ports.clone()), rail.cut(ports)), (wheel, rail)].map(|(w, r)| -> Bodies {
+                [
+                    Box::new(ReducedBody::new(w, centrifugal, &damping[0])),
+                    Box::new(ReducedBody::new(r, false, &damping[1])),
+                ]
+            })
+        }
         None => {
             progress("assembling the wheel", 0.0);
             let counts = [config.solver.modes_wheel, config.solver.modes_rail];
@@ -49,10 +66,10 @@ pub fn bodies(
             progress("assembling the rail", 0.5);
             let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
             progress("assembling the rail", 1.0);
-            (Box::new(wheel), Box::new(rail))
+            [[Box::new(wheel.cut(ports.clone())), Box::new(rail.cut(ports))], [Box::new(wheel), Box::new(rail)]]
         }
     };
-    let surface_x = zone.surface_x();
-    let candidates = GUARDS..surface_x.len() - GUARDS;
-    Ok(Pair { wheel, rail, surface_x, spacing: zone.spacing(), candidates })
+    let pair = |[wheel, rail]: Bodies, x: Vec<f64>| Pair::new(wheel, rail, x, zone.spacing());
+    let middle = pair(narrow, surface_x[core].to_vec());
+    Ok(Pair { wide: (wing > 0).then(|| Box::new(pair(wide, surface_x))), ..middle })
 }

@@ -7,6 +7,7 @@ use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Constant data of a reduced body with `m` modes and `n` surface nodes, per metre of width.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,7 +16,8 @@ pub struct ReducedBasis {
     pub squared_frequencies: DVector<f64>,
     /// Modes on the surface `Φ_s`, `2n × m` [√(m/kg)].
     pub shapes: DMatrix<f64>,
-    /// Residual flexibility `F_res`, `2n × 2n` [m/(N/m)].
+    /// Residual flexibility `F_res`, `2n × 2n`, symmetric: half of it is stored [m/(N/m)].
+    #[serde(with = "super::triangle")]
     pub residual: DMatrix<f64>,
     /// `Φᵀ M r_k`, `m × 3`; the rail has no `r_Ω`.
     pub rigid: DMatrix<f64>,
@@ -77,6 +79,19 @@ impl ReducedBasis {
         };
         progress(1.0);
         Ok(basis)
+    }
+
+    /// The same body with only the surface components `ports`.
+    pub fn cut(&self, ports: Range<usize>) -> Self {
+        let (first, count) = (ports.start, ports.len());
+        let square = self.residual.view((first, first), (count, count));
+        Self {
+            shapes: self.shapes.rows(first, count).into_owned(),
+            residual: square.into_owned(),
+            rigid_residual: self.rigid_residual.rows(first, count).into_owned(),
+            centrifugal_residual: self.centrifugal_residual.rows(first, count).into_owned(),
+            ..self.clone()
+        }
     }
 
     /// Number of modes.

@@ -6,6 +6,7 @@
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A flexible layer with damping.
 #[derive(Clone, Debug)]
@@ -33,6 +34,13 @@ impl RetardedForces {
         [&self.now, &self.before, &self.rate].iter().all(|values| values.len() == ports)
     }
 
+    /// Gives the same forces to `ports` surface components about the same middle; those that there were not are zero.
+    pub fn fit_to(&mut self, ports: usize) {
+        for values in [&mut self.now, &mut self.before, &mut self.rate].into_iter().filter(|v| !v.is_empty()) {
+            resize_about_middle(values, ports);
+        }
+    }
+
     /// Known part of `d_t` at one port in the coming step; a state without forces yet is at rest.
     fn offset(&self, td: &TimeDerivative, port: usize) -> f64 {
         let at = |values: &DVector<f64>| values.get(port).copied().unwrap_or(0.0);
@@ -41,6 +49,12 @@ impl RetardedForces {
 }
 
 impl RetardedLayer {
+    /// The same layer with only the surface components `ports`.
+    pub fn cut(&self, ports: Range<usize>) -> Self {
+        let flexibility = self.flexibility.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
+        Self { flexibility, time: self.time }
+    }
+
     /// What a new force counts at once \[1].
     pub fn share(&self, a0: f64) -> f64 {
         1.0 / (1.0 + self.time * a0)
@@ -104,6 +118,13 @@ pub(super) fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
         x[j] * (columns[j * n + j] * x[j] + 2.0 * above)
     };
     (first..x.len()).filter(|&j| x[j] != 0.0).map(term).sum()
+}
+
+/// Cuts as many values off both ends, or adds as many zeros to them, as give `len` values.
+pub fn resize_about_middle(values: &mut DVector<f64>, len: usize) {
+    let (old, shift) = (values.len() as isize, (values.len() as isize - len as isize) / 2);
+    let at = |i: usize| values.get((i as isize + shift) as usize).copied().filter(|_| i as isize + shift < old);
+    *values = DVector::from_fn(len, |i, _| at(i).unwrap_or(0.0));
 }
 
 /// Gives a buffer its length; allocates at the first use only.

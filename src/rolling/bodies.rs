@@ -13,11 +13,13 @@ use std::sync::Arc;
 const KEPT: usize = 3;
 
 /// Wheel and rail, and what carries the rail.
+///
+/// Their coordinates do not depend on how much of the surface the contact sees: how many ports a state has tells it.
 pub struct Bodies {
-    /// Annulus on its hub.
-    pub wheel: Box<dyn BodyResponse>,
-    /// Plate on its base.
-    pub rail: Box<dyn BodyResponse>,
+    /// Annulus on its hub, plate on its base; of their surfaces only the ports of ordinary patches.
+    narrow: [Box<dyn BodyResponse>; 2],
+    /// The same with the ports of wide ones, and their number.
+    wide: Option<([Box<dyn BodyResponse>; 2], usize)>,
     /// What its base stands on; `None`: it is fixed.
     pub support: Option<TrackSupport>,
     /// Whether the correction of the contact solver is part of them, because it is damped as they are.
@@ -47,13 +49,41 @@ pub struct OperatorCache {
 impl Bodies {
     /// Wheel and rail as `solver` sees them, the rail on its `support`.
     pub fn new(pair: Pair, support: Option<TrackSupport>, solver: &dyn ContactSolver) -> Self {
-        let Pair { mut wheel, mut rail, surface_x, .. } = pair;
-        let ports = 2 * surface_x.len();
-        let mut layers = [DMatrix::zeros(ports, ports), DMatrix::zeros(ports, ports)];
-        let [of_wheel, of_rail] = &mut layers;
-        solver.correct(of_wheel, of_rail);
-        let hold_correction = wheel.take_layer(of_wheel) && rail.take_layer(of_rail);
-        Self { wheel, rail, support, hold_correction }
+        let (wide, mut hold_correction) = (pair.wide, false);
+        let mut corrected = |wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, ports: usize| {
+            let mut bodies = [wheel, rail];
+            let mut layers = [DMatrix::zeros(ports, ports), DMatrix::zeros(ports, ports)];
+            let [of_wheel, of_rail] = &mut layers;
+            solver.correct(of_wheel, of_rail);
+            let taken = bodies.iter_mut().zip(&layers).map(|(body, layer)| body.take_layer(layer));
+            hold_correction = taken.fold(true, |all, one| all && one);
+            bodies
+        };
+        let narrow = corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len());
+        let wide = wide.map(|pair| {
+            let ports = 2 * pair.surface_x.len();
+            (corrected(pair.wheel, pair.rail, ports), ports)
+        });
+        Self { narrow, wide, support, hold_correction }
+    }
+
+    /// Wheel and rail with so many ports.
+    fn with_ports(&self, ports: usize) -> [&dyn BodyResponse; 2] {
+        let [wheel, rail] = match &self.wide {
+            Some((wide, wide_ports)) if *wide_ports == ports => wide,
+            _ => &self.narrow,
+        };
+        [&**wheel, &**rail]
+    }
+
+    /// Wheel and rail with the ports of a state.
+    fn of(&self, state: &State) -> [&dyn BodyResponse; 2] {
+        self.with_ports(ports(state))
+    }
+
+    /// Both bodies at rest, undeformed.
+    pub fn at_rest(&self) -> [BodyState; 2] {
+        [0, 1].map(|body| BodyState::zeros(self.narrow[body].state_len()))
     }
 
     /// Elastic energy of the contact solver's correction, unless the bodies count it [J/m].
@@ -61,21 +91,23 @@ impl Bodies {
         if self.hold_correction { 0.0 } else { solver.correction_energy(traction) }
     }
 
-    /// Operators for `a0`, from the cache if they are there.
+    /// Operators for `a0` on the ports of `state`, from the cache if they are there.
     pub fn operators(
         &self,
         a0: f64,
+        state: &State,
         solver: &dyn ContactSolver,
         cache: &mut OperatorCache,
     ) -> Result<Arc<Operators>, MechanicsError> {
         let recent = &mut cache.recent;
-        if let Some(at) = recent.iter().position(|o| o.a0 == a0) {
+        if let Some(at) = recent.iter().position(|o| o.a0 == a0 && o.relative.nrows() == ports(state)) {
             recent[at..].rotate_left(1);
         } else {
             if recent.len() >= KEPT {
                 recent.remove(0);
             }
-            let (mut wheel, mut rail) = (self.wheel.operator(a0)?, self.rail.operator(a0)?);
+            let [wheel, rail] = self.of(state);
+            let (mut wheel, mut rail) = (wheel.operator(a0)?, rail.operator(a0)?);
             let base = self.support.as_ref().map(|support| support.condense(&mut rail));
             if !self.hold_correction {
                 solver.correct(&mut wheel.surface, &mut rail.surface);
@@ -95,11 +127,11 @@ impl Bodies {
         streams: [Convection; 2],
         out: &mut [FreeResponse; 2],
     ) {
-        let [wheel, rail] = out;
-        self.wheel.free_response(&operators.wheel, &state.wheel, td, streams[0], wheel);
-        self.rail.free_response(&operators.rail, &state.rail, td, streams[1], rail);
+        let [wheel, rail] = self.of(state);
+        wheel.free_response(&operators.wheel, &state.wheel, td, streams[0], &mut out[0]);
+        rail.free_response(&operators.rail, &state.rail, td, streams[1], &mut out[1]);
         if let Some(base) = &operators.base {
-            base.move_free(&state.base, td, rail);
+            base.move_free(&state.base, td, &mut out[1]);
         }
     }
 
@@ -109,16 +141,16 @@ impl Bodies {
         let [on_wheel, on_rail] = &state.contact.traction.loads;
         let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));
         let [x, y] = state.base.velocities();
-        self.wheel.energy(&state.wheel, on_wheel, velocities)
-            + self.rail.energy(&state.rail, on_rail, [x, y, 0.0])
-            + track
+        let [wheel, rail] = self.of(state);
+        wheel.energy(&state.wheel, on_wheel, velocities) + rail.energy(&state.rail, on_rail, [x, y, 0.0]) + track
     }
 
     /// Power that damping and open ends take out of the bodies and the track [W/m].
     pub fn dissipation(&self, state: &State) -> f64 {
         let track = self.support.as_ref().map_or(0.0, |support| support.dissipation(&state.base));
         let [velocity, _, omega] = state.motion.values();
-        self.wheel.dissipation(&state.wheel, omega) + self.rail.dissipation(&state.rail, velocity) + track
+        let [wheel, rail] = self.of(state);
+        wheel.dissipation(&state.wheel, omega) + rail.dissipation(&state.rail, velocity) + track
     }
 
     /// Accepts the contact forces in `next`: writes the advanced deformation of both bodies and the motion of the rail
@@ -132,14 +164,14 @@ impl Bodies {
         state: &State,
         next: &mut State,
     ) {
-        let [on_wheel, on_rail] = &next.contact.traction.loads;
-        self.wheel.commit(&operators.wheel, &free[0], on_wheel, accelerations, td, &state.wheel, &mut next.wheel);
+        let ([wheel, rail], [on_wheel, on_rail]) = (self.of(next), &next.contact.traction.loads);
+        wheel.commit(&operators.wheel, &free[0], on_wheel, accelerations, td, &state.wheel, &mut next.wheel);
         next.base = match &operators.base {
             Some(base) => base.advance(&state.base, td, &free[1], on_rail),
             None => state.base,
         };
         let [x, y] = next.base.accelerations();
-        self.rail.commit(&operators.rail, &free[1], on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
+        rail.commit(&operators.rail, &free[1], on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
     }
 
     /// Whether a state has the dimensions of these bodies.
@@ -155,6 +187,12 @@ impl Bodies {
             ];
             arrays.iter().all(|array| array.len() == n) && body.retarded.fits(response.retarded_len())
         };
-        fits(&state.wheel, &*self.wheel) && fits(&state.rail, &*self.rail)
+        let [wheel, rail] = self.of(state);
+        fits(&state.wheel, wheel) && fits(&state.rail, rail)
     }
+}
+
+/// Number of surface components that the contact of a state sees.
+pub fn ports(state: &State) -> usize {
+    state.contact.traction.port_forces.len()
 }

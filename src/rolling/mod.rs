@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`state`], [`control`], [`error`] | data of a restart; inputs; failures |
 //! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
+//! | [`zones`] | how much of the surfaces the contact sees |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
 //! | [`output_rows`], [`outputs`], [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
@@ -30,6 +31,7 @@ pub mod substeps;
 pub mod suggested_step;
 pub mod support;
 pub mod thermal;
+pub mod zones;
 
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};

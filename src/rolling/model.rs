@@ -27,7 +27,7 @@ pub struct Model {
     pub contact: ContactModel,
     /// Temperatures, unless they are switched off.
     pub thermal: Option<ThermalModel>,
-    /// Half-length of the zone in which contact is looked for \[m].
+    /// Half-length of the zone in which ordinary contact is looked for \[m].
     pub zone: f64,
     /// Torsion of the wheel on its hub, which falling friction can excite [rad/s].
     pub torsion: f64,
@@ -60,23 +60,23 @@ impl Model {
 
     /// Builds the model on given bodies, with contact on the grid of their surface nodes.
     pub fn new(config: Config, bodies: Pair) -> Result<Self, ModelError> {
-        let grid = ContactGrid {
-            x: bodies.surface_x[bodies.candidates.clone()].to_vec(),
-            spacing: bodies.spacing,
-            guard: bodies.candidates.start,
-        };
+        let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
-        let solver =
-            GridSolver::new(grid, &wheel.surface, &rail.surface, Isotropic::from(&config.material).contact_modulus());
+        let modulus = Isotropic::from(&config.material).contact_modulus();
+        let mut solver = GridSolver::new(grid(&bodies), &wheel.surface, &rail.surface, modulus);
+        if let Some(wide) = &bodies.wide {
+            solver = solver.with_wider(grid(wide));
+        }
         Self::with_solver(config, bodies, Box::new(solver))
     }
 
     /// Builds the model on given bodies and a contact solver that belongs to their ports.
     pub fn with_solver(config: Config, bodies: Pair, solver: Box<dyn ContactSolver>) -> Result<Self, ModelError> {
-        let zone = bodies.surface_x[bodies.candidates.clone()].last().copied().unwrap_or(0.0);
+        let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
+        let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
         let shear = Isotropic::from(&config.material).shear_wave_speed();
         let thermal = match config.thermal.enabled {
-            true => Some(ThermalModel::new(&config, zone, bodies.spacing)?),
+            true => Some(ThermalModel::new(&config, zone, bodies.spacing, reach)?),
             false => None,
         };
         Ok(Self {

@@ -8,6 +8,7 @@ use super::flattening;
 use super::model::{Model, Workspace};
 use super::state::{Motion, State};
 use super::thermal::HeatStep;
+use super::zones;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, Heating};
 use crate::mechanics::response::Convection;
@@ -58,7 +59,14 @@ pub fn step(
     next: &mut State,
 ) -> Result<(), StepError> {
     let plan = Plan::new(model, state, demand, dt);
-    solve_and_commit(model, state, demand, &plan, workspace, next)?;
+    let mut solved = solve_and_commit(model, state, demand, &plan, workspace, next);
+    if let Err(StepError::ZoneExceeded { .. }) = solved
+        && let Some(wide) = zones::widened(model, state)
+    {
+        solved = solve_and_commit(model, &wide, demand, &plan, workspace, next);
+    }
+    solved?;
+    zones::narrow(model, next);
     next.audit = audit::advance(model, &plan.td, state, next);
     next.audit.plastic += next.contact.traction.plastic_work;
     let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub, [next.audit.energy; 3]];
@@ -116,7 +124,7 @@ fn solve_and_commit(
     next: &mut State,
 ) -> Result<(), StepError> {
     let Plan { dt, td, drives, speeds, .. } = plan;
-    let operators = model.bodies.operators(td.a0, &*model.contact.solver, &mut workspace.operators)?;
+    let operators = model.bodies.operators(td.a0, state, &*model.contact.solver, &mut workspace.operators)?;
     let streams = [
         Convection { speed: speeds[1], acceleration: state.motion.omega.rate },
         Convection { speed: speeds[0], acceleration: state.motion.velocity.rate },

@@ -90,7 +90,7 @@ fn zone(load: f64, config: &Config) -> Option<String> {
     let nominal = config.model.nominal_load;
     (load > ZONE_LOAD * nominal).then(|| {
         format!(
-            "the zone is laid out for {ZONE_LOAD} x model.nominal_load (now {nominal:?} N); lower drive.load, or raise \
+            "the mesh is laid out for {ZONE_LOAD} x model.nominal_load (now {nominal:?} N); lower drive.load, or raise \
              model.nominal_load and set drive.load, which follows it unless set"
         )
     })

@@ -41,7 +41,7 @@ impl HalfPlanes {
         let spacing = hertz_half_width(NOMINAL, RADIUS, modulus()) / per_half_width as f64;
         let half = (3 * per_half_width).div_ceil(2) as i64;
         let x = (-half..=half).map(|i| i as f64 * spacing).collect();
-        let grid = ContactGrid { x, spacing, guard: 3 };
+        let grid = ContactGrid::uniform(x, spacing, 3);
         let n = grid.ports();
         // Relative compliance, shared equally; the constant (depth of the half-plane) is arbitrary.
         let mut kernel = vec![10.0 / modulus()];
@@ -59,7 +59,7 @@ impl HalfPlanes {
 
     /// Turns the rim by an angle about the wheel centre [rad], positive where the tread moves towards `+x`.
     pub fn turned(mut self, angle: f64) -> Self {
-        let ContactGrid { x, spacing, guard } = &self.grid;
+        let ContactGrid { x, spacing, guard, .. } = &self.grid;
         for node in 0..self.grid.ports() / 2 {
             let x = x[0] + (node as f64 - *guard as f64) * spacing;
             let depth = (RADIUS * RADIUS - x * x).sqrt();

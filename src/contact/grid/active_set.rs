@@ -167,7 +167,7 @@ impl Iterate<'_> {
         let to_right = self.upstream_right();
         let (grid, forces) = (self.grid, &self.traction.port_forces);
         std::mem::swap(&mut self.scratch.upwind, &mut self.scratch.upwind_before);
-        let pressure = |i: usize| forces[grid.port(i) + 1];
+        let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
         upwind_rows(&self.state.status, pressure, to_right, &mut self.scratch.upwind);
         let pairs = self.scratch.upwind.iter().zip(&self.scratch.upwind_before);
         pairs.map(|(now, before)| (now.w1 - before.w1).abs()).fold(0.0, f64::max)

@@ -1,19 +1,47 @@
 //! The surface nodes at which contact is looked for.
 
-/// Uniformly spaced pairs of surface nodes: candidates for contact with guard nodes on both sides.
+/// Relative deviation within which a cell counts as one of the uniform ones: round-off of the positions.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Pairs of surface nodes: candidates for contact with guard nodes on both sides. The nodes are uniformly spaced in the
+/// middle of the grid; beyond, their distance may grow slowly.
 ///
 /// Guard nodes never come into contact; the slip of the outermost candidates needs their displacements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactGrid {
     /// Positions of the candidates \[m], ascending.
     pub x: Vec<f64>,
-    /// Their spacing \[m].
+    /// Their spacing in the middle of the grid \[m].
     pub spacing: f64,
     /// Number of guard nodes on each side.
     pub guard: usize,
+    /// Positions of all nodes, guards included [m].
+    nodes: Vec<f64>,
+    /// Lengths of the cells between neighbouring nodes [m].
+    cells: Vec<f64>,
 }
 
 impl ContactGrid {
+    /// A grid of all `nodes` \[m], x ascending, the outermost `guard` of which on each side are guards; `spacing` is that in
+    /// the middle \[m].
+    pub fn new(nodes: Vec<f64>, spacing: f64, guard: usize) -> Self {
+        let length = |pair: &[f64]| match pair[1] - pair[0] {
+            cell if (cell - spacing).abs() < ROUND_OFF * spacing => spacing,
+            cell => cell,
+        };
+        let cells = nodes.windows(2).map(length).collect();
+        let x = nodes.get(guard..nodes.len().saturating_sub(guard)).unwrap_or_default().to_vec();
+        Self { x, spacing, guard, nodes, cells }
+    }
+
+    /// A grid of uniformly spaced candidates `x` \[m], ascending, with guards at the same spacing \[m].
+    pub fn uniform(x: Vec<f64>, spacing: f64, guard: usize) -> Self {
+        let (first, last) = (x.first().copied().unwrap_or(0.0), x.last().copied().unwrap_or(0.0));
+        let below = (1..=guard).rev().map(|k| first - k as f64 * spacing);
+        let nodes = below.chain(x.iter().copied()).chain((1..=guard).map(|k| last + k as f64 * spacing)).collect();
+        Self { x, ..Self::new(nodes, spacing, guard) }
+    }
+
     /// Number of candidates.
     pub fn len(&self) -> usize {
         self.x.len()
@@ -32,5 +60,55 @@ impl ContactGrid {
     /// Port of the x component of candidate `i`; y follows it.
     pub fn port(&self, i: usize) -> usize {
         2 * (i + self.guard)
+    }
+
+    /// Positions of all nodes, guards included \[m], ascending.
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// Distance \[m] between both neighbours of candidate `i`: the base of central differences, twice [`Self::width`].
+    pub fn span(&self, i: usize) -> f64 {
+        let node = i + self.guard;
+        self.cells[node - 1] + self.cells[node]
+    }
+
+    /// Width of the surface that belongs to candidate `i` \[m]: a nodal force over it is a traction.
+    pub fn width(&self, i: usize) -> f64 {
+        0.5 * self.span(i)
+    }
+
+    /// Uniform spacing over the width of candidate `i` \[1]: a nodal force times it compares with those in the middle.
+    pub fn share(&self, i: usize) -> f64 {
+        self.spacing / self.width(i)
+    }
+
+    /// Lengths \[m] of the two cells next to candidate `i` towards `+x` (`to_right`) or `−x`, the nearer one first.
+    pub fn cells_beside(&self, i: usize, to_right: bool) -> [f64; 2] {
+        let node = i + self.guard;
+        if to_right { [self.cells[node], self.cells[node + 1]] } else { [self.cells[node - 1], self.cells[node - 2]] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_of_a_graded_grid_add_up_to_its_length() {
+        let nodes = vec![-9.0, -5.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 5.0, 9.0];
+        let grid = ContactGrid::new(nodes, 1.0, 2);
+        assert_eq!(grid.x, [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0]);
+        assert_eq!((grid.width(0), grid.width(3), grid.share(6)), (1.5, 1.0, 1.0 / 1.5));
+        assert_eq!((grid.cells_beside(6, true), grid.cells_beside(6, false)), ([2.0, 4.0], [1.0, 1.0]));
+        assert_eq!((0..grid.len()).map(|i| grid.width(i)).sum::<f64>(), 8.0);
+    }
+
+    #[test]
+    fn uniform_grids_have_one_spacing_whatever_the_round_off_of_their_positions() {
+        let h = 3.7e-5;
+        let grid = ContactGrid::uniform((-30..=30).map(|i| f64::from(i) * h).collect(), h, 3);
+        assert_eq!((grid.ports(), grid.nodes().len()), (134, 67));
+        assert!((0..grid.len()).all(|i| grid.width(i) == h && grid.cells_beside(i, i % 2 == 0) == [h, h]));
     }
 }

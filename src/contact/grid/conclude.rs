@@ -39,7 +39,8 @@ impl Iterate<'_> {
         traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
         traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, &scratch.dents, traction);
         observe::overlap(grid, state, &scratch.overlap, traction);
-        let limit = scratch.limit.iter().copied().reduce(f64::max).unwrap_or(f64::INFINITY);
+        let pressures = scratch.limit.iter().enumerate().map(|(i, force)| force / grid.width(i));
+        let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
         observe::read_off(grid, (power, limit), state, &scratch.centred_slip, traction);
     }
 }

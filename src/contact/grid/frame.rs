@@ -53,9 +53,5 @@ impl RimFrame<'_> {
 /// Writes the height of a circle over its lowest point at all nodes of the grid, guards included [m].
 pub(super) fn sagitta(grid: &ContactGrid, radius: f64, heights: &mut Vec<f64>) {
     heights.clear();
-    let first = grid.x.first().copied().unwrap_or(0.0) - grid.guard as f64 * grid.spacing;
-    heights.extend((0..grid.ports() / 2).map(|node| {
-        let x = first + node as f64 * grid.spacing;
-        x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())
-    }));
+    heights.extend(grid.nodes().iter().map(|x| x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())));
 }

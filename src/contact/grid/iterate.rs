@@ -93,9 +93,9 @@ impl Iterate<'_> {
     }
 
     /// Depth [m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
-    pub fn creep(&self) -> f64 {
+    pub fn creep(&self, i: usize) -> f64 {
         let duration = if self.problem.duration > 0.0 { self.problem.duration } else { SETTLED };
-        duration / (self.problem.limits.viscosity * self.grid.spacing)
+        duration / (self.problem.limits.viscosity * self.grid.width(i))
     }
 
     /// Friction force that candidate `i` can bear over its normal force [1].

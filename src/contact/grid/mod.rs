@@ -1,4 +1,4 @@
-//! Contact on a uniform grid of paired surface nodes: exact Coulomb friction by an active set.
+//! Contact on a grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
 //! [`rows`] writes gap, slip and balance as rows of a linear system, [`streamline`] gives the slip its upwind
 //! differences, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, [`kernel`] corrects the
@@ -11,6 +11,7 @@ mod conclude;
 mod frame;
 pub(super) mod iterate;
 pub mod kernel;
+mod nested;
 pub mod observe;
 mod power;
 mod rows;

@@ -35,14 +35,14 @@ pub(super) fn lever_arms(
 ) -> [f64; 2] {
     let port = grid.port(i);
     let at = |k: Option<usize>| k.and_then(|k| gap.get(k)).copied().unwrap_or(0.0);
-    let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / (2.0 * grid.spacing);
+    let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / grid.span(i);
     let dent = radius * dents.get(i).copied().unwrap_or(0.0);
     [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope + dent]
 }
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
-/// friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest nodal force `limit` that the
-/// steel bears anywhere [N/m].
+/// friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that the
+/// steel bears anywhere [Pa].
 pub fn read_off(
     grid: &ContactGrid,
     (power, limit): (f64, f64),
@@ -53,7 +53,7 @@ pub fn read_off(
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
-    traction.pressure_max = pressure_peak(grid, normal).min(limit / grid.spacing);
+    traction.pressure_max = pressure_peak(grid, normal).min(limit);
     traction.edges.clear();
     traction.patches.clear();
     let (mut length, mut stuck) = (0.0, 0.0);
@@ -61,20 +61,21 @@ pub fn read_off(
         let edges = edges(grid, normal, &run);
         traction.edges.push(edges);
         traction.patches.push(stretch(grid, edges, &run));
-        length += run.len() as f64;
-        let margin = |i: usize| (traction.friction * normal(i) - tangential(i).abs()).max(0.0).powi(2);
-        stuck += stick_length(&state.status, margin, run);
+        length += run.clone().map(|i| grid.width(i)).sum::<f64>();
+        let margin =
+            |i: usize| (grid.share(i) * (traction.friction * normal(i) - tangential(i).abs())).max(0.0).powi(2);
+        stuck += stick_length(grid, &state.status, margin, run);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
 
     let (patches, status) = (&traction.patches, &state.status);
-    over_patches(grid, status, patches, |i| normal(i) / grid.spacing, &mut traction.pressure);
-    over_patches(grid, status, patches, |i| tangential(i) / grid.spacing, &mut traction.shear);
+    over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
+    over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
     over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
     // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at stuck
     // nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
     let density = |i: usize| match status[i] {
-        Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.spacing).max(0.0),
+        Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.width(i)).max(0.0),
         Status::Stick | Status::Open => 0.0,
     };
     over_patches(grid, status, patches, density, &mut traction.dissipation);
@@ -132,14 +133,14 @@ fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
 /// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.
 fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
     let (first, last) = (run.start, run.end - 1);
-    let pressure = |i: Option<usize>| i.filter(|i| run.contains(i)).map_or(0.0, &normal);
-    let offset = |nodes: [Option<usize>; 3]| {
-        let [edge, inner, next] = nodes.map(&pressure);
-        grid.spacing * continuous_offset(edge, inner, next)
+    let pressure = |i: Option<usize>| i.filter(|i| run.contains(i)).map_or(0.0, |i| normal(i) * grid.share(i));
+    let offset = |nodes: [Option<usize>; 3], edge: usize, outwards: bool| {
+        let [outer, inner, next] = nodes.map(&pressure);
+        grid.cells_beside(edge, outwards)[0] * continuous_offset(outer, inner, next)
     };
     Interval {
-        low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k))),
-        high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k))),
+        low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k)), first, false),
+        high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k)), last, true),
     }
 }
 
@@ -183,13 +184,13 @@ fn over_patches(
 /// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one: for the elliptic
 /// pressure of a Hertzian patch it is exact, for a skewed one it sees the surroundings of the peak only.
 fn pressure_peak(grid: &ContactGrid, normal: impl Fn(usize) -> f64) -> f64 {
-    let pressure = |i: usize| normal(i) / grid.spacing;
-    let Some(top) = (0..grid.len()).max_by(|&a, &b| normal(a).total_cmp(&normal(b))) else { return 0.0 };
+    let pressure = |i: usize| normal(i) / grid.width(i);
+    let Some(top) = (0..grid.len()).max_by(|&a, &b| pressure(a).total_cmp(&pressure(b))) else { return 0.0 };
     let peak = pressure(top).max(0.0);
     let beside = |i: usize| (pressure(i) > PEAK * peak || i.abs_diff(top) <= 1) && pressure(i) > 0.0;
     let first = (0..top).rev().take_while(|&i| beside(i)).last().unwrap_or(top);
     let last = (top + 1..grid.len()).take_while(|&i| beside(i)).last().unwrap_or(top);
-    let samples = (first..=last).map(|i| (i as f64 - top as f64, pressure(i).powi(2)));
+    let samples = (first..=last).map(|i| ((grid.x[i] - grid.x[top]) / grid.spacing, pressure(i).powi(2)));
     parabola_peak(samples).map_or(peak, f64::sqrt)
 }
 
@@ -213,9 +214,9 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     (c[2] < 0.0 && at >= ends[0] && at <= ends[1]).then(|| c[0] + 0.5 * c[1] * at).filter(|p| *p > 0.0)
 }
 
-/// Length of the stick zone of one run in cells; its boundary between stick and slip is found below grid scale from
+/// Length of the stick zone of one run [m]; its boundary between stick and slip is found below grid scale from
 /// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
-fn stick_length(status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
+fn stick_length(grid: &ContactGrid, status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
     let mut stuck = run.clone().filter(|&i| status[i] == Status::Stick);
     let Some(low) = stuck.next() else { return 0.0 };
     let high = stuck.next_back().unwrap_or(low);
@@ -234,5 +235,6 @@ fn stick_length(status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usi
         }
         (2.0 * f0 / (b + discriminant.sqrt())).clamp(0.0, 1.0)
     };
-    (high - low) as f64 + beyond(low, 1) + beyond(high, -1)
+    let beside = |edge: usize, to_right: bool| grid.cells_beside(edge, to_right)[0];
+    grid.x[high] - grid.x[low] + beyond(low, 1) * beside(low, false) + beyond(high, -1) * beside(high, true)
 }

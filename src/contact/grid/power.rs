@@ -53,7 +53,7 @@ impl Power<'_> {
     /// Power [W/m] of pressure on the slope of the deformed rail where the surfaces slide over each other.
     fn slope_power(&self) -> f64 {
         let rail = &self.traction.surface[1];
-        let slope = |i: usize| self.slope(rail, self.grid.port(i) + 1) + self.swelling_slope(1, i);
+        let slope = |i: usize| self.slope(rail, i, self.grid.port(i) + 1) + self.swelling_slope(1, i);
         let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
         (self.rim_velocity - self.traction.rigid[0]) * load
     }
@@ -72,7 +72,7 @@ impl Power<'_> {
             let u = &self.membrane[body];
             let of_node = |i: usize| {
                 let ([tangential, normal], port) = (self.forces(i), self.grid.port(i));
-                let straight = tangential * self.slope(u, port) + normal * self.slope(u, port + 1);
+                let straight = tangential * self.slope(u, i, port) + normal * self.slope(u, i, port + 1);
                 let turned = tangential * u[port + 1] - normal * u[port];
                 velocity[body] * straight + if body == 0 { turning * turned } else { 0.0 }
             };
@@ -86,13 +86,14 @@ impl Power<'_> {
         [self.traction.port_forces[port], self.traction.port_forces[port + 1]]
     }
 
-    fn slope(&self, u: &DVector<f64>, port: usize) -> f64 {
-        (u[port + 2] - u[port - 2]) / (2.0 * self.grid.spacing)
+    /// Slope of a displacement, of whose component at candidate `i` `port` is the port.
+    fn slope(&self, u: &DVector<f64>, i: usize, port: usize) -> f64 {
+        (u[port + 2] - u[port - 2]) / self.grid.span(i)
     }
 
     fn swelling_slope(&self, body: usize, i: usize) -> f64 {
         let layer = &self.swelling[body];
         let at = |k: Option<usize>| k.and_then(|k| layer.get(k)).copied().unwrap_or(0.0);
-        (at(Some(i + 1)) - at(i.checked_sub(1))) / (2.0 * self.grid.spacing)
+        (at(Some(i + 1)) - at(i.checked_sub(1))) / self.grid.span(i)
     }
 }

@@ -18,8 +18,8 @@ impl Iterate<'_> {
     /// Ports of the candidate nodes that an upwind difference at node `i` touches, with the weights of `∂u/∂x` [1/m].
     fn stencil(&self, i: usize, row: Upwind, to_right: bool) -> [(usize, f64); 3] {
         let (port, step) = (self.grid.port(i) as isize, if to_right { 2 } else { -2 });
-        let weights = row.stencil(to_right);
-        std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k] / self.grid.spacing))
+        let weights = row.stencil(to_right, self.grid.cells_beside(i, to_right));
+        std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k]))
     }
 
     /// Upwind derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
@@ -34,7 +34,7 @@ impl Iterate<'_> {
 
     /// Centred derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     fn centred_stretches(&self, i: usize) -> [f64; 2] {
-        let (port, length) = (self.grid.port(i), 2.0 * self.grid.spacing);
+        let (port, length) = (self.grid.port(i), self.grid.span(i));
         let [wheel, rail] = &self.traction.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
         [turned / length, (rail[port + 2] - rail[port - 2]) / length]
@@ -72,7 +72,7 @@ impl Iterate<'_> {
         let [wheel, rail] = &self.scratch.known;
         let mut constant = self.scratch.gap[i] + wheel[port] - x * turn.known - rail[port];
         if self.state.yielded[i] {
-            let creep = self.creep();
+            let creep = self.creep(i);
             forces[port] += creep;
             constant -= creep * self.scratch.limit[i];
         }
@@ -188,7 +188,9 @@ impl Iterate<'_> {
         let (grid, limits) = (self.grid, &self.problem.limits);
         let GridScratch { limit, film, .. } = &mut *self.scratch;
         limit.clear();
-        limit.extend(grid.x.iter().map(|&x| grid.spacing * limits.pressure_at(x)).filter(|_| limits.is_limited()));
+        if limits.is_limited() {
+            limit.extend(grid.x.iter().enumerate().map(|(i, &x)| grid.width(i) * limits.pressure_at(x)));
+        }
         film.clear();
         film.extend(grid.x.iter().map(|&x| limits.film_at(x)).filter(|_| !limits.film.is_empty()));
         if limit.is_empty() {
@@ -262,7 +264,7 @@ impl Iterate<'_> {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
             let excess = || self.traction.port_forces[port + 1] - self.scratch.limit[i];
-            self.scratch.overlap[i] = if self.state.yielded[i] { self.creep() * excess() } else { 0.0 };
+            self.scratch.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
                 let dynamic = problem.time.a0 * (u_c[port] - u_p[port]) + self.scratch.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;

@@ -4,6 +4,7 @@ use super::candidates::ContactGrid;
 use super::frame::{RimFrame, sagitta};
 use super::iterate::{Iterate, copy};
 use super::kernel::KernelCorrection;
+use super::nested;
 use super::state::{FrictionHistory, GridState, Status};
 use crate::contact::error::ContactError;
 use crate::contact::problem::ContactProblem;
@@ -16,7 +17,8 @@ use nalgebra::{DMatrix, DVector};
 /// The contact solver on a grid.
 #[derive(Clone, Debug)]
 pub struct GridSolver {
-    grid: ContactGrid,
+    /// The grid for ordinary patches, and a wider one about the same middle for wide ones, if there is any.
+    grids: Vec<ContactGrid>,
     kernel: KernelCorrection,
 }
 
@@ -24,8 +26,28 @@ impl GridSolver {
     /// From the static compliances of wheel and rail [m/(N/m)] and their contact modulus `E*` \[Pa].
     pub fn new(grid: ContactGrid, wheel: &DMatrix<f64>, rail: &DMatrix<f64>, contact_modulus: f64) -> Self {
         let kernel = KernelCorrection::new(&(wheel + rail), contact_modulus);
-        Self { grid, kernel }
+        Self { grids: vec![grid], kernel }
     }
+
+    /// With a wider grid for patches that reach the end of the first one; its innermost nodes are those of the first.
+    pub fn with_wider(mut self, wider: ContactGrid) -> Self {
+        self.grids.push(wider);
+        self
+    }
+
+    /// The grid to which so many ports belong.
+    fn grid(&self, ports: usize) -> Option<&ContactGrid> {
+        self.grids.iter().find(|grid| grid.ports() == ports)
+    }
+}
+
+/// A state on the nodes of another grid.
+fn moved(state: &ContactState, grid: &ContactGrid) -> Option<ContactState> {
+    let mut moved = state.clone();
+    let ContactState { traction, solver } = &mut moved;
+    let SolverState::Grid(own) = solver else { return None };
+    nested::move_to(grid, own, traction);
+    Some(moved)
 }
 
 impl ContactSolver for GridSolver {
@@ -39,11 +61,13 @@ impl ContactSolver for GridSolver {
     }
 
     fn touching(&self, half_width: f64) -> ContactState {
-        let reach = half_width.max(0.5 * self.grid.spacing);
+        let holds = |grid: &&ContactGrid| grid.x.last().is_some_and(|end| half_width < *end);
+        let Some(grid) = self.grids.iter().find(holds).or(self.grids.last()) else { return ContactState::default() };
+        let reach = half_width.max(0.5 * grid.spacing);
         let touches = |x: &f64| if x.abs() < reach { Status::Stick } else { Status::Open };
-        let (n, ports) = (self.grid.len(), DVector::zeros(self.grid.ports()));
+        let (n, ports) = (grid.len(), DVector::zeros(grid.ports()));
         let state = GridState {
-            status: self.grid.x.iter().map(touches).collect(),
+            status: grid.x.iter().map(touches).collect(),
             yielded: vec![false; n],
             slip: vec![0.0; n],
             gap: vec![0.0; n],
@@ -76,7 +100,8 @@ impl ContactSolver for GridSolver {
             copy(ours, theirs);
         }
         let scratch = &mut scratch.grid;
-        let (grid, radius) = (&self.grid, problem.surfaces.radius);
+        let grid = self.grid(problem.bodies.relative.nrows()).ok_or(ContactError::ForeignState)?;
+        let radius = problem.surfaces.radius;
         let mut heights = std::mem::take(&mut scratch.sagitta);
         sagitta(grid, radius, &mut heights);
         let frame = RimFrame { grid, radius, sagitta: &heights, turn: 0.0 };
@@ -85,25 +110,40 @@ impl ContactSolver for GridSolver {
         solved
     }
 
+    fn widened(&self, state: &ContactState) -> Option<ContactState> {
+        let own = self.grid(state.traction.port_forces.len())?;
+        let wider = self.grids.iter().find(|grid| grid.ports() > own.ports())?;
+        moved(state, wider)
+    }
+
+    fn narrowed(&self, state: &ContactState, nominal_load: f64) -> Option<ContactState> {
+        let (own, narrow) = (self.grid(state.traction.port_forces.len())?, self.grids.first()?);
+        let SolverState::Grid(grid) = &state.solver else { return None };
+        let may = own.ports() > narrow.ports() && nested::fits_into(narrow, own, grid, &state.traction, nominal_load);
+        if may { moved(state, narrow) } else { None }
+    }
+
     fn surface_strain(&self, traction: &Traction) -> [Piecewise; 2] {
+        let Some(grid) = self.grid(traction.port_forces.len()) else { return Default::default() };
         [0, 1].map(|body| {
             let u = &traction.surface[body];
             let strain = |i: usize| {
-                let port = self.grid.port(i);
-                (u[port + 2] - u[port - 2]) / (2.0 * self.grid.spacing)
+                let port = grid.port(i);
+                (u[port + 2] - u[port - 2]) / grid.span(i)
             };
-            Piecewise { x: self.grid.x.clone(), value: (0..self.grid.len()).map(strain).collect() }
+            Piecewise { x: grid.x.clone(), value: (0..grid.len()).map(strain).collect() }
         })
     }
 
     fn fits(&self, state: &ContactState) -> bool {
-        let SolverState::Grid(grid) = &state.solver else { return false };
-        let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
+        let (SolverState::Grid(grid), Some(own)) = (&state.solver, self.grid(state.traction.port_forces.len())) else {
+            return false;
+        };
+        let (n, ports, traction) = (own.len(), own.ports(), &state.traction);
         let FrictionHistory { force, impulse, slip, .. } = &grid.friction;
         [grid.status.len(), grid.slip.len(), grid.gap.len(), grid.tangential_gap.len()] == [n; 4]
             && [force.len(), impulse.len(), slip.len(), grid.yielded.len()] == [n; 4]
             && traction.loads.iter().chain(&traction.surface).all(|values| values.len() == ports)
-            && traction.port_forces.len() == ports
             && traction.port_forces.iter().all(|f| f.is_finite())
     }
 }

@@ -52,10 +52,12 @@ pub fn upwind_rows(status: &[Status], pressure: impl Fn(usize) -> f64, to_right:
 }
 
 impl Upwind {
-    /// Coefficients of `∂u/∂x` on the node and its first and second upstream neighbour, times the spacing.
-    pub fn stencil(&self, to_right: bool) -> [f64; 3] {
+    /// Coefficients of `∂u/∂x` on the node and its first and second upstream neighbour [1/m]; `cells` are the lengths of
+    /// the cells between them \[m].
+    pub fn stencil(&self, to_right: bool, cells: [f64; 2]) -> [f64; 3] {
         let sign = if to_right { 1.0 } else { -1.0 };
-        [-sign * self.w0, sign * (self.w0 - self.w1), sign * self.w1]
+        let (near, far) = (sign * self.w0 / cells[0], sign * self.w1 / cells[1]);
+        [-near, near - far, far]
     }
 }
 
@@ -67,8 +69,9 @@ mod tests {
     fn stencil_differentiates_linear_fields_exactly_in_both_directions() {
         for row in [SMOOTH, FIRST_CELL, Upwind { w0: 2.3, w1: -1.3 }] {
             for (to_right, step) in [(true, 1.0), (false, -1.0)] {
-                let s = row.stencil(to_right);
-                let derivative: f64 = s.iter().enumerate().map(|(k, c)| c * (3.0 + 2.0 * step * k as f64)).sum();
+                let s = row.stencil(to_right, [0.5, 0.8]);
+                let x = [0.0, 0.5, 1.3];
+                let derivative: f64 = s.iter().zip(x).map(|(c, x)| c * (3.0 + 2.0 * step * x)).sum();
                 assert!((derivative - 2.0).abs() < 1e-14);
             }
         }

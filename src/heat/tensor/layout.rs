@@ -44,6 +44,8 @@ const GROWTH: f64 = 1.5;
 /// Elements at the edges of the contact, where the temperature starts as a square root, in ordinary ones, and growth.
 const EDGE: f64 = 0.2;
 const EDGE_GROWTH: f64 = 1.3;
+/// Growth of the elements between the zones of ordinary and of wide patches.
+const WING_GROWTH: f64 = 1.4;
 const LARGEST_ALONG: f64 = 0.15;
 const LARGEST_ALONG_RAIL: f64 = 0.05;
 /// Depth of the layer whose expansion acts on the contact, in half-widths at the nominal load.
@@ -178,6 +180,10 @@ fn zone_nodes(c: &HeatConfig) -> Vec<f64> {
     if c.zone > c.half_width {
         let outside = graded(EDGE * spacing, EDGE_GROWTH, spacing, c.zone - c.half_width);
         nodes.extend(outside.iter().skip(1).map(|s| c.half_width + s));
+    }
+    if c.reach > c.zone {
+        let wing = graded(WING_GROWTH * spacing, WING_GROWTH, c.reach, c.reach - c.zone);
+        nodes.extend(wing.iter().skip(1).map(|s| c.zone + s));
     }
     nodes
 }

@@ -170,7 +170,7 @@ impl Heat {
         interval: [f64; 2],
         f: &mut dyn FnMut(usize, [f64; 2], [f64; 2], f64),
     ) -> Result<(), HeatError> {
-        let (x, zone) = (self.zone_positions(), self.config.zone);
+        let (x, zone) = (self.zone_positions(), self.config.reach);
         let [low, high] = interval;
         // Edges that coincide with the end of the zone are inside, round-off included.
         let reach = zone * (1.0 + 1e-12);

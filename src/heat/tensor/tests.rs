@@ -141,8 +141,17 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
     (thermal.hub, thermal.conductance_law, thermal.conductance) = (Hub::Fixed, ConductanceLaw::Constant, k_c);
     let Config { wheel, rail, material, thermal, .. } = config;
     let (half_width, zone) = (a, 1.5 * a);
-    let heat = Heat::new(&HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone })
-        .unwrap();
+    let heat = Heat::new(&HeatConfig {
+        wheel,
+        rail,
+        material,
+        thermal,
+        elements_per_half_width: 20,
+        half_width,
+        zone,
+        reach: zone,
+    })
+    .unwrap();
     let exchange = Exchange { patches: vec![Interval { low: -a, high: a }], ..Exchange::default() };
     let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
     heat.set_loads(&exchange, &mut loads).unwrap();

@@ -7,10 +7,11 @@ use super::super::flattening;
 use super::super::model::{Model, Workspace};
 use super::super::state::{Motion, State, ThermalState};
 use super::super::substeps;
+use super::super::zones;
 use super::goal::{Goal, Trial};
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, ContactError, Friction, FrictionLaw, Heating};
-use crate::mechanics::response::{BodyState, Convection};
+use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
 /// Passes that bring in convective terms, creepage and accelerations.
@@ -41,9 +42,10 @@ pub(super) fn settle(
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
     let load = goal.drive.load / model.wheel.width;
+    let [wheel, rail] = model.bodies.at_rest();
     let mut state = State {
-        wheel: BodyState::zeros(model.bodies.wheel.state_len()),
-        rail: BodyState::zeros(model.bodies.rail.state_len()),
+        wheel,
+        rail,
         contact: model.contact.hertzian_guess(load),
         available_friction: goal.drive.friction,
         prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
@@ -61,7 +63,15 @@ pub(super) fn settle(
         // The first pass finds out where wheel and rail touch, and whether they do.
         let touching = number > 0 && state.contact.traction.resultant[1] > 0.0;
         let sought = goal.sought.filter(|_| touching);
-        let passed = Pass { model, goal, friction, sought }.run(&state, &mut trial, workspace, &mut next)?;
+        let pass = Pass { model, goal, friction, sought };
+        let mut passed = pass.run(&state, &mut trial, workspace, &mut next);
+        if let Err(StepError::ZoneExceeded { .. }) = passed
+            && let Some(wide) = zones::widened(model, &state)
+        {
+            state = wide;
+            passed = pass.run(&state, &mut trial, workspace, &mut next);
+        }
+        let passed = passed?;
         change = if sought == goal.sought || !touching && number > 0 { passed } else { f64::INFINITY };
         std::mem::swap(&mut state, &mut next);
         if change <= TOLERANCE {
@@ -105,7 +115,7 @@ impl Pass<'_> {
         let (model, goal) = (self.model, self.goal);
         self.check_adhesion(state, trial, 1.0)?;
         let td = TimeDerivative::default();
-        let operators = model.bodies.operators(td.a0, &*model.contact.solver, &mut workspace.operators)?;
+        let operators = model.bodies.operators(td.a0, state, &*model.contact.solver, &mut workspace.operators)?;
         let [velocity, omega] = goal.actual(trial.speeds);
         let streams = [
             Convection { speed: omega, acceleration: trial.accelerations[2] },
@@ -178,6 +188,7 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
         height: History::constant(traction.rigid[1]),
         hub_velocity: History::default(),
     };
+    zones::narrow(model, &mut state);
     state.control = substeps::unlimited(&state);
     state.friction_power = state.contact.traction.friction_power;
     state.audit = audit::start(model, &state);

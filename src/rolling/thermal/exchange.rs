@@ -74,8 +74,9 @@ fn copy(from: &Piecewise, to: &mut Piecewise) {
     to.value.clone_from(&from.value);
 }
 
-/// Parameters of the heat model for a configuration; `half_width` at the nominal load and `zone` [m].
-pub fn heat_config(config: &Config, half_width: f64, zone: f64) -> HeatConfig {
+/// Parameters of the heat model for a configuration; `half_width` at the nominal load, `zone` of ordinary patches and
+/// `reach` of wide ones [m].
+pub fn heat_config(config: &Config, half_width: f64, zone: f64, reach: f64) -> HeatConfig {
     HeatConfig {
         wheel: config.wheel.clone(),
         rail: config.rail.clone(),
@@ -84,5 +85,6 @@ pub fn heat_config(config: &Config, half_width: f64, zone: f64) -> HeatConfig {
         elements_per_half_width: config.mesh.elements_per_half_width,
         half_width,
         zone,
+        reach,
     }
 }

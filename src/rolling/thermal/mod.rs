@@ -92,14 +92,15 @@ struct Sight {
 pub fn check_size(config: &Config) -> Result<(), HeatError> {
     let zone = mechanics::contact_zone(config);
     let reach = (zone.candidates() / 2 + 1) as f64 * zone.spacing();
-    Ok(exchange::heat_config(config, zone.half_width, reach).validate()?)
+    Ok(exchange::heat_config(config, zone.half_width, reach, reach.max(zone.reach)).validate()?)
 }
 
 impl ThermalModel {
-    /// For contact within `zone` \[m] of the contact point; the temperature is resolved up to `margin` \[m] beyond.
-    pub fn new(config: &Config, zone: f64, margin: f64) -> Result<Self, HeatError> {
+    /// For contact within `zone` \[m] of the contact point; the temperature is resolved up to `margin` \[m] beyond. Wide
+    /// patches stay within `reach` \[m].
+    pub fn new(config: &Config, zone: f64, margin: f64, reach: f64) -> Result<Self, HeatError> {
         let half_width = mechanics::nominal_half_width(config);
-        let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin))?;
+        let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin, reach.max(zone + margin)))?;
         Ok(Self {
             heat,
             reference: config.thermal.reference,

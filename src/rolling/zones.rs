@@ -1,0 +1,33 @@
+//! How much of the surfaces the contact sees: a narrow zone while patches are ordinary, a wide one while they are not.
+//!
+//! Softened steel carries its load on a patch several times as wide as a cold one. The wide zone costs time, and only while
+//! it is needed: a step whose patch reaches the end of the narrow zone is repeated in the wide one, and the state returns
+//! when its patch fits again. Which zone it is in follows from the state alone. The coordinates of the bodies are the same
+//! in both.
+
+use super::bodies::ports;
+use super::model::Model;
+use super::state::State;
+use crate::contact::ContactState;
+
+/// The state in the wide zone; `None` if it is there, or there is none.
+pub fn widened(model: &Model, state: &State) -> Option<State> {
+    let contact = model.contact.solver.widened(&state.contact)?;
+    let mut wide = state.clone();
+    place(&mut wide, contact);
+    Some(wide)
+}
+
+/// Returns a state to the narrow zone if it no longer needs the wide one.
+pub fn narrow(model: &Model, state: &mut State) {
+    if let Some(contact) = model.contact.solver.narrowed(&state.contact, model.contact.nominal_line_load()) {
+        place(state, contact);
+    }
+}
+
+fn place(state: &mut State, contact: ContactState) {
+    state.contact = contact;
+    let ports = ports(state);
+    state.wheel.retarded.fit_to(ports);
+    state.rail.retarded.fit_to(ports);
+}
