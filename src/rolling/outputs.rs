@@ -71,7 +71,8 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         };
     };
     let (width, kelvin) = (model.wheel.width, heat.reference());
-    let (temperatures, flows) = (&thermal.temperatures, &thermal.flows);
+    let (temperatures, flows, history) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
+    let (found, v) = (history.findings(), state.motion.velocity.now);
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
         temperature_wheel_max: kelvin + temperatures.wheel_max,
@@ -86,7 +87,14 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         heat_conduction: width * flows.conduction,
         heat_to_hub: width * flows.to_hub,
         heat_residual: ratio(thermal.supplied - thermal.received, thermal.supplied.abs()),
-        austenitised_time: thermal.austenitised,
+        austenitised_time: found.above_ac1,
+        peak_temperature: history.peak,
+        ac1_depth: found.ac1_depth,
+        cooling_rate: found.cooling_rate,
+        martensite_depth: found.martensite_depth,
+        flats: history.places(),
+        rail_peak: history.rail_peak,
+        rail_heat: per_metre(width * flows.to_rail, v, model.rolling_radius(state) * state.motion.omega.now),
         thermal_growth: thermal.deformation.radius_growth,
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),

@@ -6,6 +6,7 @@
 
 mod deformation;
 mod exchange;
+mod history;
 mod thermoelastic;
 
 use super::contact_model::ContactModel;
@@ -14,12 +15,15 @@ use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};
+use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 pub use exchange::Touch;
+pub use history::criteria;
+use history::{MaterialHistory, Seen};
 use thermoelastic::Thermoelastic;
 
 /// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
@@ -43,6 +47,7 @@ pub struct ThermalModel {
     thermoelastic: Option<Thermoelastic>,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
+    history: MaterialHistory,
 }
 
 /// A heat step beside the mechanical one.
@@ -52,8 +57,8 @@ pub struct HeatStep {
     pub dt: f64,
     /// Heat of the brake blocks into the tread \[W].
     pub tread_heat: f64,
-    /// Austenitisation temperature Ac1 \[K].
-    pub austenitisation: f64,
+    /// What decides about the structure of the steel.
+    pub criteria: Criteria,
 }
 
 /// Memory that heat steps reuse.
@@ -78,6 +83,7 @@ impl ThermalModel {
         let half_width = mechanics::nominal_half_width(config);
         let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin))?;
         Ok(Self {
+            history: MaterialHistory::new(config, &heat, half_width, zone),
             heat,
             reference: config.thermal.reference,
             wheel_excess: config.thermal.wheel_excess,
@@ -124,7 +130,9 @@ impl ThermalModel {
                 thermal.fields = self.heat.sum(&passing, &thermal.fields)?;
             }
         }
-        self.observe(touch, &mut thermal, &mut Observation::default())?;
+        let mut seen = Observation::default();
+        self.observe(touch, &mut thermal, &mut seen)?;
+        thermal.damage = self.history.begin(&seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
@@ -140,16 +148,16 @@ impl ThermalModel {
         mut thermal: ThermalState,
         scratch: &mut Scratch,
     ) -> Result<ThermalState, StepError> {
-        let HeatStep { dt, tread_heat, austenitisation } = step;
+        let HeatStep { dt, tread_heat, criteria } = step;
         let Scratch { heat, exchange, seen } = scratch;
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
         self.observe(touch, &mut thermal, seen)?;
         thermal.heating.before = before.heating.now;
-        let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
-        let above = if hottest > austenitisation { dt } else { 0.0 };
-        thermal.austenitised = before.austenitised + above;
+        thermal.damage.copy_from(&before.damage);
+        let seen = Seen { field: (&self.heat, &thermal.fields), observation: seen, zone: self.heat.zone_x() };
+        self.history.advance(&mut thermal.damage, next, dt, criteria, touch, &seen);
         thermal.supplied = before.supplied + dt * supplied(&thermal.flows);
         thermal.received = before.received + dt * received(&thermal.flows);
         Ok(thermal)
@@ -209,6 +217,7 @@ impl ThermalModel {
         let deformation = &thermal.deformation;
         let profiles = deformation.membrane_force.iter().chain(&deformation.swelling);
         self.heat.fits(&thermal.fields)
+            && self.history.fits(&thermal.damage)
             && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
             && profiles.clone().all(|profile| profile.check().is_ok())
     }
