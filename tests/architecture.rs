@@ -22,7 +22,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("heat", &["fem", "linalg", "config", "piecewise"]),
     ("contact", &["linalg", "multistep", "piecewise"]),
     ("damage", &["fem"]),
-    ("rolling", &["mechanics", "contact", "heat", "damage", "multistep", "config", "analytic", "piecewise", "material"]),
+    (
+        "rolling",
+        &["mechanics", "contact", "heat", "damage", "multistep", "config", "analytic", "piecewise", "material"],
+    ),
     ("simulation", &["rolling", "mechanics", "heat", "fem", "linalg", "config"]),
     ("fmi", &["simulation", "config"]),
     ("cli", &["fmi", "simulation", "analytic", "config", "piecewise"]),

@@ -24,10 +24,12 @@ pub use tread::Tread;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Most places of the tread that are kept apart; beyond, the least hot of those that rest is counted and forgotten.
+/// Most places of the tread that are kept apart; beyond, the least hot of those that are cold is forgotten, but for what was found there.
 pub const MOST_SPOTS: usize = 8;
 /// Time within which a wheel that heats one place turns by less than the length of the nominal contact [s].
-const HEATING_TIME: f64 = 5e-3;
+const HEATING_TIME: f64 = 10e-3;
+/// Places nearer to each other than this were heated by one slide that crept on [half-widths of the nominal contact].
+const CONNECTED: f64 = 4.0;
 /// Share of the excess temperature that opens a spot at which it is cold again [1].
 const COLD: f64 = 0.25;
 
@@ -58,8 +60,8 @@ pub struct Damage {
     pub spots: Vec<Spot>,
     /// What was found about places that had to make room.
     pub forgotten: Findings,
-    /// How many these are.
-    pub forgotten_count: u64,
+    /// How many places were heated in one piece so far; those that touch each other count as one.
+    pub places: u64,
 }
 
 /// What happens to the tread during a step, and where it stands at its end.
@@ -111,25 +113,27 @@ impl HotSpots {
     }
 
     /// Takes the history on by one step.
-    pub fn advance(&self, history: &mut Damage, now: &Moment, sample: Sample) {
-        history.peak = history.peak.max(self.reference + now.hottest[0]);
-        history.rail_peak = history.rail_peak.max(self.reference + now.hottest[1]);
+    pub fn advance(&self, damage: &mut Damage, now: &Moment, sample: Sample) {
+        damage.peak = damage.peak.max(self.reference + now.hottest[0]);
+        damage.rail_peak = damage.rail_peak.max(self.reference + now.hottest[1]);
         let (ac1, threshold) = (now.criteria.austenitisation - self.reference, now.criteria.threshold);
         let turned = self.radius * now.omega * now.dt;
         if now.hottest[0] > ac1 {
             let points = 8.0 * PI * self.radius / self.half_width;
-            history.tread.allocate(TAU * self.radius, points);
-            history.tread.pass(now.surface, ac1, self.radius * now.angle, turned, now.dt);
+            damage.tread.allocate(TAU * self.radius, points);
+            damage.tread.pass(now.surface, ac1, self.radius * now.angle, turned, now.dt);
         }
         let heats = now.hottest[0] - now.bulk > threshold && self.stands(now.omega);
-        if history.spots.is_empty() && !heats {
+        if damage.spots.is_empty() && !heats {
             return;
         }
-        if heats && !history.spots.iter().any(|spot| self.distance(spot, now).abs() <= self.half_width) {
-            self.make_room(history);
-            history.spots.push(Spot::at((self.radius * now.angle).rem_euclid(TAU * self.radius)));
+        let nearest = damage.spots.iter().map(|spot| self.distance(spot, now).abs()).fold(f64::INFINITY, f64::min);
+        if heats && nearest > self.half_width {
+            self.make_room(damage);
+            damage.places += u64::from(nearest > CONNECTED * self.half_width);
+            damage.spots.push(Spot::at((self.radius * now.angle).rem_euclid(TAU * self.radius)));
         }
-        for spot in &mut history.spots {
+        for spot in &mut damage.spots {
             self.advance_spot(spot, now, heats, sample);
         }
     }
@@ -172,25 +176,24 @@ impl HotSpots {
     }
 
     /// Forgets one spot if the list is full: the least hot of those that are cold again, else of all.
-    fn make_room(&self, history: &mut Damage) {
-        if history.spots.len() < MOST_SPOTS {
+    fn make_room(&self, damage: &mut Damage) {
+        if damage.spots.len() < MOST_SPOTS {
             return;
         }
         let rank = |spot: &Spot| (spot.is_hot(), spot.findings().peak);
-        let least = (0..history.spots.len()).min_by(|a, b| {
-            let [(hot_a, peak_a), (hot_b, peak_b)] = [a, b].map(|i| rank(&history.spots[*i]));
+        let least = (0..damage.spots.len()).min_by(|a, b| {
+            let [(hot_a, peak_a), (hot_b, peak_b)] = [a, b].map(|i| rank(&damage.spots[*i]));
             hot_a.cmp(&hot_b).then(peak_a.total_cmp(&peak_b))
         });
         if let Some(least) = least {
-            let spot = history.spots.remove(least);
-            history.forgotten = history.forgotten.with(&spot.findings());
-            history.forgotten_count += 1;
+            let spot = damage.spots.remove(least);
+            damage.forgotten = damage.forgotten.with(&spot.findings());
         }
     }
 
     /// Whether a history has the dimensions of this model.
-    pub fn fits(&self, history: &Damage) -> bool {
-        history.spots.len() <= MOST_SPOTS && history.spots.iter().all(|spot| spot.fits(&self.mesh))
+    pub fn fits(&self, damage: &Damage) -> bool {
+        damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
     }
 }
 
@@ -201,17 +204,12 @@ impl Damage {
         Findings { above_ac1: all.above_ac1.max(self.tread.longest()), ..all }
     }
 
-    /// How many places were heated in one piece so far.
-    pub fn places(&self) -> u64 {
-        self.forgotten_count + self.spots.len() as u64
-    }
-
     /// Replaces this by a copy, reusing memory.
     pub fn copy_from(&mut self, other: &Self) {
-        let Self { peak, rail_peak, tread, spots, forgotten, forgotten_count } = other;
+        let Self { peak, rail_peak, tread, spots, forgotten, places } = other;
         (self.peak, self.rail_peak) = (*peak, *rail_peak);
         self.tread.copy_from(tread);
         self.spots.clone_from(spots);
-        (self.forgotten, self.forgotten_count) = (*forgotten, *forgotten_count);
+        (self.forgotten, self.places) = (*forgotten, *places);
     }
 }

@@ -94,13 +94,14 @@ impl Spot {
             // It comes back: up to now it has gone its own way.
             let dt = std::mem::take(&mut self.pending) + dt;
             field.advance(mesh, dt, film, recorder, &mut conduction::Scratch::default());
-            field.remainder = field.temperature.iter().zip(&seen).map(|(own, seen)| own - seen).collect();
+            field.remainder = field.temperature.iter().zip(&seen).map(|(own, seen)| (own - seen).max(0.0)).collect();
+            field.take(seen, 0.0, recorder);
             self.following = true;
         } else {
-            field.keep_remainder(mesh, dt, film, &mut seen);
-            field.age += dt;
-            recorder.step(&mut field.points, &field.temperature, &seen, field.age, dt);
-            field.temperature = seen;
+            if !field.remainder.is_empty() {
+                conduct(mesh, &mut field.remainder, dt, film, &mut conduction::Scratch::default());
+            }
+            field.take(seen, dt, recorder);
         }
         self.alone = 0.0;
         self.judge(mesh, recorder);
@@ -159,29 +160,22 @@ impl Spot {
 
 impl Field {
     /// Own conduction over a step, with the records of the points.
-    fn advance(
-        &mut self,
-        mesh: &SpotMesh,
-        dt: f64,
-        film: f64,
-        recorder: &Recorder,
-        scratch: &mut conduction::Scratch,
-    ) {
+    fn advance(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder, scratch: &mut conduction::Scratch) {
         let before = self.temperature.clone();
         conduct(mesh, &mut self.temperature, dt, film, scratch);
         self.age += dt;
         recorder.step(&mut self.points, &before, &self.temperature, self.age, dt);
     }
 
-    /// Adds to what is `seen` under the contact what the place has of its own: conduction is linear.
-    fn keep_remainder(&mut self, mesh: &SpotMesh, dt: f64, film: f64, seen: &mut [f64]) {
-        if self.remainder.is_empty() {
-            return;
-        }
-        conduct(mesh, &mut self.remainder, dt, film, &mut conduction::Scratch::default());
+    /// Takes over what is `seen` under the contact after `dt` [s], and adds what the place has of its own: conduction is
+    /// linear.
+    fn take(&mut self, mut seen: Vec<f64>, dt: f64, recorder: &Recorder) {
+        seen.iter_mut().zip(&self.remainder).for_each(|(seen, rest)| *seen += rest);
         if self.remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
             self.remainder = Vec::new();
         }
-        seen.iter_mut().zip(&self.remainder).for_each(|(seen, rest)| *seen += rest);
+        self.age += dt;
+        recorder.step(&mut self.points, &self.temperature, &seen, self.age, dt);
+        self.temperature = seen;
     }
 }

@@ -197,13 +197,14 @@ outputs! {
         "Largest depth of at least half martensite at these places: austenitised, cooled at damage.critical_cooling or \
          faster, and far enough below damage.martensite_start";
     706 flats: count "damage.flats", start zero,
-        "Places of the tread that the contact heated by more than damage.threshold while the wheel (nearly) stood still";
+        "Places of the tread that the contact heated by more than damage.threshold while the wheel (nearly) stood still; places \
+         that touch each other count once";
     707 rail_peak: real "damage.rail_peak", in "K" as "degC", from 0.0, nominal 300.0,
         "Temperature of the hottest point of the rail that has passed the contact so far, absolute; 0 without \
          thermal.enabled";
     708 rail_heat: real "damage.rail_heat", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
         "Heat that the contact leaves behind per metre of rail: heat.to_rail over |wheel.velocity|, or over 0.02 m/s if that \
-         is more; 0 at standstill and where the rail cools the wheel's way";
+         is more; 0 at standstill and where the rail gives heat to the wheel";
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
         "Heat balance since the start: unaccounted heat over heat supplied";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,

@@ -71,8 +71,8 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         };
     };
     let (width, kelvin) = (model.wheel.width, heat.reference());
-    let (temperatures, flows, history) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
-    let (found, v) = (history.findings(), state.motion.velocity.now);
+    let (temperatures, flows, damage) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
+    let (found, v) = (damage.findings(), state.motion.velocity.now);
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
         temperature_wheel_max: kelvin + temperatures.wheel_max,
@@ -88,12 +88,12 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         heat_to_hub: width * flows.to_hub,
         heat_residual: ratio(thermal.supplied - thermal.received, thermal.supplied.abs()),
         austenitised_time: found.above_ac1,
-        peak_temperature: history.peak,
+        peak_temperature: damage.peak,
         ac1_depth: found.ac1_depth,
         cooling_rate: found.cooling_rate,
         martensite_depth: found.martensite_depth,
-        flats: history.places(),
-        rail_peak: history.rail_peak,
+        flats: damage.places,
+        rail_peak: damage.rail_peak,
         rail_heat: per_metre(width * flows.to_rail, v, model.rolling_radius(state) * state.motion.omega.now),
         thermal_growth: thermal.deformation.radius_growth,
         profile_temperature_wheel: absolute(&thermal.surface[0]),

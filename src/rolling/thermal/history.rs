@@ -50,7 +50,7 @@ impl MaterialHistory {
     }
 
     /// Takes a history on by a step of `dt` \[s] that led to `next`.
-    pub fn advance(&self, history: &mut Damage, next: &State, dt: f64, criteria: Criteria, touch: &Touch, seen: &Seen) {
+    pub fn advance(&self, damage: &mut Damage, next: &State, dt: f64, criteria: Criteria, touch: &Touch, seen: &Seen) {
         let temperatures = &seen.observation.temperatures;
         let moment = Moment {
             dt,
@@ -64,12 +64,12 @@ impl MaterialHistory {
         };
         let (heat, state) = seen.field;
         let column = |s: f64, out: &mut [f64]| heat.wheel_column(state, s, &self.weights, out);
-        self.spots.advance(history, &moment, &column);
+        self.spots.advance(damage, &moment, &column);
     }
 
     /// Whether a history has the dimensions of this model.
-    pub fn fits(&self, history: &Damage) -> bool {
-        self.spots.fits(history)
+    pub fn fits(&self, damage: &Damage) -> bool {
+        self.spots.fits(damage)
     }
 }
 
