@@ -18,7 +18,7 @@ mod tread;
 
 pub use mesh::{SpotLayout, SpotMesh};
 pub use record::{Criteria, Findings, Point};
-pub use spot::{Field, Spot};
+pub use spot::{Field, Sample, Spot};
 pub use tread::Tread;
 
 use serde::{Deserialize, Serialize};
@@ -84,10 +84,6 @@ pub struct Moment<'a> {
     /// Temperatures and cooling rate that decide about the structure of the steel.
     pub criteria: Criteria,
 }
-
-/// Fills a column with the excess temperatures \[K] at the depths of the mesh, at a distance along the tread \[m] from the
-/// contact point.
-pub type Sample<'a> = &'a dyn Fn(f64, &mut [f64]);
 
 impl HotSpots {
     /// For a wheel with the given mesh.

@@ -3,7 +3,7 @@
 use super::conduction::{self, conduct};
 use super::mesh::SpotMesh;
 use super::record::{Findings, Point, Recorder};
-use super::{Sample, shared};
+use super::shared;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -12,6 +12,10 @@ const FIRST_STEP: f64 = 2e-5;
 const STEP_SHARE: f64 = 0.03;
 /// What a place had of heat of its own is forgotten when it is less than this [K].
 const NEGLIGIBLE: f64 = 1.0;
+
+/// Fills a column with the excess temperatures \[K] at the depths of the mesh, at a distance along the tread \[m] from the
+/// contact point.
+pub type Sample<'a> = &'a dyn Fn(f64, &mut [f64]);
 
 /// A place of the tread that was heated in one piece, once or several times.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
