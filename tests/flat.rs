@@ -54,6 +54,13 @@ fn flat(config: Config, slide: f64, on: f64, h: f64) -> Outputs {
     o
 }
 
+/// Depth at which the highest temperatures over depth fall below Ac1, linear between points \[m].
+fn crossing(o: &Outputs, ac1: f64) -> f64 {
+    let (z, t) = (&o.profile_depth, &o.profile_peak);
+    let last = t.iter().rposition(|t| *t > ac1).unwrap();
+    z[last] + (t[last] - ac1) / (t[last] - t[last + 1]) * (z[last + 1] - z[last])
+}
+
 #[test]
 fn a_slide_of_two_seconds_leaves_a_flat_of_martensite_independent_of_ring_mesh_and_step() {
     let with = |resolution: f64, h: f64| {
@@ -64,6 +71,9 @@ fn a_slide_of_two_seconds_leaves_a_flat_of_martensite_independent_of_ring_mesh_a
     let [usual, fine, long] = [with(1.0, 1e-3), with(0.5, 1e-3), with(1.0, 5e-3)];
     assert!(usual.flats == 1 && usual.ac1_depth > 1e-3 && usual.cooling_rate > 100.0);
     assert!((usual.martensite_depth / usual.ac1_depth - 1.0).abs() < 0.05, "all that was austenite is martensite");
+    let read = crossing(&usual, coarse().tuning.austenitisation);
+    println!("Ac1 to {:.4} mm in the profile", 1e3 * read);
+    assert!((read / usual.ac1_depth - 1.0).abs() < 0.01, "{read}");
     for other in [fine, long] {
         for read in [
             |o: &Outputs| o.ac1_depth,

@@ -58,6 +58,8 @@ pub struct Damage {
     pub tread: Tread,
     /// Places that were heated in one piece, the oldest first.
     pub spots: Vec<Spot>,
+    /// Highest temperature at the depths of the mesh, of all these places so far \[K]; empty without any.
+    pub peaks: Vec<f64>,
     /// What was found about places that had to make room.
     pub forgotten: Findings,
     /// How many places were heated in one piece so far; those that touch each other count as one.
@@ -130,19 +132,24 @@ impl HotSpots {
             damage.spots.push(Spot::at((self.radius * now.angle).rem_euclid(TAU * self.radius)));
         }
         for spot in &mut damage.spots {
-            self.advance_spot(spot, now, heats, sample);
+            self.advance_spot(spot, now, heats, sample, &mut damage.peaks);
         }
     }
 
-    fn advance_spot(&self, spot: &mut Spot, now: &Moment, heats: bool, sample: Sample) {
+    fn advance_spot(&self, spot: &mut Spot, now: &Moment, heats: bool, sample: Sample, peaks: &mut Vec<f64>) {
         let distance = self.distance(spot, now);
         let under = self.stands(now.omega) && distance.abs() <= self.half_width;
         let record = record::Recorder { criteria: now.criteria, reference: self.reference };
         let film = self.convection + self.chill(now);
-        if under && (heats || spot.following) {
+        let news = if under && (heats || spot.following) {
             spot.follow(&self.mesh, distance, now.dt, film, sample, &record);
+            true
         } else {
-            spot.conduct(&self.mesh, now.dt, film, &record);
+            spot.conduct(&self.mesh, now.dt, film, &record)
+        };
+        if news {
+            peaks.resize(self.mesh.depth.len(), 0.0);
+            spot.raise(peaks);
         }
         if !heats || !under {
             spot.rest_below(now.bulk + COLD * now.criteria.threshold);
@@ -189,7 +196,8 @@ impl HotSpots {
 
     /// Whether a history has the dimensions of this model.
     pub fn fits(&self, damage: &Damage) -> bool {
-        damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
+        let peaks = damage.peaks.is_empty() || damage.peaks.len() == self.mesh.depth.len();
+        peaks && damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
     }
 }
 
@@ -202,10 +210,11 @@ impl Damage {
 
     /// Replaces this by a copy, reusing memory.
     pub fn copy_from(&mut self, other: &Self) {
-        let Self { peak, rail_peak, tread, spots, forgotten, places } = other;
+        let Self { peak, rail_peak, tread, spots, peaks, forgotten, places } = other;
         (self.peak, self.rail_peak) = (*peak, *rail_peak);
         self.tread.copy_from(tread);
         self.spots.clone_from(spots);
+        self.peaks.clone_from(peaks);
         (self.forgotten, self.places) = (*forgotten, *places);
     }
 }

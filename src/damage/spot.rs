@@ -111,14 +111,14 @@ impl Spot {
         self.judge(mesh, recorder);
     }
 
-    /// A step of `dt` \[s] away from the contact.
-    pub(super) fn conduct(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder) {
+    /// A step of `dt` \[s] away from the contact; returns whether its temperatures are new.
+    pub(super) fn conduct(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder) -> bool {
         self.following = false;
-        let Some(field) = self.field.as_mut() else { return };
+        let Some(field) = self.field.as_mut() else { return false };
         let own_step = |alone: f64| mesh.resolution * FIRST_STEP.max(STEP_SHARE * alone);
         self.pending += dt;
         if self.pending < own_step(self.alone) {
-            return;
+            return false;
         }
         let field = Arc::make_mut(field);
         field.remainder = Vec::new();
@@ -130,6 +130,15 @@ impl Spot {
             field.advance(mesh, step, film, recorder, &mut scratch);
         }
         self.judge(mesh, recorder);
+        true
+    }
+
+    /// Raises the highest temperatures at the depths of the mesh \[K] to those of this place.
+    pub(super) fn raise(&self, peaks: &mut [f64]) {
+        let depths = peaks.len();
+        for column in self.field().iter().flat_map(|field| field.points.chunks_exact(depths)) {
+            peaks.iter_mut().zip(column).for_each(|(peak, point)| *peak = peak.max(point.peak));
+        }
     }
 
     /// Ends the history of temperatures when all are below a limit \[K]; what was found stays.

@@ -239,4 +239,8 @@ outputs! {
         "Surface temperature of the wheel";
     15000 profile_temperature_rail: profile "profile.temperature_rail", in "K" as "degC", from 0.0, nominal 300.0,
         "Surface temperature of the rail";
+    17000 profile_depth: profile "profile.depth", in "m" as "mm", from 0.0 to 1.0, nominal 5e-3,
+        "Depth below the tread";
+    18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,
+        "Highest temperature so far at that depth, of the places counted by damage.flats; thermal.reference without any";
 }

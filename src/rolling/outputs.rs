@@ -3,7 +3,7 @@
 use super::control::{creepage, per_metre, slide};
 use super::model::Model;
 use super::output_rows::Outputs;
-use super::profile::{PROFILE_POINTS, profile_points};
+use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
 use crate::piecewise::Piecewise;
@@ -66,12 +66,15 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         let cold = vec![0.0; PROFILE_POINTS];
         return Outputs {
             profile_temperature_wheel: cold.clone(),
-            profile_temperature_rail: cold,
+            profile_temperature_rail: cold.clone(),
+            profile_peak: cold,
+            profile_depth: profile_depths(),
             ..Outputs::default()
         };
     };
     let (width, kelvin) = (model.wheel.width, heat.reference());
     let (temperatures, flows, damage) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
+    let depths = profile_depths();
     let (found, v) = (damage.findings(), state.motion.velocity.now);
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
@@ -98,6 +101,8 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         thermal_growth: thermal.deformation.radius_growth,
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),
+        profile_peak: heat.peaks(thermal, &depths),
+        profile_depth: depths,
         ..Outputs::default()
     }
 }

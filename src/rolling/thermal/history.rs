@@ -4,6 +4,7 @@ use super::exchange::Touch;
 use crate::config::{Config, Tuning};
 use crate::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
 use crate::heat::{Heat, HeatState, Observation};
+use crate::piecewise::interpolate;
 use crate::rolling::state::State;
 
 /// Follows the material of the wheel through the temperature field of the contact.
@@ -65,6 +66,13 @@ impl MaterialHistory {
         let (heat, state) = seen.field;
         let column = |s: f64, out: &mut [f64]| heat.wheel_column(state, s, &self.weights, out);
         self.spots.advance(damage, &moment, &column);
+    }
+
+    /// Highest temperature at given depths \[m] of places that were heated in one piece \[K]; none: the reference.
+    pub fn peaks(&self, damage: &Damage, depths: &[f64], reference: f64) -> Vec<f64> {
+        let known = &damage.peaks;
+        let at = |z: &f64| if known.is_empty() { reference } else { interpolate(&self.spots.mesh().depth, known, *z) };
+        depths.iter().map(at).collect()
     }
 
     /// Whether a history has the dimensions of this model.

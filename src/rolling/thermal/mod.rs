@@ -222,6 +222,11 @@ impl ThermalModel {
             && profiles.clone().all(|profile| profile.check().is_ok())
     }
 
+    /// Highest temperature \[K] so far at given depths \[m] of the wheel, where the contact has heated it in one piece.
+    pub fn peaks(&self, thermal: &ThermalState, depths: &[f64]) -> Vec<f64> {
+        self.history.peaks(&thermal.damage, depths, self.reference)
+    }
+
     /// Absolute temperatures in the whole bodies \[K].
     pub fn fields(&self, thermal: &ThermalState) -> Result<[TemperatureField; 2], HeatError> {
         let mut fields = self.heat.fields(&thermal.fields)?;
