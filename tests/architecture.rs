@@ -21,7 +21,11 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("mechanics", &["fem", "linalg", "multistep", "config", "analytic", "material"]),
     ("heat", &["fem", "linalg", "config", "piecewise"]),
     ("contact", &["linalg", "multistep", "piecewise"]),
-    ("rolling", &["mechanics", "contact", "heat", "multistep", "config", "analytic", "piecewise", "material"]),
+    ("damage", &["fem"]),
+    (
+        "rolling",
+        &["mechanics", "contact", "heat", "damage", "multistep", "config", "analytic", "piecewise", "material"],
+    ),
     ("simulation", &["rolling", "mechanics", "heat", "fem", "linalg", "config"]),
     ("fmi", &["simulation", "config"]),
     ("cli", &["fmi", "simulation", "analytic", "config", "piecewise"]),

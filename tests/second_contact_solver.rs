@@ -176,6 +176,9 @@ impl ContactSolver for Hertz {
             shear: profile(vec![0.0; PROFILE]),
             slip: profile(vec![slip; PROFILE]),
             dissipation: profile(vec![0.0; PROFILE]),
+            overlap: Piecewise::default(),
+            plastic_work: 0.0,
+            yielding: 0.0,
             iterations,
         };
         found.solver = SolverState::Stateless;

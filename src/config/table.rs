@@ -110,6 +110,12 @@ parameters! {
             1124 tread_blocks: usize = 2, from 1 to 2,
                 "Brake blocks: one, or two mirrored ones that share drive.tread_heat";
         }
+        /// History of hot material; what decides about the structure of steel is part of [`Tuning`].
+        damage: DamageParameters fixed {
+            1163 resolution: f64 = 1.0, from 0.25 to 4.0,
+                "Size of the elements and time steps in which hot places of the tread are followed, relative to the \
+                 usual one";
+        }
         /// Switches for parts of the physics.
         physics: Physics fixed {
             1070 centrifugal: bool = true, "Centrifugal load of the spinning wheel";
@@ -172,6 +178,13 @@ parameters! {
                  that of a sliding patch, temperature over its rise or 100 K; 0: no error control";
             1125 austenitisation: f64 = 1000.0, of "thermal", in "K" as "degC", from 1.0 to 1e4,
                 "Austenitisation temperature Ac1";
+            1160 martensite_start: f64 = 575.0, of "damage", in "K" as "degC", from 1.0 to 1e4,
+                "Temperature Ms below which quickly cooled austenite becomes martensite";
+            1161 critical_cooling: f64 = 50.0, of "damage", in "K/s", from 0.0 to 1e6,
+                "Cooling rate between 800 and 500 degC from which austenite becomes martensite";
+            1162 threshold: f64 = 300.0, of "damage", in "K", from 1.0 to 1e4,
+                "Excess temperature of the tread over the wheel's mean above which a place that the contact heats in \
+                 one piece is followed";
         }
     }
 }

@@ -61,6 +61,8 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "kg.m2", exponents: [1, 2, 0, 0, 0], displays: &[] },
     Unit { name: "K", exponents: [0, 0, 0, 0, 1], displays: &[Display { name: "degC", factor: 1.0, offset: -273.15 }] },
     Unit { name: "1/K", exponents: [0, 0, 0, 0, -1], displays: &[] },
+    Unit { name: "K/s", exponents: [0, 0, -1, 0, 1], displays: &[] },
+    Unit { name: "J/m", exponents: [1, 1, -2, 0, 0], displays: &[times("kJ/m", 1e-3)] },
     Unit { name: "W/(m.K)", exponents: [1, 1, -3, 0, -1], displays: &[] },
     Unit { name: "W/(m2.K)", exponents: [1, 0, -3, 0, -1], displays: &[] },
     Unit { name: "J/(kg.K)", exponents: [0, 2, -2, 0, -1], displays: &[] },

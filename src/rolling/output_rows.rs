@@ -183,12 +183,33 @@ outputs! {
     620 thermal_growth: real "thermal.growth", in "m" as "mm", nominal 1e-5,
         "Growth of the wheel radius by its bulk temperature";
     701 austenitised_time: real "damage.time_above_ac1", in "s", from 0.0, nominal 1e-2, start zero,
-        "Time during which the hottest contact point was above thermal.austenitisation";
-    702 yielded: real "damage.yielded", in "1" as "%", from 0.0 to 1.0, nominal 0.1,
+        "Longest time that a point of the wheel's material was above thermal.austenitisation so far: all its passes \
+         through the contact zone, and for a place that was heated in one piece what came after";
+    702 peak_temperature: real "damage.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature of the hottest point of the tread so far, absolute; 0 without thermal.enabled";
+    703 ac1_depth: real "damage.ac1_depth", in "m" as "mm", from 0.0, nominal 1e-3, start zero,
+        "Largest depth in the wheel to which thermal.austenitisation was exceeded so far, at places that the contact \
+         heated while the wheel (nearly) stood still";
+    704 cooling_rate: real "damage.cooling_rate", in "K/s", from 0.0, nominal 1e3, start zero,
+        "Mean cooling rate from 800 to 500 degC (from thermal.austenitisation, if it was hotter than that but not than \
+         800 degC) of the hottest point of the hottest of these places; 0 until it has cooled to 500 degC";
+    705 martensite_depth: real "damage.martensite_depth", in "m" as "mm", from 0.0, nominal 1e-3, start zero,
+        "Largest depth of at least half martensite at these places: austenitised, cooled at damage.critical_cooling or \
+         faster, and far enough below damage.martensite_start";
+    706 flats: count "damage.flats", start zero,
+        "Places of the tread that the contact heated by more than damage.threshold while the wheel (nearly) stood still; places \
+         that touch each other count once";
+    707 rail_peak: real "damage.rail_peak", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature of the hottest point of the rail that has passed the contact so far, absolute; 0 without \
+         thermal.enabled";
+    708 rail_heat: real "damage.rail_heat", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
+        "Heat that the contact leaves behind per metre of rail: heat.to_rail over |wheel.velocity|, or over 0.02 m/s if that \
+         is more; 0 at standstill and where the rail gives heat to the wheel";
+    710 yielded: real "damage.yielded", in "1" as "%", from 0.0 to 1.0, nominal 0.1,
         "Share of the contact width in which the steel yields now";
-    703 flattening: real "damage.flattening", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+    711 flattening: real "damage.flattening", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
         "Depth of the deepest permanent flattening of the wheel so far";
-    704 flattening_rail: real "damage.flattening_rail", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+    712 flattening_rail: real "damage.flattening_rail", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
         "Depth of the deepest permanent flattening of the modelled piece of rail";
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
         "Heat balance since the start: unaccounted heat over heat supplied";
@@ -226,4 +247,8 @@ outputs! {
         "Surface temperature of the wheel";
     15000 profile_temperature_rail: profile "profile.temperature_rail", in "K" as "degC", from 0.0, nominal 300.0,
         "Surface temperature of the rail";
+    17000 profile_depth: profile "profile.depth", in "m" as "mm", from 0.0 to 1.0, nominal 5e-3,
+        "Depth below the tread";
+    18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,
+        "Highest temperature so far at that depth, of the places counted by damage.flats; thermal.reference without any";
 }

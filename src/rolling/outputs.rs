@@ -3,7 +3,7 @@
 use super::control::{creepage, per_metre, slide};
 use super::model::Model;
 use super::output_rows::Outputs;
-use super::profile::{PROFILE_POINTS, profile_points};
+use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
 use crate::piecewise::Piecewise;
@@ -70,12 +70,16 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         let cold = vec![0.0; PROFILE_POINTS];
         return Outputs {
             profile_temperature_wheel: cold.clone(),
-            profile_temperature_rail: cold,
+            profile_temperature_rail: cold.clone(),
+            profile_peak: cold,
+            profile_depth: profile_depths(),
             ..Outputs::default()
         };
     };
     let (width, kelvin) = (model.wheel.width, heat.reference());
-    let (temperatures, flows) = (&thermal.temperatures, &thermal.flows);
+    let (temperatures, flows, damage) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
+    let depths = profile_depths();
+    let (found, v) = (damage.findings(), state.motion.velocity.now);
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
         temperature_wheel_max: kelvin + temperatures.wheel_max,
@@ -90,10 +94,19 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         heat_conduction: width * flows.conduction,
         heat_to_hub: width * flows.to_hub,
         heat_residual: ratio(thermal.supplied - thermal.received, thermal.supplied.abs()),
-        austenitised_time: thermal.austenitised,
+        austenitised_time: found.above_ac1,
+        peak_temperature: damage.peak,
+        ac1_depth: found.ac1_depth,
+        cooling_rate: found.cooling_rate,
+        martensite_depth: found.martensite_depth,
+        flats: damage.places,
+        rail_peak: damage.rail_peak,
+        rail_heat: per_metre(width * flows.to_rail, v, model.rolling_radius(state) * state.motion.omega.now),
         thermal_growth: thermal.deformation.radius_growth,
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),
+        profile_peak: heat.peaks(thermal, &depths),
+        profile_depth: depths,
         ..Outputs::default()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::support::BaseMotion;
 use crate::contact::{ContactState, Flattening, Heating};
+use crate::damage::Damage;
 use crate::heat::{HeatFlows, HeatState, Temperatures};
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
@@ -119,8 +120,8 @@ pub struct ThermalState {
     pub heating: Heating,
     /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included \[K].
     pub surface: [Vec<f64>; 2],
-    /// Time during which the hottest contact point was above Ac1 \[s].
-    pub austenitised: f64,
+    /// What the hot material has gone through.
+    pub damage: Damage,
     /// Heat put in since the start [J/m].
     pub supplied: f64,
     /// Heat passed on or stored since the start [J/m]; its difference to the heat put in is the imbalance.

@@ -7,7 +7,7 @@ use super::error::StepError;
 use super::flattening;
 use super::model::{Model, Workspace};
 use super::state::{Motion, State};
-use super::thermal::HeatStep;
+use super::thermal::{self, HeatStep};
 use super::zones;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, Heating};
@@ -77,8 +77,8 @@ pub fn step(
     match (&model.thermal, &state.thermal) {
         (Some(thermal), Some(before)) => {
             let temperatures = next.thermal.take().unwrap_or_default();
-            let (tread_heat, austenitisation) = (demand.target.tread_heat, demand.tuning.austenitisation);
-            let step = HeatStep { dt: plan.dt, tread_heat, austenitisation };
+            let (tread_heat, criteria) = (demand.target.tread_heat, thermal::criteria(demand.tuning));
+            let step = HeatStep { dt: plan.dt, tread_heat, criteria };
             let touch = thermal.touch(&model.contact, &next.contact.traction);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
             next.thermal = Some(temperatures);

@@ -35,6 +35,26 @@ impl Heat {
         Ok(evaluate(&self.rail, self.split(state).1, x, z))
     }
 
+    /// Weights of the modes at given depths \[m] of the wheel, for [`Heat::wheel_column`]: a row of them for each depth.
+    pub fn wheel_depths(&self, depths: &[f64]) -> Vec<f64> {
+        depths.iter().flat_map(|&z| self.wheel.modes.at(z)).collect()
+    }
+
+    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread from the contact point and
+    /// the depths that `weights` were made for, over the reference \[K]; zeros for a state of another model.
+    pub fn wheel_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
+        column.fill(0.0);
+        if !self.fits(state) {
+            return;
+        }
+        let (field, nm) = (self.split(state).0, self.wheel.modes.len());
+        let ([from, to], xi) = element(&self.wheel, s);
+        let [from, to] = [from, to].map(|node| &field[node * nm..(node + 1) * nm]);
+        for (value, weights) in column.iter_mut().zip(weights.chunks_exact(nm)) {
+            *value = (1.0 - xi) * dot(from, weights) + xi * dot(to, weights);
+        }
+    }
+
     /// Fields of wheel and rail.
     pub fn fields(&self, state: &HeatState) -> Result<[TemperatureField; 2], HeatError> {
         self.check_state(state)?;
@@ -70,18 +90,24 @@ fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -
     TemperatureField { mesh, temperature }
 }
 
-/// Temperature at one point; outside an open streamline that of its end.
+/// Temperature at one point.
 fn evaluate(body: &HeatBody, field: &[f64], s: f64, z: f64) -> f64 {
+    let (nodes, xi) = element(body, s);
+    let across = body.modes.at(z);
+    let nm = across.len();
+    let [from, to] = nodes.map(|node| dot(&field[node * nm..(node + 1) * nm], &across));
+    (1.0 - xi) * from + xi * to
+}
+
+/// Nodes of the element at a distance along the surface, and the place within it from 0 to 1; outside an open streamline
+/// that of its end.
+fn element(body: &HeatBody, s: f64) -> ([usize; 2], f64) {
     let line = &body.line;
-    let n = line.len();
     let mut s = s;
     if line.closed > 0.0 {
         s = line.nodes[0] + (s - line.nodes[0]).rem_euclid(line.closed);
     }
     let element = line.nodes.partition_point(|&x| x <= s).saturating_sub(1).min(line.lengths.len() - 1);
     let xi = ((s - line.nodes[element]) / line.lengths[element]).clamp(0.0, 1.0);
-    let across = body.modes.at(z);
-    let nm = across.len();
-    let value = |node: usize| dot(&field[node * nm..(node + 1) * nm], &across);
-    (1.0 - xi) * value(element) + xi * value((element + 1) % n)
+    ([element, line.after(element)], xi)
 }

@@ -6,6 +6,7 @@
 
 mod deformation;
 mod exchange;
+mod history;
 mod smoothing;
 mod thermoelastic;
 
@@ -15,6 +16,7 @@ use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::{State, ThermalDeformation, ThermalState};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};
+use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::material::{SOFTENS, yield_share};
 use crate::mechanics;
@@ -22,6 +24,8 @@ use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 pub use exchange::Touch;
+pub use history::criteria;
+use history::{MaterialHistory, Seen};
 use smoothing::Smoothing;
 use thermoelastic::Thermoelastic;
 
@@ -59,6 +63,7 @@ pub struct ThermalModel {
     yielding: bool,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
+    history: MaterialHistory,
 }
 
 /// A heat step beside the mechanical one.
@@ -68,8 +73,8 @@ pub struct HeatStep {
     pub dt: f64,
     /// Heat of the brake blocks into the tread \[W].
     pub tread_heat: f64,
-    /// Austenitisation temperature Ac1 \[K].
-    pub austenitisation: f64,
+    /// What decides about the structure of the steel.
+    pub criteria: Criteria,
 }
 
 /// Memory that heat steps reuse.
@@ -102,6 +107,7 @@ impl ThermalModel {
         let half_width = mechanics::nominal_half_width(config);
         let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin, reach.max(zone + margin)))?;
         Ok(Self {
+            history: MaterialHistory::new(config, &heat, half_width, zone),
             heat,
             reference: config.thermal.reference,
             wheel_excess: config.thermal.wheel_excess,
@@ -150,7 +156,9 @@ impl ThermalModel {
                 thermal.fields = self.heat.sum(&passing, &thermal.fields)?;
             }
         }
-        self.observe(touch, &mut thermal, &mut Sight::default())?;
+        let mut sight = Sight::default();
+        self.observe(touch, &mut thermal, &mut sight)?;
+        thermal.damage = self.history.begin(&sight.seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
@@ -166,19 +174,20 @@ impl ThermalModel {
         mut thermal: ThermalState,
         scratch: &mut Scratch,
     ) -> Result<ThermalState, StepError> {
-        let HeatStep { dt, tread_heat, austenitisation } = step;
+        let HeatStep { dt, tread_heat, criteria } = step;
         let Scratch { heat, exchange, sight } = scratch;
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
         self.observe(touch, &mut thermal, sight)?;
         thermal.heating.before = before.heating.now;
+        thermal.damage.copy_from(&before.damage);
+        let seen = Seen { field: (&self.heat, &thermal.fields), observation: &sight.seen, zone: self.heat.zone_x() };
+        self.history.advance(&mut thermal.damage, next, dt, criteria, touch, &seen);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
             self.average(&mut thermal, before, DAMPED);
         }
-        let above = if hottest > austenitisation { dt } else { 0.0 };
-        thermal.austenitised = before.austenitised + above;
         thermal.supplied = before.supplied + dt * supplied(&thermal.flows);
         thermal.received = before.received + dt * received(&thermal.flows);
         Ok(thermal)
@@ -264,8 +273,14 @@ impl ThermalModel {
         let deformation = &thermal.deformation;
         let profiles = deformation.membrane_force.iter().chain(&deformation.swelling);
         self.heat.fits(&thermal.fields)
+            && self.history.fits(&thermal.damage)
             && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
             && profiles.clone().all(|profile| profile.check().is_ok())
+    }
+
+    /// Highest temperature \[K] so far at given depths \[m] of the wheel, where the contact has heated it in one piece.
+    pub fn peaks(&self, thermal: &ThermalState, depths: &[f64]) -> Vec<f64> {
+        self.history.peaks(&thermal.damage, depths, self.reference)
     }
 
     /// Absolute temperatures in the whole bodies \[K].

@@ -1,0 +1,220 @@
+//! What heat has done to the material of the wheel: histories of places that were heated while they stood in the contact,
+//! and of the points of the tread that passed through it.
+//!
+//! The temperature fields of [`crate::heat`] live on meshes that stand with the contact: what turns out of it is smeared.
+//! A wheel that is locked, or nearly so, heats one place of its tread. Here a *spot*, a fine mesh over arc and depth that
+//! is fixed to the material, takes over the field while the place lies under the contact, and conducts the heat on by
+//! itself when the wheel has turned it away. Every node remembers what metallurgy asks for. Derivation and limits:
+//! `docs/theory/material-history.md`.
+//!
+//! Temperatures given to this room are excess temperatures over the reference \[K], those it reports are absolute.
+
+mod conduction;
+mod mesh;
+mod record;
+mod shared;
+mod spot;
+mod tread;
+
+pub use mesh::{SpotLayout, SpotMesh};
+pub use record::{Criteria, Findings, Point};
+pub use spot::{Field, Sample, Spot};
+pub use tread::Tread;
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+
+/// Most places of the tread that are kept apart; beyond, the least hot of those that are cold is forgotten, but for what was found there.
+pub const MOST_SPOTS: usize = 8;
+/// Time within which a wheel that heats one place turns by less than the length of the nominal contact [s].
+const HEATING_TIME: f64 = 10e-3;
+/// Places nearer to each other than this were heated by one slide that crept on [half-widths of the nominal contact].
+const CONNECTED: f64 = 4.0;
+/// Share of the excess temperature that opens a spot at which it is cold again [1].
+const COLD: f64 = 0.25;
+
+/// Follows the material of one wheel; immutable, its data are in the [`Damage`].
+#[derive(Clone, Debug)]
+pub struct HotSpots {
+    mesh: SpotMesh,
+    /// Radius of the wheel \[m].
+    radius: f64,
+    /// Half-width of the nominal contact \[m].
+    half_width: f64,
+    /// Absolute reference temperature \[K].
+    reference: f64,
+    /// Coefficient of convection to the air [W/(m² K)].
+    convection: f64,
+}
+
+/// What the wheel's material has gone through. Without anything hot it holds no memory.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Damage {
+    /// Highest temperature of the wheel's tread in the contact so far \[K].
+    pub peak: f64,
+    /// Highest temperature of the rail's surface in the contact so far \[K].
+    pub rail_peak: f64,
+    /// Points of the tread that were hot in the contact.
+    pub tread: Tread,
+    /// Places that were heated in one piece, the oldest first.
+    pub spots: Vec<Spot>,
+    /// Highest temperature at the depths of the mesh, of all these places so far \[K]; empty without any.
+    pub peaks: Vec<f64>,
+    /// What was found about places that had to make room.
+    pub forgotten: Findings,
+    /// How many places were heated in one piece so far; those that touch each other count as one.
+    pub places: u64,
+}
+
+/// What happens to the tread during a step, and where it stands at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a> {
+    /// Length of the step \[s].
+    pub dt: f64,
+    /// Angle of the wheel at the end, forward positive \[rad].
+    pub angle: f64,
+    /// Angular velocity, forward positive [rad/s].
+    pub omega: f64,
+    /// Length of the contact, zero without one \[m].
+    pub contact_length: f64,
+    /// Highest excess temperatures of wheel and rail in the contact zone \[K].
+    pub hottest: [f64; 2],
+    /// Mean excess temperature of the wheel \[K].
+    pub bulk: f64,
+    /// Positions at which the surface of the wheel is known \[m], ascending, and its excess temperatures there \[K].
+    pub surface: (&'a [f64], &'a [f64]),
+    /// Temperatures and cooling rate that decide about the structure of the steel.
+    pub criteria: Criteria,
+}
+
+impl HotSpots {
+    /// For a wheel with the given mesh.
+    pub fn new(layout: &SpotLayout) -> Self {
+        Self {
+            mesh: SpotMesh::new(layout),
+            radius: layout.radius,
+            half_width: layout.half_width,
+            reference: layout.reference,
+            convection: layout.convection,
+        }
+    }
+
+    /// Mesh of a spot.
+    pub fn mesh(&self) -> &SpotMesh {
+        &self.mesh
+    }
+
+    /// A wheel whose tread and rail have the excess temperatures `hottest` \[K] at the start.
+    pub fn begin(&self, hottest: [f64; 2]) -> Damage {
+        let [peak, rail_peak] = hottest.map(|excess| self.reference + excess);
+        Damage { peak, rail_peak, ..Damage::default() }
+    }
+
+    /// Takes the history on by one step.
+    pub fn advance(&self, damage: &mut Damage, now: &Moment, sample: Sample) {
+        damage.peak = damage.peak.max(self.reference + now.hottest[0]);
+        damage.rail_peak = damage.rail_peak.max(self.reference + now.hottest[1]);
+        let (ac1, threshold) = (now.criteria.austenitisation - self.reference, now.criteria.threshold);
+        let turned = self.radius * now.omega * now.dt;
+        if now.hottest[0] > ac1 {
+            let points = 8.0 * PI * self.radius / self.half_width;
+            damage.tread.allocate(TAU * self.radius, points);
+            damage.tread.pass(now.surface, ac1, self.radius * now.angle, turned, now.dt);
+        }
+        let heats = now.hottest[0] - now.bulk > threshold && self.stands(now.omega);
+        if damage.spots.is_empty() && !heats {
+            return;
+        }
+        let nearest = damage.spots.iter().map(|spot| self.distance(spot, now).abs()).fold(f64::INFINITY, f64::min);
+        if heats && nearest > self.half_width {
+            self.make_room(damage);
+            damage.places += u64::from(nearest > CONNECTED * self.half_width);
+            damage.spots.push(Spot::at((self.radius * now.angle).rem_euclid(TAU * self.radius)));
+        }
+        for spot in &mut damage.spots {
+            self.advance_spot(spot, now, heats, sample, &mut damage.peaks);
+        }
+    }
+
+    fn advance_spot(&self, spot: &mut Spot, now: &Moment, heats: bool, sample: Sample, peaks: &mut Vec<f64>) {
+        let distance = self.distance(spot, now);
+        let under = self.stands(now.omega) && distance.abs() <= self.half_width;
+        let record = record::Recorder { criteria: now.criteria, reference: self.reference };
+        let film = self.convection + self.chill(now);
+        let news = if under && (heats || spot.following) {
+            spot.follow(&self.mesh, distance, now.dt, film, sample, &record);
+            true
+        } else {
+            spot.conduct(&self.mesh, now.dt, film, &record)
+        };
+        if news {
+            peaks.resize(self.mesh.depth.len(), 0.0);
+            spot.raise(peaks);
+        }
+        if !heats || !under {
+            spot.rest_below(now.bulk + COLD * now.criteria.threshold);
+        }
+    }
+
+    /// Whether the wheel turns so slowly that the contact heats one place.
+    fn stands(&self, omega: f64) -> bool {
+        self.radius * omega.abs() * HEATING_TIME <= 2.0 * self.half_width
+    }
+
+    /// Distance of a spot from the contact point along the tread \[m], the shorter way round.
+    fn distance(&self, spot: &Spot, now: &Moment) -> f64 {
+        let round = TAU * self.radius;
+        (spot.arc - self.radius * now.angle + 0.5 * round).rem_euclid(round) - 0.5 * round
+    }
+
+    /// Coefficient of the heat that a rolling wheel gives to the cold rail, as a mean over a turn [W/(m² K)]: bodies of
+    /// equal effusivity e that touch for the time t exchange `e ΔT √(t/π)` per area.
+    fn chill(&self, now: &Moment) -> f64 {
+        let speed = self.radius * now.omega.abs();
+        if speed == 0.0 || now.contact_length <= 0.0 {
+            return 0.0;
+        }
+        let touches = now.contact_length / speed;
+        self.mesh.effusivity() * (touches / PI).sqrt() * now.omega.abs() / TAU
+    }
+
+    /// Forgets one spot if the list is full: the least hot of those that are cold again, else of all.
+    fn make_room(&self, damage: &mut Damage) {
+        if damage.spots.len() < MOST_SPOTS {
+            return;
+        }
+        let rank = |spot: &Spot| (spot.is_hot(), spot.findings().peak);
+        let least = (0..damage.spots.len()).min_by(|a, b| {
+            let [(hot_a, peak_a), (hot_b, peak_b)] = [a, b].map(|i| rank(&damage.spots[*i]));
+            hot_a.cmp(&hot_b).then(peak_a.total_cmp(&peak_b))
+        });
+        if let Some(least) = least {
+            let spot = damage.spots.remove(least);
+            damage.forgotten = damage.forgotten.with(&spot.findings());
+        }
+    }
+
+    /// Whether a history has the dimensions of this model.
+    pub fn fits(&self, damage: &Damage) -> bool {
+        let peaks = damage.peaks.is_empty() || damage.peaks.len() == self.mesh.depth.len();
+        peaks && damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
+    }
+}
+
+impl Damage {
+    /// What was found at all places together.
+    pub fn findings(&self) -> Findings {
+        let all = self.spots.iter().fold(self.forgotten, |all, spot| all.with(&spot.findings()));
+        Findings { above_ac1: all.above_ac1.max(self.tread.longest()), ..all }
+    }
+
+    /// Replaces this by a copy, reusing memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        let Self { peak, rail_peak, tread, spots, peaks, forgotten, places } = other;
+        (self.peak, self.rail_peak) = (*peak, *rail_peak);
+        self.tread.copy_from(tread);
+        self.spots.clone_from(spots);
+        self.peaks.clone_from(peaks);
+        (self.forgotten, self.places) = (*forgotten, *places);
+    }
+}

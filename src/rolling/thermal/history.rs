@@ -1,0 +1,92 @@
+//! The history of the wheel's material beside the temperatures of the contact.
+
+use super::exchange::Touch;
+use crate::config::{Config, Tuning};
+use crate::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
+use crate::heat::{Heat, HeatState, Observation};
+use crate::piecewise::interpolate;
+use crate::rolling::state::State;
+
+/// Follows the material of the wheel through the temperature field of the contact.
+#[derive(Clone, Debug)]
+pub struct MaterialHistory {
+    spots: HotSpots,
+    /// Weights of the heat model's modes at the depths of the spots' mesh.
+    weights: Vec<f64>,
+}
+
+/// A step, for the history: what the heat model found at its end.
+pub struct Seen<'a> {
+    /// The heat model with its state.
+    pub field: (&'a Heat, &'a HeatState),
+    /// What it shows.
+    pub observation: &'a Observation,
+    /// Where the surface is known [m].
+    pub zone: &'a [f64],
+}
+
+impl MaterialHistory {
+    /// For contact within `zone` \[m] of the contact point, at the half-width `half_width` \[m] under the nominal load.
+    pub fn new(config: &Config, heat: &Heat, half_width: f64, zone: f64) -> Self {
+        let (wheel, material, thermal) = (&config.wheel, &config.material, &config.thermal);
+        let spots = HotSpots::new(&SpotLayout {
+            radius: wheel.radius,
+            hub_radius: wheel.hub_radius,
+            half_width,
+            zone,
+            conductivity: material.conductivity,
+            heat_capacity: material.density * material.specific_heat,
+            convection: thermal.convection,
+            reference: thermal.reference,
+            resolution: config.damage.resolution,
+        });
+        let weights = heat.wheel_depths(&spots.mesh().depth);
+        Self { spots, weights }
+    }
+
+    /// Damage of a wheel at the start.
+    pub fn begin(&self, observation: &Observation) -> Damage {
+        let temperatures = &observation.temperatures;
+        self.spots.begin([temperatures.wheel_max, temperatures.rail_max])
+    }
+
+    /// Takes a history on by a step of `dt` \[s] that led to `next`.
+    pub fn advance(&self, damage: &mut Damage, next: &State, dt: f64, criteria: Criteria, touch: &Touch, seen: &Seen) {
+        let temperatures = &seen.observation.temperatures;
+        let moment = Moment {
+            dt,
+            angle: next.angle,
+            omega: next.motion.omega.now,
+            contact_length: touch.traction.extent().map_or(0.0, |patch| patch.high - patch.low),
+            hottest: [temperatures.wheel_max, temperatures.rail_max],
+            bulk: temperatures.wheel_mean,
+            surface: (seen.zone, &seen.observation.surface[0]),
+            criteria,
+        };
+        let (heat, state) = seen.field;
+        let column = |s: f64, out: &mut [f64]| heat.wheel_column(state, s, &self.weights, out);
+        self.spots.advance(damage, &moment, &column);
+    }
+
+    /// Highest temperature at given depths \[m] of places that were heated in one piece \[K]; none: the reference.
+    pub fn peaks(&self, damage: &Damage, depths: &[f64], reference: f64) -> Vec<f64> {
+        let known = &damage.peaks;
+        let at = |z: &f64| if known.is_empty() { reference } else { interpolate(&self.spots.mesh().depth, known, *z) };
+        depths.iter().map(at).collect()
+    }
+
+    /// Whether a history has the dimensions of this model.
+    pub fn fits(&self, damage: &Damage) -> bool {
+        self.spots.fits(damage)
+    }
+}
+
+/// What decides about the structure of the steel.
+pub fn criteria(tuning: &Tuning) -> Criteria {
+    Criteria {
+        austenitisation: tuning.austenitisation,
+        martensite_start: tuning.martensite_start,
+        critical_cooling: tuning.critical_cooling,
+        threshold: tuning.threshold,
+    }
+}

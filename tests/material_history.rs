@@ -1,0 +1,336 @@
+//! History of hot material: spots that take over the field of a standing contact and conduct it on by themselves.
+
+use std::f64::consts::PI;
+use wheelrail::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
+
+const REFERENCE: f64 = 293.0;
+const CONDUCTIVITY: f64 = 50.0;
+const HEAT_CAPACITY: f64 = 7850.0 * 470.0;
+const DIFFUSIVITY: f64 = CONDUCTIVITY / HEAT_CAPACITY;
+const RADIUS: f64 = 0.46;
+const HALF_WIDTH: f64 = 7e-3;
+const CRITERIA: Criteria =
+    Criteria { austenitisation: 1000.0, martensite_start: 575.0, critical_cooling: 50.0, threshold: 300.0 };
+
+fn wheel(resolution: f64) -> HotSpots {
+    HotSpots::new(&SpotLayout {
+        radius: RADIUS,
+        hub_radius: 0.046,
+        half_width: HALF_WIDTH,
+        zone: 0.012,
+        conductivity: CONDUCTIVITY,
+        heat_capacity: HEAT_CAPACITY,
+        convection: 0.0,
+        reference: REFERENCE,
+        resolution,
+    })
+}
+
+/// Moment of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`.
+fn moment(dt: f64, angle: f64, omega: f64, hottest: f64) -> Moment<'static> {
+    let hottest = [hottest, 0.0];
+    let surface: (&[f64], &[f64]) = (&[], &[]);
+    Moment { dt, angle, omega, contact_length: 0.0, hottest, bulk: 0.0, surface, criteria: CRITERIA }
+}
+
+/// `erfc x` of a positive number: the series for small ones, the continued fraction for large ones.
+fn erfc(x: f64) -> f64 {
+    if x < 2.5 {
+        let (mut term, mut sum) = (x, x);
+        for n in 1..80 {
+            term *= -x * x / n as f64;
+            sum += term / (2 * n + 1) as f64;
+        }
+        1.0 - 2.0 / PI.sqrt() * sum
+    } else {
+        let fraction = (1..60).rev().fold(0.0, |f, n| 0.5 * n as f64 / (x + f));
+        (-x * x).exp() / PI.sqrt() / (x + fraction)
+    }
+}
+
+/// Excess temperature of a half-space at the depth `z` after the flux of `q` for the time `t0`, at the time `t` (Carslaw &
+/// Jaeger, *Conduction of Heat in Solids*, section 2.9).
+fn half_space(q: f64, t0: f64, z: f64, t: f64) -> f64 {
+    let heated = |t: f64| {
+        if t <= 0.0 {
+            return 0.0;
+        }
+        let length = (DIFFUSIVITY * t).sqrt();
+        let x = 0.5 * z / length;
+        2.0 * q / CONDUCTIVITY * length * ((-x * x).exp() / PI.sqrt() - x * erfc(x))
+    };
+    heated(t) - heated(t - t0)
+}
+
+/// Flux that heats the surface of a half-space by `excess` within `t0`.
+fn flux(excess: f64, t0: f64) -> f64 {
+    0.5 * excess * CONDUCTIVITY * (PI / (DIFFUSIVITY * t0)).sqrt()
+}
+
+/// History of a half-space heated for `t0` in ten steps and then released, followed for `end` in steps of `dt`.
+fn released(spots: &HotSpots, excess: f64, t0: f64, end: f64, dt: f64) -> Damage {
+    let q = flux(excess, t0);
+    let depth = spots.mesh().depth.clone();
+    let mut damage = spots.begin([0.0; 2]);
+    let steps = 200;
+    for k in 1..=steps {
+        let time = t0 * k as f64 / steps as f64;
+        let sample = |_: f64, column: &mut [f64]| {
+            column.iter_mut().zip(&depth).for_each(|(t, z)| *t = half_space(q, t0, *z, time));
+        };
+        spots.advance(&mut damage, &moment(t0 / steps as f64, 0.0, 0.0, half_space(q, t0, 0.0, time)), &sample);
+    }
+    for k in 1..=(end / dt).round() as usize {
+        let untouched = |_: f64, _: &mut [f64]| panic!("the contact is far away");
+        spots.advance(&mut damage, &moment(dt, 30.0 * dt * k as f64, 30.0, 0.0), &untouched);
+    }
+    damage
+}
+
+/// The time at which a falling function reaches a level.
+fn falls_to(level: f64, mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > level { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Cooling rate 800 to 500 °C of the surface and depth of Ac1 in closed form.
+fn closed_form(excess: f64, t0: f64) -> [f64; 2] {
+    let q = flux(excess, t0);
+    let surface = |t: f64| REFERENCE + half_space(q, t0, 0.0, t);
+    let [from, to] = [1073.15, 773.15].map(|level| falls_to(level, t0, 100.0 * t0, surface));
+    let peak = |z: f64| (0..4000).map(|k| half_space(q, t0, z, t0 * (1.0 + 1e-3 * k as f64))).fold(0.0, f64::max);
+    let depth = falls_to(CRITERIA.austenitisation - REFERENCE, 0.0, 0.04, peak);
+    [300.0 / (to - from), depth]
+}
+
+#[test]
+fn a_released_half_space_cools_as_in_closed_form() {
+    let spots = wheel(1.0);
+    for (excess, t0, dt) in [(1100.0, 2.0, 1e-3), (1100.0, 0.2, 1e-3), (900.0, 5e-3, 1e-4), (1100.0, 2.0, 0.05)] {
+        let found = released(&spots, excess, t0, 5.0 * t0, dt).findings();
+        let [rate, depth] = closed_form(excess, t0);
+        println!(
+            "{t0} s, steps of {dt} s: peak {:.1} K ({:.1}), {:.1} K/s ({rate:.1}), Ac1 to {:.4} mm ({:.4}), martensite to {:.4} mm, \
+             above Ac1 {:.4} s",
+            found.peak,
+            REFERENCE + excess,
+            found.cooling_rate,
+            1e3 * found.ac1_depth,
+            1e3 * depth,
+            1e3 * found.martensite_depth,
+            found.above_ac1
+        );
+        assert!((found.peak / (REFERENCE + excess) - 1.0).abs() < 1e-9);
+        assert!((found.cooling_rate / rate - 1.0).abs() < 0.05, "{} and {rate} K/s", found.cooling_rate);
+        assert!((found.ac1_depth / depth - 1.0).abs() < 0.05, "{} and {depth} m", found.ac1_depth);
+    }
+}
+
+#[test]
+fn what_was_found_converges_in_mesh_and_step() {
+    let all = [2.0, 1.0, 0.5].map(|resolution| released(&wheel(resolution), 1100.0, 0.5, 8.0, 1e-3).findings());
+    let [rate, depth] = closed_form(1100.0, 0.5);
+    for found in &all {
+        println!(
+            "{:.2} K/s ({rate:.2}), Ac1 to {:.5} mm ({:.5}), martensite to {:.5} mm, above Ac1 {:.5} s",
+            found.cooling_rate,
+            1e3 * found.ac1_depth,
+            1e3 * depth,
+            1e3 * found.martensite_depth,
+            found.above_ac1
+        );
+    }
+    let errors = all.map(|found| (found.cooling_rate / rate - 1.0).abs().max((found.ac1_depth / depth - 1.0).abs()));
+    println!("errors {errors:.5?}");
+    assert!(errors[1] < 0.05 && errors[2] < 0.02);
+    let [_, usual, fine] = all;
+    assert!(usual.martensite_depth > 0.0);
+    for (a, b) in [(usual.martensite_depth, fine.martensite_depth), (usual.above_ac1, fine.above_ac1)] {
+        assert!((a / b - 1.0).abs() < 0.05, "{a} and {b}");
+    }
+}
+
+/// A Gaussian on the surface of a half-space spreads as a Gaussian.
+#[test]
+fn a_spot_conducts_in_both_directions_with_second_order() {
+    let (size, end) = (4e-3f64, 0.5);
+    let shape = |s: f64, z: f64, t: f64| {
+        let wide = size * size + 4.0 * DIFFUSIVITY * t;
+        1000.0 * size * size / wide * (-(s * s + z * z) / wide).exp()
+    };
+    let error = |resolution: f64| {
+        let spots = wheel(resolution);
+        let depth = spots.mesh().depth.clone();
+        let sample = |s: f64, column: &mut [f64]| {
+            column.iter_mut().zip(&depth).for_each(|(t, z)| *t = shape(s, *z, 0.0));
+        };
+        let mut damage = Damage::default();
+        spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 1000.0), &sample);
+        for k in 1..=500 {
+            spots.advance(&mut damage, &moment(end / 500.0, 0.03 * k as f64, 30.0, 0.0), &sample);
+        }
+        let field = damage.spots[0].field().unwrap();
+        let (mesh, mut worst) = (spots.mesh(), 0.0f64);
+        for (s, column) in mesh.arc.iter().zip(field.temperature.chunks_exact(depth.len())) {
+            for (z, t) in depth.iter().zip(column) {
+                worst = worst.max((t - shape(*s, *z, field.age)).abs());
+            }
+        }
+        worst / shape(0.0, 0.0, field.age)
+    };
+    let errors = [4.0, 2.0, 1.0].map(error);
+    println!("errors {errors:.5?} of the peak");
+    assert!(errors[2] < 0.02);
+    assert!(errors[0] / errors[1] > 2.5, "{errors:?}");
+}
+
+#[test]
+fn nothing_hot_leaves_no_spot_and_no_memory() {
+    let spots = wheel(1.0);
+    let mut damage = spots.begin([0.0; 2]);
+    let sample = |_: f64, _: &mut [f64]| panic!("nobody asks");
+    for k in 0..100 {
+        spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 2.9 * k as f64), &sample);
+    }
+    assert!(damage.spots.is_empty() && damage.spots.capacity() == 0 && damage.places == 0);
+    assert!((damage.peak - (REFERENCE + 2.9 * 99.0)).abs() < 1e-9);
+    // Hot, but so fast that no place is heated on its own.
+    spots.advance(&mut damage, &moment(1e-3, 0.0, 20.0, 600.0), &sample);
+    assert!(damage.spots.is_empty());
+}
+
+/// Heats a place for a step at the angle given.
+fn heat(spots: &HotSpots, damage: &mut Damage, angle: f64, excess: f64) {
+    let depth = spots.mesh().depth.clone();
+    let sample = move |s: f64, column: &mut [f64]| {
+        let flank = (-(s / HALF_WIDTH).powi(2)).exp();
+        column.iter_mut().zip(&depth).for_each(|(t, z)| *t = excess * flank * (-z / 1e-3).exp());
+    };
+    for _ in 0..2 {
+        spots.advance(damage, &moment(1e-3, angle, 0.0, excess), &sample);
+    }
+}
+
+#[test]
+fn several_flats_are_kept_apart_and_the_same_place_is_found_again() {
+    let spots = wheel(1.0);
+    let mut damage = spots.begin([0.0; 2]);
+    for (k, excess) in [800.0, 1000.0, 900.0].into_iter().enumerate() {
+        heat(&spots, &mut damage, 1.3 * k as f64, excess);
+    }
+    assert_eq!(damage.places, 3);
+    let peaks: Vec<f64> = damage.spots.iter().map(|spot| spot.findings().peak - REFERENCE).collect();
+    assert!(peaks.iter().zip([800.0, 1000.0, 900.0]).all(|(a, b)| (a - b).abs() < 1e-9), "{peaks:?}");
+    // Two turns on, half a half-width beside the second.
+    let again = 1.3 + 4.0 * PI + 0.5 * HALF_WIDTH / RADIUS;
+    heat(&spots, &mut damage, again, 1200.0);
+    assert_eq!(damage.places, 3);
+    assert!(damage.spots[1].findings().peak > REFERENCE + 1150.0);
+    // The list is bounded; what is forgotten still counts.
+    for k in 0..9 {
+        heat(&spots, &mut damage, 4.0 + 0.2 * k as f64, 600.0);
+    }
+    assert_eq!((damage.places, damage.spots.len()), (12, 8));
+    assert!(damage.findings().peak > REFERENCE + 1150.0);
+}
+
+#[test]
+fn a_hot_place_that_comes_back_keeps_its_heat_without_a_jump() {
+    let spots = wheel(1.0);
+    let mut damage = spots.begin([0.0; 2]);
+    heat(&spots, &mut damage, 0.0, 1000.0);
+    let cold = |_: f64, column: &mut [f64]| column.fill(0.0);
+    for k in 1..=100 {
+        spots.advance(&mut damage, &moment(1e-4, 30.0 * 1e-4 * k as f64, 30.0, 0.0), &cold);
+    }
+    let centre = |damage: &Damage| damage.spots[0].field().unwrap().temperature.iter().copied().fold(0.0, f64::max);
+    let before = centre(&damage);
+    // Locked at the same place, where the contact now knows of 400 K at the surface only.
+    let warm = |_: f64, column: &mut [f64]| {
+        column.fill(0.0);
+        column[0] = 400.0;
+    };
+    spots.advance(&mut damage, &moment(1e-6, 0.0, 0.0, 400.0), &warm);
+    let after = centre(&damage);
+    println!("{before:.2} K before, {after:.2} K after");
+    assert!(damage.spots.len() == 1 && damage.spots[0].following);
+    assert!((after / before - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_place_that_has_cooled_is_at_rest_and_what_was_found_stays() {
+    let spots = wheel(1.0);
+    let damage = released(&spots, 1000.0, 0.01, 20.0, 0.05);
+    assert!(!damage.spots[0].is_hot());
+    let found = damage.findings();
+    println!("{found:?}");
+    assert!(
+        found.ac1_depth > 0.0
+            && found.cooling_rate > 0.0
+            && (found.martensite_depth / found.ac1_depth - 1.0).abs() < 1e-9
+    );
+}
+
+#[test]
+fn every_point_of_a_rolling_tread_is_hot_for_its_passes_only() {
+    let spots = wheel(1.0);
+    let mut damage = spots.begin([0.0; 2]);
+    // Hot on 6 mm of the contact, at a tread of 13.8 m/s: 0.435 ms per pass.
+    let (x, values) = ([-0.012, -3e-3, -3e-3, 3e-3, 3e-3, 0.012], [0.0, 0.0, 900.0, 900.0, 0.0, 0.0]);
+    let sample = |_: f64, _: &mut [f64]| panic!("too fast for a spot");
+    let (omega, mut angle, mut dt) = (30.0, 0.0, 3e-4);
+    let mut longest = Vec::new();
+    for turn in 1..=3 {
+        while angle < 2.0 * PI * turn as f64 - 1e-3 {
+            dt = if dt > 2e-4 { 1e-4 } else { 3e-4 };
+            angle += omega * dt;
+            let surface: (&[f64], &[f64]) = (&x, &values);
+            let now = Moment { surface, ..moment(dt, angle, omega, 900.0) };
+            spots.advance(&mut damage, &now, &sample);
+        }
+        longest.push(damage.findings().above_ac1);
+    }
+    let pass = 6e-3 / (omega * RADIUS);
+    println!("pass {:.5} ms, longest after 1, 2, 3 turns {longest:.7?} s, run {:.3} s", 1e3 * pass, angle / omega);
+    for (turn, longest) in longest.iter().enumerate() {
+        // A point may have begun one more pass.
+        let passes = longest / pass;
+        assert!(passes > 0.99 * (turn + 1) as f64 && passes < 1.01 * (turn + 2) as f64, "{passes}");
+    }
+}
+
+#[test]
+fn the_rail_chills_a_rolling_hot_place_at_every_pass() {
+    let spots = wheel(1.0);
+    let mut damage = spots.begin([0.0; 2]);
+    let sample = |_: f64, column: &mut [f64]| column.fill(600.0);
+    spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 600.0), &sample);
+    let (omega, length) = (30.0, 0.012);
+    let turns = 5;
+    let end = turns as f64 * 2.0 * PI / omega;
+    for k in 1..=1000 {
+        let now = moment(end / 1000.0, omega * end * k as f64 / 1000.0, omega, 0.0);
+        spots.advance(&mut damage, &Moment { contact_length: length, ..now }, &sample);
+    }
+    // Heat that the middle column has lost per area.
+    let (mesh, field) = (spots.mesh(), damage.spots[0].field().unwrap());
+    let layers = mesh.depth.len();
+    let column = &field.temperature[mesh.arc.len() / 2 * layers..][..layers];
+    let missing: Vec<f64> = column.iter().zip(&mesh.depth).map(|(t, z)| (600.0 - t) * (1.0 - z / RADIUS)).collect();
+    let lost: f64 =
+        mesh.depth.windows(2).zip(missing.windows(2)).map(|(z, t)| 0.5 * (z[1] - z[0]) * (t[0] + t[1])).sum();
+    let effusivity = (CONDUCTIVITY * HEAT_CAPACITY).sqrt();
+    let touch = length / (omega * RADIUS);
+    let expected = turns as f64 * effusivity * 600.0 * (touch / PI).sqrt() * field.age / end;
+    println!(
+        "lost {:.0} J/m2, {expected:.0} from a surface that stays hot, surface at {:.1} K",
+        HEAT_CAPACITY * lost,
+        column[0]
+    );
+    // The surface cools a little meanwhile.
+    let ratio = HEAT_CAPACITY * lost / expected;
+    assert!(ratio < 1.0 && ratio > 0.5 * (1.0 + column[0] / 600.0) - 0.02, "{ratio}");
+}
