@@ -16,7 +16,8 @@ pub struct Isotropic {
 
 impl From<&Material> for Isotropic {
     fn from(material: &Material) -> Self {
-        let &Material { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat } = material;
+        let &Material { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat, .. } =
+            material;
         Self { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat }
     }
 }

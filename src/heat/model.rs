@@ -58,7 +58,7 @@ pub struct Observation {
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
     /// wheel less its mean along the tread, of the rail.
     pub layer: [Vec<f64>; 2],
-    /// Work space: a field summed along the streamlines.
+    /// Work space: a field summed along the streamlines, or the nodes below one surface node.
     pub(super) sums: Vec<f64>,
 }
 
@@ -165,4 +165,7 @@ pub struct Temperatures {
     pub wheel_mean: f64,
     /// Area mean of the rail.
     pub rail_mean: f64,
+    /// Largest molten thickness of wheel and rail in the contact zone now, the molten fraction integrated over the
+    /// depth \[m].
+    pub melted: [f64; 2],
 }

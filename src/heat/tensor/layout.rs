@@ -2,11 +2,13 @@
 
 use super::depth_modes::DepthModes;
 use super::modal::{HeatBody, dot};
+use super::nodal::Nodal;
 use super::state::HeatState;
 use super::streamline::Streamline;
 use crate::config::Hub;
 use crate::fem::grading::graded;
 use crate::heat::error::HeatError;
+use crate::heat::melting::Melting;
 use crate::heat::parameters::HeatConfig;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -17,10 +19,16 @@ pub struct Heat {
     pub(super) config: HeatConfig,
     pub(super) wheel: HeatBody,
     pub(super) rail: HeatBody,
+    /// Nodes across the streamlines of wheel and rail.
+    pub(super) nodal: [Nodal; 2],
     /// Elements of the contact zone on each side of the contact point.
     pub(super) zone_cells: usize,
     /// Integrals of the modes over the layer whose expansion acts on the contact, of wheel and rail [m].
     pub(super) layer_weights: [Vec<f64>; 2],
+    /// The same for the values at the nodes across the streamlines.
+    pub(super) layer_nodes: [Vec<f64>; 2],
+    /// Unless melting is left out.
+    pub(super) melting: Option<Melting>,
 }
 
 /// First layer across the streamlines in thicknesses of the thermal boundary layer, and at most in half-widths.
@@ -73,7 +81,10 @@ impl Heat {
             modes(c.rail.height, 0.0, false)?,
         );
         let layer_weights = [&wheel, &rail].map(|body| body.modes.integrals(FLASH_DEPTH * c.half_width));
-        Ok(Self { wheel, rail, zone_cells: zone.len() - 1, layer_weights, config: c })
+        let nodal = [Nodal::new(&wheel.modes)?, Nodal::new(&rail.modes)?];
+        let layer_nodes = [0, 1].map(|i| nodal[i].weights_of(&layer_weights[i]));
+        let melting = Melting::new(&c);
+        Ok(Self { wheel, rail, nodal, layer_nodes, melting, zone_cells: zone.len() - 1, layer_weights, config: c })
     }
 
     /// Surface positions of the common nodes in the contact zone [m], ascending.
@@ -107,7 +118,9 @@ impl Heat {
     pub fn sum(&self, a: &HeatState, b: &HeatState) -> Result<HeatState, HeatError> {
         self.check_state(a)?;
         self.check_state(b)?;
-        Ok(HeatState { field: a.field.iter().zip(&b.field).map(|(a, b)| a + b).collect(), last: None })
+        let range = std::array::from_fn(|i| a.range[i] + b.range[i]);
+        let field = a.field.iter().zip(&b.field).map(|(a, b)| a + b).collect();
+        Ok(HeatState { field, last: None, coldest: a.coldest + b.coldest, range })
     }
 
     /// Whether a state has the dimensions of this model.
