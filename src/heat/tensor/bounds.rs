@@ -15,6 +15,8 @@ use crate::heat::exchange::Exchange;
 
 /// How far a node may fall below the coldest datum before it is lifted \[K].
 const MARGIN: f64 = 0.08;
+/// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
+const SLIGHT: f64 = 0.05;
 
 impl Heat {
     /// Coldest datum of a step \[K]: hub, air and arriving rail at the reference, the wheel at the start, and what
@@ -53,6 +55,12 @@ impl Heat {
     /// Whether a field is colder somewhere than it may be.
     pub(super) fn undershoots(&self, state: &HeatState) -> bool {
         state.range[0] < state.coldest - MARGIN
+    }
+
+    /// Whether it is so much colder that another time formula is worth a try.
+    pub(super) fn undershoots_badly(&self, state: &HeatState) -> bool {
+        let [low, high] = state.range;
+        self.undershoots(state) && state.coldest - low > SLIGHT * (high - state.coldest)
     }
 
     /// Lifts all nodes to the coldest datum and keeps the heat contents.

@@ -52,6 +52,11 @@ impl Heat {
     ///
     /// Fails for parameters on which no mesh can be laid, and if the modes over the depth are not found.
     pub fn new(config: &HeatConfig) -> Result<Self, HeatError> {
+        Self::with_layers(config, LAYER_GROWTH)
+    }
+
+    /// The same with layers that grow by `growth` from one to the next, for studies of the mesh.
+    pub fn with_layers(config: &HeatConfig, growth: f64) -> Result<Self, HeatError> {
         config.validate()?;
         let c = config.clone();
         let (radius, smallest) = (c.wheel.radius, c.smallest_half_width());
@@ -59,7 +64,7 @@ impl Heat {
         let first = (FIRST_LAYER * boundary_layer).min(FIRST_LAYER_HALF_WIDTHS * smallest);
         let film = c.thermal.convection / c.material.conductivity;
         let modes = |thickness: f64, curvature: f64, fixed: bool| {
-            let layers = graded(first.min(0.1 * thickness), LAYER_GROWTH, LARGEST_LAYER * thickness, thickness);
+            let layers = graded(first.min(0.1 * thickness), growth, LARGEST_LAYER * thickness, thickness);
             DepthModes::new(&layers, curvature, fixed, film)
         };
         let zone = zone_nodes(&c);

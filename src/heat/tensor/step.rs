@@ -57,8 +57,8 @@ impl Heat {
     /// ```
     ///
     /// Where speeds, conductance or heat jump from the last step to this one, and without a last step, one stage with
-    /// `γ = 1` takes its place: backward Euler, which does not overshoot; likewise where two stages would undershoot, and
-    /// where steel melts.
+    /// `γ = 1` takes its place: backward Euler, which does not overshoot; likewise where two stages would undershoot
+    /// by much, and where steel melts.
     pub(super) fn advance(
         &self,
         state: &HeatState,
@@ -84,7 +84,7 @@ impl Heat {
         let mut flows = self.march(state, next, &march, scratch)?;
         self.set_range(state, next, &mut scratch.values);
         let melting = molten(next.range);
-        if march.melting.is_none() && (melting.is_some() || (smooth && self.undershoots(next))) {
+        if march.melting.is_none() && (melting.is_some() || (smooth && self.undershoots_badly(next))) {
             flows = self.march(state, next, &March { smooth: false, melting, ..march }, scratch)?;
             next.range = self.extremes(&next.field, &mut scratch.values);
         }
