@@ -58,6 +58,8 @@ pub struct Observation {
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
     /// wheel less its mean along the tread, of the rail.
     pub layer: [Vec<f64>; 2],
+    /// No node of the bodies is colder, over the reference \[K]; exact where it comes near absolute zero.
+    pub lowest: f64,
     /// Work space: a field summed along the streamlines, or the nodes below one surface node.
     pub(super) sums: Vec<f64>,
 }

@@ -15,6 +15,8 @@ use crate::heat::exchange::Exchange;
 
 /// How far a node may fall below the coldest datum before it is lifted \[K].
 const MARGIN: f64 = 0.08;
+/// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
+const NEAR_ZERO: f64 = 0.9;
 /// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
 
@@ -38,8 +40,9 @@ impl Heat {
             .max(rail.largest_change(&state.field[size..], &next.field[size..]));
         let melts = self.melting.map_or(f64::INFINITY, |melting| melting.solidus);
         next.range = [state.range[0] - change, state.range[1] + change];
-        // Also where a value is not a number.
-        let known = next.range[0] >= next.coldest - MARGIN && next.range[1] <= melts;
+        // Written so that what is not a number is not taken for known.
+        let low = (next.coldest - MARGIN).max(-NEAR_ZERO * self.config.thermal.reference);
+        let known = next.range[0] >= low && next.range[1] <= melts;
         if !known {
             next.range = self.extremes(&next.field, values);
         }

@@ -92,6 +92,7 @@ impl HeatModel for Heat {
             seen.layer[i].clear();
             seen.layer[i].extend(rows.map(|row| dot(row, weights) - along));
         }
+        seen.lowest = state.range[0];
         let melted = self.observe_melting(state, seen);
         let [wheel, rail] = &seen.surface;
         seen.temperatures = Temperatures {
