@@ -29,6 +29,7 @@ pub mod validity;
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 
 use crate::config::{Config, ConfigError, Response, Tuning};
+use crate::heat::HeatError;
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, substeps};
 use lock::lock;
@@ -287,6 +288,11 @@ impl Simulation {
     /// Displacement, velocity, stress and temperature in the whole bodies.
     pub fn fields(&self) -> Result<Fields, FieldError> {
         fields::fields(&self.model.rolling, &self.checkpoint.state)
+    }
+
+    /// Absolute temperatures at all nodes of wheel (about its centre) and rail; `None` if they are not computed.
+    pub fn temperature_fields(&self) -> Result<Option<[TemperatureField; 2]>, HeatError> {
+        fields::temperatures(&self.model.rolling, &self.checkpoint.state)
     }
 
     /// The model this simulation runs on.

@@ -218,6 +218,19 @@ impl Config {
         }
     }
 
+    /// Melting takes place within a range of temperatures.
+    fn melting_range(&self) -> Dependent {
+        let solidus = self.material.solidus;
+        Dependent {
+            name: "material.liquidus",
+            value: self.material.liquidus,
+            unit: "K",
+            low: solidus + 10.0,
+            high: f64::INFINITY,
+            others: format!("material.solidus = {} K", display_number(solidus)),
+        }
+    }
+
     /// Ranges that depend on other parameters.
     fn dependent(&self) -> Vec<Dependent> {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
@@ -259,6 +272,7 @@ impl Config {
                     display_number(self.thermal.reference)
                 ),
             },
+            self.melting_range(),
             velocity,
             creepage,
             self.contact_zone(),

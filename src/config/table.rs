@@ -60,6 +60,13 @@ parameters! {
             1055 specific_heat: f64 = 470.0, in "J/(kg.K)", from 1.0 to 1e5, "Specific heat capacity of both bodies";
             1056 yield_strength: f64 = 550e6, in "Pa" as "MPa", from 1e5 to 1e12,
                 "Yield strength of cold steel; up to 400 degC it is kept, at 600 degC 47 %, at 800 degC 11 % of it are left";
+            1165 solidus: f64 = 1723.0, in "K" as "degC", from 300.0 to 1e4, "Temperature at which melting begins";
+            1166 liquidus: f64 = 1803.0, in "K" as "degC", from 310.0 to 1.1e4,
+                "Temperature at which melting is complete, at least 10 K above material.solidus";
+            1167 latent_heat: f64 = 270e3, in "J/kg" as "kJ/kg", from 0.0 to 1e7,
+                "Heat of melting; 0, or thermal.reference above material.solidus: melting is left out";
+            1168 film_friction: f64 = 0.02, from 0.0 to 1.0,
+                "Share of the friction coefficient that remains on molten steel; 1: melting leaves friction alone";
         }
         /// Damping of the deformation of both bodies, on the rate of the *material*; all zero: none.
         damping: Damping fixed {

@@ -66,6 +66,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "W/(m.K)", exponents: [1, 1, -3, 0, -1], displays: &[] },
     Unit { name: "W/(m2.K)", exponents: [1, 0, -3, 0, -1], displays: &[] },
     Unit { name: "J/(kg.K)", exponents: [0, 2, -2, 0, -1], displays: &[] },
+    Unit { name: "J/kg", exponents: [0, 2, -2, 0, 0], displays: &[times("kJ/kg", 1e-3)] },
     Unit { name: "1/s", exponents: [0, 0, -1, 0, 0], displays: &[] },
     Unit { name: "s/m", exponents: [0, -1, 1, 0, 0], displays: &[] },
 ];

@@ -16,7 +16,12 @@ pub struct Limits<'a> {
     pub film: &'a Piecewise,
 }
 
-impl Limits<'_> {
+impl<'a> Limits<'a> {
+    /// No limit at all; `all` is an empty function.
+    pub fn none(all: &'a Piecewise) -> Self {
+        Self { pressure: f64::INFINITY, viscosity: 1.0, softened: all, film: all }
+    }
+
     /// Whether the pressure is limited at all.
     pub fn is_limited(&self) -> bool {
         self.pressure.is_finite()

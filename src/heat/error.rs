@@ -103,6 +103,26 @@ pub enum HeatError {
         /// Steps below this one need no correction \[s].
         direct_below: f64,
     },
+    /// Temperatures below those of the surroundings that no heat of the body can make up for.
+    #[error(
+        "temperatures fall to {lowest} K over thermal.reference where {coldest} K is the coldest that acts; a smaller \
+         solver.max_step or thermal.conductance resolves the step"
+    )]
+    Undershoot {
+        /// Lowest excess temperature \[K].
+        lowest: f64,
+        /// Lowest one that is possible \[K].
+        coldest: f64,
+    },
+    /// Melting whose extent was not found.
+    #[error(
+        "melting was found to within {change} K only; a smaller solver.max_step resolves the step, and \
+         material.latent_heat = 0 leaves melting out"
+    )]
+    MeltingNotConverged {
+        /// Last change of the latent part of the heat content, over the heat capacity \[K].
+        change: f64,
+    },
     /// Temperatures beyond the range of numbers.
     #[error("temperatures are not finite after a step of {dt} s at V = {velocity} m/s, ω = {omega} rad/s")]
     NotFinite {

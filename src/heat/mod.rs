@@ -23,6 +23,7 @@
 
 mod error;
 mod exchange;
+mod melting;
 mod model;
 mod parameters;
 mod tensor;
@@ -30,6 +31,7 @@ mod tensor;
 pub use crate::piecewise::Interval;
 pub use error::HeatError;
 pub use exchange::{Exchange, TreadHeat};
+pub use melting::Melting;
 pub use model::{HeatFlows, HeatModel, LARGEST_STEP, Observation, SMALLEST_STEP, Temperatures};
 pub use parameters::HeatConfig;
 pub use tensor::{Heat, HeatState, Scratch, TemperatureField};

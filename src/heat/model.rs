@@ -67,7 +67,9 @@ pub struct Observation {
     pub layer_depth: [f64; 2],
     /// Mean temperatures over a depth, see [`HeatModel::mean_over_depth`]; filled on demand only.
     pub core: [Vec<f64>; 2],
-    /// Work space: a field summed along the streamlines.
+    /// No node of the bodies is colder, over the reference \[K]; exact where it comes near absolute zero.
+    pub lowest: f64,
+    /// Work space: a field summed along the streamlines, or the nodes below one surface node.
     pub(super) sums: Vec<f64>,
 }
 
@@ -174,4 +176,7 @@ pub struct Temperatures {
     pub wheel_mean: f64,
     /// Area mean of the rail.
     pub rail_mean: f64,
+    /// Largest molten thickness of wheel and rail in the contact zone now, the molten fraction integrated over the
+    /// depth \[m].
+    pub melted: [f64; 2],
 }

@@ -1,10 +1,11 @@
 //! Linear algebra: sparse matrices with a Cholesky factorisation (over faer), the lowest modes of a pencil,
-//! small dense systems and GMRES.
+//! small dense systems, GMRES and Anderson mixing.
 //!
 //! Two libraries share the work. faer factorises and multiplies large matrices. nalgebra holds the small dense ones of the
 //! bodies and solves the dense symmetric eigenproblems of the modes, because the divide and conquer of faer 0.24.4 loses
 //! nine digits there (also faer-rs issue 273); a test in [`modes`] tells when that has changed.
 
+pub mod anderson;
 mod blocks;
 pub mod dense;
 mod error;

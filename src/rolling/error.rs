@@ -93,10 +93,10 @@ pub enum StepError {
     /// The temperatures have no answer.
     #[error("heat: {0}")]
     Heat(#[from] HeatError),
-    /// A surface colder than matter can be: linear laws were taken beyond their range.
-    #[error("a surface would have {temperature:.1} K, below absolute zero")]
+    /// A temperature that matter cannot have: linear laws were taken beyond their range, or the tread was cooled too much.
+    #[error("the coldest point would have {temperature:.1} K, which is not above absolute zero")]
     BelowAbsoluteZero {
-        /// Lowest surface temperature \[K].
+        /// Lowest temperature \[K].
         temperature: f64,
     },
     /// The bodies have no answer.

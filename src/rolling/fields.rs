@@ -48,13 +48,17 @@ pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
         rail.displacement.iter_mut().for_each(|u| u[k] += base[k]);
         rail.velocity.iter_mut().for_each(|v| v[k] += speed[k]);
     }
-    let temperature = match (&model.thermal, &state.thermal) {
-        (Some(heat), Some(thermal)) => {
-            let mut fields = heat.fields(thermal)?;
-            lift(&mut fields[0].mesh.nodes);
-            Some(fields)
-        }
-        _ => None,
-    };
+    let mut temperature = temperatures(model, state)?;
+    if let Some([of_wheel, _]) = &mut temperature {
+        lift(&mut of_wheel.mesh.nodes);
+    }
     Ok(Fields { wheel, rail, temperature })
+}
+
+/// Absolute temperatures in wheel (about its centre) and rail with either response; `None` if they are not computed.
+pub fn temperatures(model: &Model, state: &State) -> Result<Option<[TemperatureField; 2]>, HeatError> {
+    match (&model.thermal, &state.thermal) {
+        (Some(heat), Some(thermal)) => heat.fields(thermal).map(Some),
+        _ => Ok(None),
+    }
 }

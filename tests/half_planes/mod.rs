@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::grid::{ContactGrid, GridSolver, GridState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Friction, Placement, RigidMotion, Scratch,
-    SolverState, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, Limits, Placement,
+    RigidMotion, Scratch, SolverState, SurfaceResponse, Surfaces,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -81,7 +81,7 @@ impl HalfPlanes {
         let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
         let v = 10.0 * (1.0 + 0.5 * creepage);
         let omega = 10.0 * (1.0 - 0.5 * creepage) / RADIUS;
-        let flat = Piecewise::default();
+        let (flat, sound) = (Piecewise::default(), Flattening::none(0.0));
         let problem = ContactProblem {
             bodies: SurfaceResponse {
                 compliance: [&self.half, &self.half],
@@ -96,7 +96,14 @@ impl HalfPlanes {
             time: TimeDerivative::default(),
             duration: 0.0,
             surfaces: &self.surfaces,
-            placement: Placement { distance: 0.0, angle: 0.0, growth: 0.0, swelling: [&flat, &flat] },
+            placement: Placement {
+                distance: 0.0,
+                angle: 0.0,
+                growth: 0.0,
+                swelling: [&flat, &flat],
+                flattening: [&sound, &sound],
+            },
+            limits: Limits::none(&flat),
             friction: Friction::constant(FRICTION),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,

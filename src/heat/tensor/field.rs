@@ -26,13 +26,18 @@ impl Heat {
     /// both in \[m], over the reference \[K].
     pub fn wheel_temperature(&self, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
-        Ok(evaluate(&self.wheel, self.split(state).0, s, z))
+        Ok(self.temperature(evaluate(&self.wheel, self.split(state).0, s, z)))
     }
 
     /// Temperature of the rail at `x` and the depth `z`, both in \[m], over the reference \[K].
     pub fn rail_temperature(&self, state: &HeatState, x: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
-        Ok(evaluate(&self.rail, self.split(state).1, x, z))
+        Ok(self.temperature(evaluate(&self.rail, self.split(state).1, x, z)))
+    }
+
+    /// Excess temperature \[K] at a heat content over `ρc` \[K].
+    fn temperature(&self, content: f64) -> f64 {
+        self.melting.map_or(content, |melting| melting.temperature(content))
     }
 
     /// Weights of the modes at given depths \[m] of the wheel, for [`Heat::wheel_column`]: a row of them for each depth.
@@ -61,7 +66,9 @@ impl Heat {
         let radius = self.config.wheel.radius;
         let polar = |s: f64, z: f64| [(radius - z) * (s / radius).sin(), -(radius - z) * (s / radius).cos()];
         let (wheel, rail) = self.split(state);
-        Ok([field(&self.wheel, wheel, polar), field(&self.rail, rail, |s, z| [s, -z])])
+        let mut fields = [field(&self.wheel, wheel, polar), field(&self.rail, rail, |s, z| [s, -z])];
+        fields.iter_mut().flat_map(|field| &mut field.temperature).for_each(|t| *t = self.temperature(*t));
+        Ok(fields)
     }
 }
 

@@ -2,11 +2,13 @@
 
 use super::depth_modes::DepthModes;
 use super::modal::{HeatBody, dot};
+use super::nodal::Nodal;
 use super::state::HeatState;
 use super::streamline::Streamline;
 use crate::config::Hub;
 use crate::fem::grading::graded;
 use crate::heat::error::HeatError;
+use crate::heat::melting::Melting;
 use crate::heat::parameters::HeatConfig;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -17,6 +19,8 @@ pub struct Heat {
     pub(super) config: HeatConfig,
     pub(super) wheel: HeatBody,
     pub(super) rail: HeatBody,
+    /// Nodes across the streamlines of wheel and rail.
+    pub(super) nodal: [Nodal; 2],
     /// Elements of the contact zone on each side of the contact point.
     pub(super) zone_cells: usize,
     /// Integrals of the modes over the layer whose expansion acts on the contact, of wheel and rail [m].
@@ -26,6 +30,10 @@ pub struct Heat {
     /// Means of the modes from the surface down to depths that grow by the factor [`CORE_GROWTH`] from
     /// [`CORE_DEPTH`] half-widths on, of wheel and rail [1].
     pub(super) core_weights: [Vec<Vec<f64>>; 2],
+    /// The same for the values at the nodes across the streamlines.
+    pub(super) layer_nodes: [Vec<f64>; 2],
+    /// Unless melting is left out.
+    pub(super) melting: Option<Melting>,
 }
 
 /// Shallowest and number of depths over which means are prepared, in half-widths at the nominal load, and their growth.
@@ -56,6 +64,11 @@ impl Heat {
     ///
     /// Fails for parameters on which no mesh can be laid, and if the modes over the depth are not found.
     pub fn new(config: &HeatConfig) -> Result<Self, HeatError> {
+        Self::with_layers(config, LAYER_GROWTH)
+    }
+
+    /// The same with layers that grow by `growth` from one to the next, for studies of the mesh.
+    pub fn with_layers(config: &HeatConfig, growth: f64) -> Result<Self, HeatError> {
         config.validate()?;
         let c = config.clone();
         let (radius, smallest) = (c.wheel.radius, c.smallest_half_width());
@@ -63,7 +76,7 @@ impl Heat {
         let first = (FIRST_LAYER * boundary_layer).min(FIRST_LAYER_HALF_WIDTHS * smallest);
         let film = c.thermal.convection / c.material.conductivity;
         let modes = |thickness: f64, curvature: f64, fixed: bool| {
-            let layers = graded(first.min(0.1 * thickness), LAYER_GROWTH, LARGEST_LAYER * thickness, thickness);
+            let layers = graded(first.min(0.1 * thickness), growth, LARGEST_LAYER * thickness, thickness);
             DepthModes::new(&layers, curvature, fixed, film)
         };
         let zone = zone_nodes(&c);
@@ -90,7 +103,22 @@ impl Heat {
             let depths = (0..CORE_DEPTHS).map(|k| CORE_DEPTH * c.half_width * CORE_GROWTH.powi(k));
             depths.map(|depth| body.modes.integrals(depth).iter().map(|i| i / depth).collect()).collect()
         });
-        Ok(Self { wheel, rail, zone_cells: zone.len() - 1, layer_weights, layer_moments, core_weights, config: c })
+        let nodal = [Nodal::new(&wheel.modes)?, Nodal::new(&rail.modes)?];
+        let layer_nodes = [0, 1].map(|i| nodal[i].weights_of(&layer_weights[i]));
+        let melting = Melting::new(&c);
+        let zone_cells = zone.len() - 1;
+        Ok(Self {
+            wheel,
+            rail,
+            nodal,
+            layer_nodes,
+            melting,
+            zone_cells,
+            layer_weights,
+            layer_moments,
+            core_weights,
+            config: c,
+        })
     }
 
     /// Surface positions of the common nodes in the contact zone [m], ascending.
@@ -132,7 +160,9 @@ impl Heat {
     pub fn sum(&self, a: &HeatState, b: &HeatState) -> Result<HeatState, HeatError> {
         self.check_state(a)?;
         self.check_state(b)?;
-        Ok(HeatState { field: a.field.iter().zip(&b.field).map(|(a, b)| a + b).collect(), last: None })
+        let range = std::array::from_fn(|i| a.range[i] + b.range[i]);
+        let field = a.field.iter().zip(&b.field).map(|(a, b)| a + b).collect();
+        Ok(HeatState { field, last: None, coldest: a.coldest + b.coldest, range })
     }
 
     /// Whether a state has the dimensions of this model.

@@ -11,11 +11,14 @@
 //! and a tensor-product Galerkin method needs only `∫ g N N dz`, `∫ g N′N′ dz`, `∫ g⁻¹ N N dz` (quadratic) and the
 //! linear elements along `s`.
 
+mod bounds;
 mod depth_modes;
 mod field;
 mod layout;
 mod loads;
+mod melt;
 mod modal;
+mod nodal;
 mod stage;
 mod state;
 mod step;
@@ -41,8 +44,14 @@ impl HeatModel for Heat {
 
     fn initial(&self, bulk: f64) -> HeatState {
         let free = &self.wheel.modes.free;
-        let wheel = free.iter().cycle().take(self.wheel.size()).map(|c| bulk * c);
-        HeatState { field: wheel.chain(std::iter::repeat_n(0.0, self.rail.size())).collect(), last: None }
+        let content = self.melting.map_or(bulk, |melting| melting.content(bulk));
+        let wheel = free.iter().cycle().take(self.wheel.size()).map(|c| content * c);
+        HeatState {
+            field: wheel.chain(std::iter::repeat_n(0.0, self.rail.size())).collect(),
+            last: None,
+            coldest: bulk.min(0.0),
+            range: [bulk.min(0.0), content.max(0.0)],
+        }
     }
 
     fn step(
@@ -84,6 +93,8 @@ impl HeatModel for Heat {
             seen.layer[i].extend(rows.clone().map(|row| dot(row, weights) - along));
             seen.layer_depth[i] = mean_depth(rows.map(|row| dot(row, &self.layer_moments[i])), &seen.layer[i]);
         }
+        seen.lowest = state.range[0];
+        let melted = self.observe_melting(state, seen);
         let [wheel, rail] = &seen.surface;
         seen.temperatures = Temperatures {
             wheel_max: peak(self.zone_x(), wheel),
@@ -92,6 +103,7 @@ impl HeatModel for Heat {
             rail_centre: rail[self.zone_cells],
             wheel_mean: volume_means[0],
             rail_mean: volume_means[1],
+            melted,
         };
         Ok(())
     }

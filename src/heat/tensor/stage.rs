@@ -33,6 +33,8 @@ const ACCEPTED: f64 = 1e-9;
 #[derive(Clone, Debug, Default)]
 pub(super) struct BodyOperator {
     transport: Transport,
+    /// Conduction alone; set where steel melts.
+    still: Transport,
     factor: TridiagonalFactor,
     /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal, upper.
     contact: Vec<[f64; 3]>,
@@ -204,11 +206,33 @@ impl Stage {
 
     /// `out ← out + S x` with the exact operator, both bodies one after the other in `x`.
     pub fn multiply(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
-        let size = heat.wheel.size();
-        let (x_wheel, x_rail) = x.split_at(size);
-        let (wheel, rail) = out.split_at_mut(size);
+        let (x_wheel, x_rail) = x.split_at(heat.wheel.size());
+        let (wheel, rail) = out.split_at_mut(heat.wheel.size());
         heat.wheel.multiply(&self.wheel.transport, coefficients, x_wheel, wheel);
         heat.rail.multiply(&self.rail.transport, coefficients, x_rail, rail);
+        self.add_conduction(heat, coefficients, x, out);
+    }
+
+    /// Prepares [`Self::multiply_still`] for the present operators.
+    pub fn set_still(&mut self, heat: &Heat) {
+        for (body, operator) in [(&heat.wheel, &mut self.wheel), (&heat.rail, &mut self.rail)] {
+            operator.still.set_still(&operator.transport, &body.line, body.conductivity);
+        }
+    }
+
+    /// `out ← out + S x` without what the stream carries.
+    pub fn multiply_still(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
+        let (x_wheel, x_rail) = x.split_at(heat.wheel.size());
+        let (wheel, rail) = out.split_at_mut(heat.wheel.size());
+        heat.wheel.multiply(&self.wheel.still, coefficients, x_wheel, wheel);
+        heat.rail.multiply(&self.rail.still, coefficients, x_rail, rail);
+        self.add_conduction(heat, coefficients, x, out);
+    }
+
+    /// Adds what is no part of the modal solver: exact conduction along the streamlines, and that through the contact.
+    fn add_conduction(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
+        let x_wheel = &x[..heat.wheel.size()];
+        let (wheel, rail) = out.split_at_mut(heat.wheel.size());
         if self.curved {
             heat.wheel.add_curvature(coefficients, x_wheel, wheel, &mut self.wheel.work);
         }
@@ -281,20 +305,20 @@ impl Stage {
         })
     }
 
-    /// Adds `weight` times the heat flows at the temperatures `x`, changing at the rates `rate` (`None`: not at all).
+    /// Adds `weight` times the heat flows of a stage to their mean.
     pub fn add_flows(
         &mut self,
         heat: &Heat,
         loads: &SurfaceLoads,
-        x: &[f64],
-        rate: Option<&[f64]>,
+        ends: &StageEnd,
         weight: f64,
         flows: &mut HeatFlows,
     ) {
+        let StageEnd { temperature, content, rate } = *ends;
         flows.friction += weight * loads.friction_heat();
         flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
         if self.coupling.is_some() {
-            self.set_jump(heat, x);
+            self.set_jump(heat, temperature);
             let moments = &loads.conductance[self.elements.clone()];
             let through = moments.iter().zip(self.jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);
             let reversible = loads.reversible.iter().map(|q| q[0]);
@@ -304,15 +328,27 @@ impl Stage {
         flows.to_wheel = share * flows.friction - flows.conduction;
         flows.to_rail = (1.0 - share) * flows.friction + flows.conduction;
         let size = heat.wheel.size();
-        let wheel = self.wheel.flows(&heat.wheel, &x[..size], rate.map(|rate| &rate[..size]));
+        let (now, held, change) = (temperature.split_at(size), content.split_at(size), rate.map(|r| r.split_at(size)));
+        let wheel = self.wheel.flows(&heat.wheel, now.0, held.0, change.map(|r| r.0));
         flows.stored_wheel += weight * wheel.stored;
         flows.wheel_to_air += weight * wheel.air;
         flows.to_hub += if heat.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
-        let rail = self.rail.flows(&heat.rail, &x[size..], rate.map(|rate| &rate[size..]));
+        let rail = self.rail.flows(&heat.rail, now.1, held.1, change.map(|r| r.1));
         flows.stored_rail += weight * rail.stored;
         flows.rail_to_air += weight * rail.air;
         flows.outflow += weight * rail.out;
     }
+}
+
+/// Both bodies at the end of a stage.
+#[derive(Clone, Copy)]
+pub(super) struct StageEnd<'a> {
+    /// Temperature.
+    pub temperature: &'a [f64],
+    /// Heat content over `ρc`: the temperature where nothing melts.
+    pub content: &'a [f64],
+    /// Its rate; `None`: it does not change.
+    pub rate: Option<&'a [f64]>,
 }
 
 /// Heat flows of one body [W/m].
@@ -326,8 +362,8 @@ struct BodyFlows {
 }
 
 impl BodyOperator {
-    /// Flows at the temperatures `x` that change at the rates `rate`.
-    fn flows(&mut self, body: &HeatBody, x: &[f64], rate: Option<&[f64]>) -> BodyFlows {
+    /// Flows at the temperatures `x` and heat contents `content` that change at the rates `rate`.
+    fn flows(&mut self, body: &HeatBody, x: &[f64], content: &[f64], rate: Option<&[f64]>) -> BodyFlows {
         let modes = &body.modes;
         let [now, change] = &mut self.sums;
         body.integrate(x, now);
@@ -350,7 +386,7 @@ impl BodyOperator {
         }
         let out = self.transport.exit.map_or(0.0, |(node, flux)| {
             let nm = modes.len();
-            flux * dot(&x[node * nm..(node + 1) * nm], &modes.content)
+            flux * dot(&content[node * nm..(node + 1) * nm], &modes.content)
         });
         BodyFlows { stored, air, fixed, out }
     }

@@ -9,7 +9,7 @@ const SLIGHT_HEAT: f64 = 1e4;
 
 /// Both temperature fields and what the next step needs to know of the last one.
 ///
-/// The fields are coefficients of the modes across the streamlines; `wheel_temperature` and `rail_temperature` of
+/// The fields are coefficients of the modes across the streamlines, heat contents over `ρc` where steel melts; `wheel_temperature` and `rail_temperature` of
 /// [`Heat`](super::Heat) evaluate them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
@@ -17,6 +17,10 @@ pub struct HeatState {
     pub(super) field: Vec<f64>,
     /// Speeds and totals of the last step; `None` if there was none.
     pub(super) last: Option<BoundaryState>,
+    /// Coldest datum so far \[K]: nothing in the bodies may be colder.
+    pub(super) coldest: f64,
+    /// Bounds that the values at all nodes are known to keep \[K].
+    pub(super) range: [f64; 2],
 }
 
 /// Speeds and totals of what acts during a step.

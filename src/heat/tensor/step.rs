@@ -2,11 +2,13 @@
 
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
+use super::melt::Melt;
 use super::modal::{StageCoefficients, dot};
-use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageKey};
+use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageEnd, StageKey};
 use super::state::{BoundaryState, HeatState};
 use crate::heat::error::HeatError;
 use crate::heat::exchange::{Exchange, TreadHeat};
+use crate::heat::melting::Melting;
 use crate::heat::model::{HeatFlows, LARGEST_STEP, SMALLEST_STEP};
 use crate::heat::parameters::HeatConfig;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -23,6 +25,22 @@ pub struct Scratch {
     loads: SurfaceLoads,
     load: Vec<f64>,
     rate: Vec<f64>,
+    /// Values at the nodes below one surface node.
+    values: Vec<f64>,
+    melt: Melt,
+}
+
+/// How a step is taken.
+#[derive(Clone, Copy)]
+struct March {
+    dt: f64,
+    speeds: [f64; 2],
+    /// By how much the mean friction power exceeds that at the end, relative to the latter [1].
+    excess: f64,
+    /// Whether two stages may be taken.
+    smooth: bool,
+    /// Where steel melts or freezes.
+    melting: Option<Melting>,
 }
 
 impl Heat {
@@ -39,7 +57,8 @@ impl Heat {
     /// ```
     ///
     /// Where speeds, conductance or heat jump from the last step to this one, and without a last step, one stage with
-    /// `γ = 1` takes its place: backward Euler, which does not overshoot.
+    /// `γ = 1` takes its place: backward Euler, which does not overshoot; likewise where two stages would undershoot
+    /// by much, and where steel melts.
     pub(super) fn advance(
         &self,
         state: &HeatState,
@@ -56,17 +75,46 @@ impl Heat {
         if scratch.owner.as_ref() != Some(&self.config) {
             *scratch = Scratch { owner: Some(self.config.clone()), ..Scratch::default() };
         }
-        let Scratch { stage, loads, load, rate, .. } = scratch;
-        self.set_loads(exchange, loads)?;
-        let now = boundary(speeds, loads);
+        self.set_loads(exchange, &mut scratch.loads)?;
+        let now = boundary(speeds, &scratch.loads);
+        next.coldest = self.coldest(state, exchange, &scratch.loads);
+        let molten = |range: [f64; 2]| self.melting.filter(|melting| range[1] > melting.solidus);
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
-        let (gamma, stages) = if smooth { (1.0 - FRAC_1_SQRT_2, 2) } else { (1.0, 1) };
+        let march = March { dt, speeds, excess: exchange.friction_excess, smooth, melting: molten(state.range) };
+        let mut flows = self.march(state, next, &march, scratch)?;
+        self.set_range(state, next, &mut scratch.values);
+        let melting = molten(next.range);
+        if march.melting.is_none() && (melting.is_some() || (smooth && self.undershoots_badly(next))) {
+            flows = self.march(state, next, &March { smooth: false, melting, ..march }, scratch)?;
+            next.range = self.extremes(&next.field, &mut scratch.values);
+        }
+        if self.undershoots(next) {
+            self.lift(next, &mut scratch.values)?;
+        }
+        next.last = Some(now);
+        Ok(flows)
+    }
+
+    /// One step of the time formula from the field of `state` to that of `next`.
+    fn march(
+        &self,
+        state: &HeatState,
+        next: &mut HeatState,
+        march: &March,
+        scratch: &mut Scratch,
+    ) -> Result<HeatFlows, HeatError> {
+        let &March { dt, speeds, excess, smooth, melting } = march;
+        let Scratch { stage, loads, load, rate, melt, .. } = scratch;
+        let two = smooth && melting.is_none();
+        let (gamma, stages) = if two { (1.0 - FRAC_1_SQRT_2, 2) } else { (1.0, 1) };
         let coefficients = StageCoefficients { storage: 1.0, flow: gamma * dt };
         let curved = speeds[1].abs() < CURVED_BELOW && dt >= CURVED_STEP;
         stage.set(self, loads, StageKey { speeds, coefficients, rate: 1.0 / (gamma * dt), curved })?;
-        let held = 1.0 + exchange.friction_excess;
-        // The friction power of the stages is that whose mean over the step is the given one; at the end it is the last one's.
-        let shares = if stages == 2 { [1.0 + exchange.friction_excess / (1.0 - gamma), 1.0] } else { [held, held] };
+        let held = 1.0 + excess;
+        // The friction power of the stages is that whose mean over the step is the given one; at the end it is the last
+        // one's, unless the first one had to cool for that.
+        let first = 1.0 + excess / (1.0 - gamma);
+        let shares = if stages == 2 && first >= 0.0 { [first, 1.0] } else { [held, held] };
         let known = &mut next.field;
         known.clone_from(&state.field);
         let mut flows = HeatFlows::default();
@@ -76,10 +124,18 @@ impl Heat {
             stage.set_loads(self, loads, load);
             rate.clone_from(load);
             stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, known, rate);
-            flows.iterations += stage.solve(self, coefficients, rate)?;
+            flows.iterations += match &melting {
+                None => stage.solve(self, coefficients, rate)?,
+                Some(melting) => {
+                    load.clone_from(rate);
+                    self.melt(melting, stage, coefficients, known, [load, rate], melt)?
+                }
+            };
             // Temperature at this stage, then the known part of the next one.
             known.iter_mut().zip(&*rate).for_each(|(t, k)| *t += gamma * dt * k);
-            stage.add_flows(self, loads, known, Some(rate), weight, &mut flows);
+            let temperature = if melting.is_some() { melt.temperature(known) } else { &**known };
+            let ends = StageEnd { temperature, content: known, rate: Some(rate) };
+            stage.add_flows(self, loads, &ends, weight, &mut flows);
             if onward != 0.0 {
                 known.iter_mut().zip(&*rate).for_each(|(t, k)| *t += onward * dt * k);
             }
@@ -87,7 +143,6 @@ impl Heat {
         if !flows.is_finite() {
             return Err(HeatError::NotFinite { dt, velocity: speeds[0], omega: speeds[1] });
         }
-        next.last = Some(now);
         Ok(flows)
     }
 
@@ -109,11 +164,18 @@ impl Heat {
             other => other,
         })?;
         let mut flows = HeatFlows { iterations, ..HeatFlows::default() };
-        stage.add_flows(self, &loads, &field, None, 1.0, &mut flows);
+        stage.add_flows(self, &loads, &StageEnd { temperature: &field, content: &field, rate: None }, 1.0, &mut flows);
         if !flows.is_finite() {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
-        Ok((HeatState { field, last: Some(boundary(speeds, &loads)) }, flows))
+        let mut state = HeatState { field, last: Some(boundary(speeds, &loads)), ..HeatState::default() };
+        state.coldest = self.coldest(&state, exchange, &loads);
+        let mut values = Vec::new();
+        state.range = self.extremes(&state.field, &mut values);
+        if self.undershoots(&state) {
+            self.lift(&mut state, &mut values)?;
+        }
+        Ok((state, flows))
     }
 
     /// What a wheel loses and the rail gains where they touch, as after many turns, if the mean temperature of the tread is
@@ -149,7 +211,8 @@ impl Heat {
         if !field.iter().all(|value| value.is_finite()) {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
-        Ok(HeatState { field, last: None })
+        let range = self.extremes(&field, &mut Vec::new());
+        Ok(HeatState { field, range, ..HeatState::default() })
     }
 }
 

@@ -113,6 +113,22 @@ impl Transport {
         self.exit = open.then_some((ends.1, advection.abs()));
     }
 
+    /// Replaces the matrices by those of conduction alone: the tilted mass of `moving`, and `F = k K` without a stream.
+    pub fn set_still(&mut self, moving: &Self, line: &Streamline, conductivity: f64) {
+        self.mass_lower.clone_from(&moving.mass_lower);
+        self.mass.clone_from(&moving.mass);
+        self.mass_upper.clone_from(&moving.mass_upper);
+        for values in [&mut self.flow_lower, &mut self.flow_upper] {
+            values.clear();
+            values.resize(line.len(), 0.0);
+        }
+        for (e, h) in line.lengths.iter().enumerate() {
+            self.flow_upper[e] -= conductivity / h;
+            self.flow_lower[line.after(e)] -= conductivity / h;
+        }
+        (self.entry, self.exit) = (None, None);
+    }
+
     /// Row sum of `F`: what enters with the stream.
     pub fn entry(&self, row: usize) -> f64 {
         self.entry.map_or(0.0, |(node, value)| if node == row { value } else { 0.0 })

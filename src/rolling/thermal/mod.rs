@@ -208,8 +208,8 @@ impl ThermalModel {
                 (piecewise::peak(zone, wheel), piecewise::peak(zone, rail));
             (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
         }
-        let lowest = seen.surface.iter().flatten().copied().fold(seen.temperatures.wheel_mean, f64::min);
-        if self.reference + lowest < 0.0 {
+        let lowest = seen.surface.iter().flatten().copied().fold(seen.lowest, f64::min);
+        if self.reference + lowest <= 0.0 {
             return Err(StepError::BelowAbsoluteZero { temperature: self.reference + lowest });
         }
         thermal.temperatures = seen.temperatures;

@@ -1,0 +1,107 @@
+//! Fixed points of nonlinear maps, found faster than by iteration alone.
+
+use nalgebra::{SMatrix, SVector};
+
+/// Steps that are remembered.
+const MEMORY: usize = 6;
+/// Regularisation of the small least-squares problem, relative to its trace [1].
+const REGULARISATION: f64 = 1e-12;
+
+/// Mixing after D. G. Anderson, *J. ACM* 12 (1965): the next point is that of the remembered combination whose change is
+/// smallest. Memory is kept from one problem to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Anderson {
+    point: Vec<f64>,
+    change: Vec<f64>,
+    /// Differences of points and of changes between consecutive iterations.
+    points: Vec<Vec<f64>>,
+    changes: Vec<Vec<f64>>,
+    /// Iterations since the start.
+    count: usize,
+}
+
+impl Anderson {
+    /// Forgets what was before.
+    pub fn restart(&mut self) {
+        self.count = 0;
+    }
+
+    /// Moves `x` on, given the image `image` of the map at `x`.
+    pub fn mix(&mut self, x: &mut [f64], image: &[f64]) {
+        let n = x.len();
+        if self.points.is_empty() {
+            self.points.resize(MEMORY, Vec::new());
+            self.changes.resize(MEMORY, Vec::new());
+        }
+        if self.count > 0 {
+            let slot = (self.count - 1) % MEMORY;
+            let (dx, df) = (&mut self.points[slot], &mut self.changes[slot]);
+            dx.clear();
+            dx.extend(x.iter().zip(&self.point).map(|(now, before)| now - before));
+            df.clear();
+            df.extend(x.iter().zip(image).zip(&self.change).map(|((x, g), before)| g - x - before));
+        }
+        self.point.clear();
+        self.point.extend_from_slice(x);
+        self.change.clear();
+        self.change.extend(x.iter().zip(image).map(|(x, g)| g - x));
+        let kept = self.count.min(MEMORY);
+        let shares = self.shares(kept);
+        x.copy_from_slice(image);
+        for (share, (dx, df)) in shares.iter().zip(self.points.iter().zip(&self.changes)).take(kept) {
+            for i in 0..n {
+                x[i] -= share * (dx[i] + df[i]);
+            }
+        }
+        self.count += 1;
+    }
+
+    /// Shares of the remembered differences that make the change smallest; zero where they depend on each other.
+    fn shares(&self, kept: usize) -> [f64; MEMORY] {
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let mut matrix = SMatrix::<f64, MEMORY, MEMORY>::zeros();
+        let mut rhs = SVector::<f64, MEMORY>::zeros();
+        for i in 0..kept {
+            for j in 0..=i {
+                matrix[(i, j)] = product(&self.changes[i], &self.changes[j]);
+                matrix[(j, i)] = matrix[(i, j)];
+            }
+            rhs[i] = product(&self.changes[i], &self.change);
+        }
+        let shift = REGULARISATION * matrix.trace();
+        for i in 0..MEMORY {
+            // Rows that are not in use solve for a zero.
+            matrix[(i, i)] += if i < kept { shift } else { 1.0 };
+        }
+        matrix.cholesky().map_or([0.0; MEMORY], |factors| factors.solve(&rhs).into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mixing_finds_the_fixed_point_of_a_slow_contraction_with_kinks_within_a_few_iterations() {
+        let map = |x: &[f64]| -> Vec<f64> {
+            (0..x.len()).map(|i| (0.95 * x[(i + 1) % x.len()] + (i as f64).sin()).clamp(-0.4, 2.0)).collect()
+        };
+        let mut anderson = Anderson::default();
+        for _ in 0..2 {
+            let mut x = vec![0.0; 12];
+            anderson.restart();
+            let mut count = 0;
+            loop {
+                let image = map(&x);
+                let change = x.iter().zip(&image).fold(0.0_f64, |m, (x, g)| m.max((x - g).abs()));
+                if change < 1e-9 {
+                    break;
+                }
+                anderson.mix(&mut x, &image);
+                count += 1;
+                assert!(count < 40, "change {change}");
+            }
+            println!("{count} iterations");
+        }
+    }
+}
