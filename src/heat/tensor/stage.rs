@@ -193,12 +193,14 @@ impl Stage {
             for (e, q) in loads.reversible.iter().enumerate() {
                 transport.add_load(&body.line, first + e, q.map(|q| sign * q), surface);
             }
-            if body.line.closed > 0.0 {
+            body.add_surface_load(0, surface, out);
+            if body.line.closed > 0.0 && !loads.tread.is_empty() {
+                surface.fill(0.0);
                 for (e, q) in loads.tread.iter().enumerate() {
                     transport.add_load(&body.line, e, *q, surface);
                 }
+                body.add_load(0, surface, &body.modes.block, out);
             }
-            body.add_surface_load(0, surface, out);
         }
     }
 
@@ -341,7 +343,7 @@ impl BodyOperator {
         let (mut stored, mut air, mut fixed) = (0.0, 0.0, 0.0);
         for m in 0..modes.len() {
             stored += body.heat_capacity * modes.content[m] * change[m];
-            let film = body.film * modes.surface[m] * now[m];
+            let film = body.film * modes.air[m] * now[m];
             air += film;
             // Residual of the energy balance tested with 1 at the free nodes: what reaches the fixed ones.
             fixed += body.conductivity * modes.values[m] * modes.free[m] * now[m]
