@@ -109,6 +109,10 @@ fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
     let narrow = heat_common::with(config.clone(), |c| c.thermal.cross_section = CrossSection::Contact);
     let slice = 0.014 * ring(r, config.wheel.hub_radius);
     assert!((content(&narrow) / slice - 1.0).abs() < 1e-12);
+    // At next to no cost.
+    let unknowns = [&config, &narrow].map(|config| heat(config).unknowns());
+    println!("{unknowns:?} unknown temperatures");
+    assert!(unknowns[0] as f64 / (unknowns[1] as f64) < 1.15);
 }
 
 /// Area of tread, rim sides and both sides of the web times the coefficient.
