@@ -171,3 +171,38 @@ fn a_warm_free_wheel_grows_by_expansion_times_temperature_times_radius() {
     assert!((o.thermal_growth / (1.2e-5 * bulk * 0.46) - 1.0).abs() < 1e-9);
     assert!((bulk / 100.0 - 1.0).abs() < 0.03);
 }
+
+/// Stefan and Boltzmann's law on the same area, and its cooling of a body that is warm throughout.
+#[test]
+fn a_hot_wheel_radiates_and_cools_alike_in_short_and_long_steps() {
+    let config = heat_common::with(config(0.014), |c| c.thermal.emissivity = 0.8);
+    let heat = heat(&config);
+    let (r, t) = (config.wheel.radius, &config.thermal);
+    let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
+    let area = 2.0 * PI * r * t.rim_width + 2.0 * ring(r, t.boss_radius);
+    let flux = |excess: f64| 0.8 * 5.670374e-8 * ((t.reference + excess).powi(4) - t.reference.powi(4));
+    let start = heat.initial(500.0);
+    let capacity = heat.heat_content(&heat.initial(1.0)).unwrap()[0] * config.contact_width;
+    let cooled = |h: f64| {
+        let (mut state, mut scratch) = (start.clone(), Scratch::default());
+        for step in 0..(2000.0 / h) as usize {
+            let flows = heat.advance(&mut state, h, 10.0, 20.0, &Exchange::default(), &mut scratch);
+            assert!(flows.relative_imbalance() < 1e-9, "{flows:?}");
+            if step == 0 && h == 1.0 {
+                let ratio = flows.wheel_to_air * config.contact_width / (area * flux(500.0));
+                assert!((ratio - 1.0).abs() < 5e-3, "{ratio}");
+            }
+        }
+        heat.temperatures(&state).wheel_mean
+    };
+    let reference = cooled(1.0);
+    // All of it at one temperature: an upper bound of what it loses, since the rim is warmer than the web.
+    let lumped = (0..2000).fold(500.0, |excess, _| excess - area * flux(excess) / capacity);
+    println!("mean after 2000 s: {reference:.2} K, all at one temperature {lumped:.2} K");
+    assert!((reference / lumped - 1.0).abs() < 0.05);
+    for h in [10.0, 100.0, 500.0] {
+        let found = cooled(h);
+        println!("steps of {h} s: {:+.3} %", 100.0 * (found / reference - 1.0));
+        assert!((found / reference - 1.0).abs() < if h > 100.0 { 0.05 } else { 0.01 });
+    }
+}

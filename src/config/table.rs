@@ -121,6 +121,9 @@ parameters! {
                 "Width of the rail head, down to the base of the rail; at least that of the contact";
             1157 block_width: f64 = 0.08, in "m" as "mm", from 1e-3 to 1.0,
                 "Width of a brake block on the tread, at least that of the contact and at most that of the rim";
+            1158 emissivity: f64 = 0.0, from 0.0 to 1.0,
+                "Emissivity of the surfaces that thermal.convection cools, towards surroundings at the reference \
+                 temperature; 0: no radiation. The stationary start is without it";
         }
         /// Switches for parts of the physics.
         physics: Physics fixed {

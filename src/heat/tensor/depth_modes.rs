@@ -17,7 +17,9 @@ pub(super) struct DepthModes {
     pub values: Vec<f64>,
     /// Value of each mode at the surface.
     pub surface: Vec<f64>,
-    /// Value of each mode summed over the surface that touches the air, `φₘ(0) + ∫ b φₘ dz`.
+    /// Share of each node in the surface that touches the air, over the width of the contact.
+    pub exposed: Vec<f64>,
+    /// Value of each mode summed over that surface, `φₘ(0) + ∫ b φₘ dz`.
     pub air: Vec<f64>,
     /// Mean of each mode over the width of a brake block, on whose way in heat spreads.
     pub block: Vec<f64>,
@@ -58,6 +60,7 @@ impl DepthModes {
         let mut modes = Self {
             values: vec![0.0; padded],
             surface: vec![0.0; padded],
+            exposed: exposed(section),
             air: Vec::new(),
             block: Vec::new(),
             free: vec![0.0; padded],
@@ -90,7 +93,10 @@ impl DepthModes {
         if curvature != 0.0 {
             modes.curvature = modes.shapes.transpose() * inverse_weight(section, size, curvature) * &modes.shapes;
         }
-        modes.air = modes.bare(section);
+        modes.air = modes.shapes.row_iter().zip(&modes.exposed).fold(vec![0.0; padded], |mut air, (row, exposed)| {
+            air.iter_mut().zip(row.iter()).for_each(|(air, shape)| *air += exposed * shape);
+            air
+        });
         modes.block = modes.under_block(section);
         Ok(modes)
     }
@@ -108,15 +114,6 @@ impl DepthModes {
         let shape = quadratic((2.0 * z - a - b) / (b - a));
         let node = |i: usize, m: usize| if i < self.shapes.nrows() { self.shapes[(i, m)] } else { 0.0 };
         (0..self.len()).map(|m| (0..3).map(|i| shape[i] * node(2 * element + i, m)).sum()).collect()
-    }
-
-    /// `φₘ(0) + ∫ b φₘ dz`.
-    fn bare(&self, section: &Section) -> Vec<f64> {
-        let mut sums = self.surface.clone();
-        for (layer, &bare) in section.layers.windows(2).zip(&section.bare) {
-            self.add_integral([layer[0], layer[1]], bare, &mut sums);
-        }
-        sums
     }
 
     /// Mean of every mode over the block: what enters beside the contact's strip joins where heat has spread that far.
@@ -138,9 +135,6 @@ impl DepthModes {
 
     /// Adds `factor` times the integral of every mode over an interval within one layer.
     fn add_integral(&self, [from, to]: [f64; 2], factor: f64, sums: &mut [f64]) {
-        if factor == 0.0 {
-            return;
-        }
         for (z, share) in [(from, 1.0), (0.5 * (from + to), 4.0), (to, 1.0)] {
             for (sum, mode) in sums.iter_mut().zip(self.at(z)) {
                 *sum += factor * share / 6.0 * (to - from) * mode;
@@ -189,6 +183,17 @@ fn matrices(section: &Section, curvature: f64) -> (Vec<Wide>, Vec<Wide>) {
         }
     }
     (mass, stiffness)
+}
+
+/// Strip of the contact at the first node, and `∫ b N dz`.
+fn exposed(section: &Section) -> Vec<f64> {
+    let mut nodes = vec![0.0; 2 * section.layers.len() - 1];
+    nodes[0] = 1.0;
+    for (e, (ends, bare)) in section.layers.windows(2).zip(&section.bare).enumerate() {
+        let part = bare * (ends[1] - ends[0]) / 6.0;
+        nodes[2 * e..2 * e + 3].iter_mut().zip([1.0, 4.0, 1.0]).for_each(|(node, share)| *node += share * part);
+    }
+    nodes
 }
 
 /// Adds the convection of the contact's strip and of the bare surface beside the layers.

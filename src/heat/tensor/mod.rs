@@ -16,6 +16,7 @@ mod field;
 mod layout;
 mod loads;
 mod modal;
+mod radiation;
 mod section;
 mod stage;
 mod state;

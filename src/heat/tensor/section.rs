@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 /// Growth of the layers, and the largest one in thicknesses of the body.
 const LAYER_GROWTH: f64 = 1.8;
 const LARGEST_LAYER: f64 = 0.15;
+/// The same where layers end with the parts of a section.
+const LARGEST_OF_PARTS: f64 = 0.2;
 /// Thickness in which a part of the section counts, in thicknesses of the body.
 const SLIGHT: f64 = 1e-3;
 
@@ -107,7 +109,7 @@ impl Section {
             if end - start < slight {
                 continue;
             }
-            let places = graded(size * LAYER_GROWTH, LAYER_GROWTH, LARGEST_LAYER * thickness, end - start);
+            let places = graded(size * LAYER_GROWTH, LAYER_GROWTH, LARGEST_OF_PARTS * thickness, end - start);
             let ends: Vec<[f64; 2]> = places.windows(2).map(|z| [start + z[0], start + z[1]]).collect();
             let width = |z: f64| part.width.unwrap_or_else(|| spread(z / strip));
             // What lies bare on top joins where heat has spread that far.

@@ -180,9 +180,9 @@ impl Stage {
         load.resize(size + heat.rail.size(), 0.0);
         let (wheel, rail) = load.split_at_mut(size);
         let share = heat.config.thermal.wheel_share;
-        for (body, operator, share, sign, out) in
-            [(&heat.wheel, &mut self.wheel, share, -1.0, wheel), (&heat.rail, &mut self.rail, 1.0 - share, 1.0, rail)]
-        {
+        let bodies =
+            [(&heat.wheel, &mut self.wheel, share, -1.0, wheel), (&heat.rail, &mut self.rail, 1.0 - share, 1.0, rail)];
+        for ((body, operator, share, sign, out), radiation) in bodies.into_iter().zip(&loads.radiation) {
             let BodyOperator { transport, load: surface, .. } = operator;
             surface.clear();
             surface.resize(body.line.len(), 0.0);
@@ -200,6 +200,13 @@ impl Stage {
                     transport.add_load(&body.line, e, *q, surface);
                 }
                 body.add_load(0, surface, &body.modes.block, out);
+            }
+            if !radiation.load.is_empty() {
+                surface.fill(0.0);
+                for (e, h) in body.line.lengths.iter().enumerate() {
+                    transport.add_load(&body.line, e, [*h, 0.5 * h], surface);
+                }
+                body.add_load(0, surface, &radiation.load, out);
             }
         }
     }
@@ -308,11 +315,11 @@ impl Stage {
         let size = heat.wheel.size();
         let wheel = self.wheel.flows(&heat.wheel, &x[..size], rate.map(|rate| &rate[..size]));
         flows.stored_wheel += weight * wheel.stored;
-        flows.wheel_to_air += weight * wheel.air;
+        flows.wheel_to_air += weight * (wheel.air + loads.radiation[0].heat);
         flows.to_hub += if heat.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
         let rail = self.rail.flows(&heat.rail, &x[size..], rate.map(|rate| &rate[size..]));
         flows.stored_rail += weight * rail.stored;
-        flows.rail_to_air += weight * rail.air;
+        flows.rail_to_air += weight * (rail.air + loads.radiation[1].heat);
         flows.outflow += weight * rail.out;
     }
 }

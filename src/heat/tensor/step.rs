@@ -58,6 +58,7 @@ impl Heat {
         }
         let Scratch { stage, loads, load, rate, .. } = scratch;
         self.set_loads(exchange, loads)?;
+        self.set_radiation(state, dt, &mut loads.radiation);
         let now = boundary(speeds, loads);
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
         let (gamma, stages) = if smooth { (1.0 - FRAC_1_SQRT_2, 2) } else { (1.0, 1) };
