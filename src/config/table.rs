@@ -216,8 +216,8 @@ choice! {
 choice! {
     /// Width over which wheel and rail conduct heat.
     pub enum CrossSection named "CrossSection", "How wide the bodies conduct heat" {
-        Contact = "contact", "as wide as the contact everywhere, in plane strain";
         Bodies = "bodies", "spreading from the contact into rim, web, boss and rail head; a free wheel";
+        Contact = "contact", "as wide as the contact everywhere, in plane strain";
     }
 }
 
