@@ -13,9 +13,18 @@ const SPEED: f64 = 50.0 / 3.6;
 fn config() -> HeatConfig {
     let preset = wheelrail::config::presets::parse(include_str!("../resources/paper_b.json")).expect("preset");
     let Config { wheel, rail, material, thermal, .. } = preset;
-    let (half_width, zone) = (HALF_WIDTH, 1.5 * HALF_WIDTH);
-    let mut config =
-        HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone, reach: zone };
+    let (contact_width, half_width, zone) = (1.0, HALF_WIDTH, 1.5 * HALF_WIDTH);
+    let mut config = HeatConfig {
+        wheel,
+        rail,
+        material,
+        thermal,
+        contact_width,
+        elements_per_half_width: 20,
+        half_width,
+        zone,
+        reach: zone,
+    };
     (config.wheel.radius, config.wheel.hub_radius) = (0.5, 0.05);
     (config.rail.length, config.rail.height) = (1.0, 0.1);
     let material = &mut config.material;

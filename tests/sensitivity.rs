@@ -128,7 +128,9 @@ fn derivatives_at_the_start_are_those_of_the_stationary_state() {
 
 #[test]
 fn at_the_end_of_a_range_the_derivative_is_one_sided() {
-    let model = model(preset("railway", 10));
+    let mut config = preset("railway", 10);
+    config.thermal.cross_section = wheelrail::config::CrossSection::Contact;
+    let model = model(config);
     let inputs = prescribed(&model, 20.0, 1e-3);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     for _ in 0..5 {

@@ -37,7 +37,8 @@ fn free_rolling_of_a_hot_wheel_has_the_creepage_of_the_cold_one_but_for_the_chil
                 cold.friction_power,
                 hot.contact_force_x
             );
-            assert!(hot.thermal_growth > excess * 1.2e-5 * 0.46);
+            // All of the wheel is warm but for its hub.
+            assert!((hot.thermal_growth / (excess * 1.2e-5 * 0.46) - 0.98).abs() < 0.02);
             assert!((hot.contact_creepage - cold.contact_creepage).abs() < tolerance);
             assert!((hot.contact_slide - cold.contact_slide).abs() < tolerance);
             let slip = hot.contact_slip_velocity - cold.contact_slip_velocity;

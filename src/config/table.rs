@@ -106,7 +106,8 @@ parameters! {
                 "Share of that heat first put into the wheel; conduction decides where it goes";
             1118 hub: Hub = Hub::Fixed, "Thermal boundary condition of the hub";
             1119 convection: f64 = 0.0, in "W/(m2.K)", from 0.0 to 1e5,
-                "Coefficient of convection from tread and rail head to air at the reference temperature";
+                "Coefficient of convection to air at the reference temperature, from tread, rim, web and rail head; with \
+                 thermal.cross_section = contact from the width of the contact on tread and rail head";
             1120 max_speed: f64 = 60.0, in "m/s" as "km/h", from 0.1 to 200.0,
                 "Largest speed at which the thermal layer is resolved";
             1121 smallest_load_ratio: f64 = 0.5, from 0.05 to 1.0,
@@ -116,6 +117,22 @@ parameters! {
             1123 tread_width: f64 = FRAC_PI_4, in "rad" as "deg", from 1e-3 to 6.2, "Arc covered by a brake block";
             1124 tread_blocks: usize = 2, from 1 to 2,
                 "Brake blocks: one, or two mirrored ones that share drive.tread_heat";
+            1150 cross_section: CrossSection = CrossSection::Bodies, "How wide the bodies conduct heat";
+            1151 rim_width: f64 = 0.135, in "m" as "mm", from 1e-3 to 1.0,
+                "Width of the wheel's rim; a rim narrower than the contact counts as wide as that";
+            1152 rim_depth: f64 = 0.06, in "m" as "mm", from 1e-4 to 10.0,
+                "Depth of the rim below the tread; down to the hub where that is nearer";
+            1153 web_width: f64 = 0.025, in "m" as "mm", from 1e-4 to 1.0, "Width of the wheel's web";
+            1154 boss_width: f64 = 0.17, in "m" as "mm", from 1e-4 to 1.0, "Width of the wheel's boss";
+            1155 boss_radius: f64 = 0.13, in "m", from 0.0 to 10.0,
+                "Outer radius of the boss; below wheel.hub_radius there is none";
+            1156 head_width: f64 = 0.072, in "m" as "mm", from 1e-3 to 1.0,
+                "Width of the rail head, down to the base of the rail; at least that of the contact";
+            1157 block_width: f64 = 0.08, in "m" as "mm", from 1e-3 to 1.0,
+                "Width of a brake block on the tread, at least that of the contact and at most that of the rim";
+            1158 emissivity: f64 = 0.0, from 0.0 to 1.0,
+                "Emissivity of the surfaces that thermal.convection cools, towards surroundings at the reference \
+                 temperature; 0: no radiation. The stationary start is without it";
         }
         /// History of hot material; what decides about the structure of steel is part of [`Tuning`].
         damage: DamageParameters fixed {
@@ -178,7 +195,7 @@ parameters! {
                 "Share of the friction coefficient that remains in a hot contact";
             1065 memory_length: f64 = 0.0, of "friction", in "m" as "mm", from 0.0 to 1e3,
                 "Sliding distance over which the coefficient follows the law of slip and temperature; 0: at once";
-            1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 1.0,
+            1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 500.0,
                 "Largest internal time step; longer communication steps are divided evenly";
             1096 tolerance: f64 = 0.002, of "solver", from 0.0 to 1.0,
                 "Error that halves an internal step: contact force over load, moment over load times radius, slip over \
@@ -218,6 +235,14 @@ choice! {
     pub enum ConductanceLaw named "ConductanceLaw", "How the contact conductance depends on pressure" {
         Constant = "constant", "independent of pressure";
         Pressure = "pressure", "proportional to pressure^0.95";
+    }
+}
+
+choice! {
+    /// Width over which wheel and rail conduct heat.
+    pub enum CrossSection named "CrossSection", "How wide the bodies conduct heat" {
+        Bodies = "bodies", "spreading from the contact into rim, web, boss and rail head; a free wheel";
+        Contact = "contact", "as wide as the contact everywhere, in plane strain";
     }
 }
 

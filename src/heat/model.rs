@@ -9,7 +9,7 @@ pub const SMALLEST_STEP: f64 = 1e-9;
 /// Longest step \[s].
 pub const LARGEST_STEP: f64 = 1e6;
 
-/// A model of the temperature of wheel and rail, per metre of width; immutable, its data are in the state.
+/// A model of the temperature of wheel and rail, per metre of the contact's width; immutable, its data are in the state.
 pub trait HeatModel {
     /// Both temperature fields and what the next step needs to know of the last one.
     type State;
@@ -90,9 +90,9 @@ pub struct HeatFlows {
     pub to_hub: f64,
     /// Carried out of the modelled rail by the stream.
     pub outflow: f64,
-    /// From the tread to the air.
+    /// From the wheel to the air.
     pub wheel_to_air: f64,
-    /// From the rail head to the air.
+    /// From the rail to the air.
     pub rail_to_air: f64,
     /// Growth of the wheel's heat content.
     pub stored_wheel: f64,
@@ -172,9 +172,9 @@ pub struct Temperatures {
     pub wheel_centre: f64,
     /// Surface of the rail at the contact point.
     pub rail_centre: f64,
-    /// Area mean of the wheel.
+    /// Mean of the wheel over its volume.
     pub wheel_mean: f64,
-    /// Area mean of the rail.
+    /// Mean of the modelled rail over its volume.
     pub rail_mean: f64,
     /// Largest molten thickness of wheel and rail in the contact zone now, the molten fraction integrated over the
     /// depth \[m].

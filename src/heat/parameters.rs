@@ -15,6 +15,8 @@ pub struct HeatConfig {
     pub material: Material,
     /// Hub, air, contact conductance, friction heat, and the speed and load that are resolved.
     pub thermal: Thermal,
+    /// Width over which heat enters at the contact \[m]; all heat is given and returned over this width.
+    pub contact_width: f64,
     /// Surface elements per smallest half-width, away from its edges.
     pub elements_per_half_width: usize,
     /// Half-width of the contact at the nominal load \[m]; the mesh is finest at its edges.

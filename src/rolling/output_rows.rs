@@ -172,7 +172,8 @@ outputs! {
     615 temperature_rail_nominal: real "temperature.rail_nominal", in "K" as "degC", from 0.0, nominal 300.0,
         "Surface temperature of the rail below the wheel centre";
     616 temperature_wheel_bulk: real "temperature.wheel_bulk", in "K" as "degC", from 0.0, nominal 300.0,
-        "Mean temperature of the whole wheel";
+        "Mean temperature of the whole wheel over its volume: of rim, web and boss, or with thermal.cross_section = contact \
+         of a slice as wide as the contact";
     601 heat_to_wheel: real "heat.to_wheel", in "W" as "kW", nominal 1e4, "Net heat into the wheel through the contact";
     602 heat_to_rail: real "heat.to_rail", in "W" as "kW", nominal 1e4,
         "Net heat into the rail through the contact; with heat.to_wheel it makes thermal.heat_ratio x \
@@ -180,6 +181,8 @@ outputs! {
     603 heat_conduction: real "heat.conduction", in "W" as "kW", nominal 1e3,
         "Heat conducted from wheel to rail across the interface";
     604 heat_to_hub: real "heat.to_hub", in "W" as "kW", nominal 1e3, "Heat from the wheel into the hub";
+    605 heat_to_air: real "heat.to_air", in "W" as "kW", nominal 1e3,
+        "Heat from the wheel to air and surroundings by thermal.convection and thermal.emissivity";
     620 thermal_growth: real "thermal.growth", in "m" as "mm", nominal 1e-5,
         "Growth of the wheel radius by its bulk temperature";
     701 austenitised_time: real "damage.time_above_ac1", in "s", from 0.0, nominal 1e-2, start zero,

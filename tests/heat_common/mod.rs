@@ -25,8 +25,17 @@ pub fn config(load: f64, max_speed: f64) -> HeatConfig {
     let Config { wheel, rail, material, thermal, .. } = preset;
     let half_width = half_width(load);
     let zone = 1.5 * half_width;
-    let mut config =
-        HeatConfig { wheel, rail, material, thermal, elements_per_half_width: 20, half_width, zone, reach: zone };
+    let mut config = HeatConfig {
+        wheel,
+        rail,
+        material,
+        thermal,
+        contact_width: 1.0,
+        elements_per_half_width: 20,
+        half_width,
+        zone,
+        reach: zone,
+    };
     (config.wheel.radius, config.wheel.hub_radius) = (RADIUS, 0.05);
     (config.rail.length, config.rail.height) = (1.0, 0.1);
     let material = &mut config.material;

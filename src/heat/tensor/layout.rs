@@ -3,6 +3,7 @@
 use super::depth_modes::DepthModes;
 use super::modal::{HeatBody, dot};
 use super::nodal::Nodal;
+use super::section::{Grading, Section};
 use super::state::HeatState;
 use super::streamline::Streamline;
 use crate::config::Hub;
@@ -44,9 +45,8 @@ const CORE_GROWTH: f64 = 1.6;
 /// First layer across the streamlines in thicknesses of the thermal boundary layer, and at most in half-widths.
 const FIRST_LAYER: f64 = 0.25;
 const FIRST_LAYER_HALF_WIDTHS: f64 = 0.25;
-/// Growth of the layers, and the largest one in thicknesses of the body.
+/// Growth of the layers.
 const LAYER_GROWTH: f64 = 1.8;
-const LARGEST_LAYER: f64 = 0.15;
 /// Growth of the elements along the streamlines, largest one in wheel radii and rail lengths.
 const GROWTH: f64 = 1.5;
 /// Elements at the edges of the contact, where the temperature starts as a square root, in ordinary ones, and growth.
@@ -74,11 +74,8 @@ impl Heat {
         let (radius, smallest) = (c.wheel.radius, c.smallest_half_width());
         let boundary_layer = (2.0 * c.diffusivity() * smallest / c.thermal.max_speed).sqrt();
         let first = (FIRST_LAYER * boundary_layer).min(FIRST_LAYER_HALF_WIDTHS * smallest);
+        let grading = Grading { first, growth };
         let film = c.thermal.convection / c.material.conductivity;
-        let modes = |thickness: f64, curvature: f64, fixed: bool| {
-            let layers = graded(first.min(0.1 * thickness), growth, LARGEST_LAYER * thickness, thickness);
-            DepthModes::new(&layers, curvature, fixed, film)
-        };
         let zone = zone_nodes(&c);
         let line =
             |half: f64, largest: f64, closed: bool| Streamline::around_contact(&zone, half, GROWTH, largest, closed);
@@ -91,11 +88,11 @@ impl Heat {
         };
         let wheel = body(
             line(PI * radius, LARGEST_ALONG * radius, true),
-            modes(radius - c.wheel.hub_radius, 1.0 / radius, c.thermal.hub == Hub::Fixed)?,
+            DepthModes::new(&Section::wheel(&c, grading), 1.0 / radius, c.thermal.hub == Hub::Fixed, film)?,
         );
         let rail = body(
             line(0.5 * c.rail.length, LARGEST_ALONG_RAIL * c.rail.length, false),
-            modes(c.rail.height, 0.0, false)?,
+            DepthModes::new(&Section::rail(&c, grading), 0.0, false, film)?,
         );
         let layer_weights = [&wheel, &rail].map(|body| body.modes.integrals(FLASH_DEPTH * c.half_width));
         let layer_moments = [&wheel, &rail].map(|body| body.modes.moments(FLASH_DEPTH * c.half_width));
@@ -145,7 +142,7 @@ impl Heat {
         count(&self.wheel) + count(&self.rail)
     }
 
-    /// Heat contents of wheel and rail over the reference temperature [J/m].
+    /// Heat contents of wheel and rail over the reference temperature [J/m], over the width of the contact.
     pub fn heat_content(&self, state: &HeatState) -> Result<[f64; 2], HeatError> {
         self.check_state(state)?;
         let (wheel, rail) = self.split(state);
@@ -190,15 +187,10 @@ impl Heat {
         body.line.zone..body.line.zone + self.zone_elements() + 1
     }
 
-    /// Heat capacity of a whole body [J/(m K)].
+    /// Heat capacity of a whole body [J/(m K)], over the width of the contact.
     pub(super) fn heat_capacity(&self, body: &HeatBody) -> f64 {
-        let HeatConfig { wheel, rail, .. } = &self.config;
-        let area = if body.line.closed > 0.0 {
-            PI * (wheel.radius * wheel.radius - wheel.hub_radius * wheel.hub_radius)
-        } else {
-            rail.length * rail.height
-        };
-        body.heat_capacity * area
+        let length = if body.line.closed > 0.0 { body.line.closed } else { self.config.rail.length };
+        body.heat_capacity * length * body.modes.section
     }
 }
 

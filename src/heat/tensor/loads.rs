@@ -5,6 +5,7 @@
 //! edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
 
 use super::layout::Heat;
+use super::radiation::Radiation;
 use crate::config::ConductanceLaw;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::{Exchange, TreadHeat};
@@ -29,6 +30,8 @@ pub(super) struct SurfaceLoads {
     /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact zone
     /// [W/m]; empty without.
     pub reversible: Vec<[f64; 2]>,
+    /// What wheel and rail radiate.
+    pub radiation: [Radiation; 2],
 }
 
 impl SurfaceLoads {
@@ -50,7 +53,7 @@ impl SurfaceLoads {
 impl Heat {
     /// Replaces `loads` by the moments of `exchange` on the surface elements.
     pub(super) fn set_loads(&self, exchange: &Exchange, loads: &mut SurfaceLoads) -> Result<(), HeatError> {
-        let SurfaceLoads { conductance, friction, friction_share, tread, reversible } = loads;
+        let SurfaceLoads { conductance, friction, friction_share, tread, reversible, .. } = loads;
         *friction_share = 1.0;
         friction.clear();
         friction.resize(self.zone_elements(), [0.0; 2]);

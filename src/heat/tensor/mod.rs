@@ -9,16 +9,20 @@
 //! ```
 //!
 //! and a tensor-product Galerkin method needs only `∫ g N N dz`, `∫ g N′N′ dz`, `∫ g⁻¹ N N dz` (quadratic) and the
-//! linear elements along `s`.
+//! linear elements along `s`. Where heat spreads sideways into wider bodies, all of them have the width at the depth `z` over
+//! that of the contact as a second weight (`section`).
 
 mod bounds;
 mod depth_modes;
 mod field;
+mod flows;
 mod layout;
 mod loads;
 mod melt;
 mod modal;
 mod nodal;
+mod radiation;
+mod section;
 mod stage;
 mod state;
 mod step;

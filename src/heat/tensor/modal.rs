@@ -90,9 +90,14 @@ impl HeatBody {
 
     /// Adds a surface load given at the nodes `first..` to a right-hand side.
     pub fn add_surface_load(&self, first: usize, load: &[f64], out: &mut [f64]) {
+        self.add_load(first, load, &self.modes.surface, out);
+    }
+
+    /// Adds a load given at the nodes `first..` to a right-hand side; `across` are the values of the modes where it enters.
+    pub fn add_load(&self, first: usize, load: &[f64], across: &[f64], out: &mut [f64]) {
         let nm = self.modes.len();
         for (value, target) in load.iter().zip(out[first * nm..].chunks_exact_mut(nm)) {
-            target.iter_mut().zip(&self.modes.surface).for_each(|(t, s)| *t += value * s);
+            target.iter_mut().zip(across).for_each(|(t, s)| *t += value * s);
         }
     }
 

@@ -2,11 +2,10 @@
 
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
-use super::modal::{HeatBody, StageCoefficients, dot};
+use super::modal::{HeatBody, StageCoefficients};
 use super::streamline::Transport;
 use super::tridiagonal::TridiagonalFactor;
 use crate::heat::error::HeatError;
-use crate::heat::model::HeatFlows;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use nalgebra::linalg::LU;
 use nalgebra::{DMatrix, DVectorViewMut, Dyn};
@@ -32,7 +31,7 @@ const ACCEPTED: f64 = 1e-9;
 /// Stream, factors and coupling matrices of one body, and its buffers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BodyOperator {
-    transport: Transport,
+    pub(super) transport: Transport,
     /// Conduction alone; set where steel melts.
     still: Transport,
     factor: TridiagonalFactor,
@@ -47,7 +46,7 @@ pub(super) struct BodyOperator {
     /// Load at surface nodes.
     load: Vec<f64>,
     /// Field and its rate, summed along the streamlines.
-    sums: [Vec<f64>; 2],
+    pub(super) sums: [Vec<f64>; 2],
 }
 
 /// Speeds, conductance and coefficients that a matrix belongs to.
@@ -72,15 +71,15 @@ pub(super) struct Stage {
     conductance: Vec<[f64; 3]>,
     coefficients: Option<StageCoefficients>,
     curved: bool,
-    wheel: BodyOperator,
-    rail: BodyOperator,
+    pub(super) wheel: BodyOperator,
+    pub(super) rail: BodyOperator,
     /// Contact elements and nodes, counted from the first of the zone.
-    elements: Range<usize>,
+    pub(super) elements: Range<usize>,
     nodes: Range<usize>,
     /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature difference.
-    coupling: Option<LU<f64, Dyn, Dyn>>,
+    pub(super) coupling: Option<LU<f64, Dyn, Dyn>>,
     /// Temperature of the wheel less that of the rail at the contact nodes.
-    jump: Vec<f64>,
+    pub(super) jump: Vec<f64>,
     gmres: Gmres,
 }
 
@@ -182,9 +181,9 @@ impl Stage {
         load.resize(size + heat.rail.size(), 0.0);
         let (wheel, rail) = load.split_at_mut(size);
         let share = heat.config.thermal.wheel_share;
-        for (body, operator, share, sign, out) in
-            [(&heat.wheel, &mut self.wheel, share, -1.0, wheel), (&heat.rail, &mut self.rail, 1.0 - share, 1.0, rail)]
-        {
+        let bodies =
+            [(&heat.wheel, &mut self.wheel, share, -1.0, wheel), (&heat.rail, &mut self.rail, 1.0 - share, 1.0, rail)];
+        for ((body, operator, share, sign, out), radiation) in bodies.into_iter().zip(&loads.radiation) {
             let BodyOperator { transport, load: surface, .. } = operator;
             surface.clear();
             surface.resize(body.line.len(), 0.0);
@@ -195,12 +194,21 @@ impl Stage {
             for (e, q) in loads.reversible.iter().enumerate() {
                 transport.add_load(&body.line, first + e, q.map(|q| sign * q), surface);
             }
-            if body.line.closed > 0.0 {
+            body.add_surface_load(0, surface, out);
+            if body.line.closed > 0.0 && !loads.tread.is_empty() {
+                surface.fill(0.0);
                 for (e, q) in loads.tread.iter().enumerate() {
                     transport.add_load(&body.line, e, *q, surface);
                 }
+                body.add_load(0, surface, &body.modes.block, out);
             }
-            body.add_surface_load(0, surface, out);
+            if !radiation.load.is_empty() {
+                surface.fill(0.0);
+                for (e, h) in body.line.lengths.iter().enumerate() {
+                    transport.add_load(&body.line, e, [*h, 0.5 * h], surface);
+                }
+                body.add_load(0, surface, &radiation.load, out);
+            }
         }
     }
 
@@ -249,7 +257,7 @@ impl Stage {
     }
 
     /// Takes the temperature of the wheel less that of the rail at the contact nodes.
-    fn set_jump(&mut self, heat: &Heat, x: &[f64]) {
+    pub(super) fn set_jump(&mut self, heat: &Heat, x: &[f64]) {
         let (wheel, rail) = x.split_at(heat.wheel.size());
         let (at_wheel, at_rail) = (self.contact_nodes(&heat.wheel), self.contact_nodes(&heat.rail));
         heat.wheel.trace(at_wheel, wheel, &mut self.wheel.trace);
@@ -303,92 +311,6 @@ impl Stage {
             iterations: stopped.iterations,
             direct_below: CURVED_STEP,
         })
-    }
-
-    /// Adds `weight` times the heat flows of a stage to their mean.
-    pub fn add_flows(
-        &mut self,
-        heat: &Heat,
-        loads: &SurfaceLoads,
-        ends: &StageEnd,
-        weight: f64,
-        flows: &mut HeatFlows,
-    ) {
-        let StageEnd { temperature, content, rate } = *ends;
-        flows.friction += weight * loads.friction_heat();
-        flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
-        if self.coupling.is_some() {
-            self.set_jump(heat, temperature);
-            let moments = &loads.conductance[self.elements.clone()];
-            let through = moments.iter().zip(self.jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);
-            let reversible = loads.reversible.iter().map(|q| q[0]);
-            flows.conduction += weight * (through.sum::<f64>() + reversible.sum::<f64>());
-        }
-        let share = heat.config.thermal.wheel_share;
-        flows.to_wheel = share * flows.friction - flows.conduction;
-        flows.to_rail = (1.0 - share) * flows.friction + flows.conduction;
-        let size = heat.wheel.size();
-        let (now, held, change) = (temperature.split_at(size), content.split_at(size), rate.map(|r| r.split_at(size)));
-        let wheel = self.wheel.flows(&heat.wheel, now.0, held.0, change.map(|r| r.0));
-        flows.stored_wheel += weight * wheel.stored;
-        flows.wheel_to_air += weight * wheel.air;
-        flows.to_hub += if heat.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
-        let rail = self.rail.flows(&heat.rail, now.1, held.1, change.map(|r| r.1));
-        flows.stored_rail += weight * rail.stored;
-        flows.rail_to_air += weight * rail.air;
-        flows.outflow += weight * rail.out;
-    }
-}
-
-/// Both bodies at the end of a stage.
-#[derive(Clone, Copy)]
-pub(super) struct StageEnd<'a> {
-    /// Temperature.
-    pub temperature: &'a [f64],
-    /// Heat content over `ρc`: the temperature where nothing melts.
-    pub content: &'a [f64],
-    /// Its rate; `None`: it does not change.
-    pub rate: Option<&'a [f64]>,
-}
-
-/// Heat flows of one body [W/m].
-struct BodyFlows {
-    stored: f64,
-    air: f64,
-    /// Into the fixed nodes.
-    fixed: f64,
-    /// With the stream.
-    out: f64,
-}
-
-impl BodyOperator {
-    /// Flows at the temperatures `x` and heat contents `content` that change at the rates `rate`.
-    fn flows(&mut self, body: &HeatBody, x: &[f64], content: &[f64], rate: Option<&[f64]>) -> BodyFlows {
-        let modes = &body.modes;
-        let [now, change] = &mut self.sums;
-        body.integrate(x, now);
-        match rate {
-            Some(rate) => body.integrate(rate, change),
-            None => {
-                change.clear();
-                change.resize(modes.len(), 0.0);
-            }
-        }
-        let (mut stored, mut air, mut fixed) = (0.0, 0.0, 0.0);
-        for m in 0..modes.len() {
-            stored += body.heat_capacity * modes.content[m] * change[m];
-            let film = body.film * modes.surface[m] * now[m];
-            air += film;
-            // Residual of the energy balance tested with 1 at the free nodes: what reaches the fixed ones.
-            fixed += body.conductivity * modes.values[m] * modes.free[m] * now[m]
-                - film
-                - body.heat_capacity * (modes.content[m] - modes.free[m]) * change[m];
-        }
-        let out = self.transport.exit.map_or(0.0, |(node, flux)| {
-            let nm = modes.len();
-            flux * dot(&content[node * nm..(node + 1) * nm], &modes.content)
-        });
-        BodyFlows { stored, air, fixed, out }
     }
 }
 

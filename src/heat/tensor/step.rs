@@ -1,10 +1,11 @@
 //! One implicit step of both bodies, and their stationary state.
 
+use super::flows::StageEnd;
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::melt::Melt;
 use super::modal::{StageCoefficients, dot};
-use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageEnd, StageKey};
+use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageKey};
 use super::state::{BoundaryState, HeatState};
 use crate::heat::error::HeatError;
 use crate::heat::exchange::{Exchange, TreadHeat};
@@ -76,6 +77,7 @@ impl Heat {
             *scratch = Scratch { owner: Some(self.config.clone()), ..Scratch::default() };
         }
         self.set_loads(exchange, &mut scratch.loads)?;
+        self.set_radiation(state, dt, &mut scratch.loads.radiation);
         let now = boundary(speeds, &scratch.loads);
         next.coldest = self.coldest(state, exchange, &scratch.loads);
         let molten = |range: [f64; 2]| self.melting.filter(|melting| range[1] > melting.solidus);

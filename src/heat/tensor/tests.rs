@@ -3,6 +3,7 @@
 use super::depth_modes::DepthModes;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
+use super::section::Section;
 use super::stage::{Stage, StageKey};
 use super::streamline::{Streamline, Transport};
 use super::tridiagonal::TridiagonalFactor;
@@ -18,7 +19,7 @@ const STATIONARY: StageCoefficients = StageCoefficients { storage: 0.0, flow: 1.
 
 /// Annulus with fixed hub whose rim is held at the temperature of the air by a very large film coefficient.
 fn annulus(line: Streamline, layers: &[f64], film: f64) -> HeatBody {
-    let modes = DepthModes::new(layers, 1.0 / R, true, film / CONDUCTIVITY).unwrap();
+    let modes = DepthModes::new(&Section::even(layers.to_vec()), 1.0 / R, true, film / CONDUCTIVITY).unwrap();
     HeatBody { line, modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film }
 }
 
@@ -146,6 +147,7 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
         rail,
         material,
         thermal,
+        contact_width: 1.0,
         elements_per_half_width: 20,
         half_width,
         zone,
@@ -183,7 +185,7 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
 fn surface_response_equals_solutions_for_unit_loads() {
     let line = Streamline::around_contact(&[0.0, 1e-3, 2e-3, 3e-3], PI * R, 1.5, 0.15 * R, true);
     for omega in [0.0, 0.01, 30.0] {
-        let modes = DepthModes::new(&graded(1e-4, 1.8, 0.1, R - HUB), 1.0 / R, true, 0.0).unwrap();
+        let modes = DepthModes::new(&Section::even(graded(1e-4, 1.8, 0.1, R - HUB)), 1.0 / R, true, 0.0).unwrap();
         let body =
             HeatBody { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
         let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
@@ -213,7 +215,7 @@ fn surface_response_equals_solutions_for_unit_loads() {
 #[test]
 fn modes_of_an_insulated_plate_are_cosines() {
     let height = 0.1;
-    let modes = DepthModes::new(&graded(9e-6, 1.3, 0.05 * height, height), 0.0, false, 0.0).unwrap();
+    let modes = DepthModes::new(&Section::even(graded(9e-6, 1.3, 0.05 * height, height)), 0.0, false, 0.0).unwrap();
     assert_eq!(modes.values[0], 0.0);
     for n in 1..4 {
         let exact = (f64::from(n) * PI / height).powi(2);

@@ -82,6 +82,7 @@ pub fn heat_config(config: &Config, half_width: f64, zone: f64, reach: f64) -> H
         rail: config.rail.clone(),
         material: config.material.clone(),
         thermal: config.thermal.clone(),
+        contact_width: config.model.contact_width,
         elements_per_half_width: config.mesh.elements_per_half_width,
         half_width,
         zone,
