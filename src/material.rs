@@ -116,15 +116,18 @@ const CELSIUS_ZERO: f64 = 273.15;
 /// Temperature up to which steel keeps its yield strength \[K].
 pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 
-/// Share of the friction coefficient that remains on a surface at the absolute temperature `temperature` \[K]: 1 up to the
-/// solidus, `film` from the liquidus on, linear between.
+/// Share of the friction coefficient on a surface that may melt \[1], where the excess temperature over `reference` \[K] is
+/// the share times `heating` \[K].
 ///
-/// The molten steel of the asperities and then of a whole film is sheared instead of solid steel. With its viscosity of
-/// about 6 mPa s (literature), a film of 1 µm and 20 m/s carry 0.1 MPa, less than a thousandth of the contact pressure: what
-/// remains is a small number, and its size (`material.film_friction`) is judgement.
-pub fn film_friction(temperature: f64, material: &Material) -> f64 {
-    let molten = (temperature - material.solidus) / (material.liquidus - material.solidus);
-    1.0 - (1.0 - material.film_friction) * molten.clamp(0.0, 1.0)
+/// The share falls from 1 at the solidus to `material.film_friction` at the liquidus, linear between; what is returned is the
+/// one that belongs to its own temperature. Molten steel of the asperities and then of a whole film is sheared instead of
+/// solid steel. With its viscosity of about 6 mPa s (literature), a film of 1 µm and 20 m/s carry 0.1 MPa, less than a
+/// thousandth of the contact pressure: what remains is a small number, and its size is judgement.
+pub fn melted_share(heating: f64, reference: f64, material: &Material) -> f64 {
+    let &Material { solidus, liquidus, film_friction, .. } = material;
+    let fall = (1.0 - film_friction) / (liquidus - solidus);
+    let share = (1.0 + fall * (solidus - reference)) / (1.0 + fall * heating.max(0.0));
+    share.clamp(film_friction, 1.0)
 }
 
 #[cfg(test)]
@@ -143,9 +146,12 @@ mod tests {
     #[test]
     fn friction_falls_to_that_of_a_film_between_solidus_and_liquidus() {
         let material = Material { solidus: 1700.0, liquidus: 1800.0, film_friction: 0.1, ..Material::default() };
-        for (temperature, share) in [(300.0, 1.0), (1700.0, 1.0), (1750.0, 0.55), (1800.0, 0.1), (3000.0, 0.1)] {
-            assert!((film_friction(temperature, &material) - share).abs() < 1e-12);
+        for heating in [0.0, 1300.0, 1420.0, 2000.0, 1e4, 1e6] {
+            let share = melted_share(heating, 300.0, &material);
+            let molten = ((300.0 + share * heating - 1700.0) / 100.0).clamp(0.0, 1.0);
+            assert!((share - (1.0 - 0.9 * molten)).abs() < 1e-12, "{heating}: {share}");
         }
+        assert_eq!((melted_share(1400.0, 300.0, &material), melted_share(1e6, 300.0, &material)), (1.0, 0.1));
     }
 
     fn close(a: f64, b: f64) -> bool {

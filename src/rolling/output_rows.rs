@@ -214,6 +214,8 @@ outputs! {
         "Depth of the deepest permanent flattening of the wheel so far";
     712 flattening_rail: real "damage.flattening_rail", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
         "Depth of the deepest permanent flattening of the modelled piece of rail";
+    713 melted: real "damage.melted", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+        "Largest thickness of molten steel below the surface of wheel or rail so far";
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
         "Heat balance since the start: unaccounted heat over heat supplied";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,

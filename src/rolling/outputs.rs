@@ -94,6 +94,7 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         heat_conduction: width * flows.conduction,
         heat_to_hub: width * flows.to_hub,
         heat_to_air: width * flows.wheel_to_air,
+        melted: thermal.melted,
         heat_residual: ratio(thermal.supplied - thermal.received, thermal.supplied.abs()),
         austenitised_time: found.above_ac1,
         peak_temperature: damage.peak,

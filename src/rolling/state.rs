@@ -118,6 +118,8 @@ pub struct ThermalState {
     pub loaded_mean: [f64; 2],
     /// Mean of these over the friction coefficient \[K].
     pub heating: Heating,
+    /// Largest molten thickness so far \[m].
+    pub melted: f64,
     /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included \[K].
     pub surface: [Vec<f64>; 2],
     /// What the hot material has gone through.
@@ -150,11 +152,6 @@ impl Weakening {
         const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
         Self { strength: EMPTY, film: EMPTY, warmer_wheel: EMPTY }
     };
-
-    /// Becomes that of cold steel and keeps its memory.
-    pub fn clear(&mut self) {
-        [&mut self.strength, &mut self.film, &mut self.warmer_wheel].into_iter().for_each(Piecewise::clear);
-    }
 }
 
 /// Deformation by heat, as far as it acts on the contact.

@@ -9,6 +9,7 @@ mod exchange;
 mod history;
 mod smoothing;
 mod thermoelastic;
+mod weakening;
 
 use super::contact_model::ContactModel;
 use super::error::StepError;
@@ -18,7 +19,7 @@ use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
-use crate::material::{SOFTENS, yield_share};
+use crate::material::SOFTENS;
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
@@ -28,16 +29,13 @@ pub use history::criteria;
 use history::{MaterialHistory, Seen};
 use smoothing::Smoothing;
 use thermoelastic::Thermoelastic;
+use weakening::WeakSteel;
 
 /// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
 const AT_REST: f64 = 1e-3;
 /// Excess temperature of a wheel up to which the start knows what it warms in passing [K]: the layers of a wheel hotter than
 /// any steel tear the stationary contact apart.
 const HOTTEST_PASSING: f64 = 1000.0;
-
-/// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact is near
-/// its maximum, and a hotter but thinner skin does not yield on its own.
-const LOADED_DEPTH: f64 = 0.5;
 
 /// Share of the way that the feedback of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
 /// touches, steel shrinks, the edge recedes, and steel warms and swells again: one step later, so that the feedback of one step
@@ -59,8 +57,7 @@ pub struct ThermalModel {
     thermoelastic: Option<Thermoelastic>,
     /// Distance of the contact nodes [m].
     spacing: f64,
-    /// Unless `physics.yielding` is off.
-    yielding: bool,
+    weakening: WeakSteel,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
     history: MaterialHistory,
@@ -116,7 +113,7 @@ impl ThermalModel {
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
             spacing: margin,
-            yielding: config.physics.yielding,
+            weakening: WeakSteel::new(config),
             points: profile_points(zone),
         })
     }
@@ -176,11 +173,13 @@ impl ThermalModel {
     ) -> Result<ThermalState, StepError> {
         let HeatStep { dt, tread_heat, criteria } = step;
         let Scratch { heat, exchange, sight } = scratch;
+        thermal.weakening.film.clone_from(&before.weakening.film);
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
         self.observe(touch, &mut thermal, sight)?;
         thermal.heating.before = before.heating.now;
+        thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
         let seen = Seen { field: (&self.heat, &thermal.fields), observation: &sight.seen, zone: self.heat.zone_x() };
         self.history.advance(&mut thermal.damage, next, dt, criteria, touch, &seen);
@@ -233,24 +232,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weaken(touch.traction, thermal, seen)?;
-        Ok(())
-    }
-
-    /// What the temperatures leave of the strength of the steel under the contact.
-    fn weaken(&self, traction: &Traction, thermal: &mut ThermalState, seen: &mut Observation) -> Result<(), StepError> {
-        thermal.weakening.clear();
-        let hottest = thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
-        if !self.yielding || self.reference + hottest <= SOFTENS || traction.patches.is_empty() {
-            return Ok(());
-        }
-        let length: f64 = traction.patches.iter().map(|patch| patch.high - patch.low).sum();
-        self.heat.mean_over_depth(&thermal.fields, LOADED_DEPTH * 0.5 * length, &mut seen.core)?;
-        let [wheel, rail] = &seen.core;
-        for ((&x, wheel), rail) in self.heat.zone_x().iter().zip(wheel).zip(rail) {
-            thermal.weakening.strength.push(x, yield_share(self.reference + wheel.max(*rail)));
-            thermal.weakening.warmer_wheel.push(x, wheel - rail);
-        }
+        self.weakening.find(&self.heat, touch.traction, thermal, seen)?;
         Ok(())
     }
 

@@ -1,0 +1,83 @@
+//! What heat leaves of the steel under the contact: less strength deep below the surface, less friction where the surface melts.
+
+use crate::config::{Config, Material};
+use crate::contact::Traction;
+use crate::heat::{Heat, HeatModel, Observation};
+use crate::material::{SOFTENS, melted_share, yield_share};
+use crate::piecewise::{Piecewise, interpolate};
+use crate::rolling::error::StepError;
+use crate::rolling::state::ThermalState;
+
+/// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact is near
+/// its maximum, and a hotter but thinner skin does not yield on its own.
+const LOADED_DEPTH: f64 = 0.5;
+
+/// Share of friction below which temperatures say nothing about those without a film [1].
+const LEAST: f64 = 1e-3;
+
+/// How steel weakens.
+#[derive(Clone, Debug)]
+pub struct WeakSteel {
+    material: Material,
+    /// Absolute temperature of excess zero [K].
+    reference: f64,
+    /// Unless `physics.yielding` is off.
+    yields: bool,
+    /// Unless melting is left out.
+    melts: bool,
+}
+
+impl WeakSteel {
+    /// From the parameters.
+    pub fn new(config: &Config) -> Self {
+        let (material, reference) = (config.material.clone(), config.thermal.reference);
+        let melts = material.latent_heat > 0.0 && reference < material.solidus;
+        Self { melts, yields: config.physics.yielding, reference, material }
+    }
+
+    /// Fills `thermal.weakening` from the temperatures `seen`; its film is still that of the step before.
+    pub fn find(
+        &self,
+        heat: &Heat,
+        traction: &Traction,
+        thermal: &mut ThermalState,
+        seen: &mut Observation,
+    ) -> Result<(), StepError> {
+        let weakening = &mut thermal.weakening;
+        (weakening.strength.clear(), weakening.warmer_wheel.clear());
+        let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
+        if self.melts {
+            self.melt(heat.zone_x(), hottest, seen, &mut weakening.film);
+        }
+        if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
+            return Ok(());
+        }
+        let length: f64 = traction.patches.iter().map(|patch| patch.high - patch.low).sum();
+        heat.mean_over_depth(&thermal.fields, LOADED_DEPTH * 0.5 * length, &mut seen.core)?;
+        let [wheel, rail] = &seen.core;
+        for ((&x, wheel), rail) in heat.zone_x().iter().zip(wheel).zip(rail) {
+            weakening.strength.push(x, yield_share(self.reference + wheel.max(*rail)));
+            weakening.warmer_wheel.push(x, wheel - rail);
+        }
+        Ok(())
+    }
+
+    /// Share of friction on molten places in the coming step. The flash follows the friction at once, as in
+    /// [`crate::contact::Friction::local`]: the temperature at the end of the step is taken as proportional to the share, and
+    /// the share that belongs to its own temperature is found. A share from the temperature before would let the surface
+    /// overheat and freeze in turns.
+    fn melt(&self, x: &[f64], hottest: f64, seen: &Observation, film: &mut Piecewise) {
+        if film.is_empty() && hottest <= self.material.solidus {
+            return;
+        }
+        let before = std::mem::take(film);
+        let [wheel, rail] = &seen.surface;
+        for ((&x, wheel), rail) in x.iter().zip(wheel).zip(rail) {
+            let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, x) };
+            film.push(x, melted_share(wheel.max(*rail) / share.max(LEAST), self.reference, &self.material));
+        }
+        if film.value.iter().all(|share| *share == 1.0) {
+            film.clear();
+        }
+    }
+}
