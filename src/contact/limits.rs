@@ -10,7 +10,9 @@ pub struct Limits<'a> {
     pub pressure: f64,
     /// Viscosity of yielding steel: pressure above the limit per velocity with which the surface gives way [Pa s/m].
     pub viscosity: f64,
-    /// Share of it that remains, over x \[1]; empty: all of it.
+    /// Largest friction traction of yielding steel over its pressure \[1].
+    pub shear: f64,
+    /// Share of the largest pressure that remains, over x \[1]; empty: all of it.
     pub softened: &'a Piecewise,
     /// Share of the friction coefficient that remains where the surface melts, over x \[1]; empty: all of it.
     pub film: &'a Piecewise,
@@ -19,7 +21,7 @@ pub struct Limits<'a> {
 impl<'a> Limits<'a> {
     /// No limit at all; `all` is an empty function.
     pub fn none(all: &'a Piecewise) -> Self {
-        Self { pressure: f64::INFINITY, viscosity: 1.0, softened: all, film: all }
+        Self { pressure: f64::INFINITY, viscosity: 1.0, shear: f64::INFINITY, softened: all, film: all }
     }
 
     /// Whether the pressure is limited at all.

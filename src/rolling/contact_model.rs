@@ -8,7 +8,7 @@ use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
     Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
-use crate::material::INDENTATION;
+use crate::material::{INDENTATION, SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
@@ -118,6 +118,7 @@ impl ContactModel {
             limits: Limits {
                 pressure: self.yield_pressure,
                 viscosity: VISCOSITY,
+                shear: SHEAR,
                 softened: &step.weakening.strength,
                 film: &step.weakening.film,
             },

@@ -7,7 +7,6 @@ use super::streamline::Upwind;
 use crate::contact::problem::ContactProblem;
 use crate::contact::traction::Traction;
 use crate::linalg::DenseSystem;
-use crate::material::SHEAR;
 use nalgebra::DVector;
 
 /// Buffers of the solver on a grid; nothing in them outlives a solution.
@@ -102,7 +101,7 @@ impl Iterate<'_> {
     pub fn coefficient(&self, i: usize) -> f64 {
         let film = self.scratch.film.get(i).copied().unwrap_or(1.0);
         let coefficient = film * self.traction.friction;
-        if self.state.yielded[i] { coefficient.min(SHEAR) } else { coefficient }
+        if self.state.yielded[i] { coefficient.min(self.problem.limits.shear) } else { coefficient }
     }
 
     /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the turn against it.
