@@ -62,8 +62,9 @@ pub(super) struct AffineTurn {
     pub expected: f64,
 }
 
-/// Time that yielding steel has in a stationary state [s].
-const SETTLED: f64 = 1.0;
+/// How much softer than its surroundings a yielding node is in a stationary start [1]: much, but so little that the search
+/// for the start does not leap from patch to patch. The first steps of the run give the steel time to yield in full.
+const SOFTER: f64 = 100.0;
 
 /// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
 /// motions) hold the present iterate.
@@ -93,8 +94,12 @@ impl Iterate<'_> {
 
     /// Depth [m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
     pub fn creep(&self, i: usize) -> f64 {
-        let duration = if self.problem.duration > 0.0 { self.problem.duration } else { SETTLED };
-        duration / (self.problem.limits.viscosity * self.grid.width(i))
+        let (duration, port) = (self.problem.duration, self.grid.port(i) + 1);
+        if duration > 0.0 {
+            duration / (self.problem.limits.viscosity * self.grid.width(i))
+        } else {
+            SOFTER * self.problem.bodies.relative[(port, port)]
+        }
     }
 
     /// Friction force that candidate `i` can bear over its normal force [1].
