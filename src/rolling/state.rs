@@ -171,6 +171,16 @@ impl ThermalDeformation {
         const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
         Self { radius_growth: 0.0, swelling: [EMPTY, EMPTY], membrane_force: [EMPTY, EMPTY] }
     };
+
+    /// Moves it by `share` of the way from `before` to where it is.
+    pub fn average(&mut self, before: &Self, share: f64) {
+        let mix = |now: &mut f64, before: f64| *now = before + share * (*now - before);
+        mix(&mut self.radius_growth, before.radius_growth);
+        let layers = self.swelling.iter_mut().chain(&mut self.membrane_force);
+        for (now, before) in layers.zip(before.swelling.iter().chain(&before.membrane_force)) {
+            now.value.iter_mut().zip(&before.value).for_each(|(now, before)| mix(now, *before));
+        }
+    }
 }
 
 /// What the control of the step size remembers.

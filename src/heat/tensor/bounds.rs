@@ -72,6 +72,7 @@ impl Heat {
     pub(super) fn lift(&self, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
         let HeatState { field, coldest, range, .. } = state;
         let (wheel, rail) = field.split_at_mut(self.wheel.size());
+        let mut lifted = true;
         for (body, nodal, field) in [(&self.wheel, &self.nodal[0], wheel), (&self.rail, &self.nodal[1], rail)] {
             values.resize(nodal.len(), 0.0);
             if affords(body, nodal, field, *coldest, values) {
@@ -79,10 +80,12 @@ impl Heat {
             } else if range[0] < *coldest - TOLERATED {
                 return Err(HeatError::Undershoot { lowest: range[0], coldest: *coldest });
             } else {
-                return Ok(());
+                lifted = false;
             }
         }
-        range[0] = *coldest;
+        if lifted {
+            range[0] = *coldest;
+        }
         Ok(())
     }
 }

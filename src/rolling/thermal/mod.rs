@@ -37,7 +37,7 @@ const AT_REST: f64 = 1e-3;
 /// any steel tear the stationary contact apart.
 const HOTTEST_PASSING: f64 = 1000.0;
 
-/// Share of the way that the feedback of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
+/// Share of the way that the deformation of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
 /// touches, steel shrinks, the edge recedes, and steel warms and swells again: one step later, so that the feedback of one step
 /// on the next is below −1 and whole swellings would flip from step to step. Half of the way it is below −3 that they do.
 const DAMPED: f64 = 0.25;
@@ -185,7 +185,7 @@ impl ThermalModel {
         self.history.advance(&mut thermal.damage, next, dt, criteria, touch, &seen);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
-            self.average(&mut thermal, before, DAMPED);
+            thermal.deformation.average(&before.deformation, DAMPED);
         }
         thermal.supplied = before.supplied + dt * supplied(&thermal.flows);
         thermal.received = before.received + dt * received(&thermal.flows);
@@ -242,12 +242,7 @@ impl ThermalModel {
         let Heating { now, before: earlier } = &mut thermal.heating;
         mix(now, before.heating.now);
         mix(earlier, before.heating.before);
-        let (ours, theirs) = (&mut thermal.deformation, &before.deformation);
-        mix(&mut ours.radius_growth, theirs.radius_growth);
-        let layers = ours.swelling.iter_mut().chain(&mut ours.membrane_force);
-        for (now, before) in layers.zip(theirs.swelling.iter().chain(&theirs.membrane_force)) {
-            now.value.iter_mut().zip(&before.value).for_each(|(now, before)| mix(now, *before));
-        }
+        thermal.deformation.average(&before.deformation, share);
     }
 
     /// Whether temperatures have the dimensions of this model.
