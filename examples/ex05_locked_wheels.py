@@ -6,7 +6,7 @@
 A wheel rolls, its rotation is stopped within 20 ms while the vehicle goes on, and it slides. Every run is one call of the
 command line, two at a time. Printed for each run:
 
-    p max, p end   highest peak pressure, and that of the end, in MPa
+    p max, p mean  highest peak pressure, and its mean in time while locked, in MPa
     T max          highest surface temperature of wheel and rail in the contact, in °C
     force, mu      mean tangential force while locked in kN, and mean friction coefficient: force over load
     signs          share of the steps whose change of the wheel's temperature has the other sign than that before (both more
@@ -92,7 +92,7 @@ def figures(table, austenitisation):
     divided = [n > 1 for n in table["solver.internal_steps"]]
     found = {
         "p max": max(table["contact.pressure_max"]),
-        "p end": table["contact.pressure_max"][-1],
+        "p mean": mean("contact.pressure_max"),
         "T max": max(hottest) - KELVIN,
         "force": force,
         "mu": force / mean("contact.force_y") if late else 0.0,
@@ -151,7 +151,7 @@ class Binary:
 
 
 HEAD = (
-    f"{'km/h':>5} {'step':>8} {'mesh':>5} {'p max':>8} {'p end':>8} {'T max':>8} {'force':>7} {'mu':>7} {'signs':>6} "
+    f"{'km/h':>5} {'step':>8} {'mesh':>5} {'p max':>8} {'p mean':>8} {'T max':>8} {'force':>7} {'mu':>7} {'signs':>6} "
     f"{'energy':>7} {'Ac1':>6} {'halved':>6} {'wall':>6}"
 )
 
@@ -162,13 +162,13 @@ def line(r):
     ended = f"  ended at {r['end']:.4g} s: {r['error'][:150]}" if r["error"] else ""
     extra = "".join(f"  {name.split('.')[1]} {r[name]:.3g}" for name in IF_THERE if name in r)
     return (
-        f"{r['speed']:5g} {r['step'] * 1e3:5g} ms {r['elements']:5d} {r['p max'] / 1e6:8.0f} {r['p end'] / 1e6:8.0f} "
+        f"{r['speed']:5g} {r['step'] * 1e3:5g} ms {r['elements']:5d} {r['p max'] / 1e6:8.0f} {r['p mean'] / 1e6:8.0f} "
         f"{r['T max']:8.0f} {r['force'] / 1e3:7.3f} {r['mu']:7.4f} {r['signs'] * 100:6.1f} {r['energy'] * 100:7.3f} "
         f"{ac1:>6} {r['halved'] * 100:6.2f} {r['wall']:6.1f}{extra}{ended}"
     )
 
 
-def spread(runs, names=("p max", "T max", "force")):
+def spread(runs, names=("p max", "p mean", "T max", "force")):
     """Largest distance of each figure from that of the finest run, over the latter, and that run; of runs that reached
     their end, if there are any."""
     runs = [r for r in runs if not r["error"]]
