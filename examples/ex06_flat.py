@@ -57,10 +57,10 @@ GALTON = ((7, 14, 27, 34, 41, 55, 60), (0.088, 0.072, 0.070, 0.065, 0.057, 0.038
 MPH = 1.609344 / 3.6  # m/s
 
 # Half-plane of the independent computation.
-SPACING = 1e-4  # m
+SPACING = 2e-4  # m
 WIDTH = 0.030  # m
 DEPTH = 0.015  # m
-SHOWN = (0.0, 0.25e-3, 0.5e-3, 1e-3, 2e-3, 4e-3)  # m, depths drawn over time
+SHOWN = (0.0, 0.4e-3, 1e-3, 2e-3, 4e-3)  # m, depths drawn over time, multiples of the spacing
 
 
 def steel(wheel, name):
