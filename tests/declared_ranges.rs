@@ -119,6 +119,7 @@ fn materials_at_both_ends_of_the_stiffness_roll() {
     for (modulus, velocity) in [(1e5, 0.1), (1e13, 27.0)] {
         let mut config = coarse("railway");
         config.model.nominal_load *= modulus / config.material.youngs_modulus;
+        config.material.yield_strength *= modulus / config.material.youngs_modulus;
         (config.material.youngs_modulus, config.initial.velocity) = (modulus, velocity);
         assert_eq!(rolls(&config), Ok(()), "material.youngs_modulus = {modulus}");
     }
