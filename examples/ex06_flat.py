@@ -10,6 +10,8 @@
 5. A table compares with what was published. Every number has its source, and says what is judgement.
 6. Results become a CSV and a plot.
 
+7. The run is repeated with half the step, and with spots of half the elements and steps: what is found must not change.
+
 Outputs that the FMU does not have (`damage.*` of an older one) are left out.
 """
 
@@ -36,13 +38,18 @@ DAMAGE = (
     "damage.peak_temperature", "damage.flattening", "damage.yielded", "damage.melted", "damage.ac1_depth",
     "damage.cooling_rate", "damage.martensite_depth", "damage.time_above_ac1", "damage.rail_peak", "damage.rail_heat",
 )  # fmt: skip
+# What is left of the slide, which must be independent of step and mesh.
+LEFT = (
+    "damage.peak_temperature", "damage.ac1_depth", "damage.cooling_rate", "damage.martensite_depth",
+    "damage.time_above_ac1", "damage.flattening",
+)  # fmt: skip
+CONVERGED = 0.05  # change of these
 
-# Start of the martensite transformation [K], Andrews' formula 539 - 423 C - 30.4 Mn - 17.7 Ni - 12.1 Cr - 7.5 Mo [°C] for
-# an ASSUMED wheel steel 0.50 C 0.75 Mn 0.25 Cr 0.35 Si: 302 °C. The formula was read in a second source.
-MARTENSITE_START = 302.0 + KELVIN
-# Cooling from 800 to 500 °C slower than this [K/s] gives pearlite: JUDGEMENT, the usual order for such a steel (10 to 50 K/s);
-# no value was found for wheel steel.
-CRITICAL_RATE = 30.0
+# Steel of the independent computation, if the FMU has no parameters for it: start of the martensite transformation [K] by
+# Andrews' formula 539 - 423 C - 30.4 Mn - 17.7 Ni - 12.1 Cr - 7.5 Mo [°C] (read in a second source) for an ASSUMED wheel
+# steel 0.50 C 0.75 Mn 0.25 Cr 0.35 Si; cooling from 800 to 500 °C [K/s] from which no pearlite forms: JUDGEMENT, no value was
+# found for wheel steel.
+STEEL = {"damage.martensite_start": 302.0 + KELVIN, "damage.critical_cooling": 50.0}
 # Coefficient of Koistinen and Marburger, 1 - exp(-b (Ms - T)) [1/K]: the form was read, the value is from memory.
 KOISTINEN = 0.011
 # Galton 1878, steel on steel, mph and friction coefficient: FROM MEMORY.
@@ -50,10 +57,15 @@ GALTON = ((7, 14, 27, 34, 41, 55, 60), (0.088, 0.072, 0.070, 0.065, 0.057, 0.038
 MPH = 1.609344 / 3.6  # m/s
 
 # Half-plane of the independent computation.
-SPACING = 1e-4  # m
+SPACING = 2e-4  # m
 WIDTH = 0.030  # m
 DEPTH = 0.015  # m
-SHOWN = (0.0, 0.25e-3, 0.5e-3, 1e-3, 2e-3, 4e-3)  # m, depths drawn over time
+SHOWN = (0.0, 0.4e-3, 1e-3, 2e-3, 4e-3)  # m, depths drawn over time, multiples of the spacing
+
+
+def steel(wheel, name):
+    """A property of the steel, as the FMU has it."""
+    return wheel.get(name) if name in wheel.fmu.variables else STEEL[name]
 
 
 class Slide:
@@ -154,9 +166,9 @@ def depth_of(z, values, limit):
     return z[i] if i + 1 == len(z) else z[i] + (z[i + 1] - z[i]) * (values[i] - limit) / (values[i] - values[i + 1])
 
 
-def martensite(temperature):
-    """Share of martensite at a temperature [K] after quenching."""
-    return 1.0 - np.exp(-KOISTINEN * np.maximum(0.0, MARTENSITE_START - temperature))
+def martensite(temperature, start):
+    """Share of martensite at a temperature [K] after quenching, if it starts to form at `start` [K]."""
+    return 1.0 - np.exp(-KOISTINEN * np.maximum(0.0, start - temperature))
 
 
 def summary(slide, table, cooled, wheel):
@@ -168,7 +180,8 @@ def summary(slide, table, cooled, wheel):
     friction = -force.mean() / load.mean()
     austenitisation = wheel.get("thermal.austenitisation")
     _, _, z, peak, rate = cooled
-    hardened = np.where((peak >= austenitisation) & (rate > CRITICAL_RATE), peak, 0.0)
+    critical, start = (steel(wheel, name) for name in ("damage.critical_cooling", "damage.martensite_start"))
+    hardened = np.where((peak >= austenitisation) & (rate > critical), peak, 0.0)
     radius = wheel.get("wheel.radius")
     mph = options.speed_kmh / 3.6 / MPH
     rows = [
@@ -180,9 +193,9 @@ def summary(slide, table, cooled, wheel):
         ("highest peak pressure", slide.column(table, "contact.pressure_max").max() / 1e6, "MPa", "model"),
         ("depth above Ac1", depth_of(z, peak, austenitisation) * 1e3, "mm", "conduction in a half-plane"),
         ("cooling rate of the surface, 800 to 500 °C", rate[1], "K/s", "conduction in a half-plane"),
-        ("critical cooling rate", CRITICAL_RATE, "K/s", "judgement"),
+        ("critical cooling rate", critical, "K/s", "judgement"),
         ("depth of martensite", depth_of(z, hardened, austenitisation) * 1e3, "mm", "conduction in a half-plane"),
-        ("share of martensite after cooling", martensite(wheel.get("thermal.reference")) * 100, "%", "from memory"),
+        ("share of martensite after cooling", martensite(wheel.get("thermal.reference"), start) * 100, "%", "from memory"),
     ]
     scale = {"K": (1.0, "K"), "m": (1e3, "mm")}
     for name in DAMAGE:
@@ -203,7 +216,7 @@ def observations(slide, table, cooled, wheel):
     depth = slide.column(table, "damage.martensite_depth")
     hard = depth.max() if depth is not None else 0.0
     _, _, z, peak, rate = cooled
-    alone = depth_of(z, np.where(rate > CRITICAL_RATE, peak, 0.0), wheel.get("thermal.austenitisation"))
+    alone = depth_of(z, np.where(rate > steel(wheel, "damage.critical_cooling"), peak, 0.0), wheel.get("thermal.austenitisation"))
     found = "yes" if max(hard, alone) > 0.0 else "no"
     return (
         ("martensite beneath all of more than 200 flats (Silinge 1996, abstract of Proc. IMechE F 213, read)", found),
@@ -211,6 +224,39 @@ def observations(slide, table, cooled, wheel):
         ("length and depth of the flats over load, speed and time (the same)", "not found, not compared"),
         ("friction falls with speed and sliding time (Galton 1878, read)", "see the friction over time in the plot"),
     )
+
+
+def left(slide, table):
+    """What is left at the end, by name."""
+    found = ((name, slide.column(table, name)) for name in LEFT)
+    return {name: values[-1] for name, values in found if values is not None}
+
+
+def repeated(fmu, options, changes, step):
+    """What is left of the same slide with other parameters and another step [s]."""
+    options = argparse.Namespace(**(vars(options) | {"step": step}))
+    with start(fmu, options, changes) as wheel:
+        slide = Slide(wheel, options)
+        return left(slide, slide.run())
+
+
+def convergence(fmu, options, usual):
+    """Prints what is left with finer spots and shorter steps; returns the largest change, over the finer one."""
+    cases = [("half the step", {}, 0.5 * options.step)]
+    if "damage.resolution" in fmu.variables:
+        cases.append(("spots twice as fine", {"damage.resolution": 0.5}, options.step))
+    found = [("as above", usual)] + [(name, repeated(fmu, options, *case)) for name, *case in cases]
+    print("\nConvergence (change against the finer one)")
+    worst = 0.0
+    for key in usual:
+        line = f"  {key:<26}{usual[key]:>12.5g}"
+        for name, values in found[1:]:
+            change = abs(usual[key] / values[key] - 1.0) if values[key] else abs(usual[key])
+            worst = max(worst, change)
+            line += f"   {name} {values[key]:.5g} ({change:.2%})"
+        print(line)
+    print(f"  {'converged' if worst <= CONVERGED else 'NOT CONVERGED'} within {CONVERGED:.0%}: at most {worst:.2%}")
+    return worst
 
 
 def plot(path, slide, table, cooled, wheel):
@@ -261,9 +307,10 @@ def plot(path, slide, table, cooled, wheel):
     for k, depth in enumerate(SHOWN):
         axis.plot(times, record[:, k] - KELVIN, color=shades[k], label=f"{depth * 1e3:g} mm")
     axis.axhline(austenitisation, color=grey, ls=":")
-    axis.axhline(MARTENSITE_START - KELVIN, color=grey, ls="--")
+    start = steel(wheel, "damage.martensite_start") - KELVIN
+    axis.axhline(start, color=grey, ls="--")
     axis.text(times[-1], austenitisation, "Ac1", color=grey, ha="right", va="bottom")
-    axis.text(times[-1], MARTENSITE_START - KELVIN, "Ms", color=grey, ha="right", va="bottom")
+    axis.text(times[-1], start, "Ms", color=grey, ha="right", va="bottom")
     axis.set(title="Temperature in the depth (half-plane)", ylabel="°C", xlabel="time [s]")
     axis.legend()
 
@@ -300,14 +347,20 @@ def arguments():
     parser.add_argument("--slide", type=float, default=2.0, help="time for which the wheel is locked [s]")
     parser.add_argument("--roll", type=float, default=10.0, help="time for which it rolls on [s]")
     parser.add_argument("--preset", default="railway", help="parameter set, default %(default)s")
+    parser.add_argument("--once", action="store_true", help="leave out the runs that show convergence")
     return parser.parse_args()
+
+
+def start(fmu, options, changes=None):
+    """A wheel that rolls at the speed of the options."""
+    parameters = {"preset": options.preset, "initial.velocity": options.speed_kmh / 3.6} | (changes or {})
+    inputs = {"control.rotation": "velocity", "control.translation": "velocity"}
+    return Wheel(fmu, parameters, inputs, name="flat")
 
 
 def run(options):
     """The slide, its flat and their comparison."""
-    parameters = {"preset": options.preset, "initial.velocity": options.speed_kmh / 3.6}
-    inputs = {"control.rotation": "velocity", "control.translation": "velocity"}
-    with Fmu(options.fmu) as fmu, Wheel(fmu, parameters, inputs, name="flat") as wheel:
+    with Fmu(options.fmu) as fmu, start(fmu, options) as wheel:
         slide = Slide(wheel, options)
         table = slide.run()
         cooled = conduct(slide, wheel, LOCK + options.slide + options.roll)
@@ -324,6 +377,8 @@ def run(options):
             writer.writerow(("time", *slide.columns))
             writer.writerows([f"{value:.9g}" for value in row] for row in table)
         plot(picture, slide, table, cooled, wheel)
+        if not options.once:
+            convergence(fmu, options, left(slide, table))
         print(f"\nwritten: {data}, {picture}")
 
 

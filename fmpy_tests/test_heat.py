@@ -55,11 +55,11 @@ def test_brake_heat_warms_the_tread_and_the_wheel_grows(start):
     wheel.set({"drive.tread_heat": 50e3})
     for _ in range(50):
         wheel.step(0.1)
-    # 250 kJ in 72 kg of steel with 470 J/(kg K), less what the rail takes.
+    # 250 kJ in 311 kg of steel with 470 J/(kg K), rim, web and boss, less what the rail takes. A free wheel grows.
     rise = wheel.get("temperature.wheel_bulk") - bulk
-    assert 5.0 < rise < 250e3 / 72.3 / 470.0
+    assert 1.5 < rise < 250e3 / 311.0 / 470.0
     growth = wheel.get("thermal.growth") - cold
-    assert growth == pytest.approx(1.3 * 1.2e-5 * rise * 0.46, rel=0.05)
+    assert growth == pytest.approx(1.2e-5 * rise * 0.46, rel=0.01)
     assert abs(wheel.get("solver.heat_residual")) < 1e-6
 
 

@@ -40,7 +40,7 @@ macro_rules! theory {
 }
 
 /// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 13] = theory![
+const THEORY: [(&str, &[u8]); 16] = theory![
     "README.md",
     "ale-balance.md",
     "condensation.md",
@@ -52,8 +52,11 @@ const THEORY: [(&str, &[u8]); 13] = theory![
     "friction-and-coupling.md",
     "heat.md",
     "kernel-correction.md",
+    "limits-of-steel.md",
+    "material-history.md",
     "time-formula.md",
     "track-support.md",
+    "width-of-conduction.md",
 ];
 
 /// Platforms of FMI 2.0 and the extension of their shared libraries.

@@ -1,0 +1,119 @@
+//! A dry wheel that is locked while the vehicle goes on: what its steel bears, whatever the step and the mesh.
+//!
+//! In small what `examples/ex05_locked_wheels.py` shows for two seconds, five speeds, three steps and three meshes.
+
+mod common;
+
+use common::{KMH, model, preset};
+use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
+
+/// Time in which the rotation is stopped [s].
+const LOCK: f64 = 0.02;
+/// End of the slide [s].
+const END: f64 = 0.3;
+/// Time from which on the slide counts [s].
+const SETTLED: f64 = 0.05;
+/// `(2 + π)/√3`.
+const INDENTATION: f64 = 2.968_449_6;
+
+/// What a slide shows.
+#[derive(Debug)]
+struct Slide {
+    /// Highest pressure over that at which cold steel flows [1].
+    pressure: f64,
+    /// Mean of the pressure peak in time while it slides [Pa].
+    mean_pressure: f64,
+    /// Highest temperature of wheel and rail [K].
+    temperature: f64,
+    /// The same over the liquidus [K].
+    superheat: f64,
+    /// Mean force while it slides [N].
+    force: f64,
+    /// Time from the start of braking to Ac1 [s].
+    austenitic: f64,
+    /// Residual of the energy audit at the end [1].
+    residual: f64,
+}
+
+/// Locks the default wheel at a speed [m/s] and slides with steps of `h` [s].
+fn slide(elements: usize, speed: f64, h: f64) -> Slide {
+    let mut config = preset("railway", elements);
+    config.initial.velocity = speed;
+    let austenitisation = config.tuning.austenitisation;
+    let (limit, liquidus) = (INDENTATION * config.material.yield_strength, config.material.liquidus);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+    let omega = inputs.drive.omega;
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let mut seen = Slide {
+        pressure: 0.0,
+        mean_pressure: 0.0,
+        temperature: 0.0,
+        superheat: f64::NEG_INFINITY,
+        force: 0.0,
+        austenitic: f64::INFINITY,
+        residual: 0.0,
+    };
+    for k in 1..=(END / h).round() as usize {
+        let time = k as f64 * h;
+        inputs.drive.omega = omega * (1.0 - time / LOCK).max(0.0);
+        simulation.advance(&inputs, h).unwrap_or_else(|error| panic!("at {time} s with steps of {h} s: {error}"));
+        let o = simulation.outputs();
+        let hottest = o.temperature_wheel_max.max(o.temperature_rail_max);
+        seen.pressure = seen.pressure.max(o.contact_pressure_max / limit);
+        seen.temperature = seen.temperature.max(hottest);
+        seen.superheat = seen.superheat.max(hottest - liquidus);
+        if hottest >= austenitisation {
+            seen.austenitic = seen.austenitic.min(time);
+        }
+        if time > SETTLED {
+            seen.force += o.contact_force_x * h / (END - SETTLED);
+            seen.mean_pressure += o.contact_pressure_max * h / (END - SETTLED);
+        }
+        seen.residual = o.energy_residual;
+    }
+    seen
+}
+
+fn differ(a: f64, b: f64) -> f64 {
+    (a / b - 1.0).abs()
+}
+
+#[test]
+fn a_locked_dry_wheel_keeps_the_limits_of_its_steel_whatever_the_step() {
+    for speed in [60.0, 160.0] {
+        let mut meshes = Vec::new();
+        for elements in [6, 10] {
+            let [long, short] = [1e-3, 2e-4].map(|h| slide(elements, speed * KMH, h));
+            for (name, s) in [("1 ms  ", &long), ("0.2 ms", &short)] {
+                println!(
+                    "{speed} km/h, {elements} elements, {name}: pressure {:.4} of the limit, mean {:.1} MPa, {:.0} degC, \
+                     {:.1} N, Ac1 after {:.1} ms, residual {:.1e}",
+                    s.pressure,
+                    s.mean_pressure / 1e6,
+                    s.temperature - 273.15,
+                    s.force,
+                    1e3 * s.austenitic,
+                    s.residual
+                );
+                assert!(s.pressure <= 1.0 + 1e-9 && s.residual.abs() < 0.01, "{s:?}");
+                assert!(s.superheat < 50.0, "{s:?}");
+                assert!(speed != 60.0 || (1e-3..30e-3).contains(&s.austenitic), "{s:?}");
+            }
+            let changes = [
+                differ(long.force, short.force),
+                differ(long.temperature, short.temperature),
+                differ(long.pressure, short.pressure),
+                differ(long.mean_pressure, short.mean_pressure),
+            ];
+            println!("changes of force, temperature, pressure and its mean: {changes:.4?}");
+            assert!(changes.iter().all(|change| *change < 0.05), "{changes:?}");
+            meshes.push(short);
+        }
+        // The pressure at its highest place grows with the mesh (docs/validation.md); force and temperature do not.
+        let changes = [differ(meshes[0].force, meshes[1].force), differ(meshes[0].temperature, meshes[1].temperature)];
+        println!("changes of force and temperature by the mesh: {changes:.4?}");
+        assert!(changes.iter().all(|change| *change < 0.05), "{changes:?}");
+    }
+}
