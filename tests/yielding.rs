@@ -167,7 +167,7 @@ fn a_flattened_wheel_sinks_with_every_turn_and_rolls_without_loss() {
 fn dent(simulation: &Simulation) -> Vec<[f64; 2]> {
     let state = simulation.state();
     let at = |&x: &f64| [x, state.flattening[0].depth(state.angle * simulation.model().config().wheel.radius + x)];
-    state.contact.traction.overlap.x.iter().map(at).collect()
+    state.contact.traction.pressure.x.iter().map(at).collect()
 }
 
 /// Steel of 60 MPa bears 178 MPa, so that 100 kN on 14 mm need a patch of ±20 mm, more than twice as wide as the narrow zone.

@@ -296,7 +296,8 @@ mod tests {
             let cells: Vec<f64> = x.windows(2).map(|x| (x[1] - x[0]) / zone.half_width).collect();
             println!("{elements} elements per half-width: the largest cell has {:.3}", cells[0]);
             assert!(cells.windows(2).all(|pair| (pair[1] / pair[0]).ln().abs() < 1.02 * GROWTH.ln()));
-            assert!(cells[0] < 9.0 / elements as f64 && (x[0] / zone.half_width + 5.5).abs() < 1e-12);
+            // On the finest of them the cells grow by no less than 7 %.
+            assert!(cells[0] < 12.0 / elements as f64 && (x[0] / zone.half_width + 5.5).abs() < 1e-12);
             assert!(x.iter().zip(x.iter().rev()).all(|(a, b)| a + b == 0.0));
         }
     }
