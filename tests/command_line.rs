@@ -239,7 +239,7 @@ fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
 
 #[test]
 fn failed_runs_end_with_code_1_and_keep_what_was_computed() {
-    let overload = file("overload", "time,drive.load\n0,1e5\n0.002,1e5\n0.01,9e5\n");
+    let overload = file("overload", "time,drive.load\n0,1e5\n0.002,1e5\n0.01,9e6\n");
     let mut arguments = vec!["simulate", "--scenario", &overload];
     arguments.extend(SMALL);
     let output = wheelrail(&arguments);

@@ -113,14 +113,13 @@ fn wheels_of_every_size_roll() {
     assert_eq!(rolls(&disc), Ok(()));
 }
 
-/// Soft and hard materials under loads that press the same patch, and as strong as they are stiff.
+/// Soft and hard materials under loads that press the same patch.
 #[test]
 fn materials_at_both_ends_of_the_stiffness_roll() {
     for (modulus, velocity) in [(1e5, 0.1), (1e13, 27.0)] {
         let mut config = coarse("railway");
-        let scale = modulus / config.material.youngs_modulus;
-        config.model.nominal_load *= scale;
-        config.material.yield_strength = (scale * config.material.yield_strength).max(1e5);
+        config.model.nominal_load *= modulus / config.material.youngs_modulus;
+        config.material.yield_strength *= modulus / config.material.youngs_modulus;
         (config.material.youngs_modulus, config.initial.velocity) = (modulus, velocity);
         assert_eq!(rolls(&config), Ok(()), "material.youngs_modulus = {modulus}");
     }

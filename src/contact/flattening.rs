@@ -148,7 +148,7 @@ mod tests {
         let mut rail = Flattening::none(0.0);
         rail.press(3.0, &hat(0.0), H);
         rail.press(3.0, &hat(0.0), H);
-        assert!((rail.depth(3.0) - 2e-5).abs() < 1e-18 && (rail.depth(3.0 + 0.5 * H) - 1e-5).abs() < 1e-15);
+        assert!((rail.depth(3.0) - 2e-5).abs() < 1e-17 && (rail.depth(3.0 + 0.5 * H) - 1e-5).abs() < 1e-15);
         assert_eq!((rail.depth(3.0 + 2.5 * H), rail.depth(2.9), rail.len()), (0.0, 0.0, 1));
         rail.press(3.0, &hat(2.0 * H), H);
         assert!((rail.depth(3.0 + 2.0 * H) - 1e-5).abs() < 1e-12 && (rail.depth(3.0) - 2e-5).abs() < 1e-12);

@@ -8,9 +8,13 @@ use crate::piecewise::{Piecewise, interpolate};
 pub struct Limits<'a> {
     /// Largest pressure of cold steel \[Pa]; infinite: it does not yield.
     pub pressure: f64,
+    /// Smallest largest pressure \[Pa]: steel that bears less would spread beyond the contact zone.
+    pub least: f64,
     /// Viscosity of yielding steel: pressure above the limit per velocity with which the surface gives way [Pa s/m].
     pub viscosity: f64,
-    /// Share of it that remains, over x \[1]; empty: all of it.
+    /// Largest friction traction of yielding steel over its pressure \[1].
+    pub shear: f64,
+    /// Share of the largest pressure that remains, over x \[1]; empty: all of it.
     pub softened: &'a Piecewise,
     /// Share of the friction coefficient that remains where the surface melts, over x \[1]; empty: all of it.
     pub film: &'a Piecewise,
@@ -19,7 +23,7 @@ pub struct Limits<'a> {
 impl<'a> Limits<'a> {
     /// No limit at all; `all` is an empty function.
     pub fn none(all: &'a Piecewise) -> Self {
-        Self { pressure: f64::INFINITY, viscosity: 1.0, softened: all, film: all }
+        Self { pressure: f64::INFINITY, least: 0.0, viscosity: 1.0, shear: f64::INFINITY, softened: all, film: all }
     }
 
     /// Whether the pressure is limited at all.
@@ -34,10 +38,8 @@ impl<'a> Limits<'a> {
 
     /// Largest pressure at `x` \[m] \[Pa].
     pub fn pressure_at(&self, x: f64) -> f64 {
-        if self.softened.is_empty() {
-            self.pressure
-        } else {
-            self.pressure * interpolate(&self.softened.x, &self.softened.value, x)
-        }
+        let softened = || interpolate(&self.softened.x, &self.softened.value, x);
+        let pressure = if self.softened.is_empty() { self.pressure } else { self.pressure * softened() };
+        pressure.max(self.least)
     }
 }

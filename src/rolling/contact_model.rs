@@ -8,7 +8,7 @@ use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
     Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
-use crate::material::INDENTATION;
+use crate::material::{INDENTATION, SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
@@ -27,6 +27,8 @@ pub struct ContactModel {
     width: f64,
     /// Pressure at which cold steel yields [Pa]; infinite: never.
     yield_pressure: f64,
+    /// Distance from the contact point up to which contact is looked for at all [m].
+    reach: f64,
 }
 
 /// Everything that distinguishes one contact problem of a model from another.
@@ -56,8 +58,8 @@ pub struct ContactStep<'a> {
 }
 
 impl ContactModel {
-    /// A round wheel on a plane rail.
-    pub fn new(config: &Config, solver: Box<dyn ContactSolver>) -> Self {
+    /// A round wheel on a plane rail, which may touch up to `reach` \[m] from the contact point.
+    pub fn new(config: &Config, solver: Box<dyn ContactSolver>, reach: f64) -> Self {
         let surfaces = Surfaces::smooth(config.wheel.radius);
         Self {
             surfaces,
@@ -69,7 +71,24 @@ impl ContactModel {
                 true => INDENTATION * config.material.yield_strength,
                 false => f64::INFINITY,
             },
+            reach,
         }
+    }
+
+    /// Smallest pressure under which the steel of the present contact would yield, and the smallest that is used \[Pa]; zero
+    /// and zero while nothing yields.
+    pub fn softest(&self, state: &State) -> [f64; 2] {
+        let traction = &state.contact.traction;
+        let (Some(patch), true) = (traction.extent(), traction.yielding > 0.0) else { return [0.0; 2] };
+        let strength = &state.weakening().strength;
+        let within = strength.x.iter().zip(&strength.value).filter(|(x, _)| **x > patch.low && **x < patch.high);
+        let share = within.map(|(_, share)| *share).fold(1.0, f64::min);
+        [self.yield_pressure * share, self.least_pressure(traction.resultant[1])]
+    }
+
+    /// Pressure \[Pa] under which the line load of a contact \[N/m] spreads over most of the zone.
+    pub fn least_pressure(&self, load: f64) -> f64 {
+        SPREAD * load.max(self.nominal_line_load()) / (2.0 * self.reach)
     }
 
     /// Nominal wheel load per metre of width [N/m].
@@ -117,7 +136,9 @@ impl ContactModel {
             },
             limits: Limits {
                 pressure: self.yield_pressure,
+                least: self.least_pressure(start.traction.resultant[1]),
                 viscosity: VISCOSITY,
+                shear: SHEAR,
                 softened: &step.weakening.strength,
                 film: &step.weakening.film,
             },
@@ -166,6 +187,9 @@ impl ContactModel {
 /// Jump of a driving force relative to the nominal load, or of the friction coefficient relative to itself, that
 /// restarts the multistep formula.
 const JUMP: f64 = 0.02;
+
+/// Length of the contact zone over the longest patch of softened steel \[1].
+const SPREAD: f64 = 1.15;
 
 /// Viscosity of yielding steel [Pa s/m]: so low that pressures exceed the limit by less than a thousandth, but enough for a
 /// definite rate of flattening where the whole contact yields.

@@ -82,7 +82,7 @@ impl Model {
         Ok(Self {
             wheel: RigidWheel::new(&config),
             bodies: Bodies::new(bodies, TrackSupport::new(&config), &*solver),
-            contact: ContactModel::new(&config, solver),
+            contact: ContactModel::new(&config, solver, zone.max(reach)),
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
             zone,

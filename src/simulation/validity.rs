@@ -17,6 +17,8 @@ pub enum Limit {
     Zone,
     /// Pressure that steel carries, where it is not limited by yielding.
     Yield,
+    /// Pressure under which softened steel spreads as far as the contact zone shows.
+    Softening,
     /// Temperature up to which steel is solid.
     Melting,
     /// Internal step that resolves what falling friction excites.
@@ -25,9 +27,9 @@ pub enum Limit {
 
 impl Limit {
     /// All of them.
-    const ALL: [Self; 7] = {
+    const ALL: [Self; 8] = {
         use Limit::*;
-        [Speed, ThermalLoad, Patch, Zone, Yield, Melting, StickSlip]
+        [Speed, ThermalLoad, Patch, Zone, Yield, Softening, Melting, StickSlip]
     };
 }
 
@@ -35,8 +37,6 @@ impl Limit {
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Load that the candidate zone carries in any case, over the nominal load.
 pub(super) const ZONE_LOAD: f64 = 2.0;
-/// Solidus of wheel steel [K], 1420 °C.
-const SOLIDUS: f64 = 1693.0;
 /// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
 /// formula damps it by a ratio of a quarter of its cube, 2e-3.
 const RESOLVED_PHASE: f64 = 0.2;
@@ -48,7 +48,7 @@ impl Simulation {
             let (value, bound) = self.against(*limit);
             match limit {
                 Limit::Speed | Limit::Zone | Limit::Yield | Limit::Melting | Limit::StickSlip => value > bound,
-                Limit::ThermalLoad | Limit::Patch => value > 0.0 && value < bound,
+                Limit::ThermalLoad | Limit::Patch | Limit::Softening => value > 0.0 && value < bound,
             }
         })
     }
@@ -72,7 +72,15 @@ impl Simulation {
                 let elastic = if config.physics.yielding { 0.0 } else { 1.0 };
                 (elastic * outputs.contact_pressure_max, INDENTATION * config.material.yield_strength)
             }
-            Limit::Melting => (outputs.temperature_wheel_max.max(outputs.temperature_rail_max), SOLIDUS),
+            Limit::Softening => {
+                let [softest, least] = self.model().rolling.contact.softest(self.state());
+                (softest, least)
+            }
+            Limit::Melting => {
+                let stays_solid = if config.material.latent_heat > 0.0 { 0.0 } else { 1.0 };
+                let hottest = outputs.temperature_wheel_max.max(outputs.temperature_rail_max);
+                (stays_solid * hottest, config.material.solidus)
+            }
             Limit::StickSlip => (self.unresolved_phase(), RESOLVED_PHASE),
         }
     }
@@ -116,10 +124,17 @@ impl Simulation {
                 value * 1e-6,
                 bound * 1e-6
             ),
+            Limit::Softening => format!(
+                "steel under the contact is so hot that it would yield at {:.0} MPa, and the patch would outgrow the contact \
+                 zone; it is held together at {:.0} MPa: half-width, pressure and flattening further on are no more than a \
+                 hint; end the slide earlier",
+                value * 1e-6,
+                bound * 1e-6
+            ),
             Limit::Melting => format!(
-                "contact temperature {value:.0} K is above the solidus of steel, {bound:.0} K: nothing melts in this \
-                 model, and temperatures further on are too high; end the slide earlier, or let the friction fall with \
-                 friction.softening or friction.falling_ratio"
+                "contact temperature {value:.0} K is above material.solidus = {bound:.0} K: nothing melts without \
+                 material.latent_heat, and temperatures further on are too high; set it, end the slide earlier, or let \
+                 the friction fall with friction.softening or friction.falling_ratio"
             ),
             Limit::StickSlip => format!(
                 "friction falls with the slip of a sliding wheel, and its torsion of {:.0} rad/s turns by {value:.2} rad \

@@ -7,7 +7,6 @@ use super::streamline::Upwind;
 use crate::contact::problem::ContactProblem;
 use crate::contact::traction::Traction;
 use crate::linalg::DenseSystem;
-use crate::material::SHEAR;
 use nalgebra::DVector;
 
 /// Buffers of the solver on a grid; nothing in them outlives a solution.
@@ -65,8 +64,9 @@ pub(super) struct AffineTurn {
     pub expected: f64,
 }
 
-/// Time that yielding steel has in a stationary state [s].
-const SETTLED: f64 = 1.0;
+/// How much softer than its surroundings a yielding node is in a stationary start [1]: much, but so little that the search
+/// for the start does not leap from patch to patch. The first steps of the run give the steel time to yield in full.
+const SOFTER: f64 = 100.0;
 
 /// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
 /// motions) hold the present iterate.
@@ -96,15 +96,19 @@ impl Iterate<'_> {
 
     /// Depth [m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
     pub fn creep(&self, i: usize) -> f64 {
-        let duration = if self.problem.duration > 0.0 { self.problem.duration } else { SETTLED };
-        duration / (self.problem.limits.viscosity * self.grid.width(i))
+        let (duration, port) = (self.problem.duration, self.grid.port(i) + 1);
+        if duration > 0.0 {
+            duration / (self.problem.limits.viscosity * self.grid.width(i))
+        } else {
+            SOFTER * self.problem.bodies.relative[(port, port)]
+        }
     }
 
     /// Friction force that candidate `i` can bear over its normal force [1].
     pub fn coefficient(&self, i: usize) -> f64 {
         let film = self.scratch.film.get(i).copied().unwrap_or(1.0);
         let coefficient = film * self.traction.friction;
-        if self.state.yielded[i] { coefficient.min(SHEAR) } else { coefficient }
+        if self.state.yielded[i] { coefficient.min(self.problem.limits.shear) } else { coefficient }
     }
 
     /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the turn against it.

@@ -144,16 +144,16 @@ fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) 
     }
 }
 
-/// Distance of the contact edge beyond the outermost of three nodes [cells]. As its pressure vanishes, the edge tends to
-/// where it is without this node, whatever the shape of the pressure.
+/// Distance of the contact edge beyond the outermost of three nodes [cells]. As the pressure of that node vanishes, the edge
+/// tends to where it is without it, whatever the shape of the pressure; for a Hertzian one it does so by itself.
 fn continuous_offset(edge: f64, inner: f64, next: f64) -> f64 {
     let own = edge_offset(edge, inner);
-    let ratio = if inner > 0.0 { edge / inner } else { 1.0 };
+    let ratio = if inner > 0.0 { (edge / inner).max(0.0) } else { 1.0 };
     if ratio >= FADING || next <= 0.0 {
         return own;
     }
-    let share = (ratio / FADING).max(0.0);
-    share * own + (1.0 - share) * (edge_offset(inner, next) - 1.0)
+    let jump = edge_offset(inner, next) - 1.0 - edge_offset(0.0, inner);
+    own + (1.0 - ratio / FADING) * jump
 }
 
 /// The patch of a run of closed nodes with these edges. An edge up to a quarter of a cell inside the outermost node is moved

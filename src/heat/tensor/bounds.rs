@@ -17,6 +17,8 @@ use crate::heat::exchange::Exchange;
 const MARGIN: f64 = 0.08;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
+/// Undershoot that passes where a body has no heat to lift it with \[K].
+const TOLERATED: f64 = 0.1;
 /// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
 
@@ -72,8 +74,12 @@ impl Heat {
         let (wheel, rail) = field.split_at_mut(self.wheel.size());
         for (body, nodal, field) in [(&self.wheel, &self.nodal[0], wheel), (&self.rail, &self.nodal[1], rail)] {
             values.resize(nodal.len(), 0.0);
-            if !lift_body(body, nodal, field, *coldest, values) {
+            if affords(body, nodal, field, *coldest, values) {
+                lift_body(body, nodal, field, *coldest, values);
+            } else if range[0] < *coldest - TOLERATED {
                 return Err(HeatError::Undershoot { lowest: range[0], coldest: *coldest });
+            } else {
+                return Ok(());
             }
         }
         range[0] = *coldest;
@@ -81,8 +87,19 @@ impl Heat {
     }
 }
 
-/// Lifts the nodes of one body; whether its heat content allows it.
-fn lift_body(body: &HeatBody, nodal: &Nodal, field: &mut [f64], floor: f64, values: &mut [f64]) -> bool {
+/// Whether the heat content of a body allows its nodes to be lifted: one that is hardly warm anywhere may lack the heat.
+fn affords(body: &HeatBody, nodal: &Nodal, field: &[f64], floor: f64, values: &mut [f64]) -> bool {
+    let mut total = 0.0;
+    for (row, weight) in field.chunks_exact(body.modes.len()).zip(&body.line.weights) {
+        nodal.values(row, values);
+        let excess = values.iter().zip(&nodal.weights).map(|(value, share)| (value - floor) * share);
+        total += weight * excess.sum::<f64>();
+    }
+    total >= 0.0
+}
+
+/// Lifts the nodes of one body.
+fn lift_body(body: &HeatBody, nodal: &Nodal, field: &mut [f64], floor: f64, values: &mut [f64]) {
     let modes = &body.modes;
     let (mut missing, mut total) = (0.0, 0.0);
     for (row, weight) in field.chunks_exact_mut(modes.len()).zip(&body.line.weights) {
@@ -103,15 +120,11 @@ fn lift_body(body: &HeatBody, nodal: &Nodal, field: &mut [f64], floor: f64, valu
         }
         total += weight * surplus;
     }
-    if missing > total {
-        return false;
-    }
-    if missing > 0.0 {
+    if missing > 0.0 && total > 0.0 {
         // Now nothing lies below the bound: the excess of the whole body shrinks.
         let share = missing / total;
         for row in field.chunks_exact_mut(modes.len()) {
             row.iter_mut().zip(&modes.free).for_each(|(x, one)| *x -= share * (*x - floor * one));
         }
     }
-    true
 }

@@ -32,7 +32,9 @@ impl WeakSteel {
     pub fn new(config: &Config) -> Self {
         let (material, reference) = (config.material.clone(), config.thermal.reference);
         let melts = material.latent_heat > 0.0 && reference < material.solidus;
-        Self { melts, yields: config.physics.yielding, reference, material }
+        // Beyond the solidus nothing is known of strength, and bodies that are so hot as a whole are no steel.
+        let start = reference + config.thermal.wheel_excess.max(0.0);
+        Self { melts, yields: config.physics.yielding && start < material.solidus, reference, material }
     }
 
     /// Fills `thermal.weakening` from the temperatures `seen`; its film is still that of the step before.
