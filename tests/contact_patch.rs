@@ -94,7 +94,8 @@ fn half_width_of_discrete_hertz_patches_is_right_below_grid_scale() {
     let seen = observed(discrete_hertz, |_, _| 0.0);
     let (mean, spread) = statistics(seen.iter().map(|p| p.half_width() - 1.0));
     println!("half-width: mean {mean:+.2e}, peak to peak {spread:.2e}");
-    assert!(mean.abs() <= 5e-4 && spread <= 1e-3, "mean {mean}, peak to peak {spread}");
+    // 1.8e-3: an edge beyond a node that opens is taken, continuously, from the two nodes further inside.
+    assert!(mean.abs() <= 5e-4 && spread <= 2e-3, "mean {mean}, peak to peak {spread}");
     let (mean, spread) = statistics(seen.iter().map(|p| p.pressure_max - 1.0));
     println!("peak pressure: mean {mean:+.2e}, peak to peak {spread:.2e}");
     assert!(mean.abs() <= 1e-3 && spread <= 1e-3, "mean {mean}, peak to peak {spread}");

@@ -27,7 +27,7 @@ const REACH: f64 = 6.0;
 const SHARES: [f64; 4] = [0.19, 1.5, 0.22, 1.5];
 
 /// Fine zone of the meshes for the nominal load, with wings for wider patches where the bodies have room for them.
-pub fn contact_zone(config: &Config) -> ContactZone {
+pub(super) fn winged_zone(config: &Config) -> ContactZone {
     let half_width = nominal_half_width(config);
     let (radius, rail) = (config.wheel.radius, &config.rail);
     let lengths = [radius, radius - config.wheel.hub_radius, rail.length, rail.height];

@@ -2,8 +2,8 @@
 
 use super::ale::Stream;
 use super::error::MechanicsError;
-use super::layout::{contact_zone, largest_rail_cell};
-use super::size::{check_size, unmeshable};
+use super::layout::largest_rail_cell;
+use super::size::{check_size, contact_zone, unmeshable};
 use super::system::BodySystem;
 use crate::config::Config;
 use crate::fem::{Mesh, graded};

@@ -2,9 +2,9 @@
 
 use super::damping::BodyDamping;
 use super::error::MechanicsError;
-use super::layout::{contact_zone, largest_rail_cell, nominal_half_width};
+use super::layout::{largest_rail_cell, nominal_half_width, winged_zone};
 use crate::config::{Config, Response};
-use crate::fem::{FemError, graded};
+use crate::fem::{ContactZone, FemError, graded};
 
 /// Largest number of unknown displacements of one body. With 80 and 40 modes, bodies of 84,480 and 48,762 unknowns (60
 /// elements per half-width) took 22 s and 0.67 GB to prepare.
@@ -13,9 +13,21 @@ pub const LARGEST_UNKNOWNS: f64 = 150e3;
 /// half is used; a very long rail may take 800 vectors more, see `largest_space`. With 200 and 100 modes, bodies of 51,840 and 24,766 unknowns (0.52 GB by this count) took 25 s and 0.77 GB.
 pub const LARGEST_KRYLOV: f64 = 0.8e9;
 
+/// Fine zone of the meshes for the nominal load, with wings for wider patches where the bodies have room for them and do
+/// not become too large by them.
+pub fn contact_zone(config: &Config) -> ContactZone {
+    let winged = winged_zone(config);
+    if check(config, winged).is_ok() { winged } else { ContactZone { reach: 0.0, ..winged } }
+}
+
 /// Refuses a configuration whose meshes or vibration modes need more memory and time than is sensible; the error names
 /// the parameters that drive the size.
 pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
+    check(config, contact_zone(config))
+}
+
+/// The same for bodies with a given fine zone.
+fn check(config: &Config, zone: ContactZone) -> Result<(), MechanicsError> {
     let damped = [BodyDamping::wheel(config), BodyDamping::rail(config)].iter().any(|damping| !damping.is_none());
     let with_modes = config.solver.response == Response::Reduced || damped;
     let check = |body, parameter, unknowns: f64, modes: usize| {
@@ -28,8 +40,8 @@ pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
         }
         Ok(())
     };
-    check("wheel", "solver.modes_wheel", wheel_unknowns(config)?, config.solver.modes_wheel)?;
-    check("rail", "solver.modes_rail", rail_unknowns(config)?, config.solver.modes_rail)
+    check("wheel", "solver.modes_wheel", wheel_unknowns(config, zone)?, config.solver.modes_wheel)?;
+    check("rail", "solver.modes_rail", rail_unknowns(config, zone)?, config.solver.modes_rail)
 }
 
 /// Values of the parameters from which the number of unknowns follows.
@@ -42,14 +54,14 @@ fn causes(config: &Config) -> String {
     )
 }
 
-fn wheel_unknowns(config: &Config) -> Result<f64, MechanicsError> {
-    let unknowns = graded::wheel_unknowns(config.wheel.radius, config.wheel.hub_radius, contact_zone(config));
+fn wheel_unknowns(config: &Config, zone: ContactZone) -> Result<f64, MechanicsError> {
+    let unknowns = graded::wheel_unknowns(config.wheel.radius, config.wheel.hub_radius, zone);
     unknowns.map_err(|source| unmeshable("wheel", source))
 }
 
-fn rail_unknowns(config: &Config) -> Result<f64, MechanicsError> {
+fn rail_unknowns(config: &Config, zone: ContactZone) -> Result<f64, MechanicsError> {
     let rail = &config.rail;
-    let unknowns = graded::rail_unknowns(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
+    let unknowns = graded::rail_unknowns(rail.length, rail.height, largest_rail_cell(config), zone);
     unknowns.map_err(|source| unmeshable("rail", source))
 }
 
@@ -104,6 +116,26 @@ mod tests {
             let names = ["rail.height = 2 m", "wheel.radius = 0.1 m", "mesh.elements_per_half_width = 80"];
             assert!(names.iter().all(|name| text.contains(name)), "{text}");
         }
+    }
+
+    /// Rail without wings smaller than allowed, with them larger.
+    #[test]
+    fn wings_are_left_out_where_they_would_make_a_body_too_large() {
+        let mut config = far_too_large();
+        let sizes = |config: &Config| {
+            let winged = winged_zone(config);
+            [ContactZone { reach: 0.0, ..winged }, winged].map(|zone| rail_unknowns(config, zone).unwrap())
+        };
+        let [mut plain, mut winged] = sizes(&config);
+        while plain > LARGEST_UNKNOWNS {
+            config.rail.height -= 0.01;
+            [plain, winged] = sizes(&config);
+        }
+        println!("{plain} unknowns without wings, {winged} with them");
+        assert!(winged > LARGEST_UNKNOWNS);
+        assert_eq!((check_size(&config), contact_zone(&config).wing_nodes()), (Ok(()), 0));
+        config.mesh.elements_per_half_width = 40;
+        assert!(check_size(&config).is_ok() && contact_zone(&config).wing_nodes() > 0);
     }
 
     #[test]

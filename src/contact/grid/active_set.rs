@@ -206,6 +206,11 @@ impl Iterate<'_> {
         stuck.extend(closed.iter().filter(|&&i| status[i] == Status::Stick));
         axes.clear();
         axes.extend((0..3).filter(|&k| self.problem.rigid[k].target().is_none()));
+        let mut drag = std::mem::take(&mut self.scratch.drag);
+        drag.clear();
+        let share = |&i: &usize| self.state.status[i].friction_direction() * self.coefficient(i);
+        drag.extend(self.scratch.closed.iter().map(share));
+        self.scratch.drag = drag;
     }
 
     /// Writes the equations: no gap at closed nodes, no slip at stuck ones, balances of the free axes.
@@ -242,14 +247,13 @@ impl Iterate<'_> {
 
     /// Writes one equation, scaled to a largest coefficient of one.
     fn write(&self, (target, rhs): (&mut [f64], &mut f64), row: &AffineRow, forces: &[f64]) {
-        let GridScratch { closed, stuck, axes, .. } = &*self.scratch;
+        let GridScratch { closed, drag, stuck, axes, .. } = &*self.scratch;
         let (normal, rest) = target.split_at_mut(closed.len());
         let (tangential, rigid) = rest.split_at_mut(stuck.len());
         let mut largest = 0.0f64;
-        for (value, &i) in normal.iter_mut().zip(closed) {
+        for ((value, &i), drag) in normal.iter_mut().zip(closed).zip(drag) {
             let port = self.grid.port(i);
-            let friction = self.state.status[i].friction_direction() * self.coefficient(i);
-            *value = forces[port + 1] + friction * forces[port];
+            *value = forces[port + 1] + drag * forces[port];
             largest = largest.max(value.abs());
         }
         for (value, &i) in tangential.iter_mut().zip(stuck) {
@@ -272,14 +276,14 @@ impl Iterate<'_> {
     /// Takes the solution of the linear problem: port forces and free motions.
     fn accept(&mut self, solution: &[f64]) {
         let mut forces = std::mem::take(&mut self.traction.port_forces);
-        let GridScratch { closed, stuck, axes, .. } = &*self.scratch;
+        let GridScratch { closed, drag, stuck, axes, .. } = &*self.scratch;
         let (normal, rest) = solution.split_at(closed.len());
         let (tangential, rigid) = rest.split_at(stuck.len());
         forces.fill(0.0);
-        for (&i, force) in closed.iter().zip(normal) {
+        for ((&i, force), drag) in closed.iter().zip(normal).zip(drag) {
             let port = self.grid.port(i);
             forces[port + 1] = *force;
-            forces[port] = self.state.status[i].friction_direction() * self.coefficient(i) * force;
+            forces[port] = drag * force;
         }
         for (force, &i) in tangential.iter().zip(stuck) {
             forces[self.grid.port(i)] = *force;

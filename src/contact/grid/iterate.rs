@@ -23,6 +23,8 @@ pub struct GridScratch {
     pub(super) overlap: Vec<f64>,
     /// Rise of the gap along the material by flattening of wheel and rail, at the candidates [1]; empty without any.
     pub(super) dents: [Vec<f64>; 2],
+    /// Tangential over normal force of each closed node that slips; zero: its tangential force is unknown, too [1].
+    pub(super) drag: Vec<f64>,
     pub(super) stuck: Vec<usize>,
     pub(super) axes: Vec<usize>,
     /// Undeformed gap at the candidates [m].
