@@ -16,6 +16,8 @@ pub struct GridScratch {
     pub(super) system: DenseSystem,
     /// Nodes and axes whose forces and motions are unknown.
     pub(super) closed: Vec<usize>,
+    /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks [1].
+    pub(super) friction: Vec<f64>,
     /// Normal force at the candidates above which steel yields [N/m]; empty: it does not.
     pub(super) limit: Vec<f64>,
     /// Share of the friction coefficient at the candidates where the surface melts [1]; empty: all of it everywhere.
