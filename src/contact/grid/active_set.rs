@@ -198,6 +198,7 @@ impl Iterate<'_> {
     }
 
     fn list_unknowns(&mut self) {
+        let mut friction = std::mem::take(&mut self.scratch.friction);
         let status = &self.state.status;
         let GridScratch { closed, stuck, axes, .. } = &mut *self.scratch;
         closed.clear();
@@ -206,11 +207,9 @@ impl Iterate<'_> {
         stuck.extend(closed.iter().filter(|&&i| status[i] == Status::Stick));
         axes.clear();
         axes.extend((0..3).filter(|&k| self.problem.rigid[k].target().is_none()));
-        let mut drag = std::mem::take(&mut self.scratch.drag);
-        drag.clear();
-        let share = |&i: &usize| self.state.status[i].friction_direction() * self.coefficient(i);
-        drag.extend(self.scratch.closed.iter().map(share));
-        self.scratch.drag = drag;
+        friction.clear();
+        friction.extend(self.scratch.closed.iter().map(|&i| status[i].friction_direction() * self.coefficient(i)));
+        self.scratch.friction = friction;
     }
 
     /// Writes the equations: no gap at closed nodes, no slip at stuck ones, balances of the free axes.
@@ -247,13 +246,13 @@ impl Iterate<'_> {
 
     /// Writes one equation, scaled to a largest coefficient of one.
     fn write(&self, (target, rhs): (&mut [f64], &mut f64), row: &AffineRow, forces: &[f64]) {
-        let GridScratch { closed, drag, stuck, axes, .. } = &*self.scratch;
+        let GridScratch { closed, friction, stuck, axes, .. } = &*self.scratch;
         let (normal, rest) = target.split_at_mut(closed.len());
         let (tangential, rigid) = rest.split_at_mut(stuck.len());
         let mut largest = 0.0f64;
-        for ((value, &i), drag) in normal.iter_mut().zip(closed).zip(drag) {
+        for ((value, &i), friction) in normal.iter_mut().zip(closed).zip(friction) {
             let port = self.grid.port(i);
-            *value = forces[port + 1] + drag * forces[port];
+            *value = forces[port + 1] + friction * forces[port];
             largest = largest.max(value.abs());
         }
         for (value, &i) in tangential.iter_mut().zip(stuck) {
@@ -275,15 +274,15 @@ impl Iterate<'_> {
 
     /// Takes the solution of the linear problem: port forces and free motions.
     fn accept(&mut self, solution: &[f64]) {
-        let mut forces = std::mem::take(&mut self.traction.port_forces);
-        let GridScratch { closed, drag, stuck, axes, .. } = &*self.scratch;
+        let GridScratch { closed, friction, stuck, axes, .. } = &*self.scratch;
+        let forces = &mut self.traction.port_forces;
         let (normal, rest) = solution.split_at(closed.len());
         let (tangential, rigid) = rest.split_at(stuck.len());
         forces.fill(0.0);
-        for ((&i, force), drag) in closed.iter().zip(normal).zip(drag) {
+        for ((&i, force), friction) in closed.iter().zip(normal).zip(friction) {
             let port = self.grid.port(i);
             forces[port + 1] = *force;
-            forces[port] = drag * force;
+            forces[port] = friction * force;
         }
         for (force, &i) in tangential.iter().zip(stuck) {
             forces[self.grid.port(i)] = *force;
@@ -291,7 +290,6 @@ impl Iterate<'_> {
         for (value, &k) in rigid.iter().zip(axes) {
             self.traction.rigid[k] = *value;
         }
-        self.traction.port_forces = forces;
     }
 
     /// New states from forces, gaps and slips; returns whether any changed.

@@ -15,6 +15,8 @@ pub struct GridScratch {
     pub(super) system: DenseSystem,
     /// Nodes and axes whose forces and motions are unknown.
     pub(super) closed: Vec<usize>,
+    /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks [1].
+    pub(super) friction: Vec<f64>,
     /// Normal force at the candidates above which steel yields [N/m]; empty: it does not.
     pub(super) limit: Vec<f64>,
     /// Share of the friction coefficient at the candidates where the surface melts [1]; empty: all of it everywhere.
@@ -23,8 +25,6 @@ pub struct GridScratch {
     pub(super) overlap: Vec<f64>,
     /// Rise of the gap along the material by flattening of wheel and rail, at the candidates [1]; empty without any.
     pub(super) dents: [Vec<f64>; 2],
-    /// Tangential over normal force of each closed node that slips; zero: its tangential force is unknown, too [1].
-    pub(super) drag: Vec<f64>,
     pub(super) stuck: Vec<usize>,
     pub(super) axes: Vec<usize>,
     /// Undeformed gap at the candidates [m].

@@ -192,7 +192,9 @@ impl Iterate<'_> {
             limit.extend(grid.x.iter().enumerate().map(|(i, &x)| grid.width(i) * limits.pressure_at(x)));
         }
         film.clear();
-        film.extend(grid.x.iter().map(|&x| limits.film_at(x)).filter(|_| !limits.film.is_empty()));
+        if !limits.film.is_empty() {
+            film.extend(grid.x.iter().map(|&x| limits.film_at(x)));
+        }
         if limit.is_empty() {
             self.state.yielded.fill(false);
         }
@@ -204,9 +206,12 @@ impl Iterate<'_> {
         let places = [placement.angle * self.problem.surfaces.radius, placement.distance];
         for ((slopes, flattening), place) in self.scratch.dents.iter_mut().zip(placement.flattening).zip(places) {
             slopes.clear();
+            if flattening.is_empty() {
+                continue;
+            }
             let depth = |x: f64| flattening.depth(place + x);
             let slope = |x: &f64| (depth(x + grid.spacing) - depth(x - grid.spacing)) / (2.0 * grid.spacing);
-            slopes.extend(grid.x.iter().map(slope).filter(|_| !flattening.is_empty()));
+            slopes.extend(grid.x.iter().map(slope));
         }
     }
 

@@ -8,13 +8,15 @@
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::HeatBody;
-use super::nodal::Nodal;
+use super::nodal::{Known, Nodal};
 use super::state::HeatState;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::Exchange;
 
 /// How far a node may fall below the coldest datum before it is lifted \[K].
 const MARGIN: f64 = 0.08;
+/// Change in a step, in such margins, up to which bounds are widened without a look at the nodes [1].
+const SLOWLY: f64 = 0.25;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
 /// Undershoot that passes where a body has no heat to lift it with \[K].
@@ -34,26 +36,33 @@ impl Heat {
     }
 
     /// Fills the bounds of the nodal values of `next`, exactly where they are needed.
-    pub(super) fn set_range(&self, state: &HeatState, next: &mut HeatState, values: &mut Vec<f64>) {
-        let size = self.wheel.size();
-        let [wheel, rail] = &self.nodal;
-        let change = wheel
-            .largest_change(&state.field[..size], &next.field[..size])
-            .max(rail.largest_change(&state.field[size..], &next.field[size..]));
-        let melts = self.melting.map_or(f64::INFINITY, |melting| melting.solidus);
-        next.range = [state.range[0] - change, state.range[1] + change];
-        // Written so that what is not a number is not taken for known.
+    ///
+    /// What hardly changes keeps the bounds before, a little wider; what has become too wide is searched anew.
+    pub(super) fn set_range(&self, state: &HeatState, next: &mut HeatState) {
         let low = (next.coldest - MARGIN).max(-NEAR_ZERO * self.config.thermal.reference);
-        let known = next.range[0] >= low && next.range[1] <= melts;
+        let high = self.melting.map_or(f64::INFINITY, |melting| melting.solidus);
+        // Bounds that have become wide do not come back by themselves.
+        let wide = state.range[0] < next.coldest - 0.5 * MARGIN;
+        if !wide {
+            let size = self.wheel.size();
+            let known = Known { before: state.range, allowed: [low, high], slight: SLOWLY * MARGIN };
+            let (before, after) = (state.field.split_at(size), next.field.split_at(size));
+            let [wheel, rail] = &self.nodal;
+            let a = wheel.bounds_after([before.0, after.0], &known);
+            let b = rail.bounds_after([before.1, after.1], &known);
+            next.range = [a[0].min(b[0]), a[1].max(b[1])];
+        }
+        // Written so that what is not a number is not taken for known.
+        let known = !wide && next.range[0] >= low && next.range[1] <= high;
         if !known {
-            next.range = self.extremes(&next.field, values);
+            next.range = self.extremes(&next.field);
         }
     }
 
     /// Lowest and highest value at the nodes of both bodies.
-    pub(super) fn extremes(&self, field: &[f64], values: &mut Vec<f64>) -> [f64; 2] {
+    pub(super) fn extremes(&self, field: &[f64]) -> [f64; 2] {
         let (wheel, rail) = field.split_at(self.wheel.size());
-        let (a, b) = (self.nodal[0].extremes(wheel, values), self.nodal[1].extremes(rail, values));
+        let (a, b) = (self.nodal[0].extremes(wheel), self.nodal[1].extremes(rail));
         [a[0].min(b[0]), a[1].max(b[1])]
     }
 

@@ -98,35 +98,75 @@ impl Nodal {
         self.to_modes.chunks_exact(self.modes).map(|column| dot(column, weights)).collect()
     }
 
-    /// Lowest and highest value of a field at its nodes; `values` is work space.
-    pub fn extremes(&self, field: &[f64], values: &mut Vec<f64>) -> [f64; 2] {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        values.resize(self.len(), 0.0);
-        for row in field.chunks_exact(self.modes) {
-            values.fill(0.0);
-            for ((x, shape), &reach) in row.iter().zip(self.shapes.chunks_exact(self.len())).zip(&self.reach) {
-                values[..reach].iter_mut().zip(&shape[..reach]).for_each(|(v, s)| *v += x * s);
-            }
-            for &value in &*values {
-                // Comparisons, not `min` and `max`: each compiles to one instruction.
-                low = if value < low { value } else { low };
-                high = if value > high { value } else { high };
-            }
-        }
-        [low, high]
+    /// Lowest and highest value of a field at its nodes.
+    pub fn extremes(&self, field: &[f64]) -> [f64; 2] {
+        let rows = field.chunks_exact(self.modes);
+        rows.fold(NOTHING, |range, row| joined(range, self.extremes_of_row(row)))
     }
 
-    /// Largest change at any node between two fields, or more.
-    pub fn largest_change(&self, from: &[f64], to: &[f64]) -> f64 {
+    /// Bounds of the field `to`, where `before` are those of the field `from`: exact at the nodes that change by more than
+    /// `slight` or might leave the bounds `allowed`.
+    pub fn bounds_after(&self, [from, to]: [&[f64]; 2], known: &Known) -> [f64; 2] {
         let rows = from.chunks_exact(self.modes).zip(to.chunks_exact(self.modes));
-        rows.fold(0.0, |largest, (from, to)| {
-            let mut sums = [0.0; 4];
-            let lanes = from.chunks_exact(4).zip(to.chunks_exact(4)).zip(self.peaks.chunks_exact(4));
-            for ((a, b), peak) in lanes {
-                (0..4).for_each(|l| sums[l] += (b[l] - a[l]).abs() * peak[l]);
-            }
-            let change = sums.iter().sum();
-            if change > largest { change } else { largest }
+        rows.fold(NOTHING, |range, (from, to)| {
+            let change = self.largest_change(from, to);
+            let bounds = [known.before[0] - change, known.before[1] + change];
+            // Written so that what is not a number is not taken for known.
+            let clear = change <= known.slight && bounds[0] >= known.allowed[0] && bounds[1] <= known.allowed[1];
+            joined(range, if clear { bounds } else { self.extremes_of_row(to) })
         })
     }
+
+    /// Lowest and highest value below one surface node, some nodes at a time: their sums stay in registers.
+    fn extremes_of_row(&self, row: &[f64]) -> [f64; 2] {
+        let size = self.len();
+        let (mut range, mut first) = (NOTHING, 0);
+        while first + BLOCK <= size {
+            let mut sums = [0.0; BLOCK];
+            for ((x, shape), &reach) in row.iter().zip(self.shapes.chunks_exact(size)).zip(&self.reach) {
+                if reach > first {
+                    let shape = &shape[first..first + BLOCK];
+                    (0..BLOCK).for_each(|k| sums[k] += x * shape[k]);
+                }
+            }
+            range = sums.iter().fold(range, |range, &value| joined(range, [value; 2]));
+            first += BLOCK;
+        }
+        for node in first..size {
+            let value = dot(row, &self.to_nodes[node * self.modes..][..self.modes]);
+            range = joined(range, [value; 2]);
+        }
+        range
+    }
+
+    /// Largest change at any node below one surface node between two fields, or more.
+    fn largest_change(&self, from: &[f64], to: &[f64]) -> f64 {
+        let mut sums = [0.0; 4];
+        let lanes = from.chunks_exact(4).zip(to.chunks_exact(4)).zip(self.peaks.chunks_exact(4));
+        for ((a, b), peak) in lanes {
+            (0..4).for_each(|l| sums[l] += (b[l] - a[l]).abs() * peak[l]);
+        }
+        sums.iter().sum()
+    }
+}
+
+/// What is known of a field before it is searched.
+pub(super) struct Known {
+    /// Bounds before the step.
+    pub before: [f64; 2],
+    /// Bounds within which the exact values do not matter.
+    pub allowed: [f64; 2],
+    /// Largest change that may widen the bounds \[K].
+    pub slight: f64,
+}
+
+/// Nodes whose values are summed at a time.
+const BLOCK: usize = 8;
+
+/// Bounds of no values.
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+/// Bounds of two sets of values. Comparisons, not `min` and `max`: each compiles to one instruction.
+fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
 }

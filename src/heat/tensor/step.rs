@@ -84,11 +84,11 @@ impl Heat {
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
         let march = March { dt, speeds, excess: exchange.friction_excess, smooth, melting: molten(state.range) };
         let mut flows = self.march(state, next, &march, scratch)?;
-        self.set_range(state, next, &mut scratch.values);
+        self.set_range(state, next);
         let melting = molten(next.range);
         if march.melting.is_none() && (melting.is_some() || (smooth && self.undershoots_badly(next))) {
             flows = self.march(state, next, &March { smooth: false, melting, ..march }, scratch)?;
-            next.range = self.extremes(&next.field, &mut scratch.values);
+            next.range = self.extremes(&next.field);
         }
         if self.undershoots(next) {
             self.lift(next, &mut scratch.values)?;
@@ -123,8 +123,7 @@ impl Heat {
         for index in 1..=stages {
             let (weight, onward) = if index == stages { (gamma, 0.0) } else { (1.0 - gamma, 1.0 - 2.0 * gamma) };
             loads.friction_share = shares[index - 1];
-            stage.set_loads(self, loads, load);
-            rate.clone_from(load);
+            stage.set_loads(self, loads, rate);
             stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, known, rate);
             flows.iterations += match &melting {
                 None => stage.solve(self, coefficients, rate)?,
@@ -173,7 +172,7 @@ impl Heat {
         let mut state = HeatState { field, last: Some(boundary(speeds, &loads)), ..HeatState::default() };
         state.coldest = self.coldest(&state, exchange, &loads);
         let mut values = Vec::new();
-        state.range = self.extremes(&state.field, &mut values);
+        state.range = self.extremes(&state.field);
         if self.undershoots(&state) {
             self.lift(&mut state, &mut values)?;
         }
@@ -213,7 +212,7 @@ impl Heat {
         if !field.iter().all(|value| value.is_finite()) {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
-        let range = self.extremes(&field, &mut Vec::new());
+        let range = self.extremes(&field);
         Ok(HeatState { field, range, ..HeatState::default() })
     }
 }

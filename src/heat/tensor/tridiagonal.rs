@@ -281,7 +281,8 @@ fn largest(x: &[f64]) -> f64 {
     lanes.into_iter().fold(0.0, f64::max)
 }
 
-/// `x ← f x` entry by entry; the sum of the result.
+/// `x ← f x` entry by entry; the sum of the result. In a function of its own the loop is compiled for registers.
+#[inline(never)]
 fn decay(x: &mut [f64], f: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (mut x, mut f) = (x.chunks_exact_mut(8), f.chunks_exact(8));

@@ -42,6 +42,10 @@ const HOTTEST_PASSING: f64 = 1000.0;
 /// on the next is below −1 and whole swellings would flip from step to step. Half of the way it is below −3 that they do.
 const DAMPED: f64 = 0.25;
 
+/// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K]. Flashes of
+/// quiet rolling swell by nanometres, whatever their depth, and it changes with every step.
+const SMOOTHED: f64 = 10.0;
+
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
     heat: Heat,
@@ -223,9 +227,11 @@ impl ThermalModel {
         let mean = 0.5 * (thermal.loaded_mean[0] + thermal.loaded_mean[1]);
         let friction = touch.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
+        let warm = seen.temperatures.wheel_max.max(seen.temperatures.rail_max) > SMOOTHED;
         match &self.expansion {
             Some(expansion) => {
-                for ((layer, depth), smoothing) in seen.layer.iter_mut().zip(seen.layer_depth).zip(smoothing) {
+                let layers = seen.layer.iter_mut().zip(seen.layer_depth).zip(smoothing);
+                for ((layer, depth), smoothing) in layers.filter(|_| warm) {
                     smoothing.apply(zone, layer, depth, self.spacing);
                 }
                 expansion.deform(zone, seen, &mut thermal.deformation);

@@ -47,8 +47,10 @@ impl Smoothing {
         self.weights.resize(n * n, 0.0);
         for (row, &at) in self.weights.chunks_exact_mut(n).zip(x) {
             let primitive = |s: f64| [((s - at) / d).atan() / PI, 0.5 * d / PI * ((s - at).powi(2) + d * d).ln()];
+            let mut before = primitive(x[0]);
             for i in 1..n {
-                let ([a0, a1], [b0, b1]) = (primitive(x[i - 1]), primitive(x[i]));
+                let ([a0, a1], [b0, b1]) = (before, primitive(x[i]));
+                before = [b0, b1];
                 // ∫ K ds and ∫ K (s − at) ds over the piece.
                 let (whole, first) = (b0 - a0, b1 - a1);
                 let length = x[i] - x[i - 1];
