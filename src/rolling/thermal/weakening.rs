@@ -35,6 +35,11 @@ impl WeakSteel {
         Self { melts, yields: config.physics.yielding, reference, material }
     }
 
+    /// Absolute temperature at which melting is complete \[K]; `None` where it is left out.
+    pub fn liquidus(&self) -> Option<f64> {
+        self.melts.then_some(self.material.liquidus)
+    }
+
     /// Fills `thermal.weakening` from the temperatures `seen`; its film is still that of the step before.
     pub fn find(
         &self,
