@@ -21,17 +21,19 @@ const OVERHEATING: f64 = 50.0;
 const SETS: u64 = 8;
 const SETS_VARIABLE: &str = "WHEELRAIL_TEMPERATURE_SETS";
 const STEPS: usize = 50;
-const HEAT_SETS: u64 = 500;
+/// Parameter sets of the heat model alone.
+const HEAT_SETS: u64 = 120;
 
 /// Groups of parameters that act on temperatures and leave the bases of the bodies alone.
 const VARIED: [&str; 3] = ["thermal.", "friction.", "physics."];
-const VARIED_MATERIAL: [&str; 6] = [
+const VARIED_MATERIAL: [&str; 7] = [
     "material.conductivity",
     "material.specific_heat",
     "material.expansion",
     "material.solidus",
     "material.liquidus",
     "material.latent_heat",
+    "material.film_friction",
 ];
 
 /// A value from the declared range: an end of it, uniform, or uniform in the logarithm.
@@ -48,6 +50,11 @@ fn drawn(kind: &Kind, random: &mut Random) -> Value {
         Kind::Boolean => Value::Boolean(random.below(2) == 0),
         Kind::String => Value::String(String::new()),
     }
+}
+
+/// How many sets a test takes unless the environment says otherwise.
+fn sets(usual: u64) -> u64 {
+    std::env::var(SETS_VARIABLE).map_or(usual, |text| text.parse().unwrap())
 }
 
 fn set(seed: u64) -> (Config, Random, String) {
@@ -128,7 +135,7 @@ impl Bounds {
         let coldest = thermal.reference + thermal.wheel_excess.min(0.0);
         // Reversible heating cools for real; then only absolute zero is the bound.
         let low = if config.physics.thermoelastic_heating { 0.0 } else { coldest - SLIGHT };
-        let melts = material.latent_heat > 0.0 && thermal.reference < material.solidus;
+        let melts = material.latent_heat > 0.0 && thermal.reference < material.solidus && material.film_friction < 1.0;
         let liquidus = if melts { material.liquidus + OVERHEATING } else { f64::INFINITY };
         // The stationary start knows no melting.
         let hottest = thermal.reference + thermal.wheel_excess.max(0.0);
@@ -154,7 +161,7 @@ fn hottest_contact(simulation: &Simulation) -> f64 {
 
 #[test]
 fn temperatures_of_random_parameter_sets_stay_within_their_bounds_or_the_step_is_refused_by_name() {
-    let sets = std::env::var(SETS_VARIABLE).map_or(SETS, |text| text.parse().unwrap());
+    let sets = sets(SETS);
     let (mut simulated, mut wrong) = (0, Vec::new());
     for seed in 0..sets {
         match run(seed) {
@@ -189,8 +196,9 @@ fn exchange(c: &HeatConfig, random: &mut Random) -> Exchange {
 
 #[test]
 fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
+    let sets = sets(HEAT_SETS);
     let (mut wrong, mut completed, mut lowest) = (Vec::new(), 0, 0.0_f64);
-    for seed in 0..HEAT_SETS {
+    for seed in 0..sets {
         let (config, mut random, text) = set(seed);
         let Config { wheel, rail, material, thermal, .. } = config.clone();
         let half_width = random.of(&[1e-3, 3e-3, 6e-3]);
@@ -239,9 +247,6 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
             }
             let fields = heat.fields(&state).unwrap();
             let coldest = fields.iter().flat_map(|f| &f.temperature).fold(f64::INFINITY, |low, &t| low.min(t));
-            if coldest - bulk.min(0.0) < -SLIGHT {
-                eprintln!("seed {seed} step {step} dt {dt:.2e} lowest {} bulk {bulk}{text}", coldest - bulk.min(0.0));
-            }
             lowest = lowest.min(coldest - bulk.min(0.0));
             completed += usize::from(step == STEPS - 1);
             if coldest.is_nan() || coldest < bulk.min(0.0) - SLIGHT || balance > 1e-8 || balance.is_nan() {
@@ -251,16 +256,24 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
         }
         assert!(heat.observed(&state).lowest.is_finite());
     }
-    println!("{completed} of {HEAT_SETS} runs were completed; at most {lowest:.3} K below the coldest datum");
-    assert!(wrong.is_empty(), "{} of {HEAT_SETS}:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(completed >= HEAT_SETS as usize / 2, "{completed}");
+    println!("{completed} of {sets} runs were completed; at most {lowest:.3} K below the coldest datum");
+    assert!(wrong.is_empty(), "{} of {sets}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(completed >= sets as usize / 2, "{completed}");
 }
 
 /// Runs `steps` steps of `dt` seconds within the bounds of temperature, or until one is refused by name; how many were taken.
 fn watched(config: Config, change: impl Fn(&mut Inputs), steps: usize, dt: f64) -> usize {
     let model = common::model(config.clone());
     let mut inputs = Inputs::rolling(&config);
-    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let mut simulation = match Simulation::new(model, &inputs) {
+        Ok(simulation) => simulation,
+        Err(error) => {
+            let message = failed_start(&error, &config);
+            assert!(named(&message), "{message}");
+            println!("start: {message}");
+            return 0;
+        }
+    };
     let bounds = Bounds::new(&config, &simulation);
     change(&mut inputs);
     for step in 0..steps {
@@ -325,13 +338,15 @@ const ONCE_UNPHYSICAL: [(&str, Value); 36] = [
 
 #[test]
 fn the_parameter_set_that_once_fell_far_below_absolute_zero_keeps_its_bounds_or_is_refused_by_name() {
-    for tolerance in [None, Some(0.0)] {
+    // Where steel yields, it is too soft at 2050 K to start at all.
+    for (tolerance, yielding) in [(None, true), (None, false), (Some(0.0), false)] {
         let mut config = common::preset("railway", 10);
         for row in Config::rows() {
             if let Some((_, value)) = ONCE_UNPHYSICAL.iter().find(|(name, _)| *name == row.name) {
                 (row.write)(&mut config, value);
             }
         }
+        config.physics.yielding = yielding;
         config.tuning.tolerance = tolerance.unwrap_or(config.tuning.tolerance);
         let moment = |inputs: &mut Inputs| inputs.drive.moment = -18893.015878717044;
         watched(config, moment, 20, 3e-3);
@@ -340,7 +355,8 @@ fn the_parameter_set_that_once_fell_far_below_absolute_zero_keeps_its_bounds_or_
 
 #[test]
 fn a_nearly_perfect_conductance_in_a_locked_slide_keeps_the_bounds_of_temperature_at_any_step() {
-    for (steps, dt) in [(30, 1e-3), (100, 1e-6)] {
+    // Shear waves need 0.14 ms from the hub to the tread.
+    for (steps, dt) in [(30, 1e-3), (400, 1e-6)] {
         let mut config = common::preset("railway", 10);
         (config.thermal.conductance, config.initial.velocity) = (1e12, 20.0);
         assert_eq!(watched(config, locked, steps, dt), steps);
@@ -352,19 +368,21 @@ fn a_wheel_of_five_thousand_kelvin_keeps_the_bounds_of_temperature_or_is_refused
     for physics in [true, false] {
         let mut config = common::preset("railway", 10);
         (config.thermal.wheel_excess, config.initial.velocity) = (5000.0, 20.0);
-        config.physics.thermal_expansion = physics;
+        (config.physics.thermal_expansion, config.physics.yielding) = (physics, physics);
         watched(config, locked, 20, 1e-3);
     }
 }
 
 #[test]
-fn reversible_cooling_ends_above_absolute_zero_however_large_the_expansion() {
+fn reversible_cooling_ends_above_absolute_zero_or_is_refused_by_name() {
     for expansion in [1.2e-5, 4.8e-4] {
         let mut config = common::preset("railway", 10);
         config.physics.thermoelastic_heating = true;
         (config.material.expansion, config.initial.velocity) = (expansion, 20.0);
         for dt in [1e-3, 1e-5] {
-            watched(config.clone(), locked, 30, dt);
+            let taken = watched(config.clone(), locked, 30, dt);
+            // Steel as it is never comes near the bound.
+            assert!(expansion > 1e-4 || taken == 30, "{taken}");
         }
     }
 }

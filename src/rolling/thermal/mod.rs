@@ -127,7 +127,7 @@ impl ThermalModel {
     }
 
     /// Absolute temperature \[K] that a contact with molten films does not exceed by itself: [`OVERHEATING`] above the
-    /// liquidus, or that of the wheel at the start. Infinite where melting is left out.
+    /// liquidus, or that of the wheel at the start. Infinite where melting leaves friction alone.
     pub fn hottest(&self) -> f64 {
         self.weakening
             .liquidus()

@@ -35,9 +35,9 @@ impl WeakSteel {
         Self { melts, yields: config.physics.yielding, reference, material }
     }
 
-    /// Absolute temperature at which melting is complete \[K]; `None` where it is left out.
+    /// Absolute temperature at which melting is complete \[K]; `None` where it does not act on friction.
     pub fn liquidus(&self) -> Option<f64> {
-        self.melts.then_some(self.material.liquidus)
+        (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
     }
 
     /// Fills `thermal.weakening` from the temperatures `seen`; its film is still that of the step before.
