@@ -136,7 +136,7 @@ pub fn melted_share(heating: f64, reference: f64, material: &Material) -> f64 {
 }
 
 /// Excess over the liquidus at which the film under the contact no longer carries friction \[K].
-const FILM_GROWS: f64 = 40.0;
+pub const FILM_GROWS: f64 = 40.0;
 
 #[cfg(test)]
 mod tests {

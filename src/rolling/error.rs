@@ -99,22 +99,6 @@ pub enum StepError {
         /// Lowest temperature \[K].
         temperature: f64,
     },
-    /// Steel far above its melting point although the finest steps were taken.
-    #[error(
-        "the contact heats to {temperature:.0} K at t = {time:.6} s, more than {margin} K above material.liquidus, even in \
-         steps of {step:.1e} s: check material.conductivity, material.film_friction, thermal.heat_ratio and \
-         drive.tread_heat; material.latent_heat = 0 leaves out melting and with it this bound"
-    )]
-    Overheated {
-        /// Highest absolute temperature of the contact \[K].
-        temperature: f64,
-        /// Allowance above the liquidus \[K].
-        margin: f64,
-        /// Time at which the step began \[s].
-        time: f64,
-        /// Its length \[s].
-        step: f64,
-    },
     /// The bodies have no answer.
     #[error("body response: {0}")]
     Body(#[from] MechanicsError),

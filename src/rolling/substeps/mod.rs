@@ -10,8 +10,8 @@
 //!   bend within one step is below the tolerance, down to steps of some 10 µs ([`control`] says when);
 //! - where the contact heats or cools by hundreds of kelvin in one long piece, with or without a tolerance: friction that
 //!   falls with the temperature follows the temperatures of the steps before;
-//! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to the shortest
-//!   steps: a molten film takes friction away only from the step on after which it is seen.
+//! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to steps of
+//!   some 10 µs: a molten film takes friction away only from the step on after which it is seen.
 
 mod control;
 mod prediction;
@@ -21,7 +21,6 @@ use super::error::StepError;
 use super::model::{Model, Workspace};
 use super::state::{State, StepControl};
 use super::step::{Demand, step};
-use super::thermal::OVERHEATING;
 use crate::config::Tuning;
 use crate::heat::HeatFlows;
 use control::Control;
@@ -153,10 +152,6 @@ fn march(
             Err(error) => return Err(error),
         }
         let found = Found::compare(model, from, next, &control.memory.before, last_step, dt);
-        if found.overheats && dt < 2.0 * SHORTEST_STEP {
-            let (temperature, margin) = (found.hottest, OVERHEATING);
-            return Err(StepError::Overheated { temperature, margin, time: from.time, step: dt });
-        }
         if control.refuses(&found, dt) {
             place.halve();
             continue;

@@ -38,7 +38,7 @@ const AT_REST: f64 = 1e-3;
 const HOTTEST_PASSING: f64 = 1000.0;
 
 /// How far above the liquidus a molten contact may get \[K]: a step that gets there from below was too long.
-pub const OVERHEATING: f64 = 50.0;
+const OVERHEATING: f64 = 50.0;
 
 /// Share of the way that the feedback of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
 /// touches, steel shrinks, the edge recedes, and steel warms and swells again: one step later, so that the feedback of one step
