@@ -52,7 +52,8 @@ impl WeakSteel {
         seen: &mut Observation,
     ) -> Result<(), StepError> {
         let weakening = &mut thermal.weakening;
-        (weakening.strength.clear(), weakening.warmer_wheel.clear());
+        weakening.strength.clear();
+        weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
             self.melt(heat.zone_x(), hottest, seen, &mut weakening.film);
