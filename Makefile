@@ -7,6 +7,7 @@
 # make bench     speed of steps, starts and the reduced basis
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
+# make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
 # make docs      HTML documentation of the library; every warning is an error
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
@@ -31,7 +32,7 @@ MASTERS := $(VENV)/.masters
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu masters flat locked-wheels bench endurance random-parameters leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -64,6 +65,9 @@ endurance:
 
 random-parameters:
 	$(CARGO) run --release --locked --example ex04_random_parameters
+
+random-temperatures:
+	WHEELRAIL_TEMPERATURE_SETS=500 $(CARGO) test --release --locked --test temperature_bounds -- --nocapture
 
 # Masters through the C functions: instantiate, steps, states saved, restored, serialized, misused and freed. Any error
 # that valgrind finds counts, and every block that is definitely lost.

@@ -119,16 +119,24 @@ pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 /// Share of the friction coefficient on a surface that may melt \[1], where the excess temperature over `reference` \[K] is
 /// the share times `heating` \[K].
 ///
-/// The share falls from 1 at the solidus to `material.film_friction` at the liquidus, linear between; what is returned is the
-/// one that belongs to its own temperature. Molten steel of the asperities and then of a whole film is sheared instead of
-/// solid steel. With its viscosity of about 6 mPa s (literature), a film of 1 µm and 20 m/s carry 0.1 MPa, less than a
-/// thousandth of the contact pressure: what remains is a small number, and its size is judgement.
+/// The share falls from 1 at the solidus to `material.film_friction` at the liquidus and to nothing [`FILM_GROWS`] above it,
+/// linear between; what is returned is the one that belongs to its own temperature. Molten steel of the asperities and then
+/// of a whole film is sheared instead of solid steel. With its viscosity of about 6 mPa s (literature), a film of 1 µm and
+/// 20 m/s carry 0.1 MPa, less than a thousandth of the contact pressure: what remains is a small number, and its size is
+/// judgement. A film that gets hotter melts more steel and thickens until its own friction no longer heats it.
 pub fn melted_share(heating: f64, reference: f64, material: &Material) -> f64 {
     let &Material { solidus, liquidus, film_friction, .. } = material;
+    let heating = heating.max(0.0);
     let fall = (1.0 - film_friction) / (liquidus - solidus);
-    let share = (1.0 + fall * (solidus - reference)) / (1.0 + fall * heating.max(0.0));
-    share.clamp(film_friction, 1.0)
+    let share = (1.0 + fall * (solidus - reference)) / (1.0 + fall * heating);
+    if share >= film_friction {
+        return share.min(1.0);
+    }
+    film_friction * (FILM_GROWS + liquidus - reference) / (FILM_GROWS + film_friction * heating)
 }
+
+/// Excess over the liquidus at which the film under the contact no longer carries friction \[K].
+pub const FILM_GROWS: f64 = 40.0;
 
 #[cfg(test)]
 mod tests {
@@ -144,14 +152,18 @@ mod tests {
     };
 
     #[test]
-    fn friction_falls_to_that_of_a_film_between_solidus_and_liquidus() {
+    fn friction_falls_to_that_of_a_film_at_the_liquidus_and_to_nothing_above_it() {
         let material = Material { solidus: 1700.0, liquidus: 1800.0, film_friction: 0.1, ..Material::default() };
-        for heating in [0.0, 1300.0, 1420.0, 2000.0, 1e4, 1e6] {
+        for heating in [0.0, 1300.0, 1400.0, 1420.0, 2000.0, 1e4, 1.51e4, 1e5, 1e6] {
             let share = melted_share(heating, 300.0, &material);
-            let molten = ((300.0 + share * heating - 1700.0) / 100.0).clamp(0.0, 1.0);
-            assert!((share - (1.0 - 0.9 * molten)).abs() < 1e-12, "{heating}: {share}");
+            let temperature = 300.0 + share * heating;
+            let molten = ((temperature - 1700.0) / 100.0).clamp(0.0, 1.0);
+            let carried = 1.0 - ((temperature - 1800.0) / FILM_GROWS).clamp(0.0, 1.0);
+            assert!((share - (1.0 - 0.9 * molten) * carried).abs() < 1e-12, "{heating}: {share}");
         }
-        assert_eq!((melted_share(1400.0, 300.0, &material), melted_share(1e6, 300.0, &material)), (1.0, 0.1));
+        assert_eq!(melted_share(1400.0, 300.0, &material), 1.0);
+        let alone = Material { film_friction: 1.0, ..material };
+        assert_eq!(melted_share(1e6, 300.0, &alone), 1.0);
     }
 
     fn close(a: f64, b: f64) -> bool {

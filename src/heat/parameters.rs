@@ -44,7 +44,8 @@ impl HeatConfig {
         self.material.conductivity / self.heat_capacity()
     }
 
-    /// Refuses geometry on which no mesh can be laid; the error names the parameter and its range.
+    /// Refuses geometry on which no mesh can be laid, and steel that is molten before it begins to melt; the error names the
+    /// parameter and its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let c = self;
         let radius = c.wheel.radius;
@@ -55,6 +56,9 @@ impl HeatConfig {
                 Err(ConfigError { name, value, range: display_range([low, high], "1") })
             }
         };
+        let material = &c.material;
+        // The molten fraction rises from the solidus to the liquidus; the other way round it has no meaning.
+        within("material.liquidus", material.liquidus, material.solidus.next_up(), f64::INFINITY)?;
         let longest = c.zone.max(c.reach);
         within("rail.length", c.rail.length, 4.0 * longest, f64::INFINITY)?;
         within("half-width at model.nominal_load", c.half_width, 1e-6, 0.1 * radius)?;

@@ -6,7 +6,6 @@
 //! from the whole body where those have too little. The heat content of each body stays what it was, to round-off.
 
 use super::layout::Heat;
-use super::loads::SurfaceLoads;
 use super::modal::HeatBody;
 use super::nodal::{Known, Nodal};
 use super::state::HeatState;
@@ -26,10 +25,10 @@ const SLIGHT: f64 = 0.05;
 
 impl Heat {
     /// Coldest datum of a step \[K]: hub, air and arriving rail at the reference, the wheel at the start, and what
-    /// reversible temperatures and cooled brake blocks may have withdrawn.
-    pub(super) fn coldest(&self, state: &HeatState, exchange: &Exchange, loads: &SurfaceLoads) -> f64 {
-        let cooled = exchange.tread.iter().any(|tread| tread.heat < 0.0) || loads.friction.iter().any(|q| q[0] < 0.0);
-        if cooled {
+    /// reversible temperatures may have withdrawn. None while brake blocks cool: then only absolute zero is a bound.
+    /// Friction never cools; where round-off gives it a negative share somewhere, the bound holds all the same.
+    pub(super) fn coldest(&self, state: &HeatState, exchange: &Exchange) -> f64 {
+        if exchange.tread.iter().any(|tread| tread.heat < 0.0) {
             return f64::MIN;
         }
         exchange.reversible.value.iter().fold(state.coldest, |low, value| low.min(-value.abs()))

@@ -79,7 +79,7 @@ impl Heat {
         self.set_loads(exchange, &mut scratch.loads)?;
         self.set_radiation(state, dt, &mut scratch.loads.radiation);
         let now = boundary(speeds, &scratch.loads);
-        next.coldest = self.coldest(state, exchange, &scratch.loads);
+        next.coldest = self.coldest(state, exchange);
         let molten = |range: [f64; 2]| self.melting.filter(|melting| range[1] > melting.solidus);
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
         let march = March { dt, speeds, excess: exchange.friction_excess, smooth, melting: molten(state.range) };
@@ -92,6 +92,11 @@ impl Heat {
         }
         if self.undershoots(next) {
             self.lift(next, &mut scratch.values)?;
+        }
+        if next.coldest == f64::MIN {
+            // What was cooled is from now on the coldest that acts.
+            next.range = self.extremes(&next.field, &mut scratch.values);
+            next.coldest = state.coldest.min(next.range[0]);
         }
         next.last = Some(now);
         Ok(flows)
@@ -170,7 +175,7 @@ impl Heat {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
         let mut state = HeatState { field, last: Some(boundary(speeds, &loads)), ..HeatState::default() };
-        state.coldest = self.coldest(&state, exchange, &loads);
+        state.coldest = self.coldest(&state, exchange);
         let mut values = Vec::new();
         state.range = self.extremes(&state.field);
         if self.undershoots(&state) {

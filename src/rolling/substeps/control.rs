@@ -65,7 +65,9 @@ impl<'a> Control<'a> {
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
         let finest = FINEST * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
         let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
-        let refused = inaccurate || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
+        let overheats = found.overheats && dt > 2.0 * FINEST;
+        let heats = overheats || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
+        let refused = inaccurate || heats;
         if refused {
             self.memory.step = 0.5 * dt;
             self.failed = found.error;

@@ -44,6 +44,8 @@ pub struct Found {
     pub heating: f64,
     /// Highest absolute contact temperature at the end \[K]; zero without heat.
     pub hottest: f64,
+    /// Whether it exceeds the bound of a molten contact, which it kept before.
+    pub overheats: bool,
     /// Whether it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
     /// Whether it was longer than the step before.
@@ -77,7 +79,9 @@ impl Found {
         }
         let reference = model.thermal.as_ref().map_or(0.0, |thermal| thermal.reference());
         let (heating, hottest) = ((hottest(to) - hottest(from)).abs(), reference + hottest(to));
-        Self { error, heating, hottest, first, doubled: ratio > 1.5 }
+        let bound = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
+        let overheats = hottest > bound && hottest - heating <= bound;
+        Self { error, heating, hottest, overheats, first, doubled: ratio > 1.5 }
     }
 }
 

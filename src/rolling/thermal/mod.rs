@@ -37,6 +37,9 @@ const AT_REST: f64 = 1e-3;
 /// any steel tear the stationary contact apart.
 const HOTTEST_PASSING: f64 = 1000.0;
 
+/// How far above the liquidus a molten contact may get \[K]: a step that gets there from below was too long.
+const OVERHEATING: f64 = 50.0;
+
 /// Share of the way that the deformation of a very hot contact takes in a step \[1]. Where the edge of the patch cools what it
 /// touches, steel shrinks, the edge recedes, and steel warms and swells again: one step later, so that the feedback of one step
 /// on the next is below −1 and whole swellings would flip from step to step. Half of the way it is below −3 that they do.
@@ -125,6 +128,14 @@ impl ThermalModel {
     /// Absolute temperature of hub, air and arriving rail \[K].
     pub fn reference(&self) -> f64 {
         self.reference
+    }
+
+    /// Absolute temperature \[K] that a contact with molten films does not exceed by itself: [`OVERHEATING`] above the
+    /// liquidus, or that of the wheel at the start. Infinite where melting leaves friction alone.
+    pub fn hottest(&self) -> f64 {
+        self.weakening
+            .liquidus()
+            .map_or(f64::INFINITY, |liquidus| (liquidus + OVERHEATING).max(self.reference + self.wheel_excess))
     }
 
     /// What temperatures see of a contact.

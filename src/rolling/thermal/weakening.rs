@@ -3,7 +3,7 @@
 use crate::config::{Config, Material};
 use crate::contact::Traction;
 use crate::heat::{Heat, HeatModel, Observation};
-use crate::material::{SOFTENS, melted_share, yield_share};
+use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
 use crate::piecewise::{Piecewise, interpolate};
 use crate::rolling::error::StepError;
 use crate::rolling::state::ThermalState;
@@ -14,6 +14,9 @@ const LOADED_DEPTH: f64 = 0.5;
 
 /// Share of friction below which temperatures say nothing about those without a film [1].
 const LEAST: f64 = 1e-3;
+
+/// Largest part of the friction on a place that one step takes away because it is overheated [1].
+const CUT: f64 = 0.75;
 
 /// How steel weakens.
 #[derive(Clone, Debug)]
@@ -37,6 +40,11 @@ impl WeakSteel {
         Self { melts, yields: config.physics.yielding && start < material.solidus, reference, material }
     }
 
+    /// Absolute temperature at which melting is complete \[K]; `None` where it does not act on friction.
+    pub fn liquidus(&self) -> Option<f64> {
+        (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
+    }
+
     /// Fills `thermal.weakening` from the temperatures `seen`; its film is still that of the step before.
     pub fn find(
         &self,
@@ -46,7 +54,8 @@ impl WeakSteel {
         seen: &mut Observation,
     ) -> Result<(), StepError> {
         let weakening = &mut thermal.weakening;
-        (weakening.strength.clear(), weakening.warmer_wheel.clear());
+        weakening.strength.clear();
+        weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
             self.melt(heat.zone_x(), hottest, seen, &mut weakening.film);
@@ -64,6 +73,16 @@ impl WeakSteel {
         Ok(())
     }
 
+    /// Factor by which the share of friction falls at least on a place at the excess temperature `hot` \[K]. Short steps are
+    /// over before the temperature has followed the share, and the share of [`melted_share`] changes by some percent a step
+    /// only: too slow where a place overheats within microseconds.
+    fn overheated(&self, hot: f64) -> f64 {
+        match self.liquidus() {
+            Some(liquidus) => 1.0 - CUT * ((self.reference + hot - liquidus) / FILM_GROWS).clamp(0.0, 1.0),
+            None => 1.0,
+        }
+    }
+
     /// Share of friction on molten places in the coming step. The flash follows the friction at once, as in
     /// [`crate::contact::Friction::local`]: the temperature at the end of the step is taken as proportional to the share, and
     /// the share that belongs to its own temperature is found. A share from the temperature before would let the surface
@@ -76,7 +95,9 @@ impl WeakSteel {
         let [wheel, rail] = &seen.surface;
         for ((&x, wheel), rail) in x.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, x) };
-            film.push(x, melted_share(wheel.max(*rail) / share.max(LEAST), self.reference, &self.material));
+            let hot = wheel.max(*rail);
+            let found = melted_share(hot / share.max(LEAST), self.reference, &self.material);
+            film.push(x, found.min(share * self.overheated(hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
