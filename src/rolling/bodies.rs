@@ -56,7 +56,7 @@ impl Bodies {
             let [of_wheel, of_rail] = &mut layers;
             solver.correct(of_wheel, of_rail);
             let taken = bodies.iter_mut().zip(&layers).map(|(body, layer)| body.take_layer(layer));
-            hold_correction = taken.fold(true, |all, one| all && one);
+            hold_correction = taken.fold(true, |all, one| all & one);
             bodies
         };
         let narrow = corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len());

@@ -90,8 +90,9 @@ pub(super) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], tr
     traction.yielding = if closed > 0 { yielding as f64 / closed as f64 } else { 0.0 };
     let first = state.yielded.iter().position(|yields| *yields);
     let (Some(first), Some(last)) = (first, state.yielded.iter().rposition(|yields| *yields)) else { return };
-    for i in first.saturating_sub(1)..=(last + 1).min(grid.len() - 1) {
-        traction.overlap.push(grid.x[i], overlap[i].max(0.0));
+    let stretch = first.saturating_sub(1)..(last + 2).min(grid.len());
+    for (x, depth) in grid.x[stretch.clone()].iter().zip(&overlap[stretch]) {
+        traction.overlap.push(*x, depth.max(0.0));
     }
 }
 

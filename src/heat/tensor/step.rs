@@ -95,7 +95,7 @@ impl Heat {
         }
         if next.coldest == f64::MIN {
             // What was cooled is from now on the coldest that acts.
-            next.range = self.extremes(&next.field, &mut scratch.values);
+            next.range = self.extremes(&next.field);
             next.coldest = state.coldest.min(next.range[0]);
         }
         next.last = Some(now);
