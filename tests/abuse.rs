@@ -1,7 +1,7 @@
 //! A master without manners: tens of thousands of random legal and illegal calls through the C functions of the
 //! compiled library, in random order, with ordinary, extreme and impossible values.
 //!
-//! Deterministic: call sequences follow from a seed. `WHEELRAIL_ABUSE_CALLS` asks for more calls than the usual 24,000,
+//! Deterministic: call sequences follow from a seed. `WHEELRAIL_ABUSE_CALLS` asks for more calls than the usual 8,000,
 //! `WHEELRAIL_ABUSE_SEED` for the sequence of one seed only; a failure prints its seed and the last calls.
 //!
 //! After every call:
@@ -584,7 +584,7 @@ fn abuse(seed: u64, calls: usize) {
 
 #[test]
 fn no_sequence_of_calls_breaks_an_instance() {
-    let calls = number("WHEELRAIL_ABUSE_CALLS").unwrap_or(24_000) as usize;
+    let calls = number("WHEELRAIL_ABUSE_CALLS").unwrap_or(8_000) as usize;
     match number("WHEELRAIL_ABUSE_SEED") {
         Some(seed) => abuse(seed, calls),
         None => (1..=8).for_each(|seed| abuse(seed, calls / 8)),

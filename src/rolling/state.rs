@@ -192,7 +192,7 @@ pub struct StepControl {
     pub before: Controlled,
     /// Largest error that shorter steps were lately seen not to cure \[1].
     pub noise: f64,
-    /// Internal steps taken of late while the contact was beyond Ac1 \[1].
+    /// Internal steps taken of late while the contact yielded or was beyond Ac1 \[1].
     pub effort: f64,
     /// Error of a doubled step that failed, until it is clear whether its halves are quiet; zero: none \[1].
     pub suspect: f64,

@@ -10,9 +10,9 @@
 //! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
 //!
 //! Events are over after some milliseconds, and vibrations deserve their steps. In long dry slides, however, heat, expansion
-//! and pressure excite each other without end, since nothing yields or melts, and the finest steps serve nobody: where the
-//! contact is beyond Ac1, the more steps were taken of late, the longer is the shortest one that errors ask for
-//! ([`PERSISTENCE`]).
+//! and pressure excite each other without end, and steel that yields makes the force jump from node to node; the finest
+//! steps serve nobody: where the contact is beyond Ac1 or yields, the more steps were taken of late, the longer is the
+//! shortest one that errors ask for ([`PERSISTENCE`]).
 
 use super::prediction::Found;
 use crate::config::Tuning;
@@ -21,11 +21,13 @@ use crate::rolling::state::StepControl;
 /// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
 /// located to twice this time at best.
 const FINEST: f64 = 1e-5;
-/// Time in which internal steps of a contact beyond Ac1 are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
+/// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
 /// make it five times as long. The shortest steps fall from sixty in a millisecond to some six if they go on.
 const PERSISTENCE: (f64, f64) = (0.3, 500.0);
 /// Change of the highest contact temperature [K] that always refines steps longer than this [s].
 const HEATING: (f64, f64) = (300.0, 1e-3);
+/// Internal step that overheating alone does not halve any further [s]: a molten film takes friction away in the next one.
+const OVERHEATED: f64 = 1e-4;
 /// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
 const GROWTH: f64 = 0.125;
 /// Largest noise that passes, in tolerances [1].
@@ -65,7 +67,7 @@ impl<'a> Control<'a> {
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
         let finest = FINEST * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
         let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
-        let overheats = found.overheats && dt > 2.0 * FINEST;
+        let overheats = found.overheats && dt > 2.0 * OVERHEATED;
         let heats = overheats || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
         let refused = inaccurate || heats;
         if refused {
@@ -82,7 +84,7 @@ impl<'a> Control<'a> {
         let tolerance = self.tuning.tolerance;
         self.failed = 0.0;
         self.memory.noise *= FADING;
-        let counted = if found.hottest > self.tuning.austenitisation { 1.0 } else { 0.0 };
+        let counted = if found.yields || found.hottest > self.tuning.austenitisation { 1.0 } else { 0.0 };
         self.memory.effort = counted + self.memory.effort * (-dt / PERSISTENCE.0).exp();
         let quiet = found.error <= GROWTH * tolerance;
         if self.memory.suspect > 0.0 {

@@ -11,7 +11,7 @@
 //! - where the contact heats or cools by hundreds of kelvin in one long piece, with or without a tolerance: friction that
 //!   falls with the temperature follows the temperatures of the steps before;
 //! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to steps of
-//!   some 10 µs: a molten film takes friction away only from the step on after which it is seen.
+//!   0.1 ms: a molten film takes friction away only from the step on after which it is seen.
 
 mod control;
 mod prediction;

@@ -46,6 +46,8 @@ pub struct Found {
     pub hottest: f64,
     /// Whether it exceeds the bound of a molten contact, which it kept before.
     pub overheats: bool,
+    /// Whether steel yields in the contact at the end.
+    pub yields: bool,
     /// Whether it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
     /// Whether it was longer than the step before.
@@ -81,7 +83,8 @@ impl Found {
         let (heating, hottest) = ((hottest(to) - hottest(from)).abs(), reference + hottest(to));
         let bound = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
         let overheats = hottest > bound && hottest - heating <= bound;
-        Self { error, heating, hottest, overheats, first, doubled: ratio > 1.5 }
+        let yields = to.contact.traction.yielding > 0.0;
+        Self { error, heating, hottest, overheats, yields, first, doubled: ratio > 1.5 }
     }
 }
 
