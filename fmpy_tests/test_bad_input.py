@@ -106,7 +106,7 @@ def test_load_beyond_the_contact_zone_names_load_and_remedy(twins, outputs):
 def test_a_load_beyond_the_contact_zone_names_the_parameter_to_raise(start):
     wheel = start()
     height = -wheel.get("contact.approach")
-    wheel.set({"control.vertical": "displacement", "drive.displacement": 6 * height})
+    wheel.set({"control.vertical": "displacement", "drive.displacement": 60 * height})
     with pytest.raises(Refused, match="model.nominal_load"):
         wheel.step(1e-3)
     wheel.set({"drive.displacement": height})
