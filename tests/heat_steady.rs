@@ -148,6 +148,7 @@ fn contact_edges_between_nodes_cost_little_accuracy() {
         let config = with(config(nominal, 100.0 * KMH), |c| {
             c.thermal.smallest_load_ratio = 1e5_f64.min(nominal) / nominal;
             c.zone = 1.6 * half_width(1.1e5);
+            c.reach = c.zone;
         });
         let name = format!("mesh for {nominal:.1e} N/m");
         let (t, _) = stationary(&name, &config, v, omega(v, creepage), &carter(1e5, v, creepage));
