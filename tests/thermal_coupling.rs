@@ -118,7 +118,8 @@ fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
     (config.tuning.falling_ratio, config.tuning.softening) = (1.0, 0.0);
     config.physics.thermal_expansion = false;
     config.thermal.conductance = 1e9;
-    // The closed form is that of the plane, in which nothing melts.
+    // The closed form is that of the plane, in which nothing yields or melts.
+    config.physics.yielding = false;
     config.material.latent_heat = 0.0;
     config.thermal.cross_section = CrossSection::Contact;
     let model = model(config.clone());

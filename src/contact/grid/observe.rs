@@ -42,7 +42,7 @@ pub(super) fn lever_arms(
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
 /// friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that the
-/// steel bears anywhere [Pa].
+/// steel bears anywhere \[Pa].
 pub fn read_off(
     grid: &ContactGrid,
     (power, limit): (f64, f64),

@@ -18,8 +18,8 @@ const MARGIN: f64 = 0.08;
 const SLOWLY: f64 = 0.25;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
-/// Undershoot that passes where a body has no heat to lift it with \[K], unless [`SLIGHT`] says more.
-const TOLERATED: f64 = 1.0;
+/// Undershoot that passes where a body has no heat to lift it with \[K].
+const TOLERATED: f64 = 0.3;
 /// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
 
@@ -85,7 +85,7 @@ impl Heat {
             values.resize(nodal.len(), 0.0);
             if affords(body, nodal, field, *coldest, values) {
                 lift_body(body, nodal, field, *coldest, values);
-            } else if *coldest - range[0] > TOLERATED.max(SLIGHT * (range[1] - *coldest)) {
+            } else if range[0] < *coldest - TOLERATED {
                 return Err(HeatError::Undershoot { lowest: range[0], coldest: *coldest });
             } else {
                 lifted = false;
