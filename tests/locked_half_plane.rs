@@ -182,7 +182,7 @@ fn a_locked_wheel_has_the_temperatures_of_two_half_planes_from_3_ms_to_1_s() {
         let errors: Vec<f64> = computed.iter().zip(expected).map(|(a, b)| 100.0 * (a / b - 1.0)).collect();
         println!("{time} s: {computed:.2?} K, closed {expected:.2?} K, {errors:+.3?} %");
         let largest = errors.iter().fold(0.0f64, |worst, error| worst.max(error.abs()));
-        // The first steps after the jump are backward Euler's: −2.6 % after 3 ms, −0.1 % after 10 ms.
+        // Known shortfall: −2.6 % after 3 ms (−0.1 % after 10 ms), perhaps from steps of backward Euler after the jump.
         if *time < 5e-3 { first = first.max(largest) } else { worst = worst.max(largest) }
     }
     assert!(first < 3.0 && worst < 0.5, "{first} %, {worst} %");
