@@ -19,7 +19,7 @@ const SLOWLY: f64 = 0.25;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
 /// Undershoot that passes where a body has no heat to lift it with \[K].
-const TOLERATED: f64 = 0.3;
+const TOLERATED: f64 = 1.0;
 /// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
 
