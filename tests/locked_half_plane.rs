@@ -177,15 +177,13 @@ fn a_locked_wheel_has_the_temperatures_of_two_half_planes_from_3_ms_to_1_s() {
     let power = |time: f64| power.iter().find(|(end, _)| time <= *end + 1e-12).map_or(0.0, |(_, power)| *power);
     let expected = closed_solution(&config, a, &power);
     println!("steady friction power {:.5e} W/m, mu P V {:.5e}", power(0.9), FRICTION * 1e5 / width * SPEED);
-    let (mut worst, mut first) = (0.0f64, 0.0f64);
+    let mut worst = 0.0f64;
     for ((time, computed), expected) in TIMES.iter().zip(&computed).zip(&expected) {
         let errors: Vec<f64> = computed.iter().zip(expected).map(|(a, b)| 100.0 * (a / b - 1.0)).collect();
         println!("{time} s: {computed:.2?} K, closed {expected:.2?} K, {errors:+.3?} %");
-        let largest = errors.iter().fold(0.0f64, |worst, error| worst.max(error.abs()));
-        // Known shortfall: −2.6 % after 3 ms (−0.1 % after 10 ms), perhaps from steps of backward Euler after the jump.
-        if *time < 5e-3 { first = first.max(largest) } else { worst = worst.max(largest) }
+        worst = errors.iter().fold(worst, |worst, error| worst.max(error.abs()));
     }
-    assert!(first < 3.0 && worst < 0.5, "{first} %, {worst} %");
+    assert!(worst < 0.5, "{worst} %");
 }
 
 #[test]

@@ -13,8 +13,8 @@ use wheelrail::piecewise::Piecewise;
 use wheelrail::simulation::advice::{failed_preparation, failed_start, failed_step};
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
 
-/// Undershoot that counts as none [K]: 0.1 K but for bodies that are so cold that they have no heat to lift a node with.
-const SLIGHT: f64 = 1.0;
+/// Undershoot that counts as none [K].
+const SLIGHT: f64 = 0.1;
 /// Excess over the liquidus that a molten contact may reach [K]. The aim is 50 K; a single step that holds the friction of the
 /// step before overshoots by up to 384 K (measured: 2187 K in steps of 4.4 us with twelve times the expansion of steel).
 const OVERHEATING: f64 = 500.0;

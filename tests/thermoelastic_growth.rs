@@ -126,7 +126,6 @@ fn the_contraction_of_a_locked_patch_converges_in_step_and_mesh() {
 /// Above 400 °C the feedback of heat lags by three steps more (docs/theory/limits-of-steel.md). In steps of 25 to 100 µs this
 /// changes the course: 3 to 5 % after 1 ms and 9 to 11 % after 2 ms, where steps of 10 µs and less agree on 5.5 and 4.8 %.
 #[test]
-#[ignore = "known shortfall: steps of microseconds undershoot by more than a kelvin and are refused"]
 fn the_first_growth_of_the_pressure_in_a_dry_slide_converges_in_step_and_mesh() {
     let run = |model: &Arc<Model>, h: f64| {
         let seen = growth(model, [0.3, 0.002], &[0.001, 0.0015, 0.002, 0.003, 0.004], h);

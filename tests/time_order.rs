@@ -46,7 +46,6 @@ fn errors(heat: bool) -> ([f64; 4], f64) {
 /// the motion this leaves no error of first order. The contact force itself does not show the order: as the wheel rolls
 /// less than the patch, then less than a cell, in a step, the error of the mesh changes by some 1e-4 of the load.
 #[test]
-#[ignore = "known shortfall: with heat the order is lost since temperatures are bounded and smoothed"]
 fn braked_motion_converges_with_second_order_in_the_step_with_and_without_heat() {
     for heat in [false, true] {
         let (speed, force) = errors(heat);

@@ -1,25 +1,20 @@
 //! Nothing becomes colder than its surroundings: the bound that the discretisation itself does not keep.
 //!
 //! Steep gradients make finite elements of higher order, short steps with consistent mass, upwinding at contact edges and
-//! the second stage of the time formula undershoot. Where a node falls below the coldest datum, it is lifted to it, and
-//! the heat for it is taken in proportion to the excess over the bound: from the nodes below the same surface node, or
-//! from the whole body where those have too little. The heat content of each body stays what it was, to round-off.
+//! the second stage of the time formula undershoot. Where a node falls below the coldest datum by more than a margin, all
+//! that are too cold are [lifted](super::lift).
 
 use super::layout::Heat;
-use super::modal::HeatBody;
-use super::nodal::{Known, Nodal};
+use super::nodal::Known;
 use super::state::HeatState;
-use crate::heat::error::HeatError;
 use crate::heat::exchange::Exchange;
 
 /// How far a node may fall below the coldest datum before it is lifted \[K].
-const MARGIN: f64 = 0.08;
+pub(super) const MARGIN: f64 = 0.09;
 /// Change in a step, in such margins, up to which bounds are widened without a look at the nodes [1].
 const SLOWLY: f64 = 0.25;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
-/// Undershoot that passes where a body has no heat to lift it with \[K].
-const TOLERATED: f64 = 1.0;
 /// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
 
@@ -41,7 +36,7 @@ impl Heat {
         let low = (next.coldest - MARGIN).max(-NEAR_ZERO * self.config.thermal.reference);
         let high = self.melting.map_or(f64::INFINITY, |melting| melting.solidus);
         // Bounds that have become wide do not come back by themselves.
-        let wide = state.range[0] < next.coldest - 0.5 * MARGIN;
+        let wide = state.range[0] < next.coldest - 0.75 * MARGIN;
         if !wide {
             let size = self.wheel.size();
             let known = Known { before: state.range, allowed: [low, high], slight: SLOWLY * MARGIN };
@@ -74,68 +69,5 @@ impl Heat {
     pub(super) fn undershoots_badly(&self, state: &HeatState) -> bool {
         let [low, high] = state.range;
         self.undershoots(state) && state.coldest - low > SLIGHT * (high - state.coldest)
-    }
-
-    /// Lifts all nodes to the coldest datum and keeps the heat contents.
-    pub(super) fn lift(&self, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
-        let HeatState { field, coldest, range, .. } = state;
-        let (wheel, rail) = field.split_at_mut(self.wheel.size());
-        let mut lifted = true;
-        for (body, nodal, field) in [(&self.wheel, &self.nodal[0], wheel), (&self.rail, &self.nodal[1], rail)] {
-            values.resize(nodal.len(), 0.0);
-            if affords(body, nodal, field, *coldest, values) {
-                lift_body(body, nodal, field, *coldest, values);
-            } else if range[0] < *coldest - TOLERATED {
-                return Err(HeatError::Undershoot { lowest: range[0], coldest: *coldest });
-            } else {
-                lifted = false;
-            }
-        }
-        if lifted {
-            range[0] = *coldest;
-        }
-        Ok(())
-    }
-}
-
-/// Whether the heat content of a body allows its nodes to be lifted: one that is hardly warm anywhere may lack the heat.
-fn affords(body: &HeatBody, nodal: &Nodal, field: &[f64], floor: f64, values: &mut [f64]) -> bool {
-    let mut total = 0.0;
-    for (row, weight) in field.chunks_exact(body.modes.len()).zip(&body.line.weights) {
-        nodal.values(row, values);
-        let excess = values.iter().zip(&nodal.weights).map(|(value, share)| (value - floor) * share);
-        total += weight * excess.sum::<f64>();
-    }
-    total >= 0.0
-}
-
-/// Lifts the nodes of one body.
-fn lift_body(body: &HeatBody, nodal: &Nodal, field: &mut [f64], floor: f64, values: &mut [f64]) {
-    let modes = &body.modes;
-    let (mut missing, mut total) = (0.0, 0.0);
-    for (row, weight) in field.chunks_exact_mut(modes.len()).zip(&body.line.weights) {
-        nodal.values(row, values);
-        values.iter_mut().for_each(|value| *value -= floor);
-        let (mut lack, mut surplus) = (0.0, 0.0);
-        for (value, weight) in values.iter().zip(&nodal.weights) {
-            let heat = value * weight;
-            if heat < 0.0 { lack -= heat } else { surplus += heat }
-        }
-        if lack > 0.0 {
-            let given = if lack <= surplus { lack / surplus } else { 0.0 };
-            values.iter_mut().for_each(|value| *value = if *value < 0.0 { -*value } else { -given * *value });
-            nodal.add(values, row);
-            let left = if given > 0.0 { 0.0 } else { lack };
-            missing += weight * left;
-            surplus -= lack - left;
-        }
-        total += weight * surplus;
-    }
-    if missing > 0.0 && total > 0.0 {
-        // Now nothing lies below the bound: the excess of the whole body shrinks.
-        let share = missing / total;
-        for row in field.chunks_exact_mut(modes.len()) {
-            row.iter_mut().zip(&modes.free).for_each(|(x, one)| *x -= share * (*x - floor * one));
-        }
     }
 }

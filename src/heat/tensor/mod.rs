@@ -17,6 +17,7 @@ mod depth_modes;
 mod field;
 mod flows;
 mod layout;
+mod lift;
 mod loads;
 mod melt;
 mod modal;
@@ -89,13 +90,16 @@ impl HeatModel for Heat {
             body.trace(nodes.clone(), field, &mut seen.surface[i]);
             body.integrate(field, &mut seen.sums);
             volume_means[i] = body.heat_capacity * dot(&seen.sums, &body.modes.content) / self.heat_capacity(body);
-            let weights = &self.layer_weights[i];
-            let along = if body.line.closed > 0.0 { dot(&seen.sums, weights) / body.line.closed } else { 0.0 };
+            let (weights, moments) = (&self.layer_weights[i], &self.layer_moments[i]);
+            let mean = |weights: &[f64]| {
+                if body.line.closed > 0.0 { dot(&seen.sums, weights) / body.line.closed } else { 0.0 }
+            };
+            let (along, moment_along) = (mean(weights), mean(moments));
             let nm = body.modes.len();
             let rows = field[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
             seen.layer[i].clear();
             seen.layer[i].extend(rows.clone().map(|row| dot(row, weights) - along));
-            seen.layer_depth[i] = mean_depth(rows.map(|row| dot(row, &self.layer_moments[i])), &seen.layer[i]);
+            seen.layer_depth[i] = mean_depth(rows.map(|row| dot(row, moments) - moment_along), &seen.layer[i]);
         }
         seen.lowest = state.range[0];
         let melted = self.observe_melting(state, seen);
@@ -127,8 +131,9 @@ impl HeatModel for Heat {
     }
 }
 
-/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns; zero where nothing is warm.
+/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns, whether they are warmer or colder
+/// than the rest; zero where nothing is.
 fn mean_depth(moments: impl Iterator<Item = f64>, layer: &[f64]) -> f64 {
-    let (moment, content) = (moments.sum::<f64>(), layer.iter().sum::<f64>());
-    if content > 0.0 && moment > 0.0 { moment / content } else { 0.0 }
+    let (moment, content) = (moments.map(f64::abs).sum::<f64>(), layer.iter().map(|heat| heat.abs()).sum::<f64>());
+    if content > 0.0 { moment / content } else { 0.0 }
 }
