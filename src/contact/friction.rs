@@ -72,8 +72,14 @@ impl Friction {
     /// The flash temperature follows the friction within microseconds, `T − T_ref = θ μ`. Solving `μ = cold (1 − K θ μ)`
     /// with θ extrapolated to the end of the step keeps the law stable in long steps and second order in short ones, and
     /// sees slip and temperature at the same time.
+    ///
+    /// In steps that are too short for the temperature to follow, θ falls by what μ rises, and a θ extrapolated in full feeds
+    /// on itself where friction has lost most of its value: it is extrapolated no further than `G (1 + 2e) ≤ 1` with the
+    /// share e and `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, so that no deviation of θ grows in any step.
     pub fn local(law: FrictionLaw, available: f64, heating: Heating, ratio: f64) -> Self {
-        Self { law, available, heating: heating.predicted(ratio), memory: None }
+        let softened = available * law.softening * heating.now.max(0.0);
+        let share = if softened > 0.5 { 0.5 / softened } else { 1.0 };
+        Self { law, available, heating: heating.predicted(share * ratio), memory: None }
     }
 
     /// A coefficient that nothing changes \[1].
@@ -184,6 +190,22 @@ mod tests {
         assert_eq!(Heating { now: 300.0, before: -900.0 }.predicted(1.0), 600.0);
         assert_eq!(Heating { now: 300.0, before: 900.0 }.predicted(2.0), 0.0);
         assert_eq!(Heating { now: -5.0, before: -5.0 }.predicted(0.0), 0.0);
+    }
+
+    #[test]
+    fn a_deviation_of_the_heating_does_not_feed_on_itself_in_short_steps() {
+        // The temperature stays, θ = T/μ: the extreme of a short step.
+        for temperature in [50.0, 300.0, 700.0, 850.0] {
+            let mut mu = 0.3 * (1.0 - LAW.softening * temperature);
+            let exact = mu;
+            let mut heating = Heating { now: temperature / (1.01 * mu), before: temperature / mu };
+            for _ in 0..400 {
+                mu = Friction::local(LAW, 0.3, heating, 1.0).coefficient(0.0);
+                assert!((mu / exact - 1.0).abs() < 0.0101, "{temperature} K: {mu} for {exact}");
+                heating = Heating { now: temperature / mu, before: heating.now };
+            }
+            assert!((mu / exact - 1.0).abs() < 1e-9, "{temperature} K: {mu} for {exact}");
+        }
     }
 
     #[test]
