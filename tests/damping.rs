@@ -99,6 +99,7 @@ fn heavy_hub(elements: usize) -> Config {
     let mut config = preset("railway", elements);
     config.thermal.enabled = false;
     config.wheel.hub_mass = 3000.0;
+    config.vehicle.damping = 0.0;
     config
 }
 

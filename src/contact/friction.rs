@@ -65,6 +65,18 @@ struct Memory {
     local: f64,
 }
 
+impl FrictionLaw {
+    /// Share e of its change over which the heating θ may be extrapolated \[1] in steps too short for the temperature to
+    /// follow friction.
+    ///
+    /// There θ falls by what μ rises, and a θ extrapolated in full feeds on itself where friction has lost most of its value.
+    /// With `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, no deviation of θ grows if `G (1 + 2e) ≤ 1`.
+    pub fn extrapolated(&self, available: f64, heating: Heating) -> f64 {
+        let softened = available * self.softening * heating.now.max(0.0);
+        if softened > 0.5 { 0.5 / softened } else { 1.0 }
+    }
+}
+
 impl Friction {
     /// The coefficient follows the law at once: `available` on the rail \[1], `heating` at the end of the step, whose length
     /// is `ratio` times that of the one before (0 if that says nothing).
@@ -72,14 +84,8 @@ impl Friction {
     /// The flash temperature follows the friction within microseconds, `T − T_ref = θ μ`. Solving `μ = cold (1 − K θ μ)`
     /// with θ extrapolated to the end of the step keeps the law stable in long steps and second order in short ones, and
     /// sees slip and temperature at the same time.
-    ///
-    /// In steps that are too short for the temperature to follow, θ falls by what μ rises, and a θ extrapolated in full feeds
-    /// on itself where friction has lost most of its value: it is extrapolated no further than `G (1 + 2e) ≤ 1` with the
-    /// share e and `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, so that no deviation of θ grows in any step.
     pub fn local(law: FrictionLaw, available: f64, heating: Heating, ratio: f64) -> Self {
-        let softened = available * law.softening * heating.now.max(0.0);
-        let share = if softened > 0.5 { 0.5 / softened } else { 1.0 };
-        Self { law, available, heating: heating.predicted(share * ratio), memory: None }
+        Self { law, available, heating: heating.predicted(ratio), memory: None }
     }
 
     /// A coefficient that nothing changes \[1].
@@ -200,7 +206,7 @@ mod tests {
             let exact = mu;
             let mut heating = Heating { now: temperature / (1.01 * mu), before: temperature / mu };
             for _ in 0..400 {
-                mu = Friction::local(LAW, 0.3, heating, 1.0).coefficient(0.0);
+                mu = Friction::local(LAW, 0.3, heating, LAW.extrapolated(0.3, heating)).coefficient(0.0);
                 assert!((mu / exact - 1.0).abs() < 0.0101, "{temperature} K: {mu} for {exact}");
                 heating = Heating { now: temperature / mu, before: heating.now };
             }
