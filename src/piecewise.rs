@@ -177,6 +177,23 @@ pub fn mean(x: &[f64], values: &[f64], low: f64, high: f64) -> f64 {
     if high > low { integral / (high - low) } else { 0.0 }
 }
 
+/// Replaces `values` by their means over `reach` to both sides, of the function that is constant beyond its ends.
+pub fn smear(x: &[f64], values: &mut [f64], reach: f64) {
+    let (Some(&first), Some(&last)) = (x.first(), x.last()) else { return };
+    let mut below = vec![0.0];
+    for (ends, v) in segments(x, values) {
+        below.push(below[below.len() - 1] + 0.5 * (ends[1] - ends[0]) * (v[0] + v[1]));
+    }
+    let integral = |at: f64| {
+        let inside = at.clamp(first, last);
+        let node = x.partition_point(|&node| node <= inside).max(1) - 1;
+        let mean = 0.5 * (values[node] + interpolate(x, values, inside));
+        below[node] + (inside - x[node]) * mean + (at - inside) * interpolate(x, values, at)
+    };
+    let means: Vec<f64> = x.iter().map(|&x| (integral(x + reach) - integral(x - reach)) / (2.0 * reach)).collect();
+    values.copy_from_slice(&means);
+}
+
 /// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule); zero for
 /// a weight without integral.
 pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
@@ -254,6 +271,21 @@ mod tests {
         let mut out = vec![9.0; 7];
         resample(&x, &value, &[0.25, 2.0], &mut out);
         assert_eq!(out, [0.5, -1.0]);
+    }
+
+    #[test]
+    fn a_smeared_step_is_a_ramp_and_a_smeared_ramp_stays() {
+        let x: Vec<f64> = (0..41).map(|i| 0.1 * f64::from(i)).collect();
+        let mut step: Vec<f64> = x.iter().map(|&x| if x < 1.95 { 1.0 } else { 3.0 }).collect();
+        smear(&x, &mut step, 0.5);
+        for (&x, value) in x.iter().zip(&step).filter(|(x, _)| (**x - 1.95).abs() > 0.6 || (**x - 1.95).abs() < 0.4) {
+            assert!((value - (2.0 + 2.0 * (x - 1.95)).clamp(1.0, 3.0)).abs() < 1e-12, "{x}: {value}");
+        }
+        let mut ramp = x.clone();
+        smear(&x, &mut ramp, 0.3);
+        assert!(x.iter().zip(&ramp).filter(|(x, _)| (0.3..=3.7).contains(*x)).all(|(x, v)| (x - v).abs() < 1e-12));
+        assert!((ramp[0] - 0.5 * 0.3 * 0.5).abs() < 1e-12, "{}", ramp[0]);
+        smear(&[], &mut [], 1.0);
     }
 
     #[test]

@@ -49,6 +49,7 @@ fn a_heavy_hub_bounces_with_the_root_of_stiffness_over_mass() {
     let mut config = preset("railway", 10);
     config.thermal.enabled = false;
     config.wheel.hub_mass = 3000.0;
+    config.vehicle.damping = 0.0;
     let model = model(config);
     let config = model.config();
     let area = PI * (config.wheel.radius.powi(2) - config.wheel.hub_radius.powi(2));

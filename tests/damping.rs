@@ -99,12 +99,31 @@ fn heavy_hub(elements: usize) -> Config {
     let mut config = preset("railway", elements);
     config.thermal.enabled = false;
     config.wheel.hub_mass = 3000.0;
+    config.vehicle.damping = 0.0;
     config
 }
 
 /// Mass of wheel and hub \[kg].
 fn bouncing_mass(config: &Config) -> f64 {
     config.wheel.hub_mass + wheel_mass(config) * config.model.contact_width
+}
+
+/// A mass on a spring and a damper: `c/(2 m ω)`.
+#[test]
+fn bounce_on_the_contact_decays_with_the_damper_between_hub_and_vehicle() {
+    let guess = 370.0;
+    let mut config = rayleigh(heavy_hub(10), 0.0);
+    let mass = bouncing_mass(&config);
+    config.vehicle.damping = 2.0 * 0.01 * guess * mass;
+    let damping = config.vehicle.damping;
+    let model = model(config);
+    for velocity in [0.0, 20.0] {
+        let signal = bounce(&model, velocity, guess, 10, 400.0);
+        let omega = frequency(&signal, TAU / guess / 400.0);
+        let found = ratio(&signal) / (0.5 * damping / (mass * omega));
+        println!("{velocity} m/s: {omega:.1} rad/s, found over closed form {found:.4}");
+        assert!((found - 1.0).abs() < 0.01);
+    }
 }
 
 /// All flexibility on which the wheel bounces, residual and correction of the kernel included, has the loss factor `α1 ω`,

@@ -150,6 +150,7 @@ proptest! {
             config.wheel.hub_mass *= k;
             config.wheel.hub_inertia *= k;
             config.vehicle.mass *= k;
+            config.vehicle.damping *= k;
             config.rail.restraint_stiffness *= k;
             config.rail.restraint_damping *= k;
             let model = fresh(config);
@@ -181,6 +182,7 @@ proptest! {
             config.model.nominal_load *= e * l * l;
             config.wheel.hub_mass *= mass;
             config.vehicle.mass *= mass;
+            config.vehicle.damping *= mass / t;
             config.rail.restraint_stiffness *= e * l;
             config.rail.restraint_damping *= e * l * t;
             config.wheel.hub_inertia *= mass * l * l;

@@ -31,6 +31,8 @@ parameters! {
         vehicle: Vehicle fixed {
             1030 mass: f64 = 9872.0, in "kg" as "t", from 0.0 to 1e9,
                 "The wheel's share of the vehicle, moving in x only";
+            1031 damping: f64 = 20e3, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
+                "Vertical damper between hub and vehicle, which does not move vertically; acts where drive.load drives the hub";
         }
         /// Plate below the wheel, and the track that carries it.
         rail: Rail fixed {

@@ -65,6 +65,18 @@ struct Memory {
     local: f64,
 }
 
+impl FrictionLaw {
+    /// Share e of its change over which the heating θ may be extrapolated \[1] in steps too short for the temperature to
+    /// follow friction.
+    ///
+    /// There θ falls by what μ rises, and a θ extrapolated in full feeds on itself where friction has lost most of its value.
+    /// With `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, no deviation of θ grows if `G (1 + 2e) ≤ 1`.
+    pub fn extrapolated(&self, available: f64, heating: Heating) -> f64 {
+        let softened = available * self.softening * heating.now.max(0.0);
+        if softened > 0.5 { 0.5 / softened } else { 1.0 }
+    }
+}
+
 impl Friction {
     /// The coefficient follows the law at once: `available` on the rail \[1], `heating` at the end of the step, whose length
     /// is `ratio` times that of the one before (0 if that says nothing).
@@ -184,6 +196,22 @@ mod tests {
         assert_eq!(Heating { now: 300.0, before: -900.0 }.predicted(1.0), 600.0);
         assert_eq!(Heating { now: 300.0, before: 900.0 }.predicted(2.0), 0.0);
         assert_eq!(Heating { now: -5.0, before: -5.0 }.predicted(0.0), 0.0);
+    }
+
+    #[test]
+    fn a_deviation_of_the_heating_does_not_feed_on_itself_in_short_steps() {
+        // The temperature stays, θ = T/μ: the extreme of a short step.
+        for temperature in [50.0, 300.0, 700.0, 850.0] {
+            let mut mu = 0.3 * (1.0 - LAW.softening * temperature);
+            let exact = mu;
+            let mut heating = Heating { now: temperature / (1.01 * mu), before: temperature / mu };
+            for _ in 0..400 {
+                mu = Friction::local(LAW, 0.3, heating, LAW.extrapolated(0.3, heating)).coefficient(0.0);
+                assert!((mu / exact - 1.0).abs() < 0.0101, "{temperature} K: {mu} for {exact}");
+                heating = Heating { now: temperature / mu, before: heating.now };
+            }
+            assert!((mu / exact - 1.0).abs() < 1e-9, "{temperature} K: {mu} for {exact}");
+        }
     }
 
     #[test]

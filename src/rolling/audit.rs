@@ -17,10 +17,15 @@ pub fn energy(model: &Model, state: &State) -> f64 {
         + model.bodies.correction_energy(&*model.contact.solver, &state.contact.traction)
 }
 
+/// Power that damping and open ends take [W/m].
+fn dissipation(model: &Model, state: &State) -> f64 {
+    model.bodies.dissipation(state) + model.wheel.dissipation(state)
+}
+
 /// Balance at a stationary start.
 pub fn start(model: &Model, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
+    Audit { initial_energy: energy, energy, damping_power: dissipation(model, state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
@@ -29,7 +34,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
-    let damping_power = model.bodies.dissipation(next);
+    let damping_power = dissipation(model, next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
     Audit {
         initial_energy: before.initial_energy,

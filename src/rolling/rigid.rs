@@ -23,6 +23,8 @@ pub struct RigidWheel {
     pub width: f64,
     /// Inertia in x (with vehicle) and in y [kg/m], about the axle [kg m].
     pub inertia: [f64; 3],
+    /// Damper between the hub and the vehicle in y [N s/m per m].
+    damping: f64,
     /// Speed of surface waves in its material [m/s].
     wave_speed: f64,
 }
@@ -37,6 +39,7 @@ impl RigidWheel {
             radius: config.wheel.radius,
             width,
             inertia: [mass + config.vehicle.mass / width, mass, moment],
+            damping: config.vehicle.damping / width,
             wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
         }
     }
@@ -69,6 +72,9 @@ impl RigidWheel {
 
     /// The three rigid motions of a step as unknowns of the contact problem; `speeds` are the predicted ones, `momentum` is
     /// that of the free deformation.
+    ///
+    /// The damper resists `U̇`. In the time formula `Ü = a0 U̇ + h` with what is known of the velocity, h, so that
+    /// `c U̇ = c/a0 (Ü − h)`: a mass more, and a known momentum.
     pub fn motions(
         &self,
         motion: &Motion,
@@ -77,7 +83,7 @@ impl RigidWheel {
         speeds: [f64; 2],
         momentum: [f64; 3],
     ) -> [RigidMotion; 3] {
-        let hub_offset = td.a0 * motion.height.offset(td) + motion.hub_velocity.offset(td);
+        let known = motion.hub_velocity.offset(td);
         let axis = |k: usize, guess: f64, gain: f64, offset: f64| RigidMotion {
             drive: drives[k],
             guess,
@@ -86,11 +92,10 @@ impl RigidWheel {
             inertia: self.inertia[k],
             momentum: momentum[k],
         };
-        [
-            axis(0, speeds[0], td.a0, motion.velocity.offset(td)),
-            axis(1, motion.height.now, td.a0 * td.a0, hub_offset),
-            axis(2, speeds[1], td.a0, motion.omega.offset(td)),
-        ]
+        let mut hub = axis(1, motion.height.now, td.a0 * td.a0, td.a0 * motion.height.offset(td) + known);
+        hub.inertia += self.damping / td.a0;
+        hub.momentum -= self.damping / td.a0 * known;
+        [axis(0, speeds[0], td.a0, motion.velocity.offset(td)), hub, axis(2, speeds[1], td.a0, motion.omega.offset(td))]
     }
 
     /// Forces that drive the hub (x, y, moment): those prescribed, and the reactions to prescribed motions.
@@ -112,6 +117,12 @@ impl RigidWheel {
                 self.inertia[k] * accelerations[k] + deformation - resultant[k]
             }
         })
+    }
+
+    /// Power that the damper takes where the load drives the hub [W/m].
+    pub fn dissipation(&self, state: &State) -> f64 {
+        let hub = state.motion.hub_velocity.now;
+        if state.prescribed[1] { 0.0 } else { self.damping * hub * hub }
     }
 
     /// Kinetic energy of the rigid motion [J/m].

@@ -107,8 +107,12 @@ impl Plan {
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
         let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-        let traction = &state.contact.traction;
-        let friction = Friction::local(friction_law(demand.tuning), available, heating, ratio);
+        let (law, traction) = (friction_law(demand.tuning), &state.contact.traction);
+        // Flashes follow friction while the material passes the patch.
+        let fastest = speeds[0].abs().max((model.wheel.radius * speeds[1]).abs());
+        let passes = traction.extent().is_none_or(|patch| dt * fastest >= patch.high - patch.low);
+        let ratio = if passes { ratio } else { ratio * law.extrapolated(available, heating) };
+        let friction = Friction::local(law, available, heating, ratio);
         let friction = friction.after(dt, traction.friction, traction.tread_slip, heating);
         Self { dt, td, restarted: before == 0.0, drives, given, speeds, friction }
     }

@@ -4,12 +4,13 @@ use crate::config::{Config, Material};
 use crate::contact::Traction;
 use crate::heat::{Heat, HeatModel, Observation};
 use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
-use crate::piecewise::{Piecewise, interpolate};
+use crate::piecewise::{Piecewise, interpolate, smear};
 use crate::rolling::error::StepError;
 use crate::rolling::state::ThermalState;
 
 /// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact is near
-/// its maximum, and a hotter but thinner skin does not yield on its own.
+/// its maximum, and a hotter but thinner skin does not yield on its own. Nor does a narrower strip: the steel that flows under
+/// a punch down to some depth does so over more than that depth to both sides, and its strength counts everywhere on the way.
 const LOADED_DEPTH: f64 = 0.5;
 
 /// Share of friction below which temperatures say nothing about those without a film [1].
@@ -64,12 +65,15 @@ impl WeakSteel {
             return Ok(());
         }
         let length: f64 = traction.patches.iter().map(|patch| patch.high - patch.low).sum();
-        heat.mean_over_depth(&thermal.fields, LOADED_DEPTH * 0.5 * length, &mut seen.core)?;
+        let depth = LOADED_DEPTH * 0.5 * length;
+        heat.mean_over_depth(&thermal.fields, depth, &mut seen.core)?;
         let [wheel, rail] = &seen.core;
         for ((&x, wheel), rail) in heat.zone_x().iter().zip(wheel).zip(rail) {
             weakening.strength.push(x, yield_share(self.reference + wheel.max(*rail)));
             weakening.warmer_wheel.push(x, wheel - rail);
         }
+        let Piecewise { x, value } = &mut weakening.strength;
+        smear(x, value, depth);
         Ok(())
     }
 
