@@ -56,10 +56,12 @@ KOISTINEN = 0.011
 GALTON = ((7, 14, 27, 34, 41, 55, 60), (0.088, 0.072, 0.070, 0.065, 0.057, 0.038, 0.027))
 MPH = 1.609344 / 3.6  # m/s
 
-# Half-plane of the independent computation.
+# Half-plane of the independent computation: along the tread, forward of the contact point of the locked wheel.
 SPACING = 2e-4  # m
-WIDTH = 0.030  # m
+AROUND = (-0.020, 0.035)  # m
 DEPTH = 0.015  # m
+TURNED = 0.020  # m, by which the wheel turns before the spot has left the contact
+FROM, TO = 800.0 + KELVIN, 500.0 + KELVIN  # K, between which cooling is measured
 SHOWN = (0.0, 0.4e-3, 1e-3, 2e-3, 4e-3)  # m, depths drawn over time, multiples of the spacing
 
 
@@ -78,10 +80,12 @@ class Slide:
         self.x = np.array(wheel.profile("x"))
 
     def see(self):
-        """Keeps the outputs, and the tread's temperatures while it slides."""
-        self.rows.append([self.wheel.time, *(self.wheel.get(name) for name in self.columns)])
-        if self.wheel.time < LOCK + self.options.slide + 1e-9:
-            self.surfaces.append((self.wheel.time, np.array(self.wheel.profile("temperature_wheel"))))
+        """Keeps the outputs, and the tread's temperatures until the hot place has left the contact."""
+        wheel = self.wheel
+        self.rows.append([wheel.time, *(wheel.get(name) for name in self.columns)])
+        if wheel.time < LOCK + self.options.slide + 0.2:
+            turned = wheel.get("wheel.radius") * wheel.get("wheel.angle")
+            self.surfaces.append((wheel.time, turned, np.array(wheel.profile("temperature_wheel"))))
 
     def run(self):
         """Locks, slides, releases, rolls on."""
@@ -108,53 +112,65 @@ class Slide:
         return table[:, names.index(name)] if name in names else None
 
 
-def conduct(slide, wheel, end):
-    """Conduction in a half-plane of the wheel's steel: the surface follows the contact while it slides; then it is insulated.
-    The chill by the rail, once in a turn, is left out, and so is latent heat.
+def surface_of(slide):
+    """Times [s], distances turned since the wheel was locked [m], and surface temperatures [K] while the spot is near the contact."""
+    times, turned, surfaces = (np.array(column) for column in zip(*slide.surfaces))
+    turned = turned - turned[np.searchsorted(times, LOCK - 1e-9)]
+    near = np.abs(turned) < TURNED
+    return times[near], turned[near], surfaces[near]
 
-    Explicit differences. Returns times [s], temperatures [K] over time at the depths SHOWN below the hottest place, depths
-    [m], peak temperature over depth [K], and cooling rate from 800 to 500 °C over depth [K/s], 0 where it was not so hot.
+
+def conduct(slide, wheel, end):
+    """Conduction in a half-plane of the wheel's steel: as long as material is in the contact its surface has the temperatures
+    that the contact has there, then it is insulated. The chill by the rail, once in a turn, is left out, as are the width of
+    the contact, from which heat spreads sideways in the wheel of the FMU, and latent heat.
+
+    Explicit differences. Returns a dictionary: `time` [s]; `record`, temperatures [K] over time at the depths SHOWN below the
+    place that was hottest; over the depths `z` [m] the highest temperature of all places, `peak` [K], and the cooling rate
+    [K/s] there, `rate`, with the rule of `damage.cooling_rate`, 0 where it was not above Ac1; `hottest`, that of the point
+    which was hottest.
     """
     conductivity, density, heat = wheel.get("material.conductivity", "material.density", "material.specific_heat")
     diffusivity = conductivity / (density * heat)
-    reference = wheel.get("thermal.reference")
-    x = np.arange(-0.5 * WIDTH, 0.5 * WIDTH + 0.5 * SPACING, SPACING)
-    z = np.arange(0.0, DEPTH + 0.5 * SPACING, SPACING)
-    field = np.full((len(z), len(x)), reference)
-    step = 0.2 * SPACING**2 / diffusivity
+    reference, ac1 = wheel.get("thermal.reference"), wheel.get("thermal.austenitisation")
+    s, z = np.arange(*AROUND, SPACING), np.arange(0.0, DEPTH + 0.5 * SPACING, SPACING)
+    field = np.full((len(z), len(s)), reference)
     number = 0.2
-    times, surfaces = np.array([t for t, _ in slide.surfaces]), np.array([s for _, s in slide.surfaces])
-    inside = (x >= slide.x[0]) & (x <= slide.x[-1])
-    # Below the hottest place of the last surface.
-    column = int(np.argmin(np.abs(x - slide.x[np.argmax(surfaces[-1])])))
-    shown = [int(round(depth / SPACING)) for depth in SHOWN]
-    peak = np.full(len(z), reference)
-    passed = np.zeros((2, len(z)))
+    step = number * SPACING**2 / diffusivity
+    times, turned, surfaces = surface_of(slide)
+    peak, upper, lower = field.copy(), np.zeros(field.shape), np.zeros(field.shape)
     kept, record, time = [], [], 0.0
     while time < end:
-        old = field[:, column].copy()
         # Mirrored at the surface; far away nothing happens.
-        above = np.vstack((field[1:2], field[:-1]))
-        below = np.vstack((field[1:], field[-1:]))
-        change = above + below - 4.0 * field
+        change = np.vstack((field[1:2], field[:-1])) + np.vstack((field[1:], field[-1:])) - 4.0 * field
         change[:, 1:-1] += field[:, 2:] + field[:, :-2]
         change[:, 0] = change[:, -1] = 0.0
         change[-1] = 0.0
-        field = field + number * change
+        old, field = field, field + number * change
         time += step
-        if time <= times[-1]:
-            i = min(np.searchsorted(times, time), len(times) - 1)
-            field[0, inside] = np.interp(x[inside], slide.x, surfaces[i])
-        now = field[:, column]
-        peak = np.maximum(peak, now)
-        for k, limit in enumerate((800.0 + KELVIN, 500.0 + KELVIN)):
-            passed[k] = np.where((old >= limit) & (now < limit), time, passed[k])
+        if times[0] <= time <= times[-1]:
+            i = np.searchsorted(times, time)
+            share = (time - times[i - 1]) / (times[i] - times[i - 1]) if i > 0 else 0.0
+            between = lambda values: values[i] if i == 0 else (1.0 - share) * values[i - 1] + share * values[i]
+            x = s - between(turned)
+            inside = (x >= slide.x[0]) & (x <= slide.x[-1])
+            field[0, inside] = np.interp(x[inside], slide.x, between(surfaces))
+        peak = np.maximum(peak, field)
+        start = np.where(peak > FROM, FROM, ac1)
+        upper = np.where((old >= start) & (field < start) & (peak > ac1), time, upper)
+        lower = np.where((old >= TO) & (field < TO), time, lower)
         if not kept or time - kept[-1] > 2e-3:
             kept.append(time)
-            record.append(now[shown])
-    fell = (passed[0] > 0.0) & (passed[1] > passed[0])
-    rate = np.divide(300.0, passed[1] - passed[0], out=np.zeros(len(z)), where=fell)
-    return np.array(kept), np.array(record), z, peak, rate
+            record.append(field[[round(depth / SPACING) for depth in SHOWN]])
+    cooled = (upper > 0.0) & (lower > upper)
+    rate = np.divide(np.where(peak > FROM, FROM, ac1) - TO, lower - upper, out=np.zeros(field.shape), where=cooled)
+    deepest = np.argmax(peak, axis=1)
+    place = int(np.argmax(np.max(np.array(record)[:, 0], axis=0)))
+    return {
+        "time": np.array(kept), "record": np.array(record)[:, :, place], "z": z,
+        "peak": peak.max(axis=1), "rate": rate[np.arange(len(z)), deepest],
+        "hottest": rate.flat[np.argmax(peak)],
+    }  # fmt: skip
 
 
 def depth_of(z, values, limit):
