@@ -262,3 +262,63 @@ fn solve(band: &mut [[f64; 3]], x: &mut [f64]) {
         x[i] -= band[i][1] * after(1) + band[i][2] * after(2);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::grading::graded;
+    use crate::heat::tensor::section::Section;
+
+    const STEEL: Melting = Melting { solidus: 1430.0, liquidus: 1510.0, latent: 574.0 };
+
+    fn column() -> Column {
+        let layers = graded(8e-6, 1.8, 0.06, 0.4);
+        Column::new(&DepthModes::new(&Section::even(layers), 2.0, true, 0.0).unwrap())
+    }
+
+    /// Even the wildest contents have a temperature, and its latent part is theirs.
+    #[test]
+    fn any_heat_content_has_a_temperature_and_both_differ_by_the_latent_part() {
+        let (column, mut found) = (column(), Found::default());
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for _ in 0..2000 {
+            let (low, high) = (3000.0 * random() - 500.0, 4000.0 * random());
+            let content: Vec<f64> = (0..column.size).map(|_| low + (high - low) * random()).collect();
+            column.find(&STEEL, &content, &mut found).unwrap();
+            let error = column.linearise(&STEEL, &content, &mut found);
+            assert!(error <= TOLERANCE, "{error}");
+            let differs = |((h, t), l): ((&f64, &f64), &f64)| (h - t - l).abs() > 1e-9;
+            assert!(!content.iter().zip(&found.temperature).zip(&found.latent).any(differs));
+        }
+    }
+
+    /// Straight profiles whose solidus lies at any depth of a layer melt to the depth of the middle between both temperatures,
+    /// and the content goes up and down the profile without a rest at a node.
+    #[test]
+    fn the_molten_thickness_of_a_straight_profile_is_exact_wherever_the_front_lies() {
+        let (column, mut found) = (column(), Found::default());
+        let depths: Vec<f64> = {
+            let layers = graded(8e-6, 1.8, 0.06, 0.4);
+            layers.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]).collect()
+        };
+        for k in 1..40 {
+            let front = 1e-5 * f64::from(k);
+            let straight: Vec<f64> = depths.iter().map(|z| 1470.0 + 4e6 * (front - z)).collect();
+            // The content that belongs to it: temperature and projected latent part.
+            found.temperature.clone_from(&straight);
+            column.linearise(&STEEL, &straight, &mut found);
+            let (mut mass, mut latent) = (column.mass.clone(), found.residual.clone());
+            mass.truncate(column.size);
+            solve(&mut mass, &mut latent);
+            let content: Vec<f64> = straight.iter().zip(&latent).map(|(t, missing)| t - missing).collect();
+            column.find(&STEEL, &content, &mut found).unwrap();
+            let worst = straight.iter().zip(&found.temperature).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
+            assert!(worst < 1e-4, "{worst} K");
+            assert!((found.molten / front - 1.0).abs() < 1e-9, "{} of {front}", found.molten);
+        }
+    }
+}
