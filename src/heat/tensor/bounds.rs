@@ -1,9 +1,10 @@
-//! Nothing becomes colder than its surroundings: the bound that the discretisation itself does not keep.
+//! Nothing becomes colder than its surroundings, to [`MARGIN`]: the bound that the discretisation itself does not keep.
 //!
 //! Steep gradients make finite elements of higher order, short steps with consistent mass, upwinding at contact edges and
 //! the second stage of the time formula undershoot. Where a node falls below the coldest datum, it is lifted to it, and
 //! the heat for it is taken in proportion to the excess over the bound: from the nodes below the same surface node, or
-//! from the whole body where those have too little. The heat content of each body stays what it was, to round-off.
+//! from the whole body where those have too little. The heat content of each body stays what it was, to round-off. A body
+//! without that much heat keeps an undershoot of up to [`TOLERATED`]; more is refused as a step.
 
 use super::layout::Heat;
 use super::modal::HeatBody;
