@@ -117,7 +117,7 @@ const CELSIUS_ZERO: f64 = 273.15;
 pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 
 /// Share of the friction coefficient on a surface that may melt \[1], where the excess temperature over `reference` \[K] is
-/// the share times `heating` \[K]; none on a body that is too hot for it without friction.
+/// the share times `heating` \[K].
 ///
 /// The share falls from 1 at the solidus to `material.film_friction` at the liquidus and to nothing [`FILM_GROWS`] above it,
 /// linear between; what is returned is the one that belongs to its own temperature. Molten steel of the asperities and then
@@ -132,7 +132,7 @@ pub fn melted_share(heating: f64, reference: f64, material: &Material) -> f64 {
     if share >= film_friction {
         return share.min(1.0);
     }
-    (film_friction * (FILM_GROWS + liquidus - reference) / (FILM_GROWS + film_friction * heating)).max(0.0)
+    film_friction * (FILM_GROWS + liquidus - reference) / (FILM_GROWS + film_friction * heating)
 }
 
 /// Excess over the liquidus at which the film under the contact no longer carries friction \[K].

@@ -38,21 +38,21 @@ impl Heat {
     /// Temperature of a body (0: wheel, 1: rail) at one point.
     fn temperature(&self, body: usize, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
         let across = [&self.wheel, &self.rail][body].modes.at(z);
-        let (rows, xi) = self.columns_at(body, state, s)?;
+        let (rows, xi) = self.columns_at(body, state, s);
         let (from, to) = rows.split_at(across.len());
         Ok((1.0 - xi) * dot(from, &across) + xi * dot(to, &across))
     }
 
     /// Temperatures below the two surface nodes of a body (0: wheel, 1: rail) beside the distance `s` along the surface, mode
     /// by mode, and its place between them from 0 to 1.
-    fn columns_at(&self, body: usize, state: &HeatState, s: f64) -> Result<(Vec<f64>, f64), HeatError> {
+    fn columns_at(&self, body: usize, state: &HeatState, s: f64) -> (Vec<f64>, f64) {
         let (wheel, rail) = self.split(state);
         let (field, body_at) = [(wheel, &self.wheel), (rail, &self.rail)][body];
         let nm = body_at.modes.len();
         let (nodes, xi) = element(body_at, s);
         let mut rows: Vec<f64> = nodes.iter().flat_map(|node| &field[node * nm..(node + 1) * nm]).copied().collect();
-        self.cool_columns(body, state, &mut rows)?;
-        Ok((rows, xi))
+        self.cool_columns(body, state, &mut rows);
+        (rows, xi)
     }
 
     /// Weights of the modes at given depths \[m] of the wheel, for [`Heat::wheel_column`]: a row of them for each depth.
@@ -69,7 +69,7 @@ impl Heat {
             return;
         }
         let nm = self.wheel.modes.len();
-        let Ok((rows, xi)) = self.columns_at(0, state, s) else { return };
+        let (rows, xi) = self.columns_at(0, state, s);
         let (from, to) = rows.split_at(nm);
         for (value, weights) in column.iter_mut().zip(weights.chunks_exact(nm)) {
             *value = (1.0 - xi) * dot(from, weights) + xi * dot(to, weights);
@@ -83,8 +83,8 @@ impl Heat {
         let polar = |s: f64, z: f64| [(radius - z) * (s / radius).sin(), -(radius - z) * (s / radius).cos()];
         let (wheel, rail) = self.split(state);
         let (mut wheel, mut rail) = (wheel.to_vec(), rail.to_vec());
-        self.cool_columns(0, state, &mut wheel)?;
-        self.cool_columns(1, state, &mut rail)?;
+        self.cool_columns(0, state, &mut wheel);
+        self.cool_columns(1, state, &mut rail);
         Ok([field(&self.wheel, &wheel, polar), field(&self.rail, &rail, |s, z| [s, -z])])
     }
 }

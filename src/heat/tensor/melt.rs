@@ -74,7 +74,7 @@ impl Heat {
         stage.set_still(self);
         let Melt { latent, image, content, search, mixing, .. } = work;
         mixing.restart();
-        self.set_latent(melting, before, latent, search)?;
+        self.set_latent(melting, before, latent, search);
         let mut change = f64::INFINITY;
         for iteration in 1..=ITERATIONS {
             rate.clone_from(base);
@@ -82,7 +82,7 @@ impl Heat {
             stage.solve(self, coefficients, rate)?;
             content.clear();
             content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
-            self.set_latent(melting, content, image, search)?;
+            self.set_latent(melting, content, image, search);
             change = self.largest_difference(latent, image, search);
             if change <= TOLERANCE || (iteration == ITERATIONS && change <= ACCEPTED) {
                 return Ok(iteration);
@@ -94,9 +94,9 @@ impl Heat {
 
     /// Turns heat contents that were observed into temperatures; the largest molten thickness of wheel and rail in the
     /// contact zone \[m].
-    pub(super) fn observe_melting(&self, state: &HeatState, seen: &mut Observation) -> Result<[f64; 2], HeatError> {
+    pub(super) fn observe_melting(&self, state: &HeatState, seen: &mut Observation) -> [f64; 2] {
         let mut melted = [0.0_f64; 2];
-        let Some(melting) = self.melting_at(state) else { return Ok(melted) };
+        let Some(melting) = self.melting_at(state) else { return melted };
         let fields = self.split(state);
         let mut search = Search::default();
         let Observation { surface, layer, sums: values, .. } = seen;
@@ -105,27 +105,26 @@ impl Heat {
             values.resize(nm, 0.0);
             let rows = field[zone.start * nm..zone.end * nm].chunks_exact(nm);
             for ((row, surface), layer) in rows.zip(&mut surface[i]).zip(&mut layer[i]) {
-                if self.latent_below(i, &melting, row, values, &mut search)? {
+                if self.latent_below(i, &melting, row, values, &mut search) {
                     *surface -= dot(values, &body.modes.surface);
                     *layer -= dot(values, &self.layer_weights[i]);
                     melted[i] = melted[i].max(search.found.molten);
                 }
             }
         }
-        Ok(melted)
+        melted
     }
 
     /// Replaces the heat contents of columns of a body (0: wheel, 1: rail) by their temperatures, where steel melts in `state`.
-    pub(super) fn cool_columns(&self, body: usize, state: &HeatState, rows: &mut [f64]) -> Result<(), HeatError> {
-        let Some(melting) = self.melting_at(state) else { return Ok(()) };
+    pub(super) fn cool_columns(&self, body: usize, state: &HeatState, rows: &mut [f64]) {
+        let Some(melting) = self.melting_at(state) else { return };
         let nm = self.nodal[body].modes();
         let (mut search, mut latent) = (Search::default(), vec![0.0; nm]);
         for row in rows.chunks_exact_mut(nm) {
-            if self.latent_below(body, &melting, row, &mut latent, &mut search)? {
+            if self.latent_below(body, &melting, row, &mut latent, &mut search) {
                 row.iter_mut().zip(&latent).for_each(|(x, latent)| *x -= latent);
             }
         }
-        Ok(())
     }
 
     /// How steel melts, if any does in a state.
@@ -141,41 +140,34 @@ impl Heat {
         row: &[f64],
         latent: &mut [f64],
         search: &mut Search,
-    ) -> Result<bool, HeatError> {
+    ) -> bool {
         let (nodal, column) = (&self.nodal[body], &self.columns[body]);
         let Search { values, found } = search;
         // Most rows are known to be solid without a look at their nodes.
         if nodal.bound(row) <= melting.solidus {
-            return Ok(false);
+            return false;
         }
         values.resize(nodal.len(), 0.0);
         nodal.values(row, values);
         if values.iter().all(|h| *h <= melting.solidus) {
-            return Ok(false);
+            return false;
         }
-        column.find(melting, values, found)?;
+        column.find(melting, values, found);
         latent.fill(0.0);
         nodal.add(&found.latent, latent);
-        Ok(true)
+        true
     }
 
     /// Replaces `out` by the coefficients of the latent part of both bodies.
-    fn set_latent(
-        &self,
-        melting: &Melting,
-        content: &[f64],
-        out: &mut Vec<f64>,
-        search: &mut Search,
-    ) -> Result<(), HeatError> {
+    fn set_latent(&self, melting: &Melting, content: &[f64], out: &mut Vec<f64>, search: &mut Search) {
         out.clear();
         out.resize(content.len(), 0.0);
         for (body, range) in self.ranges().into_iter().enumerate() {
             let nm = self.nodal[body].modes();
             for (row, out) in content[range.clone()].chunks_exact(nm).zip(out[range].chunks_exact_mut(nm)) {
-                self.latent_below(body, melting, row, out, search)?;
+                self.latent_below(body, melting, row, out, search);
             }
         }
-        Ok(())
     }
 
     /// Largest difference of two fields at the nodes \[K].

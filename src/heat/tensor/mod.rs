@@ -99,7 +99,7 @@ impl HeatModel for Heat {
             seen.layer_depth[i] = mean_depth(rows.map(|row| dot(row, &self.layer_moments[i])), &seen.layer[i]);
         }
         seen.lowest = state.range[0];
-        let melted = self.observe_melting(state, seen)?;
+        let melted = self.observe_melting(state, seen);
         let [wheel, rail] = &seen.surface;
         seen.temperatures = Temperatures {
             wheel_max: peak(self.zone_x(), wheel),

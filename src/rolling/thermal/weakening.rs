@@ -15,9 +15,6 @@ const LOADED_DEPTH: f64 = 0.5;
 /// Share of friction below which temperatures say nothing about those without a film [1].
 const LEAST: f64 = 1e-3;
 
-/// Share of friction that temperatures take away at most in one go [1]: a contact without any has no definite state at the start.
-const SLIPPERY: f64 = 1e-4;
-
 /// Largest part of the friction on a place that one step takes away because it is overheated [1].
 const CUT: f64 = 0.75;
 
@@ -61,8 +58,7 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            let base = thermal.temperatures.wheel_mean.max(0.0);
-            self.melt(heat.zone_x(), hottest, base, seen, &mut weakening.film);
+            self.melt(heat.zone_x(), hottest, seen, &mut weakening.film);
         }
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
             return Ok(());
@@ -91,9 +87,7 @@ impl WeakSteel {
     /// [`crate::contact::Friction::local`]: the temperature at the end of the step is taken as proportional to the share, and
     /// the share that belongs to its own temperature is found. A share from the temperature before would let the surface
     /// overheat and freeze in turns.
-    ///
-    /// Friction adds to the excess temperature `base` \[K] that the whole wheel has.
-    fn melt(&self, x: &[f64], hottest: f64, base: f64, seen: &Observation, film: &mut Piecewise) {
+    fn melt(&self, x: &[f64], hottest: f64, seen: &Observation, film: &mut Piecewise) {
         if film.is_empty() && hottest <= self.material.solidus {
             return;
         }
@@ -102,8 +96,8 @@ impl WeakSteel {
         for ((&x, wheel), rail) in x.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, x) };
             let hot = wheel.max(*rail);
-            let found = melted_share((hot - base) / share.max(LEAST), self.reference + base, &self.material);
-            film.push(x, found.max(SLIPPERY).min(share * self.overheated(hot)));
+            let found = melted_share(hot / share.max(LEAST), self.reference, &self.material);
+            film.push(x, found.min(share * self.overheated(hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
