@@ -81,6 +81,8 @@ pub struct Moment<'a> {
     pub omega: f64,
     /// Length of the contact, zero without one \[m].
     pub contact_length: f64,
+    /// How far from the contact point the contact reaches \[m].
+    pub contact_reach: f64,
     /// Highest excess temperatures of wheel and rail in the contact zone \[K].
     pub hottest: [f64; 2],
     /// Mean excess temperature of the wheel \[K].
@@ -167,7 +169,7 @@ impl HotSpots {
 
     /// Distance from the contact point up to which the temperatures of the contact are known finely \[m].
     fn reach(&self, now: &Moment) -> f64 {
-        self.zone.max(now.contact_length)
+        self.zone.max(now.contact_reach)
     }
 
     fn advance_spot(&self, spot: &mut Spot, now: &Moment, heats: bool, sample: Sample, peaks: &mut Vec<f64>) {

@@ -82,13 +82,19 @@ impl Column {
     pub fn find(&self, melting: &Melting, content: &[f64], found: &mut Found) {
         let lowest = |values: &[f64]| values.iter().copied().fold(0.0, f64::min);
         if !self.search(melting, content, found) || lowest(&found.temperature) < lowest(content) - MARGIN {
-            found.temperature.iter_mut().zip(content).for_each(|(t, &h)| *t = melting.temperature(h));
-            found.latent.iter_mut().zip(content).for_each(|(latent, &h)| *latent = melting.latent_part(h));
-            let share = |node: usize| if node < self.size { melting.fraction(content[node]) } else { 0.0 };
-            let layers = self.halves.iter().enumerate();
-            found.molten =
-                layers.map(|(e, half)| half / 3.0 * (share(2 * e) + 4.0 * share(2 * e + 1) + share(2 * e + 2))).sum();
+            self.find_by_nodes(melting, content, found);
         }
+    }
+
+    /// Fills `found` as if the latent part were a field of the mesh, given by the content of its nodes.
+    pub fn find_by_nodes(&self, melting: &Melting, content: &[f64], found: &mut Found) {
+        found.temperature.clear();
+        found.temperature.extend(content.iter().map(|&h| melting.temperature(h)));
+        found.latent.clear();
+        found.latent.extend(content.iter().map(|&h| melting.latent_part(h)));
+        let share = |node: usize| content.get(node).map_or(0.0, |&h| melting.fraction(h));
+        let simpson = |e: usize| (share(2 * e) + 4.0 * share(2 * e + 1) + share(2 * e + 2)) / 3.0;
+        found.molten = self.halves.iter().enumerate().map(|(e, half)| half * simpson(e)).sum();
     }
 
     /// Newton's method; whether it has found the temperatures.

@@ -26,7 +26,7 @@ use std::ops::Range;
 /// Change of the latent part between two iterations at which it counts as found \[K], and the most that is accepted.
 const TOLERANCE: f64 = 0.01;
 const ACCEPTED: f64 = 1.0;
-const ITERATIONS: usize = 200;
+const ITERATIONS: usize = 100;
 
 /// Memory of the iteration.
 #[derive(Clone, Debug, Default)]
@@ -48,6 +48,8 @@ pub(super) struct Search {
     /// Heat content at the nodes.
     values: Vec<f64>,
     found: Found,
+    /// Whether the nodes alone decide what is molten.
+    by_nodes: bool,
 }
 
 impl Melt {
@@ -73,21 +75,25 @@ impl Heat {
     ) -> Result<usize, HeatError> {
         stage.set_still(self);
         let Melt { latent, image, content, search, mixing, .. } = work;
-        mixing.restart();
-        self.set_latent(melting, before, latent, search);
         let mut change = f64::INFINITY;
-        for iteration in 1..=ITERATIONS {
-            rate.clone_from(base);
-            stage.multiply_still(self, StageCoefficients { storage: 0.0, flow: 1.0 }, latent, rate);
-            stage.solve(self, coefficients, rate)?;
-            content.clear();
-            content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
-            self.set_latent(melting, content, image, search);
-            change = self.largest_difference(latent, image, search);
-            if change <= TOLERANCE || (iteration == ITERATIONS && change <= ACCEPTED) {
-                return Ok(iteration);
+        // Where columns are too coarse for a front, what is molten may jump between both ways to find it.
+        for by_nodes in [false, true] {
+            search.by_nodes = by_nodes;
+            mixing.restart();
+            self.set_latent(melting, before, latent, search);
+            for iteration in 1..=ITERATIONS {
+                rate.clone_from(base);
+                stage.multiply_still(self, StageCoefficients { storage: 0.0, flow: 1.0 }, latent, rate);
+                stage.solve(self, coefficients, rate)?;
+                content.clear();
+                content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
+                self.set_latent(melting, content, image, search);
+                change = self.largest_difference(latent, image, search);
+                if change <= TOLERANCE || (iteration == ITERATIONS && change <= ACCEPTED) {
+                    return Ok(iteration);
+                }
+                mixing.mix(latent, image);
             }
-            mixing.mix(latent, image);
         }
         Err(HeatError::MeltingNotConverged { change })
     }
@@ -142,7 +148,7 @@ impl Heat {
         search: &mut Search,
     ) -> bool {
         let (nodal, column) = (&self.nodal[body], &self.columns[body]);
-        let Search { values, found } = search;
+        let Search { values, found, by_nodes } = search;
         // Most rows are known to be solid without a look at their nodes.
         if nodal.bound(row) <= melting.solidus {
             return false;
@@ -152,7 +158,11 @@ impl Heat {
         if values.iter().all(|h| *h <= melting.solidus) {
             return false;
         }
-        column.find(melting, values, found);
+        if *by_nodes {
+            column.find_by_nodes(melting, values, found);
+        } else {
+            column.find(melting, values, found);
+        }
         latent.fill(0.0);
         nodal.add(&found.latent, latent);
         true
