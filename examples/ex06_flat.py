@@ -6,11 +6,13 @@
 2. After two seconds the brake lets go: the rail turns the wheel again, and the hot spot leaves the contact.
 3. It rolls for ten seconds. The spot cools into the cold steel below it, faster than steel can transform back.
 4. Beside the outputs of the FMU stands an independent computation: conduction in a half-plane whose surface has had the
-   temperatures of the contact (`conduct`), with its own depth above Ac1, cooling rate and martensite.
+   temperatures of the contact for as long as it lay there (`conduct`), with its own depth above Ac1, cooling rate and
+   martensite.
 5. A table compares with what was published. Every number has its source, and says what is judgement.
 6. Results become a CSV and a plot.
 
-7. The run is repeated with half the step, and with spots of half the elements and steps: what is found must not change.
+7. The run is repeated with half the step, with half the elements in the contact, and with spots of half the elements and
+   steps: what is found must not change.
 
 Outputs that the FMU does not have (`damage.*` of an older one) are left out.
 """
@@ -44,6 +46,11 @@ LEFT = (
     "damage.time_above_ac1", "damage.flattening",
 )  # fmt: skip
 CONVERGED = 0.05  # change of these
+COARSE = ("mesh.elements_per_half_width", 10)  # half of the usual number
+
+# The rail lies on a track: stiffness and damping below a wheel, mass that moves with the rail (one rail of Zhai, Wang and Lin,
+# J. Sound Vib. 270 (2004), put together). On a rigid base the wheel would bounce for ever once its flat has struck.
+TRACK = {"rail.support_stiffness": 81e6, "rail.support_damping": 120e3, "rail.support_mass": 400.0}
 
 # Steel of the independent computation, if the FMU has no parameters for it: start of the martensite transformation [K] by
 # Andrews' formula 539 - 423 C - 30.4 Mn - 17.7 Ni - 12.1 Cr - 7.5 Mo [°C] (read in a second source) for an ASSUMED wheel
@@ -56,10 +63,15 @@ KOISTINEN = 0.011
 GALTON = ((7, 14, 27, 34, 41, 55, 60), (0.088, 0.072, 0.070, 0.065, 0.057, 0.038, 0.027))
 MPH = 1.609344 / 3.6  # m/s
 
-# Half-plane of the independent computation.
+BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#777777"
+
+# Half-plane of the independent computation: along the tread, forward of the contact point of the locked wheel.
 SPACING = 2e-4  # m
-WIDTH = 0.030  # m
+AROUND = (-0.020, 0.035)  # m
 DEPTH = 0.015  # m
+TURNED = 0.020  # m, by which the wheel turns before the spot has left the contact
+FROM, TO = 800.0 + KELVIN, 500.0 + KELVIN  # K, between which cooling is measured
+PLANE = "conduction in a half-plane"
 SHOWN = (0.0, 0.4e-3, 1e-3, 2e-3, 4e-3)  # m, depths drawn over time, multiples of the spacing
 
 
@@ -78,10 +90,12 @@ class Slide:
         self.x = np.array(wheel.profile("x"))
 
     def see(self):
-        """Keeps the outputs, and the tread's temperatures while it slides."""
-        self.rows.append([self.wheel.time, *(self.wheel.get(name) for name in self.columns)])
-        if self.wheel.time < LOCK + self.options.slide + 1e-9:
-            self.surfaces.append((self.wheel.time, np.array(self.wheel.profile("temperature_wheel"))))
+        """Keeps the outputs, and the tread's temperatures until the hot place has left the contact."""
+        wheel = self.wheel
+        self.rows.append([wheel.time, *(wheel.get(name) for name in self.columns)])
+        if wheel.time < LOCK + self.options.slide + 0.2:
+            turned = wheel.get("wheel.radius") * wheel.get("wheel.angle")
+            self.surfaces.append((wheel.time, turned, np.array(wheel.profile("temperature_wheel"))))
 
     def run(self):
         """Locks, slides, releases, rolls on."""
@@ -108,53 +122,74 @@ class Slide:
         return table[:, names.index(name)] if name in names else None
 
 
-def conduct(slide, wheel, end):
-    """Conduction in a half-plane of the wheel's steel: the surface follows the contact while it slides; then it is insulated.
-    The chill by the rail, once in a turn, is left out, and so is latent heat.
+def surface_of(slide):
+    """Times [s], distances turned since the wheel was locked [m], and surface temperatures [K] while the spot is near the contact."""
+    times, turned, surfaces = (np.array(column) for column in zip(*slide.surfaces))
+    turned = turned - turned[np.searchsorted(times, LOCK - 1e-9)]
+    near = np.abs(turned) < TURNED
+    return times[near], turned[near], surfaces[near]
 
-    Explicit differences. Returns times [s], temperatures [K] over time at the depths SHOWN below the hottest place, depths
-    [m], peak temperature over depth [K], and cooling rate from 800 to 500 °C over depth [K/s], 0 where it was not so hot.
+
+def conduct(slide, wheel, end):
+    """Conduction in a half-plane of the wheel's steel: as long as material is in the contact its surface has the temperatures
+    that the contact has there, then it is insulated. Heat spreads sideways by the law of the FMU, `spread`. The chill by the
+    rail, once in a turn, is left out, as is latent heat.
+
+    Explicit differences. Returns a dictionary: `time` [s]; `record`, temperatures [K] over time at the depths SHOWN below the
+    place where steel was above Ac1 to the greatest depth; over the depths `z` [m] the highest temperature of all places, `peak` [K], and the cooling rate
+    [K/s] there, `rate`, with the rule of `damage.cooling_rate`, 0 where it was not above Ac1; `hottest`, that of the point
+    which was hottest.
     """
     conductivity, density, heat = wheel.get("material.conductivity", "material.density", "material.specific_heat")
     diffusivity = conductivity / (density * heat)
-    reference = wheel.get("thermal.reference")
-    x = np.arange(-0.5 * WIDTH, 0.5 * WIDTH + 0.5 * SPACING, SPACING)
-    z = np.arange(0.0, DEPTH + 0.5 * SPACING, SPACING)
-    field = np.full((len(z), len(x)), reference)
-    step = 0.2 * SPACING**2 / diffusivity
+    reference, ac1 = wheel.get("thermal.reference"), wheel.get("thermal.austenitisation")
+    s, z = np.arange(*AROUND, SPACING), np.arange(0.0, DEPTH + 0.5 * SPACING, SPACING)
+    field = np.full((len(z), len(s)), reference)
     number = 0.2
-    times, surfaces = np.array([t for t, _ in slide.surfaces]), np.array([s for _, s in slide.surfaces])
-    inside = (x >= slide.x[0]) & (x <= slide.x[-1])
-    # Below the hottest place of the last surface.
-    column = int(np.argmin(np.abs(x - slide.x[np.argmax(surfaces[-1])])))
-    shown = [int(round(depth / SPACING)) for depth in SHOWN]
-    peak = np.full(len(z), reference)
-    passed = np.zeros((2, len(z)))
+    step = number * SPACING**2 / diffusivity
+    times, turned, surfaces = surface_of(slide)
+    width = spread(z / wheel.get("model.contact_width"))[:, None]
+    between_rows = 0.5 * (width[1:] + width[:-1])
+    peak, upper, lower = field.copy(), np.zeros(field.shape), np.zeros(field.shape)
     kept, record, time = [], [], 0.0
     while time < end:
-        old = field[:, column].copy()
-        # Mirrored at the surface; far away nothing happens.
-        above = np.vstack((field[1:2], field[:-1]))
-        below = np.vstack((field[1:], field[-1:]))
-        change = above + below - 4.0 * field
-        change[:, 1:-1] += field[:, 2:] + field[:, :-2]
+        # The first row is half as thick as the others; far away nothing happens.
+        flow = between_rows * np.diff(field, axis=0)
+        change = np.zeros(field.shape)
+        change[0] = 2.0 * flow[0] / width[0]
+        change[1:-1] = np.diff(flow, axis=0) / width[1:-1]
+        change[:-1, 1:-1] += np.diff(field[:-1], 2, axis=1)
         change[:, 0] = change[:, -1] = 0.0
-        change[-1] = 0.0
-        field = field + number * change
+        old, field = field, field + number * change
         time += step
-        if time <= times[-1]:
-            i = min(np.searchsorted(times, time), len(times) - 1)
-            field[0, inside] = np.interp(x[inside], slide.x, surfaces[i])
-        now = field[:, column]
-        peak = np.maximum(peak, now)
-        for k, limit in enumerate((800.0 + KELVIN, 500.0 + KELVIN)):
-            passed[k] = np.where((old >= limit) & (now < limit), time, passed[k])
+        if times[0] <= time <= times[-1]:
+            i = np.searchsorted(times, time)
+            share = (time - times[i - 1]) / (times[i] - times[i - 1]) if i > 0 else 0.0
+            between = lambda values: values[i] if i == 0 else (1.0 - share) * values[i - 1] + share * values[i]
+            x = s - between(turned)
+            inside = (x >= slide.x[0]) & (x <= slide.x[-1])
+            field[0, inside] = np.interp(x[inside], slide.x, between(surfaces))
+        peak = np.maximum(peak, field)
+        start = np.where(peak > FROM, FROM, ac1)
+        upper = np.where((old >= start) & (field < start) & (peak > ac1), time, upper)
+        lower = np.where((old >= TO) & (field < TO), time, lower)
         if not kept or time - kept[-1] > 2e-3:
             kept.append(time)
-            record.append(now[shown])
-    fell = (passed[0] > 0.0) & (passed[1] > passed[0])
-    rate = np.divide(300.0, passed[1] - passed[0], out=np.zeros(len(z)), where=fell)
-    return np.array(kept), np.array(record), z, peak, rate
+            record.append(field[[round(depth / SPACING) for depth in SHOWN]])
+    cooled = (upper > 0.0) & (lower > upper)
+    rate = np.divide(np.where(peak > FROM, FROM, ac1) - TO, lower - upper, out=np.zeros(field.shape), where=cooled)
+    place = int(np.argmax(peak[np.flatnonzero((peak > ac1).any(axis=1))[-1:]], axis=1)[0]) if (peak > ac1).any() else 0
+    deepest = np.argmax(peak, axis=1)
+    return {
+        "time": np.array(kept), "record": np.array(record)[:, :, place], "z": z,
+        "peak": peak.max(axis=1), "rate": rate[np.arange(len(z)), deepest],
+        "hottest": rate.flat[np.argmax(peak)],
+    }  # fmt: skip
+
+
+def spread(zeta):
+    """Width of the heat at the depth over the width of the contact `zeta`, over that width (docs/theory/width-of-conduction.md)."""
+    return 1.0 + np.pi * zeta - (np.pi - 4.0 / np.pi) * zeta / (1.0 + 2.0 * zeta)
 
 
 def depth_of(z, values, limit):
@@ -179,9 +214,7 @@ def summary(slide, table, cooled, wheel):
     force, load = (slide.column(table, f"contact.force_{axis}")[sliding] for axis in "xy")
     friction = -force.mean() / load.mean()
     austenitisation = wheel.get("thermal.austenitisation")
-    _, _, z, peak, rate = cooled
-    critical, start = (steel(wheel, name) for name in ("damage.critical_cooling", "damage.martensite_start"))
-    hardened = np.where((peak >= austenitisation) & (rate > critical), peak, 0.0)
+    start = steel(wheel, "damage.martensite_start")
     radius = wheel.get("wheel.radius")
     mph = options.speed_kmh / 3.6 / MPH
     rows = [
@@ -191,10 +224,11 @@ def summary(slide, table, cooled, wheel):
         ("the same, measured: less than", 1 / 3, "", "Galton, read in a biography of Westinghouse"),
         ("highest tread temperature", slide.column(table, "temperature.wheel_max").max() - KELVIN, "°C", "model"),
         ("highest peak pressure", slide.column(table, "contact.pressure_max").max() / 1e6, "MPa", "model"),
-        ("depth above Ac1", depth_of(z, peak, austenitisation) * 1e3, "mm", "conduction in a half-plane"),
-        ("cooling rate of the surface, 800 to 500 °C", rate[1], "K/s", "conduction in a half-plane"),
-        ("critical cooling rate", critical, "K/s", "judgement"),
-        ("depth of martensite", depth_of(z, hardened, austenitisation) * 1e3, "mm", "conduction in a half-plane"),
+        ("depth above Ac1", depth_of(cooled["z"], cooled["peak"], austenitisation) * 1e3, "mm", PLANE),
+        ("cooling rate of the hottest point, 800 to 500 °C", cooled["hottest"], "K/s", PLANE),
+        ("the same 0.4 mm below it", cooled["rate"][round(0.4e-3 / SPACING)], "K/s", PLANE),
+        ("critical cooling rate", steel(wheel, "damage.critical_cooling"), "K/s", "judgement"),
+        ("depth of martensite", hardened(cooled, wheel) * 1e3, "mm", PLANE),
         ("share of martensite after cooling", martensite(wheel.get("thermal.reference"), start) * 100, "%", "from memory"),
     ]
     scale = {"K": (1.0, "K"), "m": (1e3, "mm")}
@@ -211,13 +245,18 @@ def summary(slide, table, cooled, wheel):
     return rows
 
 
+def hardened(cooled, wheel):
+    """Depth [m] of what the half-plane cools from above Ac1 at the critical rate at least."""
+    austenitisation = wheel.get("thermal.austenitisation")
+    fast = cooled["rate"] >= steel(wheel, "damage.critical_cooling")
+    return depth_of(cooled["z"], np.where(fast, cooled["peak"], np.minimum(cooled["peak"], austenitisation)), austenitisation)
+
+
 def observations(slide, table, cooled, wheel):
     """What was published, and whether the run agrees."""
     depth = slide.column(table, "damage.martensite_depth")
     hard = depth.max() if depth is not None else 0.0
-    _, _, z, peak, rate = cooled
-    alone = depth_of(z, np.where(rate > steel(wheel, "damage.critical_cooling"), peak, 0.0), wheel.get("thermal.austenitisation"))
-    found = "yes" if max(hard, alone) > 0.0 else "no"
+    found = "yes" if max(hard, hardened(cooled, wheel)) > 0.0 else "no"
     return (
         ("martensite beneath all of more than 200 flats (Silinge 1996, abstract of Proc. IMechE F 213, read)", found),
         ("cracks beneath most of them (the same)", "not modelled"),
@@ -241,12 +280,12 @@ def repeated(fmu, options, changes, step):
 
 
 def convergence(fmu, options, usual):
-    """Prints what is left with finer spots and shorter steps; returns the largest change, over the finer one."""
-    cases = [("half the step", {}, 0.5 * options.step)]
+    """Prints what is left with finer spots, shorter steps and a coarser mesh; returns the largest change."""
+    cases = [("half the step", {}, 0.5 * options.step), ("half the elements", {COARSE[0]: COARSE[1]}, options.step)]
     if "damage.resolution" in fmu.variables:
         cases.append(("spots twice as fine", {"damage.resolution": 0.5}, options.step))
     found = [("as above", usual)] + [(name, repeated(fmu, options, *case)) for name, *case in cases]
-    print("\nConvergence (change against the finer one)")
+    print("\nConvergence (change against the other run)")
     worst = 0.0
     for key in usual:
         line = f"  {key:<26}{usual[key]:>12.5g}"
@@ -266,75 +305,74 @@ def plot(path, slide, table, cooled, wheel):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    blue, orange, green, grey = "#0072B2", "#D55E00", "#009E73", "#777777"
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
     plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4})
-    figure, axes = plt.subplots(2, 3, figsize=(13, 6.6), layout="constrained")
+    figure, axes = plt.subplots(2, 3, figsize=(12, 6.4), layout="constrained")
+    (speed, friction, pressure), (surface, depth, remains) = axes
+    released = LOCK + slide.options.slide
+    near = slide.column(table, "time") < released + 0.4
+    draw_slide(slide, table[near], speed, friction, pressure)
+    draw_heat(cooled, wheel, surface, depth)
+    draw_remains(slide, table, cooled, wheel, remains)
+    for axis in (speed, friction, pressure, surface, remains):
+        axis.set_xlabel("time [s]")
+        axis.axvspan(LOCK, released, color=GREY, alpha=0.10, lw=0.0)
+    figure.savefig(path, dpi=100)
+    plt.close(figure)
+
+
+def draw_slide(slide, table, speed, friction, pressure):
+    """Speeds, friction and pressure while it slides and shortly after."""
     column = lambda name: slide.column(table, name)
-    t, released = column("time"), LOCK + slide.options.slide
+    t = column("time")
+    speed.plot(t, 3.6 * column("wheel.velocity"), color=BLUE, label="travel")
+    speed.plot(t, 3.6 * slide.wheel.get("wheel.radius") * column("wheel.omega"), "--", color=ORANGE, label="rim")
+    speed.set(title="Speed: locked (grey), released", ylabel="km/h")
+    speed.legend(loc="center")
+    friction.plot(t, -column("contact.force_x") / column("contact.force_y"), color=BLUE, label="force over load")
+    mph = slide.options.speed_kmh / 3.6 / MPH
+    friction.axhline(np.interp(mph, *GALTON), color=GREY, ls=":", label="Galton 1878 (from memory)")
+    friction.set(title="Friction", ylabel="1", ylim=(0, None))
+    friction.legend(loc="upper center")
+    pressure.plot(t, column("contact.pressure_max") / 1e6, color=ORANGE)
+    pressure.set(title="Peak pressure", ylabel="MPa", ylim=(0, None))
+
+
+def draw_heat(cooled, wheel, surface, depth):
+    """Temperatures in the depth over time, and the highest one over the depth with the cooling rate."""
     austenitisation = wheel.get("thermal.austenitisation") - KELVIN
-    near = t < released + 0.6
-
-    axis = axes[0, 0]
-    axis.plot(t[near], 3.6 * column("wheel.velocity")[near], color=blue, label="travel")
-    rim = wheel.get("wheel.radius") * column("wheel.omega")
-    axis.plot(t[near], 3.6 * rim[near], "--", color=orange, label="rim")
-    axis.set(title="Speed: locked, released", ylabel="km/h", xlabel="time [s]")
-    axis.legend()
-
-    axis = axes[0, 1]
-    adhesion = -column("contact.force_x") / column("contact.force_y")
-    axis.plot(t[near], adhesion[near], color=blue, label="force over load")
-    axis.axhline(np.interp(slide.options.speed_kmh / 3.6 / MPH, *GALTON), color=grey, ls=":", label="Galton (from memory)")
-    axis.set(title="Friction", xlabel="time [s]", ylim=(0, None))
-    axis.legend()
-    twin = axis.twinx()
-    twin.plot(t[near], column("contact.pressure_max")[near] / 1e6, color=orange)
-    twin.set_ylabel("peak pressure [MPa]", color=orange)
-    twin.grid(False)
-
-    axis = axes[0, 2]
-    axis.plot(t, column("temperature.wheel_max") - KELVIN, color=orange, label="tread in the contact")
-    if column("damage.peak_temperature") is not None:
-        axis.plot(t, column("damage.peak_temperature") - KELVIN, color=blue, label="peak of the spot")
-    axis.axhline(austenitisation, color=grey, ls=":")
-    axis.set(title="Surface temperature", ylabel="°C", xlabel="time [s]")
-    axis.legend()
-
-    times, record, z, peak, rate = cooled
-    axis = axes[1, 0]
-    shades = plt.cm.plasma(np.linspace(0.0, 0.85, len(SHOWN)))
-    for k, depth in enumerate(SHOWN):
-        axis.plot(times, record[:, k] - KELVIN, color=shades[k], label=f"{depth * 1e3:g} mm")
-    axis.axhline(austenitisation, color=grey, ls=":")
     start = steel(wheel, "damage.martensite_start") - KELVIN
-    axis.axhline(start, color=grey, ls="--")
-    axis.text(times[-1], austenitisation, "Ac1", color=grey, ha="right", va="bottom")
-    axis.text(times[-1], start, "Ms", color=grey, ha="right", va="bottom")
-    axis.set(title="Temperature in the depth (half-plane)", ylabel="°C", xlabel="time [s]")
-    axis.legend()
+    shades = ["#000004", "#51127C", "#B73779", "#FC8961", "#FEC287"]
+    for k, place in enumerate(SHOWN):
+        surface.plot(cooled["time"], cooled["record"][:, k] - KELVIN, color=shades[k], label=f"{place * 1e3:g} mm deep")
+    for limit, name in ((austenitisation, "Ac1"), (start, "Ms")):
+        surface.axhline(limit, color=GREY, ls=":")
+        surface.text(5.9, limit, name, color=GREY, ha="right", va="bottom")
+    surface.set(title="Below one place (half-plane)", ylabel="°C", xlim=(0.0, 6.0))
+    surface.legend()
+    z = np.array(cooled["z"])
+    depth.plot(cooled["peak"] - KELVIN, z * 1e3, "--", color=ORANGE, label="°C, half-plane")
+    if "profile.depth[1]" in wheel.fmu.variables:
+        known, peak = np.array(wheel.profile("depth")), np.array(wheel.profile("peak_temperature"))
+        depth.plot(peak - KELVIN, known * 1e3, color=ORANGE, label="°C, FMU")
+    hot = (cooled["rate"] > 0.0) & (z > 0.0)
+    depth.plot(cooled["rate"][hot], z[hot] * 1e3, color=BLUE, label="K/s, half-plane")
+    depth.axvline(austenitisation, color=GREY, ls=":")
+    depth.text(austenitisation, 3.95, " Ac1", color=GREY, va="bottom")
+    depth.set(title="Highest temperature and cooling rate", xlabel="°C, K/s", ylabel="depth [mm]", ylim=(4, 0), xlim=(0, None))
+    depth.legend(loc="lower right")
 
-    axis = axes[1, 1]
-    axis.plot(peak - KELVIN, z * 1e3, color=orange, label="peak temperature [°C]")
-    axis.axvline(austenitisation, color=grey, ls=":")
-    axis.set(title="Peak temperature and cooling rate over depth", xlabel="°C", ylabel="depth [mm]", ylim=(8, 0))
-    twin = axis.twiny()
-    hot = rate > 0.0
-    twin.plot(rate[hot], z[hot] * 1e3, color=blue)
-    twin.set_xlabel("K/s, 800 to 500 °C", color=blue)
-    twin.grid(False)
-    axis.legend(loc="lower right")
 
-    axis = axes[1, 2]
-    for name, color in (("flattening", grey), ("ac1_depth", orange), ("martensite_depth", blue)):
-        values = column(f"damage.{name}")
+def draw_remains(slide, table, cooled, wheel, axis):
+    """Depths of flattening, austenite and martensite."""
+    for name, color in (("flattening", GREY), ("ac1_depth", ORANGE), ("martensite_depth", BLUE)):
+        values = slide.column(table, f"damage.{name}")
         if values is not None:
-            axis.plot(t, values * 1e3, color=color, label=f"damage.{name}")
-    depth = depth_of(z, peak, austenitisation + KELVIN)
-    axis.axhline(depth * 1e3, color=orange, ls=":", label="Ac1 depth, half-plane")
-    axis.set(title="What is left", ylabel="mm", xlabel="time [s]")
-    axis.legend()
-    figure.savefig(path, dpi=120)
+            axis.plot(slide.column(table, "time"), values * 1e3, color=color, label=f"damage.{name}")
+    depth = depth_of(cooled["z"], cooled["peak"], wheel.get("thermal.austenitisation"))
+    axis.axhline(depth * 1e3, color=ORANGE, ls=":", label="Ac1 depth, half-plane")
+    axis.set(title="What is left", ylabel="mm", xlim=(0.0, 9.0))
+    axis.legend(loc="center right")
 
 
 def arguments():
@@ -353,7 +391,8 @@ def arguments():
 
 def start(fmu, options, changes=None):
     """A wheel that rolls at the speed of the options."""
-    parameters = {"preset": options.preset, "initial.velocity": options.speed_kmh / 3.6} | (changes or {})
+    track = {name: value for name, value in TRACK.items() if name in fmu.variables}
+    parameters = {"preset": options.preset, "initial.velocity": options.speed_kmh / 3.6} | track | (changes or {})
     inputs = {"control.rotation": "velocity", "control.translation": "velocity"}
     return Wheel(fmu, parameters, inputs, name="flat")
 

@@ -26,11 +26,13 @@ fn wheel(resolution: f64) -> HotSpots {
     })
 }
 
-/// Moment of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`.
+/// Moment of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`. The contact is known
+/// for all of a spot.
 fn moment(dt: f64, angle: f64, omega: f64, hottest: f64) -> Moment<'static> {
     let hottest = [hottest, 0.0];
     let surface: (&[f64], &[f64]) = (&[], &[]);
-    Moment { dt, angle, omega, contact_length: 0.0, hottest, bulk: 0.0, surface, criteria: CRITERIA }
+    let (contact_length, contact_reach) = (0.0, 1.0);
+    Moment { dt, angle, omega, contact_length, contact_reach, hottest, bulk: 0.0, surface, criteria: CRITERIA }
 }
 
 /// `erfc x` of a positive number: the series for small ones, the continued fraction for large ones.

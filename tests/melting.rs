@@ -98,10 +98,10 @@ fn melting_begins_when_the_closed_form_reaches_the_solidus() {
 fn surface_and_molten_thickness_under_a_constant_flux_are_those_of_a_fine_enthalpy_solution() {
     let config = molten_steel();
     let start = start_of_melting(&config);
-    let times = [1.0, 1.5, 2.0, 3.0, 4.0].map(|share| share * start);
+    let times = [1.0, 1.2, 1.5, 1.7, 2.0, 2.5, 3.0, 3.5, 4.0].map(|share| share * start);
     let expected = enthalpy_solution(&config, &times);
-    // Layers finer than the default, and the default: it grows so fast that a deep front lies within one or two layers.
-    for (growth, steps, surface, thickness) in [(1.3, 25, 0.01, 0.01), (1.3, 100, 0.01, 0.01), (1.8, 25, 0.01, 0.04)] {
+    // Layers finer than the default, and the default, in which a deep front lies within one or two layers.
+    for (growth, steps) in [(1.3, 25), (1.3, 100), (1.8, 25), (1.8, 100)] {
         let (found, error) = heat_model(&Heat::with_layers(&config, growth).unwrap(), &times, steps);
         assert!(error < 1e-10, "heat balance {error}");
         for ((time, found), expected) in times.iter().zip(&found).zip(&expected) {
@@ -113,7 +113,7 @@ fn surface_and_molten_thickness_under_a_constant_flux_are_those_of_a_fine_enthal
                 "growth {growth}, {steps} steps, {share:.1} t_m: {kelvin:.1} K ({kelvin_off:+.1e}), {micrometres:.2} µm \
                  ({micrometres_off:+.1e})"
             );
-            assert!(deviation[0].abs() < surface && deviation[1].abs() < thickness);
+            assert!(deviation[0].abs() < 0.001 && deviation[1].abs() < 0.01);
         }
     }
 }

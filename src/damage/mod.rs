@@ -17,7 +17,9 @@ mod spot;
 mod tread;
 
 pub use mesh::{SpotLayout, SpotMesh};
+use record::Recorder;
 pub use record::{Criteria, Findings, Point};
+use spot::Visit;
 pub use spot::{Field, Sample, Spot};
 pub use tread::Tread;
 
@@ -41,6 +43,8 @@ pub struct HotSpots {
     radius: f64,
     /// Half-width of the nominal contact \[m].
     half_width: f64,
+    /// Half-length of the zone in which there usually is contact \[m].
+    zone: f64,
     /// Absolute reference temperature \[K].
     reference: f64,
     /// Coefficient of convection to the air [W/(m² K)].
@@ -77,6 +81,8 @@ pub struct Moment<'a> {
     pub omega: f64,
     /// Length of the contact, zero without one \[m].
     pub contact_length: f64,
+    /// How far from the contact point the contact reaches \[m].
+    pub contact_reach: f64,
     /// Highest excess temperatures of wheel and rail in the contact zone \[K].
     pub hottest: [f64; 2],
     /// Mean excess temperature of the wheel \[K].
@@ -94,6 +100,7 @@ impl HotSpots {
             mesh: SpotMesh::new(layout),
             radius: layout.radius,
             half_width: layout.half_width,
+            zone: layout.zone,
             reference: layout.reference,
             convection: layout.convection,
         }
@@ -126,23 +133,53 @@ impl HotSpots {
             return;
         }
         let nearest = damage.spots.iter().map(|spot| self.distance(spot, now).abs()).fold(f64::INFINITY, f64::min);
-        if heats && nearest > self.half_width {
-            self.make_room(damage);
-            damage.places += u64::from(nearest > CONNECTED * self.half_width);
-            damage.spots.push(Spot::at((self.radius * now.angle).rem_euclid(TAU * self.radius)));
-        }
         for spot in &mut damage.spots {
             self.advance_spot(spot, now, heats, sample, &mut damage.peaks);
         }
+        if heats && nearest > self.half_width {
+            self.make_room(damage);
+            damage.places += u64::from(nearest > CONNECTED * self.half_width);
+            self.open(damage, now, sample);
+        }
+    }
+
+    /// Opens a spot at the contact point. Beyond the zone of the contact its temperatures are those of spots that lie there.
+    fn open(&self, damage: &mut Damage, now: &Moment, sample: Sample) {
+        let (mesh, record) = (&self.mesh, self.recorder(now));
+        let layers = mesh.depth.len();
+        let visit = Visit { distance: 0.0, reach: self.reach(now), dt: now.dt, film: 0.0 };
+        let mut temperature = vec![0.0; mesh.size()];
+        for (&arc, column) in mesh.arc.iter().zip(temperature.chunks_exact_mut(layers)) {
+            let known = |spot: &Spot| arc - self.distance(spot, now);
+            let beyond = !visit.covers(arc);
+            if !(beyond && damage.spots.iter().rev().any(|spot| spot.column(mesh, known(spot), column))) {
+                sample(arc, column);
+            }
+        }
+        let arc = (self.radius * now.angle).rem_euclid(TAU * self.radius);
+        let spot = Spot::at(arc, temperature, mesh, &record);
+        damage.peaks.resize(layers, 0.0);
+        spot.raise(&mut damage.peaks);
+        damage.spots.push(spot);
+    }
+
+    fn recorder(&self, now: &Moment) -> Recorder {
+        Recorder { criteria: now.criteria, reference: self.reference }
+    }
+
+    /// Distance from the contact point up to which the temperatures of the contact are known finely \[m].
+    fn reach(&self, now: &Moment) -> f64 {
+        self.zone.max(now.contact_reach)
     }
 
     fn advance_spot(&self, spot: &mut Spot, now: &Moment, heats: bool, sample: Sample, peaks: &mut Vec<f64>) {
         let distance = self.distance(spot, now);
         let under = self.stands(now.omega) && distance.abs() <= self.half_width;
-        let record = record::Recorder { criteria: now.criteria, reference: self.reference };
+        let record = self.recorder(now);
         let film = self.convection + self.chill(now);
         let news = if under && (heats || spot.following) {
-            spot.follow(&self.mesh, distance, now.dt, film, sample, &record);
+            let visit = Visit { distance, reach: self.reach(now), dt: now.dt, film };
+            spot.follow(&self.mesh, &visit, sample, &record);
             true
         } else {
             spot.conduct(&self.mesh, now.dt, film, &record)

@@ -17,6 +17,26 @@ const NEGLIGIBLE: f64 = 1.0;
 /// contact point.
 pub type Sample<'a> = &'a dyn Fn(f64, &mut [f64]);
 
+/// A step of a place under the contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Visit {
+    /// How far its middle is from the contact point along the tread \[m].
+    pub distance: f64,
+    /// Distance from the contact point up to which the temperatures of the contact are known finely \[m].
+    pub reach: f64,
+    /// Length of the step \[s].
+    pub dt: f64,
+    /// Coefficient of the heat lost from the surface [W/(m² K)].
+    pub film: f64,
+}
+
+impl Visit {
+    /// Whether what lies `arc` \[m] from the middle of the place is known from the contact.
+    pub fn covers(&self, arc: f64) -> bool {
+        (self.distance + arc).abs() <= self.reach
+    }
+}
+
 /// A place of the tread that was heated in one piece, once or several times.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spot {
@@ -51,9 +71,13 @@ pub struct Field {
 }
 
 impl Spot {
-    /// A place whose middle touches at the distance `arc` \[m] turned.
-    pub(super) fn at(arc: f64) -> Self {
-        Self { arc, ..Self::default() }
+    /// A place whose middle touches at the distance `arc` \[m] turned, with the excess temperatures `temperature` \[K].
+    pub(super) fn at(arc: f64, temperature: Vec<f64>, mesh: &SpotMesh, recorder: &Recorder) -> Self {
+        let points = temperature.iter().map(|&excess| recorder.begin(excess)).collect();
+        let field = Some(Arc::new(Field { temperature, points, ..Field::default() }));
+        let mut spot = Self { arc, following: true, field, ..Self::default() };
+        spot.judge(mesh, recorder);
+        spot
     }
 
     /// What was found there.
@@ -71,44 +95,59 @@ impl Spot {
         self.field.as_deref()
     }
 
-    /// A step of `dt` \[s] under the contact, from which it now is `distance` \[m] away: its temperatures are those of the
-    /// sample, and what it brought along.
-    pub(super) fn follow(
-        &mut self,
-        mesh: &SpotMesh,
-        distance: f64,
-        dt: f64,
-        film: f64,
-        sample: Sample,
-        recorder: &Recorder,
-    ) {
-        let mut seen = vec![0.0; mesh.size()];
-        for (arc, column) in mesh.arc.iter().zip(seen.chunks_exact_mut(mesh.depth.len())) {
-            sample(distance + arc, column);
-        }
-        let Some(field) = self.field.as_mut() else {
-            let points = seen.iter().map(|&excess| recorder.begin(excess)).collect();
-            self.field = Some(Arc::new(Field { temperature: seen, points, ..Field::default() }));
-            self.following = true;
-            self.judge(mesh, recorder);
-            return;
-        };
+    /// A step under the contact: in its zone the temperatures are those of the sample, and what the place brought along;
+    /// beyond, where the sample knows little, it conducts by itself.
+    pub(super) fn follow(&mut self, mesh: &SpotMesh, visit: &Visit, sample: Sample, recorder: &Recorder) {
+        let back = !std::mem::replace(&mut self.following, true);
+        let dt = visit.dt + std::mem::take(&mut self.pending);
+        let layers = mesh.depth.len();
+        // A place that was at rest is cold.
+        let field = self.field.get_or_insert_with(|| Arc::new(Field::cold(mesh.size(), recorder)));
         let field = Arc::make_mut(field);
-        if !self.following {
-            // It comes back: up to now it has gone its own way.
-            let dt = std::mem::take(&mut self.pending) + dt;
-            field.advance(mesh, dt, film, recorder, &mut conduction::Scratch::default());
-            field.remainder = field.temperature.iter().zip(&seen).map(|(own, seen)| (own - seen).max(0.0)).collect();
-            field.take(seen, 0.0, recorder);
-            self.following = true;
-        } else {
-            if !field.remainder.is_empty() {
-                conduct(mesh, &mut field.remainder, dt, film, &mut conduction::Scratch::default());
-            }
-            field.take(seen, dt, recorder);
+        let mut scratch = conduction::Scratch::default();
+        let mut now = field.temperature.clone();
+        conduct(mesh, &mut now, dt, visit.film, &mut scratch);
+        if back {
+            field.remainder.clear();
+            field.remainder.resize(mesh.size(), 0.0);
+        } else if !field.remainder.is_empty() {
+            conduct(mesh, &mut field.remainder, dt, visit.film, &mut scratch);
         }
+        let mut seen = vec![0.0; layers];
+        for (column, arc) in mesh.arc.iter().enumerate().filter(|(_, arc)| visit.covers(**arc)) {
+            sample(visit.distance + arc, &mut seen);
+            for (node, seen) in (column * layers..).zip(&seen) {
+                if back {
+                    field.remainder[node] = (now[node] - seen).max(0.0);
+                }
+                now[node] = seen + field.remainder.get(node).copied().unwrap_or(0.0);
+            }
+        }
+        if field.remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
+            field.remainder = Vec::new();
+        }
+        field.age += dt;
+        recorder.step(&mut field.points, &field.temperature, &now, field.age, dt);
+        field.temperature = now;
         self.alone = 0.0;
         self.judge(mesh, recorder);
+    }
+
+    /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle; whether it lies within the mesh of a hot
+    /// place.
+    pub(super) fn column(&self, mesh: &SpotMesh, arc: f64, column: &mut [f64]) -> bool {
+        let (Some(field), layers) = (self.field(), mesh.depth.len()) else { return false };
+        let after = mesh.arc.partition_point(|place| *place <= arc);
+        if after == 0 || after == mesh.arc.len() {
+            return false;
+        }
+        let (from, to) = (mesh.arc[after - 1], mesh.arc[after]);
+        let share = (arc - from) / (to - from);
+        let at = |k: usize| &field.temperature[k * layers..(k + 1) * layers];
+        for ((value, a), b) in column.iter_mut().zip(at(after - 1)).zip(at(after)) {
+            *value = a + share * (b - a);
+        }
+        true
     }
 
     /// A step of `dt` \[s] away from the contact; returns whether its temperatures are new.
@@ -172,23 +211,16 @@ impl Spot {
 }
 
 impl Field {
+    /// Of a place without excess temperatures.
+    fn cold(size: usize, recorder: &Recorder) -> Self {
+        Self { temperature: vec![0.0; size], points: vec![recorder.begin(0.0); size], ..Self::default() }
+    }
+
     /// Own conduction over a step, with the records of the points.
     fn advance(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder, scratch: &mut conduction::Scratch) {
         let before = self.temperature.clone();
         conduct(mesh, &mut self.temperature, dt, film, scratch);
         self.age += dt;
         recorder.step(&mut self.points, &before, &self.temperature, self.age, dt);
-    }
-
-    /// Takes over what is `seen` under the contact after `dt` [s], and adds what the place has of its own: conduction is
-    /// linear.
-    fn take(&mut self, mut seen: Vec<f64>, dt: f64, recorder: &Recorder) {
-        seen.iter_mut().zip(&self.remainder).for_each(|(seen, rest)| *seen += rest);
-        if self.remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
-            self.remainder = Vec::new();
-        }
-        self.age += dt;
-        recorder.step(&mut self.points, &self.temperature, &seen, self.age, dt);
-        self.temperature = seen;
     }
 }

@@ -44,10 +44,14 @@ impl Melting {
         content - self.latent_part(content)
     }
 
+    /// Molten fraction at a temperature \[1].
+    pub fn molten_fraction(&self, temperature: f64) -> f64 {
+        ((temperature - self.solidus) / (self.liquidus - self.solidus)).clamp(0.0, 1.0)
+    }
+
     /// Heat content over `ρc` at a temperature \[K].
     pub fn content(&self, temperature: f64) -> f64 {
-        let fraction = (temperature - self.solidus) / (self.liquidus - self.solidus);
-        temperature + self.latent * fraction.clamp(0.0, 1.0)
+        temperature + self.latent * self.molten_fraction(temperature)
     }
 }
 

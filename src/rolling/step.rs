@@ -6,13 +6,17 @@ use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
 use super::model::{Model, Workspace};
-use super::state::{Motion, State};
+use super::state::{Motion, State, ThermalState};
 use super::thermal::{self, HeatStep};
 use super::zones;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, Heating};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative, formula, settled};
+
+/// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each time the
+/// share of friction on the hottest places falls to a quarter or less.
+const COOLER: usize = 6;
 
 /// Largest change of the weights at the contact edges that counts as converged in a step [1].
 const EDGE_TOLERANCE: f64 = 0.02;
@@ -59,11 +63,45 @@ pub fn step(
     next: &mut State,
 ) -> Result<(), StepError> {
     let plan = Plan::new(model, state, demand, dt);
-    let mut solved = solve_and_commit(model, state, demand, &plan, workspace, next);
+    attempt(model, state, demand, &plan, workspace, next)?;
+    let mut again: Option<State> = None;
+    for _ in 0..COOLER {
+        if !overheats(model, state, next) {
+            break;
+        }
+        let again = again.get_or_insert_with(|| state.clone());
+        if let (Some(thermal), Some(found)) = (&mut again.thermal, &next.thermal) {
+            thermal.weakening.film.clone_from(&found.weakening.film);
+        }
+        attempt(model, again, demand, &plan, workspace, next)?;
+    }
+    Ok(())
+}
+
+/// Whether friction has heated the contact beyond what a molten film lets it: within a step the film is that of its beginning.
+fn overheats(model: &Model, state: &State, next: &State) -> bool {
+    let (Some(model), Some(before), Some(after)) = (&model.thermal, &state.thermal, &next.thermal) else {
+        return false;
+    };
+    let hottest = |thermal: &ThermalState| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
+    let (before, after) = (hottest(before), hottest(after));
+    after > before && model.reference() + after > model.frictionless()
+}
+
+/// Takes the step with the film of `state`.
+fn attempt(
+    model: &Model,
+    state: &State,
+    demand: &Demand,
+    plan: &Plan,
+    workspace: &mut Workspace,
+    next: &mut State,
+) -> Result<(), StepError> {
+    let mut solved = solve_and_commit(model, state, demand, plan, workspace, next);
     if let Err(StepError::ZoneExceeded { .. }) = solved
         && let Some(wide) = zones::widened(model, state)
     {
-        solved = solve_and_commit(model, &wide, demand, &plan, workspace, next);
+        solved = solve_and_commit(model, &wide, demand, plan, workspace, next);
     }
     solved?;
     zones::narrow(model, next);

@@ -1,4 +1,4 @@
-//! Nothing becomes colder than its surroundings: the bound that the discretisation itself does not keep.
+//! Nothing becomes colder than its surroundings, to [`MARGIN`]: the bound that the discretisation itself does not keep.
 //!
 //! Steep gradients make finite elements of higher order, short steps with consistent mass, upwinding at contact edges and
 //! the second stage of the time formula undershoot. Where a node falls below the coldest datum by more than a margin, all

@@ -35,6 +35,8 @@ pub(super) struct DepthModes {
     pub curvature: DMatrix<f64>,
     /// Depth of the nodes [m].
     pub depths: Vec<f64>,
+    /// Half the thickness of each layer times the coefficients of `G` as a polynomial of the place in it, from −1 to 1 [m].
+    pub weights: Vec<[f64; 3]>,
     /// Whether the last node is held at the reference temperature.
     pub fixed: bool,
 }
@@ -69,6 +71,7 @@ impl DepthModes {
             shapes: DMatrix::zeros(size, padded),
             curvature: DMatrix::zeros(0, 0),
             depths: layers.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]).chain(layers.last().copied()).collect(),
+            weights: weights(section, curvature).iter().map(|weight| weight.map(narrow)).collect(),
             fixed,
         };
         for m in 0..size {
@@ -173,26 +176,36 @@ impl DepthModes {
 fn matrices(section: &Section, curvature: f64) -> (Vec<Wide>, Vec<Wide>) {
     let n = 2 * section.layers.len() - 1;
     let (mut mass, mut stiffness) = (vec![Wide::ZERO; n * n], vec![Wide::ZERO; n * n]);
-    for (e, (ends, widths)) in section.layers.windows(2).zip(&section.widths).enumerate() {
+    for (e, (ends, weight)) in section.layers.windows(2).zip(weights(section, curvature)).enumerate() {
+        let half = wide(0.5) * (wide(ends[1]) - wide(ends[0]));
+        let [middle, slope, square] = weight;
+        for i in 0..3 {
+            for j in 0..3 {
+                let at = (2 * e + i) * n + 2 * e + j;
+                mass[at] += (middle * wide(MASS[i][j]) + slope * wide(MASS_SLOPE[i][j])) / wide(15.0);
+                mass[at] += square * wide(MASS_SQUARE[i][j]) / wide(105.0);
+                let rigid = middle * wide(STIFFNESS[i][j]) + slope * wide(STIFFNESS_SLOPE[i][j]);
+                stiffness[at] += rigid / (wide(6.0) * half * half);
+                stiffness[at] += square * wide(STIFFNESS_SQUARE[i][j]) / (wide(30.0) * half * half);
+            }
+        }
+    }
+    (mass, stiffness)
+}
+
+/// Half the thickness of each layer times the coefficients of `G`, the product of two linear functions.
+fn weights(section: &Section, curvature: f64) -> Vec<[Wide; 3]> {
+    let layers = section.layers.windows(2).zip(&section.widths);
+    let weight = |(ends, widths): (&[f64], &[f64; 2])| {
         let (a, b) = (wide(ends[0]), wide(ends[1]));
         let half = wide(0.5) * (b - a);
         let polar = [wide(1.0) - wide(0.5) * (a + b) * wide(curvature), -(wide(curvature) * half)];
         let [from, to] = widths.map(wide);
         let width = [wide(0.5) * (from + to), wide(0.5) * (to - from)];
-        let (middle, square) = (polar[0] * width[0], polar[1] * width[1]);
         let slope = polar[0] * width[1] + polar[1] * width[0];
-        for i in 0..3 {
-            for j in 0..3 {
-                let at = (2 * e + i) * n + 2 * e + j;
-                mass[at] += half * (middle * wide(MASS[i][j]) + slope * wide(MASS_SLOPE[i][j])) / wide(15.0);
-                mass[at] += half * square * wide(MASS_SQUARE[i][j]) / wide(105.0);
-                stiffness[at] +=
-                    (middle * wide(STIFFNESS[i][j]) + slope * wide(STIFFNESS_SLOPE[i][j])) / (wide(6.0) * half);
-                stiffness[at] += square * wide(STIFFNESS_SQUARE[i][j]) / (wide(30.0) * half);
-            }
-        }
-    }
-    (mass, stiffness)
+        [polar[0] * width[0], slope, polar[1] * width[1]].map(|coefficient| half * coefficient)
+    };
+    layers.map(weight).collect()
 }
 
 /// Strip of the contact at the first node, and `∫ b N dz`.

@@ -26,18 +26,33 @@ impl Heat {
     /// both in \[m], over the reference \[K].
     pub fn wheel_temperature(&self, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
-        Ok(self.temperature(evaluate(&self.wheel, self.split(state).0, s, z)))
+        self.temperature(0, state, s, z)
     }
 
     /// Temperature of the rail at `x` and the depth `z`, both in \[m], over the reference \[K].
     pub fn rail_temperature(&self, state: &HeatState, x: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
-        Ok(self.temperature(evaluate(&self.rail, self.split(state).1, x, z)))
+        self.temperature(1, state, x, z)
     }
 
-    /// Excess temperature \[K] at a heat content over `ρc` \[K].
-    fn temperature(&self, content: f64) -> f64 {
-        self.melting.map_or(content, |melting| melting.temperature(content))
+    /// Temperature of a body (0: wheel, 1: rail) at one point.
+    fn temperature(&self, body: usize, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
+        let across = [&self.wheel, &self.rail][body].modes.at(z);
+        let (rows, xi) = self.columns_at(body, state, s);
+        let (from, to) = rows.split_at(across.len());
+        Ok((1.0 - xi) * dot(from, &across) + xi * dot(to, &across))
+    }
+
+    /// Temperatures below the two surface nodes of a body (0: wheel, 1: rail) beside the distance `s` along the surface, mode
+    /// by mode, and its place between them from 0 to 1.
+    fn columns_at(&self, body: usize, state: &HeatState, s: f64) -> (Vec<f64>, f64) {
+        let (wheel, rail) = self.split(state);
+        let (field, body_at) = [(wheel, &self.wheel), (rail, &self.rail)][body];
+        let nm = body_at.modes.len();
+        let (nodes, xi) = element(body_at, s);
+        let mut rows: Vec<f64> = nodes.iter().flat_map(|node| &field[node * nm..(node + 1) * nm]).copied().collect();
+        self.cool_columns(body, state, &mut rows);
+        (rows, xi)
     }
 
     /// Weights of the modes at given depths \[m] of the wheel, for [`Heat::wheel_column`]: a row of them for each depth.
@@ -46,15 +61,16 @@ impl Heat {
     }
 
     /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread from the contact point and
-    /// the depths that `weights` were made for, over the reference \[K]; zeros for a state of another model.
+    /// the depths that `weights` were made for, over the reference \[K]; zeros for a state of
+    /// another model.
     pub fn wheel_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
         column.fill(0.0);
         if !self.fits(state) {
             return;
         }
-        let (field, nm) = (self.split(state).0, self.wheel.modes.len());
-        let ([from, to], xi) = element(&self.wheel, s);
-        let [from, to] = [from, to].map(|node| &field[node * nm..(node + 1) * nm]);
+        let nm = self.wheel.modes.len();
+        let (rows, xi) = self.columns_at(0, state, s);
+        let (from, to) = rows.split_at(nm);
         for (value, weights) in column.iter_mut().zip(weights.chunks_exact(nm)) {
             *value = (1.0 - xi) * dot(from, weights) + xi * dot(to, weights);
         }
@@ -66,9 +82,10 @@ impl Heat {
         let radius = self.config.wheel.radius;
         let polar = |s: f64, z: f64| [(radius - z) * (s / radius).sin(), -(radius - z) * (s / radius).cos()];
         let (wheel, rail) = self.split(state);
-        let mut fields = [field(&self.wheel, wheel, polar), field(&self.rail, rail, |s, z| [s, -z])];
-        fields.iter_mut().flat_map(|field| &mut field.temperature).for_each(|t| *t = self.temperature(*t));
-        Ok(fields)
+        let (mut wheel, mut rail) = (wheel.to_vec(), rail.to_vec());
+        self.cool_columns(0, state, &mut wheel);
+        self.cool_columns(1, state, &mut rail);
+        Ok([field(&self.wheel, &wheel, polar), field(&self.rail, &rail, |s, z| [s, -z])])
     }
 }
 
@@ -95,15 +112,6 @@ fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -
         mesh.cells.extend((1..depths).map(|i| cell(if wheel { (i, i - 1) } else { (i - 1, i) })));
     }
     TemperatureField { mesh, temperature }
-}
-
-/// Temperature at one point.
-fn evaluate(body: &HeatBody, field: &[f64], s: f64, z: f64) -> f64 {
-    let (nodes, xi) = element(body, s);
-    let across = body.modes.at(z);
-    let nm = across.len();
-    let [from, to] = nodes.map(|node| dot(&field[node * nm..(node + 1) * nm], &across));
-    (1.0 - xi) * from + xi * to
 }
 
 /// Nodes of the element at a distance along the surface, and the place within it from 0 to 1; outside an open streamline

@@ -1,5 +1,6 @@
 //! Meshes and modes of both bodies.
 
+use super::column::Column;
 use super::depth_modes::DepthModes;
 use super::modal::{HeatBody, dot};
 use super::nodal::Nodal;
@@ -31,8 +32,8 @@ pub struct Heat {
     /// Means of the modes from the surface down to depths that grow by the factor [`CORE_GROWTH`] from
     /// [`CORE_DEPTH`] half-widths on, of wheel and rail [1].
     pub(super) core_weights: [Vec<Vec<f64>>; 2],
-    /// The same for the values at the nodes across the streamlines.
-    pub(super) layer_nodes: [Vec<f64>; 2],
+    /// Columns of wheel and rail in which steel may melt.
+    pub(super) columns: [Column; 2],
     /// Unless melting is left out.
     pub(super) melting: Option<Melting>,
 }
@@ -101,14 +102,14 @@ impl Heat {
             depths.map(|depth| body.modes.integrals(depth).iter().map(|i| i / depth).collect()).collect()
         });
         let nodal = [Nodal::new(&wheel.modes)?, Nodal::new(&rail.modes)?];
-        let layer_nodes = [0, 1].map(|i| nodal[i].weights_of(&layer_weights[i]));
+        let columns = [&wheel, &rail].map(|body| Column::new(&body.modes));
         let melting = Melting::new(&c);
         let zone_cells = zone.len() - 1;
         Ok(Self {
             wheel,
             rail,
             nodal,
-            layer_nodes,
+            columns,
             melting,
             zone_cells,
             layer_weights,

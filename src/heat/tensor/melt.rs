@@ -9,40 +9,55 @@
 //! ```
 //!
 //! ℓ is found as a fixed point. The map is a contraction, since ℓ changes by less than h, and Anderson mixing speeds it up.
-//! Every iterate keeps the heat balance to round-off, because the linear equations hold for it exactly.
+//! Every iterate keeps the heat balance to round-off, because the linear equations hold for it exactly. Where in a column the
+//! latent part lies is the matter of [`Column`](super::column::Column).
 
+use super::column::Found;
 use super::layout::Heat;
-use super::modal::StageCoefficients;
+use super::modal::{StageCoefficients, dot};
 use super::stage::Stage;
 use super::state::HeatState;
 use crate::heat::error::HeatError;
 use crate::heat::melting::Melting;
 use crate::heat::model::Observation;
 use crate::linalg::anderson::Anderson;
+use std::ops::Range;
 
 /// Change of the latent part between two iterations at which it counts as found \[K], and the most that is accepted.
 const TOLERANCE: f64 = 0.01;
 const ACCEPTED: f64 = 1.0;
-const ITERATIONS: usize = 200;
+const ITERATIONS: usize = 100;
 
 /// Memory of the iteration.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Melt {
-    /// Latent part at the nodes of wheel and rail, and its image.
+    /// Coefficients of the latent part of wheel and rail, and their image.
     latent: Vec<f64>,
     image: Vec<f64>,
-    /// Coefficients of the latent part, then of the temperature.
-    modal: Vec<f64>,
+    /// Coefficients of the temperature.
+    temperature: Vec<f64>,
     /// Heat content at the end of the step.
     content: Vec<f64>,
+    search: Search,
     mixing: Anderson,
+}
+
+/// Memory of a look at one column.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Search {
+    /// Heat content at the nodes.
+    values: Vec<f64>,
+    found: Found,
+    /// Whether the nodes alone decide what is molten.
+    by_nodes: bool,
 }
 
 impl Melt {
     /// Coefficients of the temperature at the heat content that the last step ended with.
     pub fn temperature(&mut self, content: &[f64]) -> &[f64] {
-        self.modal.iter_mut().zip(content).for_each(|(x, h)| *x = h - *x);
-        &self.modal
+        self.temperature.clear();
+        self.temperature.extend(content.iter().zip(&self.latent).map(|(h, latent)| h - latent));
+        &self.temperature
     }
 }
 
@@ -59,24 +74,26 @@ impl Heat {
         work: &mut Melt,
     ) -> Result<usize, HeatError> {
         stage.set_still(self);
-        let Melt { latent, image, modal, content, mixing } = work;
-        mixing.restart();
-        self.latent_at_nodes(melting, before, latent);
+        let Melt { latent, image, content, search, mixing, .. } = work;
         let mut change = f64::INFINITY;
-        for iteration in 1..=ITERATIONS {
-            self.to_modes(latent, modal);
-            rate.clone_from(base);
-            stage.multiply_still(self, StageCoefficients { storage: 0.0, flow: 1.0 }, modal, rate);
-            stage.solve(self, coefficients, rate)?;
-            content.clear();
-            content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
-            self.latent_at_nodes(melting, content, image);
-            change = latent.iter().zip(&*image).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
-            if change <= TOLERANCE || (iteration == ITERATIONS && change <= ACCEPTED) {
-                return Ok(iteration);
+        // Where columns are too coarse for a front, what is molten may jump between both ways to find it.
+        for by_nodes in [false, true] {
+            search.by_nodes = by_nodes;
+            mixing.restart();
+            self.set_latent(melting, before, latent, search);
+            for iteration in 1..=ITERATIONS {
+                rate.clone_from(base);
+                stage.multiply_still(self, StageCoefficients { storage: 0.0, flow: 1.0 }, latent, rate);
+                stage.solve(self, coefficients, rate)?;
+                content.clear();
+                content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
+                self.set_latent(melting, content, image, search);
+                change = self.largest_difference(latent, image, search);
+                if change <= TOLERANCE || (iteration == ITERATIONS && change <= ACCEPTED) {
+                    return Ok(iteration);
+                }
+                mixing.mix(latent, image);
             }
-            mixing.mix(latent, image);
-            latent.iter_mut().for_each(|value| *value = value.clamp(0.0, melting.latent));
         }
         Err(HeatError::MeltingNotConverged { change })
     }
@@ -85,49 +102,105 @@ impl Heat {
     /// contact zone \[m].
     pub(super) fn observe_melting(&self, state: &HeatState, seen: &mut Observation) -> [f64; 2] {
         let mut melted = [0.0_f64; 2];
-        let Some(melting) = self.melting.filter(|melting| state.range[1] > melting.solidus) else { return melted };
+        let Some(melting) = self.melting_at(state) else { return melted };
         let fields = self.split(state);
+        let mut search = Search::default();
         let Observation { surface, layer, sums: values, .. } = seen;
         for (i, (body, field)) in [(&self.wheel, fields.0), (&self.rail, fields.1)].into_iter().enumerate() {
-            let (nodal, zone, nm) = (&self.nodal[i], self.zone_nodes(body), body.modes.len());
-            surface[i].iter_mut().for_each(|t| *t = melting.temperature(*t));
-            values.resize(nodal.len(), 0.0);
-            for (row, layer) in field[zone.start * nm..zone.end * nm].chunks_exact(nm).zip(&mut layer[i]) {
-                nodal.values(row, values);
-                values.iter_mut().for_each(|value| *value = melting.latent_part(*value));
-                *layer -= values.iter().zip(&self.layer_nodes[i]).map(|(value, weight)| value * weight).sum::<f64>();
-                melted[i] = melted[i].max(nodal.integral(values) / melting.latent);
+            let (zone, nm) = (self.zone_nodes(body), body.modes.len());
+            values.resize(nm, 0.0);
+            let rows = field[zone.start * nm..zone.end * nm].chunks_exact(nm);
+            for ((row, surface), layer) in rows.zip(&mut surface[i]).zip(&mut layer[i]) {
+                if self.latent_below(i, &melting, row, values, &mut search) {
+                    *surface -= dot(values, &body.modes.surface);
+                    *layer -= dot(values, &self.layer_weights[i]);
+                    melted[i] = melted[i].max(search.found.molten);
+                }
             }
         }
         melted
     }
 
-    /// Replaces `out` by the latent part at all nodes of both bodies.
-    fn latent_at_nodes(&self, melting: &Melting, content: &[f64], out: &mut Vec<f64>) {
-        let counts = [self.wheel.line.len() * self.nodal[0].len(), self.rail.line.len() * self.nodal[1].len()];
-        out.clear();
-        out.resize(counts[0] + counts[1], 0.0);
-        let (fields, outs) = (content.split_at(self.wheel.size()), out.split_at_mut(counts[0]));
-        for (nodal, field, out) in [(&self.nodal[0], fields.0, outs.0), (&self.nodal[1], fields.1, outs.1)] {
-            for (row, out) in field.chunks_exact(nodal.modes()).zip(out.chunks_exact_mut(nodal.len())) {
-                // Most rows are known to be solid without a look at their nodes.
-                if nodal.bound(row) > melting.solidus {
-                    nodal.values(row, out);
-                    out.iter_mut().for_each(|value| *value = melting.latent_part(*value));
-                }
+    /// Replaces the heat contents of columns of a body (0: wheel, 1: rail) by their temperatures, where steel melts in `state`.
+    pub(super) fn cool_columns(&self, body: usize, state: &HeatState, rows: &mut [f64]) {
+        let Some(melting) = self.melting_at(state) else { return };
+        let nm = self.nodal[body].modes();
+        let (mut search, mut latent) = (Search::default(), vec![0.0; nm]);
+        for row in rows.chunks_exact_mut(nm) {
+            if self.latent_below(body, &melting, row, &mut latent, &mut search) {
+                row.iter_mut().zip(&latent).for_each(|(x, latent)| *x -= latent);
             }
         }
     }
 
-    /// Replaces `modal` by the coefficients of a field that is given at the nodes of both bodies.
-    fn to_modes(&self, values: &[f64], modal: &mut Vec<f64>) {
-        modal.clear();
-        modal.resize(self.wheel.size() + self.rail.size(), 0.0);
-        let split = self.wheel.line.len() * self.nodal[0].len();
-        let (fields, values) = (modal.split_at_mut(self.wheel.size()), values.split_at(split));
-        for (nodal, field, values) in [(&self.nodal[0], fields.0, values.0), (&self.nodal[1], fields.1, values.1)] {
-            let rows = field.chunks_exact_mut(nodal.modes()).zip(values.chunks_exact(nodal.len()));
-            rows.for_each(|(row, values)| nodal.add(values, row));
+    /// How steel melts, if any does in a state.
+    fn melting_at(&self, state: &HeatState) -> Option<Melting> {
+        self.melting.filter(|melting| state.range[1] > melting.solidus)
+    }
+
+    /// Replaces `latent` by the coefficients of the latent part below one surface node of a body; whether there is any.
+    fn latent_below(
+        &self,
+        body: usize,
+        melting: &Melting,
+        row: &[f64],
+        latent: &mut [f64],
+        search: &mut Search,
+    ) -> bool {
+        let (nodal, column) = (&self.nodal[body], &self.columns[body]);
+        let Search { values, found, by_nodes } = search;
+        // Most rows are known to be solid without a look at their nodes.
+        if nodal.bound(row) <= melting.solidus {
+            return false;
         }
+        values.resize(nodal.len(), 0.0);
+        nodal.values(row, values);
+        if values.iter().all(|h| *h <= melting.solidus) {
+            return false;
+        }
+        if *by_nodes {
+            column.find_by_nodes(melting, values, found);
+        } else {
+            column.find(melting, values, found);
+        }
+        latent.fill(0.0);
+        nodal.add(&found.latent, latent);
+        true
+    }
+
+    /// Replaces `out` by the coefficients of the latent part of both bodies.
+    fn set_latent(&self, melting: &Melting, content: &[f64], out: &mut Vec<f64>, search: &mut Search) {
+        out.clear();
+        out.resize(content.len(), 0.0);
+        for (body, range) in self.ranges().into_iter().enumerate() {
+            let nm = self.nodal[body].modes();
+            for (row, out) in content[range.clone()].chunks_exact(nm).zip(out[range].chunks_exact_mut(nm)) {
+                self.latent_below(body, melting, row, out, search);
+            }
+        }
+    }
+
+    /// Largest difference of two fields at the nodes \[K].
+    fn largest_difference(&self, a: &[f64], b: &[f64], search: &mut Search) -> f64 {
+        let (mut largest, mut difference) = (0.0_f64, Vec::new());
+        for (body, range) in self.ranges().into_iter().enumerate() {
+            let nodal = &self.nodal[body];
+            search.values.resize(nodal.len(), 0.0);
+            for (a, b) in a[range.clone()].chunks_exact(nodal.modes()).zip(b[range].chunks_exact(nodal.modes())) {
+                difference.clear();
+                difference.extend(a.iter().zip(b).map(|(a, b)| a - b));
+                if nodal.bound(&difference) > TOLERANCE {
+                    nodal.values(&difference, &mut search.values);
+                    largest = search.values.iter().fold(largest, |largest, value| largest.max(value.abs()));
+                }
+            }
+        }
+        largest
+    }
+
+    /// Where the coefficients of wheel and rail lie in a field.
+    fn ranges(&self) -> [Range<usize>; 2] {
+        let wheel = self.wheel.size();
+        [0..wheel, wheel..wheel + self.rail.size()]
     }
 }

@@ -13,6 +13,7 @@
 //! that of the contact as a second weight (`section`).
 
 mod bounds;
+mod column;
 mod depth_modes;
 mod field;
 mod flows;

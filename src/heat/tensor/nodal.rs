@@ -88,16 +88,6 @@ impl Nodal {
         }
     }
 
-    /// `∫ g · dz` of what is given at the nodes below one surface node.
-    pub fn integral(&self, values: &[f64]) -> f64 {
-        values.iter().zip(&self.weights).map(|(v, w)| v * w).sum()
-    }
-
-    /// Weights of the nodes in a sum whose weights for the modes are `weights`.
-    pub fn weights_of(&self, weights: &[f64]) -> Vec<f64> {
-        self.to_modes.chunks_exact(self.modes).map(|column| dot(column, weights)).collect()
-    }
-
     /// Lowest and highest value of a field at its nodes.
     pub fn extremes(&self, field: &[f64]) -> [f64; 2] {
         let rows = field.chunks_exact(self.modes);

@@ -53,11 +53,13 @@ impl MaterialHistory {
     /// Takes a history on by a step of `dt` \[s] that led to `next`.
     pub fn advance(&self, damage: &mut Damage, next: &State, dt: f64, criteria: Criteria, touch: &Touch, seen: &Seen) {
         let temperatures = &seen.observation.temperatures;
+        let patch = touch.traction.extent();
         let moment = Moment {
             dt,
             angle: next.angle,
             omega: next.motion.omega.now,
-            contact_length: touch.traction.extent().map_or(0.0, |patch| patch.high - patch.low),
+            contact_length: patch.map_or(0.0, |patch| patch.high - patch.low),
+            contact_reach: patch.map_or(0.0, |patch| patch.high.max(-patch.low)),
             hottest: [temperatures.wheel_max, temperatures.rail_max],
             bulk: temperatures.wheel_mean,
             surface: (seen.zone, &seen.observation.surface[0]),

@@ -19,7 +19,7 @@ use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
-use crate::material::SOFTENS;
+use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
@@ -137,9 +137,18 @@ impl ThermalModel {
     /// Absolute temperature \[K] that a contact with molten films does not exceed by itself: [`OVERHEATING`] above the
     /// liquidus, or that of the wheel at the start. Infinite where melting leaves friction alone.
     pub fn hottest(&self) -> f64 {
-        self.weakening
-            .liquidus()
-            .map_or(f64::INFINITY, |liquidus| (liquidus + OVERHEATING).max(self.reference + self.wheel_excess))
+        self.above_liquidus(OVERHEATING)
+    }
+
+    /// Absolute temperature \[K] from which on a molten film carries no friction, or that of the wheel at the start: a step that
+    /// heats the contact beyond had too much friction.
+    pub fn frictionless(&self) -> f64 {
+        self.above_liquidus(FILM_GROWS)
+    }
+
+    fn above_liquidus(&self, excess: f64) -> f64 {
+        let start = self.reference + self.wheel_excess;
+        self.weakening.liquidus().map_or(f64::INFINITY, |liquidus| (liquidus + excess).max(start))
     }
 
     /// What temperatures see of a contact.
