@@ -109,7 +109,7 @@ $(FMU): $(BUILT)
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
 
 # Exported functions, version of glibc and size are checked before the archive gets its name.
-$(FMU_ALL): $(BUILT) $(PLATFORMS) $(wildcard packaging/*)
+$(FMU_ALL): $(BUILT) $(PLATFORMS) packaging/build packaging/mingw-linker packaging/rustc-wrapper
 	PATH="$(abspath $(VENV)/bin):$$PATH" packaging/build
 	$(BINARY) pack --out $@.new --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
 		--resources resources --cache $(CACHE)

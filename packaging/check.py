@@ -5,6 +5,7 @@
 """
 
 import argparse
+import math
 import os
 import re
 import shutil
@@ -23,7 +24,14 @@ SIZE = 4e6  # bytes of linux64
 NEEDED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-x86-64.so.2"}
 # Part of every Windows.
 SYSTEM = re.compile(r"(kernel32|ntdll|msvcrt|advapi32|ws2_32|userenv|bcrypt|bcryptprimitives|api-ms-win-.*)\.dll")
-TOLERANCE = 1e-9  # relative to the largest value of an output in the run
+TOLERANCE = 1e-9  # relative to the largest value of an output, or of a whole profile, in the run
+# What remains of sums that cancel is compared with the size of these sums: the first is a share of the friction energy, of
+# energies as large as the work of the hub, the second a share of all heat.
+SCALES = {
+    "solver.energy_residual": lambda largest: largest["energy.hub_work"] / largest["energy.friction"],
+    "solver.heat_residual": lambda largest: 1.0,
+    "heat.to_hub": lambda largest: largest["heat.friction_power"],
+}
 
 
 def output(*command, **options):
@@ -83,14 +91,20 @@ def rows(text):
 
 
 def largest_difference(names, one, two):
-    """Largest difference, relative to the largest value of its output, and the name of that output."""
+    """Largest difference between two runs and the name of that output."""
     require(len(one) == len(two) > 0, "the runs differ in length")
+    require([row[0] for row in one] == [row[0] for row in two], "the runs differ in their steps")
+    family = {name: name.split("[")[0] for name in names}
+    largest = dict.fromkeys(family.values(), 0.0)
+    for i, name in enumerate(names, start=1):
+        largest[family[name]] = max(largest[family[name]], *(abs(row[i]) for row in one))
     worst = (0.0, "none")
     for i, name in enumerate(names, start=1):
-        scale = max(abs(row[i]) for row in one)
+        require(all(math.isfinite(row[i]) for row in one + two), f"{name} is not finite")
         difference = max(abs(a[i] - b[i]) for a, b in zip(one, two))
+        scale = SCALES[name](largest) if name in SCALES else largest[family[name]]
         if difference > 0.0:
-            worst = max(worst, (difference / scale if scale > 0.0 else float("inf"), name))
+            worst = max(worst, (difference / scale if scale > 0.0 else math.inf, name))
     return worst
 
 

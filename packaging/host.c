@@ -82,9 +82,11 @@ static void call(const char *name) {
     if (((Plain *)function(name))(wheel) != 0) fail(name);
 }
 
-/* Moment and load of a step: the brake is applied within 0.3 s and eased within the last 0.5 s, the load swings by 10 %. */
+/* Moment and load of a step: the brake is applied within 0.3 s, pulled beyond adhesion for 0.05 s, so that the wheel slides,
+ * released for 0.15 s, pulled as before and eased within the last 0.5 s; the load swings by 8 %. */
 static void inputs(int step) {
     double applied = step < 300 ? step / 300.0 : step < 1500 ? 1.0 : (2000 - step) / 500.0;
+    if (step >= 1000 && step < 1200) applied = step < 1050 ? 1.8 : 0.0;
     double phase = (step % 400) / 400.0;
     double values[2] = { -9000.0 * applied, 100000.0 * (1.0 + 1.6 * phase * (1.0 - phase) * (phase - 0.5)) };
     const unsigned references[2] = { DRIVE_MOMENT, DRIVE_LOAD };
@@ -97,9 +99,13 @@ static void run(int from, int to, size_t count, const unsigned *references, doub
         inputs(step);
         if (do_step(wheel, step * STEP, STEP, 0) > 1) fail("fmi2DoStep");
         if (get_real(wheel, references, count, table) > 1) fail("fmi2GetReal");
-        if (step % PRINTED) continue;
+    }
+}
+
+static void print(size_t count, const double *table) {
+    for (int step = 0; step < STEPS; step += PRINTED) {
         printf("%d", step);
-        for (size_t i = 0; i < count; i++) printf(" %.17g", table[i]);
+        for (size_t i = 0; i < count; i++) printf(" %.17g", table[step * count + i]);
         putchar('\n');
     }
 }
@@ -136,6 +142,7 @@ int main(int arguments, char **argument) {
     run(SAVED, STEPS, count, references, table + SAVED * count);
     if (memcmp(again, table + SAVED * count, size) != 0) fail("rollback: repeating the steps bit for bit");
     fprintf(stderr, "%.3f s for %d steps\n", (double)(clock() - start) / CLOCKS_PER_SEC, STEPS + REPEATED);
+    print(count, table);
 
     call("fmi2Terminate");
     ((Free *)function("fmi2FreeInstance"))(wheel);
