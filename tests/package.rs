@@ -99,11 +99,11 @@ fn a_binary_named_for_this_machine_takes_the_place_of_the_library() {
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let mut archive = ZipArchive::new(File::open(&fmu).unwrap()).unwrap();
-    let binaries: Vec<_> =
-        archive.file_names().filter(|name| name.starts_with("binaries/")).map(str::to_owned).collect();
+    let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+    let binaries: Vec<_> = names.iter().filter(|name| name.starts_with("binaries/")).collect();
     assert_eq!(binaries.len(), 1, "{binaries:?}");
     let mut packed = String::new();
-    archive.by_name(&binaries[0]).unwrap().read_to_string(&mut packed).unwrap();
+    archive.by_name(binaries[0]).unwrap().read_to_string(&mut packed).unwrap();
     assert_eq!(packed, text);
 }
 
