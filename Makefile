@@ -1,6 +1,8 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
 # make test      every test, Rust and fmpy
 # make fmu       target/wheelrail.fmu
+# make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
+# make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
@@ -21,6 +23,7 @@ TARGET := $(or $(CARGO_TARGET_DIR),target)
 BINARY := $(TARGET)/release/wheelrail
 LIBRARY := $(TARGET)/release/libwheelrail.so
 FMU := target/wheelrail.fmu
+FMU_ALL := target/wheelrail-all.fmu
 CACHE := target
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -29,10 +32,11 @@ PY := $(VENV)/bin/python
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
+PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -47,6 +51,11 @@ test-fmpy: $(FMU) $(MASTERS)
 	$(PY) -m pytest fmpy_tests
 
 fmu: $(FMU)
+
+fmu-all: $(FMU_ALL)
+
+platforms-check: $(FMU_ALL)
+	$(PYTHON) packaging/check.py $(FMU_ALL) --run
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
@@ -99,6 +108,14 @@ clean:
 $(FMU): $(BUILT)
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
 
+# Exported functions, version of glibc and size are checked before the archive gets its name.
+$(FMU_ALL): $(BUILT) $(PLATFORMS) packaging/build packaging/mingw-linker packaging/rustc-wrapper
+	PATH="$(abspath $(VENV)/bin):$$PATH" packaging/build
+	$(BINARY) pack --out $@.new --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
+		--resources resources --cache $(CACHE)
+	$(PYTHON) packaging/check.py $@.new
+	mv $@.new $@
+
 $(BUILT): $(SOURCES)
 	$(CARGO) build --release --locked
 	touch $@
@@ -110,5 +127,9 @@ $(INSTALLED): requirements.txt
 	touch $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(PLATFORMS): requirements-platforms.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@

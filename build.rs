@@ -18,11 +18,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     let target = |key: &str| std::env::var(format!("CARGO_CFG_TARGET_{key}")).unwrap_or_default();
     if target("OS") == "linux" {
-        println!("cargo::rustc-cdylib-link-arg=-Wl,--exclude-libs,ALL");
-        if target("ENV") == "gnu" {
+        let directory = std::env::var("OUT_DIR")?;
+        let zig = std::env::var("RUSTC_LINKER").is_ok_and(|linker| linker.contains("zigcc"));
+        if zig {
+            // The linker of zig knows no `--exclude-libs`; of several version scripts it takes the last, which is this one.
+            let script = Path::new(&directory).join("exports");
+            fs::write(&script, "{ global: fmi2*; local: *; };\n")?;
+            println!("cargo::rustc-cdylib-link-arg=-Wl,--version-script={}", script.display());
+        } else {
+            println!("cargo::rustc-cdylib-link-arg=-Wl,--exclude-libs,ALL");
+        }
+        if target("ENV") == "gnu" && !zig {
             // The unwinder behind the panic barrier from the static library: the standard library asks for `gcc_s`, and
-            // the linker finds this script under that name first.
-            let directory = std::env::var("OUT_DIR")?;
+            // the linker finds this script under that name first. Zig brings its own, linked statically.
             fs::write(Path::new(&directory).join("libgcc_s.so"), "INPUT(-lgcc_eh -lgcc)\n")?;
             println!("cargo::rustc-cdylib-link-arg=-L{directory}");
         }

@@ -29,9 +29,15 @@ fn links(text: &str) -> impl Iterator<Item = &str> {
 
 /// Words between backticks that are paths of this repository.
 fn paths(text: &str) -> impl Iterator<Item = &str> {
-    const ROOMS: [&str; 7] = ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/"];
     let words = text.split('`').filter(|word| !word.contains(char::is_whitespace) && !word.contains('*'));
-    words.filter(|word| ROOMS.iter().any(|room| word.starts_with(room)))
+    words.filter(|word| is_path(word))
+}
+
+/// Whether a word is a path of this repository.
+fn is_path(word: &str) -> bool {
+    const ROOMS: [&str; 8] =
+        ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/", "packaging/"];
+    ROOMS.iter().any(|room| word.starts_with(room))
 }
 
 #[test]
@@ -56,6 +62,15 @@ fn files_named_in_documents_exist() {
         }
     }
     assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
+#[test]
+fn files_that_the_recipe_for_hosted_runners_uses_exist() {
+    let text = fs::read_to_string(root().join(".github/workflows/fmu.yml")).unwrap();
+    let used: Vec<&str> = text.split_whitespace().filter(|w| is_path(w) || w.starts_with("requirements")).collect();
+    assert!(used.len() > 3, "{used:?}");
+    let missing: Vec<_> = used.into_iter().filter(|path| !root().join(path).exists()).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
 
 #[test]

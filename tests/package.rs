@@ -86,6 +86,28 @@ fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
 }
 
 #[test]
+fn a_binary_named_for_this_machine_takes_the_place_of_the_library() {
+    let directory = workplace("named");
+    let (own, fmu) = (package::platform().unwrap(), directory.join("named.fmu"));
+    let (_, text) = library(&directory, own);
+    let output = Command::new(env!("CARGO_BIN_EXE_wheelrail"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .arg("pack")
+        .args(["--library", "nowhere.so", "--binary", &format!("{own}={}", directory.join(own).display())])
+        .args(["--resources".as_ref(), directory.as_os_str(), "--out".as_ref(), fmu.as_os_str()])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut archive = ZipArchive::new(File::open(&fmu).unwrap()).unwrap();
+    let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+    let binaries: Vec<_> = names.iter().filter(|name| name.starts_with("binaries/")).collect();
+    assert_eq!(binaries.len(), 1, "{binaries:?}");
+    let mut packed = String::new();
+    archive.by_name(binaries[0]).unwrap().read_to_string(&mut packed).unwrap();
+    assert_eq!(packed, text);
+}
+
+#[test]
 fn licences_of_all_linked_crates_are_in_the_archive() {
     let listed = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/LICENSE-THIRD-PARTY")).unwrap();
     let tree = Command::new(env!("CARGO"))

@@ -12,10 +12,11 @@ pub struct Pack {
     /// The FMU to write.
     #[arg(long, default_value = "target/wheelrail.fmu")]
     out: PathBuf,
-    /// Compiled shared library.
+    /// Shared library compiled for this machine.
     #[arg(long, default_value = "target/release/libwheelrail.so")]
     library: PathBuf,
-    /// Library compiled for a further platform, e.g. win64=path/to/wheelrail.dll; may be repeated.
+    /// Library compiled for a further platform, e.g. win64=path/to/wheelrail.dll; may be repeated. One for the platform of
+    /// this machine takes the place of --library.
     #[arg(long = "binary", value_name = "PLATFORM=FILE")]
     binaries: Vec<Binary>,
     /// Directory with the presets.
@@ -38,9 +39,13 @@ impl Pack {
             fs::create_dir_all(parent)?;
         }
         let failed = |error: package::PackageError| Failure::Run(error.to_string());
-        let Pack { out, library, binaries, resources, .. } = self;
-        let own = Binary::new(package::platform(), library).map_err(failed)?;
-        let binaries = [vec![own], binaries].concat();
+        let Pack { out, library, mut binaries, resources, .. } = self;
+        match package::platform() {
+            Ok(own) if binaries.iter().any(|binary| binary.platform() == own) => {}
+            Ok(own) => binaries.insert(0, Binary::new(own, library).map_err(failed)?),
+            Err(unnamed) if binaries.is_empty() => return Err(failed(unnamed)),
+            Err(_) => {}
+        }
         package::write(&out, &Contents { binaries, resources, bases }).map_err(failed)?;
         println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
         Ok(())

@@ -85,6 +85,11 @@ impl Binary {
         Ok(Self { platform, extension, file: file.into() })
     }
 
+    /// The platform.
+    pub fn platform(&self) -> &'static str {
+        self.platform
+    }
+
     /// The library; refuses files that are none.
     fn read(&self) -> Result<Vec<u8>, PackageError> {
         let bytes = read(&self.file)?;
@@ -126,6 +131,16 @@ pub enum PackageError {
     /// A platform that the standard does not name.
     #[error("platform {0:?} is unknown: {list}", list = platform_names())]
     Platform(String),
+    /// A machine for which the standard has no name.
+    #[error(
+        "FMI 2.0 names no platform for {os} on {architecture}: say with --binary PLATFORM=FILE where your master looks"
+    )]
+    Unnamed {
+        /// Operating system.
+        os: &'static str,
+        /// Architecture of the processor.
+        architecture: &'static str,
+    },
     /// An argument without platform or file.
     #[error("{0:?} is not of the form PLATFORM=FILE")]
     Pair(String),
@@ -157,11 +172,20 @@ pub enum PackageError {
 }
 
 /// Directory of the binary inside the FMU for the machine this was compiled for.
-pub fn platform() -> &'static str {
-    match (cfg!(target_os = "windows"), cfg!(target_os = "macos")) {
-        (true, _) => "win64",
-        (_, true) => "darwin64",
-        _ => "linux64",
+pub fn platform() -> Result<&'static str, PackageError> {
+    platform_of(std::env::consts::OS, std::env::consts::ARCH)
+}
+
+/// Directory of the binary for an operating system and an architecture, both as Rust calls them. The names of FMI 2.0
+/// stand for x86 processors, on macOS for those of Apple as well; a master on another machine finds no binary under them.
+fn platform_of(os: &'static str, architecture: &'static str) -> Result<&'static str, PackageError> {
+    match (os, architecture) {
+        ("windows", "x86_64") => Ok("win64"),
+        ("windows", "x86") => Ok("win32"),
+        ("linux", "x86_64") => Ok("linux64"),
+        ("linux", "x86") => Ok("linux32"),
+        ("macos", "x86_64" | "aarch64") => Ok("darwin64"),
+        _ => Err(PackageError::Unnamed { os, architecture }),
     }
 }
 
@@ -229,7 +253,26 @@ mod tests {
         let entry = |text: &str| text.parse::<Binary>().unwrap().entry();
         assert_eq!(entry("win64=a/wheelrail.dll"), "binaries/win64/wheelrail.dll");
         assert_eq!(entry("darwin64=b=c"), "binaries/darwin64/wheelrail.dylib");
-        assert!(PLATFORMS.iter().any(|(name, _)| *name == platform()));
+    }
+
+    #[test]
+    fn machines_that_the_standard_does_not_name_are_refused() {
+        for (os, architecture, expected) in [
+            ("linux", "x86_64", "linux64"),
+            ("windows", "x86_64", "win64"),
+            ("macos", "x86_64", "darwin64"),
+            ("macos", "aarch64", "darwin64"),
+        ] {
+            let platform = platform_of(os, architecture).unwrap();
+            assert_eq!(platform, expected);
+            assert!(PLATFORMS.iter().any(|(name, _)| *name == platform));
+        }
+        for (os, architecture) in
+            [("linux", "aarch64"), ("linux", "riscv64"), ("windows", "aarch64"), ("freebsd", "x86_64")]
+        {
+            let refusal = platform_of(os, architecture).unwrap_err().to_string();
+            assert!(refusal.contains(&format!("{os} on {architecture}")), "{refusal}");
+        }
     }
 
     #[test]

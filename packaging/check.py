@@ -1,0 +1,152 @@
+"""Checks an FMU for Linux and Windows: `make fmu-all` and `make platforms-check` call this.
+
+    python3 packaging/check.py FMU          what the binaries export and need, and their size
+    python3 packaging/check.py FMU --run    also runs both in a C master (host.c), Windows under wine, and compares
+"""
+
+import argparse
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+
+HERE = Path(__file__).parent
+LINUX, WINDOWS = "binaries/linux64/wheelrail.so", "binaries/win64/wheelrail.dll"
+FUNCTIONS = 34  # of FMI 2.0 for co-simulation; tests/fmi_library.rs lists them
+GLIBC = (2, 17)  # newest version that linux64 may need
+SIZE = 4e6  # bytes of linux64
+NEEDED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-x86-64.so.2"}
+# Part of every Windows.
+SYSTEM = re.compile(r"(kernel32|ntdll|msvcrt|advapi32|ws2_32|userenv|bcrypt|bcryptprimitives|api-ms-win-.*)\.dll")
+TOLERANCE = 1e-9  # relative to the largest value of an output, or of a whole profile, in the run
+# What remains of sums that cancel is compared with the size of these sums: the first is a share of the friction energy, of
+# energies as large as the work of the hub, the second a share of all heat.
+SCALES = {
+    "solver.energy_residual": lambda largest: largest["energy.hub_work"] / largest["energy.friction"],
+    "solver.heat_residual": lambda largest: 1.0,
+    "heat.to_hub": lambda largest: largest["heat.friction_power"],
+}
+
+
+def output(*command, **options):
+    """Standard output of a command that must succeed."""
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, **options).stdout
+
+
+def require(condition, message):
+    if not condition:
+        sys.exit(f"error: {message}")
+
+
+def check_functions(binary, names):
+    others = [name for name in names if not name.startswith("fmi2")]
+    require(not others, f"{binary} exports {others}")
+    require(len(set(names)) == FUNCTIONS, f"{binary} exports {len(names)} functions, not {FUNCTIONS}: {sorted(names)}")
+
+
+def check_linux(binary):
+    """Exports, versions of glibc, libraries, size, symbols."""
+    rows = [line.split() for line in output("objdump", "-T", binary).splitlines() if re.match("[0-9a-f]{16} ", line)]
+    check_functions(binary, [row[-1] for row in rows if "*UND*" not in row])
+    text = output("objdump", "-p", binary)
+    versions = {tuple(map(int, version.split("."))) for version in re.findall(r"GLIBC_([0-9.]+)", text)}
+    require(versions, f"{binary} asks for no version of glibc: is it a library?")
+    newest = ".".join(map(str, max(versions)))
+    require(max(versions) <= GLIBC, f"{binary} needs glibc {newest}")
+    needed = set(re.findall(r"NEEDED +(\S+)", text))
+    require(needed <= NEEDED, f"{binary} needs {sorted(needed - NEEDED)}")
+    size = binary.stat().st_size
+    require(size < SIZE, f"{binary} has {size / 1e6:.2f} MB")
+    require(".symtab" not in output("objdump", "-h", binary), f"{binary} is not stripped")
+    print(f"linux64: {FUNCTIONS} functions, glibc {newest}, {size / 1e6:.2f} MB, needs {' '.join(sorted(needed))}")
+
+
+def check_windows(binary):
+    """Exports and libraries."""
+    text = output("x86_64-w64-mingw32-objdump", "-p", binary)
+    table = text.split("[Ordinal/Name Pointer] Table")[-1].split("\n\n")[0]
+    check_functions(binary, re.findall(r"^\s+\[ *\d+\](?: \+base\[ *\d+\])?(?: +[0-9a-f]{4,8})? (\S+)$", table, re.MULTILINE))
+    needed = {name.lower() for name in re.findall(r"DLL Name: (\S+)", text)}
+    others = sorted(name for name in needed if not SYSTEM.fullmatch(name))
+    require(needed and not others, f"{binary} needs {others}")
+    print(f"win64: {FUNCTIONS} functions, {binary.stat().st_size / 1e6:.2f} MB, needs {' '.join(sorted(needed))}")
+
+
+def outputs(description):
+    """Identity of the FMU, and names and value references of its real outputs."""
+    root = ElementTree.parse(description).getroot()
+    variables = [v for v in root.iter("ScalarVariable") if v.get("causality") == "output" and v.find("Real") is not None]
+    return root.get("guid"), {variable.get("name"): variable.get("valueReference") for variable in variables}
+
+
+def rows(text):
+    """Lines of numbers."""
+    return [[float(value) for value in line.split()] for line in text.splitlines()]
+
+
+def largest_difference(names, one, two):
+    """Largest difference between two runs and the name of that output."""
+    require(len(one) == len(two) > 0, "the runs differ in length")
+    require([row[0] for row in one] == [row[0] for row in two], "the runs differ in their steps")
+    family = {name: name.split("[")[0] for name in names}
+    largest = dict.fromkeys(family.values(), 0.0)
+    for i, name in enumerate(names, start=1):
+        largest[family[name]] = max(largest[family[name]], *(abs(row[i]) for row in one))
+    worst = (0.0, "none")
+    for i, name in enumerate(names, start=1):
+        require(all(math.isfinite(row[i]) for row in one + two), f"{name} is not finite")
+        difference = max(abs(a[i] - b[i]) for a, b in zip(one, two))
+        scale = SCALES[name](largest) if name in SCALES else largest[family[name]]
+        if difference > 0.0:
+            worst = max(worst, (difference / scale if scale > 0.0 else math.inf, name))
+    return worst
+
+
+def run(fmu, directory):
+    """Runs both binaries and compares them."""
+    guid, references = outputs(fmu / "modelDescription.xml")
+    resources = (fmu / "resources").as_posix()
+    host = directory / "host"
+    output("cc", "-std=c11", "-O1", "-Wall", "-Wextra", HERE / "host.c", "-o", host, "-ldl")
+    linux = rows(output(host, fmu / LINUX, guid, f"file://{resources}", *references.values()))
+    print(f"linux64: {len(references)} outputs, state saved and restored")
+    if not shutil.which("wine"):
+        print("win64: skipped: wine is not installed")
+        return
+    gcc, host = ("x86_64-w64-mingw32-gcc", "-O1", "-Wall", "-Wextra"), directory / "host.exe"
+    output(*gcc, "-std=c11", HERE / "host.c", "-o", host)
+    output(*gcc, "-shared", HERE / "bcryptprimitives.c", "-o", directory / "bcryptprimitives.dll", "-ladvapi32")
+    environment = os.environ | {"WINEPREFIX": str(directory / "wine"), "WINEDEBUG": "-all"}
+    command = ("wine", host, fmu / WINDOWS, guid, f"file:///Z:{resources}", *references.values())
+    windows = rows(output(*command, env=environment))
+    difference, name = largest_difference(references, linux, windows)
+    print(f"win64: the same under {output('wine', '--version').strip()}; largest difference {difference:.2e} ({name})")
+    require(difference <= TOLERANCE, f"{name} differs by {difference:.2e} between linux64 and win64")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("fmu", type=Path)
+    parser.add_argument("--run", action="store_true", help="also run both binaries and compare")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        directory = Path(temporary)
+        fmu = directory / "fmu"
+        with zipfile.ZipFile(arguments.fmu) as archive:
+            missing = {LINUX, WINDOWS, "modelDescription.xml"} - set(archive.namelist())
+            require(not missing, f"{arguments.fmu} lacks {sorted(missing)}")
+            archive.extractall(fmu)
+        check_linux(fmu / LINUX)
+        check_windows(fmu / WINDOWS)
+        if arguments.run:
+            run(fmu, directory)
+
+
+if __name__ == "__main__":
+    main()
