@@ -79,13 +79,14 @@ pub fn step(
 }
 
 /// Whether friction has heated the contact beyond what a molten film lets it: within a step the film is that of its beginning.
+/// Where it has been beyond before, other heat is at work.
 fn overheats(model: &Model, state: &State, next: &State) -> bool {
     let (Some(model), Some(before), Some(after)) = (&model.thermal, &state.thermal, &next.thermal) else {
         return false;
     };
     let hottest = |thermal: &ThermalState| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
-    let (before, after) = (hottest(before), hottest(after));
-    after > before && model.reference() + after > model.frictionless()
+    let [before, after] = [before, after].map(|thermal| model.reference() + hottest(thermal));
+    after > before && after > model.frictionless() && before <= model.hottest()
 }
 
 /// Takes the step with the film of `state`.

@@ -18,9 +18,9 @@ use crate::heat::melting::Melting;
 const TOLERANCE: f64 = 1e-6;
 /// The same over the heat content, where that is more than any steel has \[1].
 const ROUND_OFF: f64 = 1e-11;
-const ITERATIONS: usize = 60;
+const ITERATIONS: usize = 30;
 /// How far a temperature may lie below the reference, or below all contents \[K].
-const MARGIN: f64 = 0.05;
+const MARGIN: f64 = 0.005;
 
 /// Elements of a body across its streamlines.
 #[derive(Clone, Debug)]

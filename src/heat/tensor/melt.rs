@@ -26,7 +26,10 @@ use std::ops::Range;
 /// Change of the latent part between two iterations at which it counts as found \[K], and the most that is accepted.
 const TOLERANCE: f64 = 0.01;
 const ACCEPTED: f64 = 1.0;
-const ITERATIONS: usize = 100;
+/// Heat content over `ρc` from which on iron boils \[K], and what is molten below a surface node needs no exact place.
+const BOILING: f64 = 3400.0;
+/// Most iterations with columns, and with nodes alone.
+const ITERATIONS: [usize; 2] = [30, 100];
 
 /// Memory of the iteration.
 #[derive(Clone, Debug, Default)]
@@ -77,11 +80,11 @@ impl Heat {
         let Melt { latent, image, content, search, mixing, .. } = work;
         let mut change = f64::INFINITY;
         // Where columns are too coarse for a front, what is molten may jump between both ways to find it.
-        for by_nodes in [false, true] {
+        for (by_nodes, most) in [false, true].into_iter().zip(ITERATIONS) {
             search.by_nodes = by_nodes;
             mixing.restart();
             self.set_latent(melting, before, latent, search);
-            for iteration in 1..=ITERATIONS {
+            for iteration in 1..=most {
                 rate.clone_from(base);
                 stage.multiply_still(self, StageCoefficients { storage: 0.0, flow: 1.0 }, latent, rate);
                 stage.solve(self, coefficients, rate)?;
@@ -89,7 +92,7 @@ impl Heat {
                 content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
                 self.set_latent(melting, content, image, search);
                 change = self.largest_difference(latent, image, search);
-                if change <= TOLERANCE || (iteration == ITERATIONS && change <= ACCEPTED) {
+                if change <= TOLERANCE || (iteration == most && change <= ACCEPTED) {
                     return Ok(iteration);
                 }
                 mixing.mix(latent, image);
@@ -158,7 +161,7 @@ impl Heat {
         if values.iter().all(|h| *h <= melting.solidus) {
             return false;
         }
-        if *by_nodes {
+        if *by_nodes || values.iter().any(|h| *h > BOILING) {
             column.find_by_nodes(melting, values, found);
         } else {
             column.find(melting, values, found);

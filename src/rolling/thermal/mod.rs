@@ -1,8 +1,8 @@
 //! Heat of the rolling contact: what the mechanics gives to the temperature fields, and what they give back.
 //!
 //! The coupling is staggered: a mechanical step first, then one implicit heat step with the energy that friction has
-//! dissipated in it, and with its pressure and patches held over the step. Friction coefficient and thermal deformation of the next step follow from the new
-//! temperatures.
+//! dissipated in it, and with its pressure and patches held over the step. Friction coefficient and thermal deformation of
+//! the next step follow from the new temperatures.
 
 mod deformation;
 mod exchange;
