@@ -17,6 +17,8 @@ use crate::multistep::{History, TimeDerivative, formula, settled};
 /// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each time the
 /// share of friction on the hottest places falls to a quarter or less.
 const COOLER: usize = 6;
+/// Longest step that is taken again \[s]: longer ones are divided, so that friction can follow the temperature.
+const LONGEST_AGAIN: f64 = 1e-3;
 
 /// Largest change of the weights at the contact edges that counts as converged in a step [1].
 const EDGE_TOLERANCE: f64 = 0.02;
@@ -66,7 +68,7 @@ pub fn step(
     attempt(model, state, demand, &plan, workspace, next)?;
     let mut again: Option<State> = None;
     for _ in 0..COOLER {
-        if !overheats(model, state, next) {
+        if plan.dt > LONGEST_AGAIN * (1.0 + 1e-9) || !overheats(model, state, next) {
             break;
         }
         let again = again.get_or_insert_with(|| state.clone());
