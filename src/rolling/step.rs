@@ -17,6 +17,8 @@ use crate::multistep::{History, TimeDerivative, formula, settled};
 /// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each time the
 /// share of friction on the hottest places falls to a quarter or less.
 const COOLER: usize = 6;
+/// Step from which on flashes follow friction within it \[s].
+const FOLLOWED: f64 = 4e-5;
 /// Longest step that is taken again \[s]: longer ones are divided, so that friction can follow the temperature.
 const LONGEST_AGAIN: f64 = 1e-3;
 
@@ -149,10 +151,7 @@ impl Plan {
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
         let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
         let (law, traction) = (friction_law(demand.tuning), &state.contact.traction);
-        // Flashes follow friction while the material passes the patch.
-        let fastest = speeds[0].abs().max((model.wheel.radius * speeds[1]).abs());
-        let passes = traction.extent().is_none_or(|patch| dt * fastest >= patch.high - patch.low);
-        let ratio = if passes { ratio } else { ratio * law.extrapolated(available, heating) };
+        let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
         let friction = Friction::local(law, available, heating, ratio);
         let friction = friction.after(dt, traction.friction, traction.tread_slip, heating);
         Self { dt, td, restarted: before == 0.0, drives, given, speeds, friction }

@@ -132,9 +132,10 @@ impl HeatModel for Heat {
     }
 }
 
-/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns, whether they are warmer or colder
-/// than the rest; zero where nothing is.
+/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns; zero where the layer is colder than the
+/// rest of the tread, and in between where it is warmer in parts.
 fn mean_depth(moments: impl Iterator<Item = f64>, layer: &[f64]) -> f64 {
-    let (moment, content) = (moments.map(f64::abs).sum::<f64>(), layer.iter().map(|heat| heat.abs()).sum::<f64>());
-    if content > 0.0 { moment / content } else { 0.0 }
+    let (net, content) = layer.iter().fold((0.0, 0.0), |(net, sum), heat| (net + heat, sum + heat.abs()));
+    let warm = f64::max(net / content, 0.0);
+    if warm > 0.0 { warm * moments.map(f64::abs).sum::<f64>() / content } else { 0.0 }
 }
