@@ -5,7 +5,7 @@ use super::super::contact_model::{ContactStep, friction_law};
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::model::{Model, Workspace};
-use super::super::state::{Motion, State, ThermalState};
+use super::super::state::{Motion, State, ThermalState, Weakening};
 use super::super::substeps;
 use super::super::zones;
 use super::goal::{Goal, Trial};
@@ -136,7 +136,16 @@ impl Pass<'_> {
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };
-        let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+        let mut solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+        let weakening = state.weakening();
+        if let Err(ContactError::NotConverged { .. }) = solved
+            && !weakening.strength.is_empty()
+        {
+            // On coarse meshes a very hot contact may find no state that yields: then the first steps yield.
+            let cold = Weakening { film: weakening.film.clone(), ..Weakening::NONE };
+            let contact = ContactStep { weakening: &cold, ..contact };
+            solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+        }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
             Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => beyond,
             _ => model.contact.failure(error, 0.0, 0.0),
