@@ -144,13 +144,13 @@ impl Column {
             *molten += half * thickness;
         }
         let mut largest = 0.0_f64;
-        for i in 0..self.size {
+        for (i, residual) in residual.iter_mut().enumerate().take(self.size) {
             // What is missing of `M (h − T) − Λ`; a node that is held lacks nothing.
-            let mut missing = -residual[i];
+            let mut missing = -*residual;
             for j in i.saturating_sub(2)..(i + 3).min(self.size) {
                 missing += self.mass[i.min(j)][i.abs_diff(j)] * (content[j] - temperature[j]);
             }
-            residual[i] = missing;
+            *residual = missing;
             largest = largest.max(missing.abs() / self.mass[i][0]);
         }
         residual.truncate(self.size);
