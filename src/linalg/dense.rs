@@ -2,7 +2,9 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::{MatMut, Par};
+use faer::linalg::matmul::matmul;
+use faer::perm::PermRef;
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 /// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
@@ -37,34 +39,66 @@ impl DenseSystem {
 
     /// Solves the system, which is used up; `None` if the matrix is singular or the solution is not finite.
     pub fn solve(&mut self) -> Option<&[f64]> {
-        let n = self.size;
-        if n > 0 {
-            if self.stack.is_none() || self.prepared < n {
-                let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
-                let solve = solve::solve_transpose_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
-                self.stack = Some(MemBuffer::new(factor.or(solve)));
-                self.prepared = n;
-            }
-            let [forward, inverse] = &mut self.permutation;
-            forward.resize(n, 0);
-            inverse.resize(n, 0);
-            let stack = MemStack::new(self.stack.as_mut()?);
-            // Rows of A in memory are columns of Aᵀ, which faer factorises; A x = b is then the transposed solve.
-            let mut transposed = MatMut::from_column_major_slice_mut(&mut self.rows, n, n);
-            let (_, permutation) = factor::lu_in_place(
-                transposed.as_mut(),
-                &mut forward[..n],
-                &mut inverse[..n],
-                Par::Seq,
-                stack,
-                Default::default(),
-            );
-            let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, n, 1);
-            let factors = transposed.as_ref();
-            solve::solve_transpose_in_place(factors, factors, permutation, rhs, Par::Seq, stack);
-        }
-        self.rhs.iter().all(|x| x.is_finite()).then_some(&self.rhs)
+        let mut rhs = std::mem::take(&mut self.rhs);
+        let solved = self.factorise() && self.solve_with(&mut rhs);
+        self.rhs = rhs;
+        solved.then_some(&self.rhs)
     }
+
+    /// Replaces the matrix by its factors; whether they are finite.
+    pub fn factorise(&mut self) -> bool {
+        let n = self.size;
+        if n == 0 {
+            return true;
+        }
+        if self.stack.is_none() || self.prepared < n {
+            let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
+            let solve = solve::solve_transpose_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
+            self.stack = Some(MemBuffer::new(factor.or(solve)));
+            self.prepared = n;
+        }
+        let [forward, inverse] = &mut self.permutation;
+        forward.resize(n, 0);
+        inverse.resize(n, 0);
+        let Some(stack) = &mut self.stack else { return false };
+        // Rows of A in memory are columns of Aᵀ, which faer factorises; A x = b is then the transposed solve.
+        let transposed = MatMut::from_column_major_slice_mut(&mut self.rows, n, n);
+        let (forward, inverse) = (&mut forward[..n], &mut inverse[..n]);
+        factor::lu_in_place(transposed, forward, inverse, Par::Seq, MemStack::new(stack), Default::default());
+        (0..n).all(|i| self.rows[i * (n + 1)].is_finite())
+    }
+
+    /// `x ← A⁻¹ x` with the factors of [`Self::factorise`]; whether the result is finite.
+    pub fn solve_with(&mut self, x: &mut [f64]) -> bool {
+        let n = self.size;
+        if let Some(stack) = self.stack.as_mut().filter(|_| n > 0) {
+            let factors = MatRef::from_column_major_slice(&self.rows, n, n);
+            let [forward, inverse] = &self.permutation;
+            let permutation = PermRef::new_checked(&forward[..n], &inverse[..n], n);
+            let rhs = MatMut::from_column_major_slice_mut(x, n, 1);
+            solve::solve_transpose_in_place(factors, factors, permutation, rhs, Par::Seq, MemStack::new(stack));
+        }
+        x.iter().all(|x| x.is_finite())
+    }
+}
+
+/// What a product does to its target.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Update {
+    /// It takes its place.
+    Replace,
+    /// It is added.
+    Add,
+}
+
+/// The product `A Bᵀ` of two matrices with rows of `width` numbers; `target` starts with its first entry and has rows that
+/// are `stride` apart.
+pub fn multiply_transposed(a: &[f64], b: &[f64], width: usize, target: &mut [f64], stride: usize, update: Update) {
+    let (rows, columns) = (a.len() / width, b.len() / width);
+    let accum = if update == Update::Add { Accum::Add } else { Accum::Replace };
+    let target = MatMut::from_column_major_slice_with_stride_mut(target, columns, rows, stride).transpose_mut();
+    let (a, b) = (MatRef::from_row_major_slice(a, rows, width), MatRef::from_row_major_slice(b, columns, width));
+    matmul(target, accum, a, b.transpose(), 1.0, Par::Seq);
 }
 
 /// Removes the round-off between `a_ij` and `a_ji`.
@@ -103,6 +137,16 @@ mod tests {
         assert_eq!(solve(&mut system, [], []), Some(vec![]));
         let x = solve(&mut system, [[2.0, 1.0], [1.0, 3.0]], [3.0, 5.0]).unwrap();
         assert!((x[0] - 0.8).abs() < 1e-15 && (x[1] - 1.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn products_land_in_their_block() {
+        let (a, b) = ([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [1.0, 0.5, -1.0, 2.0]);
+        let mut target = vec![9.0; 3 * 4];
+        multiply_transposed(&a, &b, 2, &mut target[1..], 4, Update::Replace);
+        assert_eq!(target, [9.0, 2.0, 3.0, 9.0, 9.0, 5.0, 5.0, 9.0, 9.0, 8.0, 7.0, 9.0]);
+        multiply_transposed(&a, &b, 2, &mut target[1..], 4, Update::Add);
+        assert_eq!(target, [9.0, 4.0, 6.0, 9.0, 9.0, 10.0, 10.0, 9.0, 9.0, 16.0, 14.0, 9.0]);
     }
 
     #[test]

@@ -13,8 +13,9 @@ pub mod gmres;
 pub mod modes;
 pub mod pencil;
 pub mod sparse;
+pub(crate) mod vectorised;
 
-pub use dense::DenseSystem;
+pub use dense::{DenseSystem, Update, multiply_transposed};
 pub use error::LinalgError;
 pub use modes::{VibrationModes, lowest_modes};
 pub use sparse::{Cholesky, CholeskyPattern, CsrMatrix};

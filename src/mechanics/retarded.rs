@@ -3,6 +3,7 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
+use crate::linalg::vectorised::dot;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -114,7 +115,7 @@ pub(super) fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
     let (n, columns, x) = (a.nrows(), a.as_slice(), x.as_slice());
     let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
     let term = |j: usize| {
-        let above = columns[j * n + first..j * n + j].iter().zip(&x[first..j]).map(|(a, x)| a * x).sum::<f64>();
+        let above = dot(&columns[j * n + first..j * n + j], &x[first..j]);
         x[j] * (columns[j * n + j] * x[j] + 2.0 * above)
     };
     (first..x.len()).filter(|&j| x[j] != 0.0).map(term).sum()

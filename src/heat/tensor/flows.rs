@@ -19,7 +19,7 @@ impl Stage {
         let StageEnd { temperature, content, rate } = *ends;
         flows.friction += weight * loads.friction_heat();
         flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
-        if self.coupling.is_some() {
+        if self.coupled() {
             self.set_jump(heat, temperature);
             let moments = &loads.conductance[self.elements.clone()];
             let through = moments.iter().zip(self.jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);

@@ -24,6 +24,8 @@ mod melt;
 mod modal;
 mod nodal;
 mod radiation;
+mod response;
+mod rows;
 mod section;
 mod stage;
 mod state;

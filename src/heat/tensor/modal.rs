@@ -10,7 +10,9 @@
 //! Fields are stored as `field[node · modes + mode]`; all recurrences run over the nodes and are vectors in the modes.
 
 use super::depth_modes::DepthModes;
+use super::rows;
 use super::streamline::{Streamline, Transport};
+use crate::linalg::Update;
 use std::ops::Range;
 
 /// A tensor mesh with its material.
@@ -43,24 +45,18 @@ impl HeatBody {
         self.line.len() * self.modes.len()
     }
 
-    /// `out ← out + S x` with the operator of the modal solver.
-    pub fn multiply(&self, transport: &Transport, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
-        let (n, nm) = (self.line.len(), self.modes.len());
-        let row = |i: usize| &x[i * nm..(i + 1) * nm];
+    /// `S x` with the operator of the modal solver.
+    pub fn multiply(
+        &self,
+        transport: &Transport,
+        coefficients: StageCoefficients,
+        x: &[f64],
+        out: &mut [f64],
+        update: Update,
+    ) {
         let (storage, flow) = self.alpha(coefficients);
-        for i in 0..n {
-            // Ends of an open streamline have no outer neighbour; the entries there are zero.
-            let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-            let (ml, md, mu) = (transport.mass_lower[i], transport.mass[i], transport.mass_upper[i]);
-            let (fl, fu) = (coefficients.flow * transport.flow_lower[i], coefficients.flow * transport.flow_upper[i]);
-            let entry = coefficients.flow * transport.entry(i);
-            let target = &mut out[i * nm..(i + 1) * nm];
-            let values = row(before).iter().zip(row(i)).zip(row(after));
-            for ((target, ((&a, &b), &c)), value) in target.iter_mut().zip(values).zip(&self.modes.values) {
-                let alpha = storage + flow * value;
-                *target += alpha * (ml * a + md * b + mu * c) + fl * (a - b) + fu * (c - b) + entry * b;
-            }
-        }
+        let weights = [storage, flow, coefficients.flow];
+        rows::tridiagonal_product(transport, &self.modes.values, weights, x, out, update);
     }
 
     /// `out ← out + β k K ⊗ ∫(1/g − g)NN x`: the part of the conduction along the streamlines that the modal solver
@@ -107,8 +103,8 @@ impl HeatBody {
     pub fn trace(&self, nodes: Range<usize>, x: &[f64], out: &mut Vec<f64>) {
         let nm = self.modes.len();
         out.clear();
-        let rows = x[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
-        out.extend(rows.map(|row| dot(row, &self.modes.surface)));
+        out.resize(nodes.len(), 0.0);
+        rows::products(&x[nodes.start * nm..nodes.end * nm], &self.modes.surface, out);
     }
 
     /// `∫ x ds` of every mode.
@@ -116,9 +112,7 @@ impl HeatBody {
         let nm = self.modes.len();
         sums.clear();
         sums.resize(nm, 0.0);
-        for (row, w) in x.chunks_exact(nm).zip(&self.line.weights) {
-            sums.iter_mut().zip(row).for_each(|(s, v)| *s += w * v);
-        }
+        rows::add_weighted(&self.line.weights, x, sums);
     }
 
     /// `a` and `b` in the weight `a + b λ` of the mass of a mode with the eigenvalue λ.
@@ -128,6 +122,7 @@ impl HeatBody {
 }
 
 /// Scalar product of vectors whose length is a multiple of four.
+#[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {

@@ -98,13 +98,14 @@ impl Nodal {
     /// `slight` or might leave the bounds `allowed`.
     pub fn bounds_after(&self, [from, to]: [&[f64]; 2], known: &Known) -> [f64; 2] {
         let rows = from.chunks_exact(self.modes).zip(to.chunks_exact(self.modes));
-        rows.fold(NOTHING, |range, (from, to)| {
+        let bounds = |range: [f64; 2], (from, to): (&[f64], &[f64])| {
             let change = self.largest_change(from, to);
             let bounds = [known.before[0] - change, known.before[1] + change];
             // Written so that what is not a number is not taken for known.
             let clear = change <= known.slight && bounds[0] >= known.allowed[0] && bounds[1] <= known.allowed[1];
             joined(range, if clear { bounds } else { self.extremes_of_row(to) })
-        })
+        };
+        rows.fold(NOTHING, bounds)
     }
 
     /// Lowest and highest value below one surface node, some nodes at a time: their sums stay in registers.

@@ -3,12 +3,12 @@
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
+use super::response::SurfaceResponse;
 use super::streamline::Transport;
 use super::tridiagonal::TridiagonalFactor;
 use crate::heat::error::HeatError;
 use crate::linalg::gmres::{Gmres, LinearSystem};
-use nalgebra::linalg::LU;
-use nalgebra::{DMatrix, DVectorViewMut, Dyn};
+use crate::linalg::{DenseSystem, Update};
 use std::ops::Range;
 
 /// Angular velocity [rad/s] below which, and step [s] from which on, conduction along the streamlines is computed exactly.
@@ -35,10 +35,10 @@ pub(super) struct BodyOperator {
     /// Conduction alone; set where steel melts.
     still: Transport,
     factor: TridiagonalFactor,
-    /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal, upper.
-    contact: Vec<[f64; 3]>,
-    /// Surface temperatures at the contact nodes due to unit loads there, row-major.
-    response: Vec<f64>,
+    /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal and upper entries.
+    contact: [Vec<f64>; 3],
+    /// Surface temperatures at the contact nodes under unit loads there.
+    response: SurfaceResponse,
     /// Buffer of a field.
     work: Vec<f64>,
     /// Surface temperatures at the contact nodes.
@@ -63,7 +63,7 @@ pub(super) struct StageKey {
 }
 
 /// Everything needed to apply and to invert the matrix of an implicit stage.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub(super) struct Stage {
     /// What the operators below were made for: speeds, conductance, coefficients (`None`: there are no operators), and
     /// whether conduction along the streamlines is exact.
@@ -77,7 +77,7 @@ pub(super) struct Stage {
     pub(super) elements: Range<usize>,
     nodes: Range<usize>,
     /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature difference.
-    pub(super) coupling: Option<LU<f64, Dyn, Dyn>>,
+    coupling: DenseSystem,
     /// Temperature of the wheel less that of the rail at the contact nodes.
     pub(super) jump: Vec<f64>,
     gmres: Gmres,
@@ -86,40 +86,40 @@ pub(super) struct Stage {
 impl BodyOperator {
     /// `∫ k_c Nⱼ w̃ᵢ` on the contact nodes `first..` from the moments of the elements between them.
     fn set_contact(&mut self, moments: &[[f64; 3]], element: usize) {
-        self.contact.clear();
-        self.contact.resize(moments.len() + 1, [0.0; 3]);
+        let [lower, diagonal, upper] = &mut self.contact;
+        for band in [&mut *lower, diagonal, upper] {
+            band.clear();
+            band.resize(moments.len() + 1, 0.0);
+        }
         for (i, c) in moments.iter().enumerate() {
             let sigma = self.transport.upwind_of(element + i, [c[0], c[1]]);
             let (left, right) = (c[0] - c[1], c[1]);
-            self.contact[i][1] += left - right + c[2] - sigma * left;
-            self.contact[i][2] += right - c[2] - sigma * right;
-            self.contact[i + 1][0] += right - c[2] + sigma * left;
-            self.contact[i + 1][1] += c[2] + sigma * right;
+            diagonal[i] += left - right + c[2] - sigma * left;
+            upper[i] += right - c[2] - sigma * right;
+            lower[i + 1] += right - c[2] + sigma * left;
+            diagonal[i + 1] += c[2] + sigma * right;
         }
     }
 
     /// Replaces `load` by `factor · ∫ k_c d w̃`, `d` given at the contact nodes.
     fn set_contact_load(&mut self, factor: f64, jump: &[f64]) {
-        let last = jump.len().saturating_sub(1);
+        let [lower, diagonal, upper] = &self.contact;
         self.load.clear();
-        self.load.extend(self.contact.iter().enumerate().map(|(i, c)| {
-            let before = if i > 0 { c[0] * jump[i - 1] } else { 0.0 };
-            let after = if i < last { c[2] * jump[i + 1] } else { 0.0 };
-            factor * (before + c[1] * jump[i] + after)
-        }));
+        self.load.extend(diagonal.iter().zip(jump).map(|(c, d)| factor * c * d));
+        self.load.iter_mut().zip(upper.iter().zip(&jump[1..])).for_each(|(load, (c, d))| *load += factor * c * d);
+        self.load[1..].iter_mut().zip(lower[1..].iter().zip(jump)).for_each(|(load, (c, d))| *load += factor * c * d);
     }
 
-    /// Adds `β G C̃` to the coupling matrix.
-    fn add_coupling(&self, flow: f64, matrix: &mut DMatrix<f64>) {
-        let n = self.contact.len();
-        for (j, mut column) in matrix.column_iter_mut().enumerate() {
-            let above = if j > 0 { self.contact[j - 1][2] } else { 0.0 };
-            let below = if j + 1 < n { self.contact[j + 1][0] } else { 0.0 };
-            let (first, last) = (j.saturating_sub(1), (j + 1).min(n - 1));
-            for (value, row) in column.iter_mut().zip(self.response.chunks_exact(n)) {
-                *value += flow * (above * row[first] + self.contact[j][1] * row[j] + below * row[last]);
-            }
-        }
+    /// Adds row `i` of `β G C̃` to a row of the coupling matrix.
+    fn add_coupling(&self, flow: f64, i: usize, row: &mut [f64]) {
+        let (response, last) = (self.response.row(i), row.len() - 1);
+        let [lower, diagonal, upper] = &self.contact;
+        let add = |row: &mut [f64], band: &[f64], response: &[f64]| {
+            row.iter_mut().zip(band.iter().zip(response)).for_each(|(value, (c, g))| *value += flow * c * g);
+        };
+        add(row, diagonal, response);
+        add(&mut row[1..], upper, response);
+        add(&mut row[..last], &lower[1..], &response[1..]);
     }
 }
 
@@ -149,23 +149,27 @@ impl Stage {
                 let first = body.line.zone;
                 operator.set_contact(&self.conductance[self.elements.clone()], first + self.elements.start);
                 let range = first + self.nodes.start..first + self.nodes.end;
-                operator.factor.surface_response(body, range, &mut operator.response);
+                operator.response.set(&operator.factor, body, range);
             }
         }
-        self.coupling = None;
-        if !self.elements.is_empty() {
-            let n = self.nodes.len();
-            let mut matrix = DMatrix::identity(n, n);
-            self.wheel.add_coupling(coefficients.flow, &mut matrix);
-            self.rail.add_coupling(coefficients.flow, &mut matrix);
-            let factors = matrix.lu();
-            if !factors.is_invertible() {
-                return Err(HeatError::Singular { unknowns: n });
-            }
-            self.coupling = Some(factors);
+        let n = self.nodes.len();
+        self.coupling.reset(n);
+        for i in 0..n {
+            let (row, _) = self.coupling.row(i);
+            row[i] = 1.0;
+            self.wheel.add_coupling(coefficients.flow, i, row);
+            self.rail.add_coupling(coefficients.flow, i, row);
+        }
+        if !self.coupling.factorise() {
+            return Err(HeatError::Singular { unknowns: n });
         }
         self.coefficients = Some(coefficients);
         Ok(())
+    }
+
+    /// Whether heat is conducted through the contact.
+    pub(super) fn coupled(&self) -> bool {
+        !self.nodes.is_empty()
     }
 
     /// Contact nodes counted in a body.
@@ -174,12 +178,9 @@ impl Stage {
         first + self.nodes.start..first + self.nodes.end
     }
 
-    /// Replaces `load` by everything that does not depend on the temperature.
-    pub fn set_loads(&mut self, heat: &Heat, loads: &SurfaceLoads, load: &mut Vec<f64>) {
-        let size = heat.wheel.size();
-        load.clear();
-        load.resize(size + heat.rail.size(), 0.0);
-        let (wheel, rail) = load.split_at_mut(size);
+    /// Adds everything that does not depend on the temperature to `load`.
+    pub fn add_loads(&mut self, heat: &Heat, loads: &SurfaceLoads, load: &mut [f64]) {
+        let (wheel, rail) = load.split_at_mut(heat.wheel.size());
         let share = heat.config.thermal.wheel_share;
         let bodies =
             [(&heat.wheel, &mut self.wheel, share, -1.0, wheel), (&heat.rail, &mut self.rail, 1.0 - share, 1.0, rail)];
@@ -212,12 +213,12 @@ impl Stage {
         }
     }
 
-    /// `out ← out + S x` with the exact operator, both bodies one after the other in `x`.
+    /// `out ← S x` with the exact operator, both bodies one after the other in `x`.
     pub fn multiply(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let (x_wheel, x_rail) = x.split_at(heat.wheel.size());
         let (wheel, rail) = out.split_at_mut(heat.wheel.size());
-        heat.wheel.multiply(&self.wheel.transport, coefficients, x_wheel, wheel);
-        heat.rail.multiply(&self.rail.transport, coefficients, x_rail, rail);
+        heat.wheel.multiply(&self.wheel.transport, coefficients, x_wheel, wheel, Update::Replace);
+        heat.rail.multiply(&self.rail.transport, coefficients, x_rail, rail, Update::Replace);
         self.add_conduction(heat, coefficients, x, out);
     }
 
@@ -232,8 +233,8 @@ impl Stage {
     pub fn multiply_still(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let (x_wheel, x_rail) = x.split_at(heat.wheel.size());
         let (wheel, rail) = out.split_at_mut(heat.wheel.size());
-        heat.wheel.multiply(&self.wheel.still, coefficients, x_wheel, wheel);
-        heat.rail.multiply(&self.rail.still, coefficients, x_rail, rail);
+        heat.wheel.multiply(&self.wheel.still, coefficients, x_wheel, wheel, Update::Add);
+        heat.rail.multiply(&self.rail.still, coefficients, x_rail, rail, Update::Add);
         self.add_conduction(heat, coefficients, x, out);
     }
 
@@ -244,7 +245,7 @@ impl Stage {
         if self.curved {
             heat.wheel.add_curvature(coefficients, x_wheel, wheel, &mut self.wheel.work);
         }
-        if self.coupling.is_some() {
+        if self.coupled() {
             self.set_jump(heat, x);
             for (body, operator, factor, out) in [
                 (&heat.wheel, &mut self.wheel, coefficients.flow, wheel),
@@ -272,14 +273,11 @@ impl Stage {
         let (wheel, rail) = x.split_at_mut(size);
         self.wheel.factor.solve(&heat.wheel, wheel, 0);
         self.rail.factor.solve(&heat.rail, rail, 0);
-        if self.coupling.is_none() {
+        if !self.coupled() {
             return;
         }
         self.set_jump(heat, x);
-        if let Some(coupling) = &self.coupling {
-            let n = self.jump.len();
-            coupling.solve_mut(&mut DVectorViewMut::from_slice(&mut self.jump, n));
-        }
+        self.coupling.solve_with(&mut self.jump);
         let (wheel, rail) = x.split_at_mut(size);
         for (body, operator, factor, x) in [
             (&heat.wheel, &mut self.wheel, -coefficients.flow, wheel),
@@ -323,7 +321,6 @@ struct Exact<'a> {
 
 impl LinearSystem for Exact<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
-        out.fill(0.0);
         self.stage.multiply(self.heat, self.coefficients, x, out);
     }
 
@@ -336,13 +333,16 @@ impl LinearSystem for Exact<'_> {
 impl Stage {
     /// Surface temperatures of the rail at the contact nodes under a wheel at a uniform temperature; the nodes.
     pub fn rail_under_uniform_wheel(&self, wheel: f64) -> (Range<usize>, Vec<f64>) {
-        use nalgebra::DVector;
         let n = self.nodes.len();
-        let mut matrix = DMatrix::identity(n, n);
-        self.rail.add_coupling(1.0, &mut matrix);
-        let gain = &matrix - DMatrix::identity(n, n);
-        let mut surface = gain * DVector::from_element(n, wheel);
-        matrix.lu().solve_mut(&mut surface);
-        (self.nodes.clone(), surface.as_slice().to_vec())
+        let (mut matrix, mut surface) = (DenseSystem::default(), vec![0.0; n]);
+        matrix.reset(n);
+        for (i, gain) in surface.iter_mut().enumerate() {
+            let row = matrix.row(i).0;
+            self.rail.add_coupling(1.0, i, row);
+            *gain = wheel * row.iter().sum::<f64>();
+            row[i] += 1.0;
+        }
+        assert!(matrix.factorise() && matrix.solve_with(&mut surface));
+        (self.nodes.clone(), surface)
     }
 }

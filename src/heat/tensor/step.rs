@@ -5,6 +5,7 @@ use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::melt::Melt;
 use super::modal::{StageCoefficients, dot};
+use super::rows;
 use super::stage::{CURVED_BELOW, CURVED_STEP, Stage, StageKey};
 use super::state::{BoundaryState, HeatState};
 use crate::heat::error::HeatError;
@@ -18,7 +19,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 const REGULARISATION: f64 = 1e-3;
 
 /// Memory of a step; holds nothing that outlives it.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct Scratch {
     /// Whose operators `stage` holds.
     owner: Option<HeatConfig>,
@@ -128,8 +129,9 @@ impl Heat {
         for index in 1..=stages {
             let (weight, onward) = if index == stages { (gamma, 0.0) } else { (1.0 - gamma, 1.0 - 2.0 * gamma) };
             loads.friction_share = shares[index - 1];
-            stage.set_loads(self, loads, rate);
+            rate.resize(known.len(), 0.0);
             stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, known, rate);
+            stage.add_loads(self, loads, rate);
             flows.iterations += match &melting {
                 None => stage.solve(self, coefficients, rate)?,
                 Some(melting) => {
@@ -138,12 +140,12 @@ impl Heat {
                 }
             };
             // Temperature at this stage, then the known part of the next one.
-            known.iter_mut().zip(&*rate).for_each(|(t, k)| *t += gamma * dt * k);
+            rows::add(gamma * dt, rate, known);
             let temperature = if melting.is_some() { melt.temperature(known) } else { &**known };
             let ends = StageEnd { temperature, content: known, rate: Some(rate) };
             stage.add_flows(self, loads, &ends, weight, &mut flows);
             if onward != 0.0 {
-                known.iter_mut().zip(&*rate).for_each(|(t, k)| *t += onward * dt * k);
+                rows::add(onward * dt, rate, known);
             }
         }
         if !flows.is_finite() {
@@ -160,8 +162,8 @@ impl Heat {
         let storage = REGULARISATION * self.config.diffusivity() / self.config.wheel.radius.powi(2);
         let coefficients = StageCoefficients { storage, flow: 1.0 };
         stage.set(self, &loads, StageKey { speeds, coefficients, rate: 0.0, curved: true })?;
-        let mut field = Vec::new();
-        stage.set_loads(self, &loads, &mut field);
+        let mut field = vec![0.0; self.wheel.size() + self.rail.size()];
+        stage.add_loads(self, &loads, &mut field);
         let solved = stage.solve(self, StageCoefficients { storage: 0.0, flow: 1.0 }, &mut field);
         let iterations = solved.map_err(|error| match error {
             HeatError::NotConverged { residual, iterations, .. } => {
@@ -203,8 +205,8 @@ impl Heat {
         let storage = REGULARISATION * self.config.diffusivity() / self.config.wheel.radius.powi(2);
         let coefficients = StageCoefficients { storage, flow: 1.0 };
         stage.set(self, &loads, StageKey { speeds, coefficients, rate: 0.0, curved: false })?;
-        let mut field = Vec::new();
-        stage.set_loads(self, &loads, &mut field);
+        let mut field = vec![0.0; self.wheel.size() + self.rail.size()];
+        stage.add_loads(self, &loads, &mut field);
         stage.solve(self, coefficients, &mut field)?;
         let (wheel, mut mean) = (&self.wheel, Vec::new());
         wheel.integrate(&field[..wheel.size()], &mut mean);

@@ -3,11 +3,13 @@
 use super::depth_modes::DepthModes;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
+use super::response::SurfaceResponse;
 use super::section::Section;
 use super::stage::{Stage, StageKey};
 use super::streamline::{Streamline, Transport};
 use super::tridiagonal::TridiagonalFactor;
 use crate::fem::grading::graded;
+use crate::linalg::Update;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use std::f64::consts::PI;
 
@@ -62,8 +64,7 @@ struct Exact<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
 
 impl LinearSystem for Exact<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
-        out.fill(0.0);
-        self.0.multiply(self.1, STATIONARY, x, out);
+        self.0.multiply(self.1, STATIONARY, x, out, Update::Replace);
         self.0.add_curvature(STATIONARY, x, out, &mut Vec::new());
     }
 
@@ -183,18 +184,22 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
 
 #[test]
 fn surface_response_equals_solutions_for_unit_loads() {
-    let line = Streamline::around_contact(&[0.0, 1e-3, 2e-3, 3e-3], PI * R, 1.5, 0.15 * R, true);
-    for omega in [0.0, 0.01, 30.0] {
+    let zone: Vec<f64> = (0..=20).map(|i| f64::from(i) * 1e-3).collect();
+    let line = Streamline::around_contact(&zone, PI * R, 1.5, 0.15 * R, true);
+    for (omega, nodes) in
+        [0.0, 0.01, 30.0, -30.0].into_iter().flat_map(|omega| [1, 5, 9, 38].map(|nodes| (omega, nodes)))
+    {
         let modes = DepthModes::new(&Section::even(graded(1e-4, 1.8, 0.1, R - HUB)), 1.0 / R, true, 0.0).unwrap();
         let body =
             HeatBody { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
         let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
         transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
         factor.set(&body, &transport, STATIONARY).unwrap();
-        let range = body.line.zone + 1..body.line.zone + 6;
-        let mut response = Vec::new();
-        factor.surface_response(&body, range.clone(), &mut response);
-        let scale = response.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+        let range = body.line.zone + 1..body.line.zone + 1 + nodes;
+        let mut response = SurfaceResponse::default();
+        response.set(&factor, &body, range.clone());
+        let entries = (0..nodes).flat_map(|i| response.row(i));
+        let scale = entries.fold(0.0_f64, |largest, r| largest.max(r.abs()));
         for (k, node) in range.clone().enumerate() {
             let mut field = vec![0.0; body.size()];
             body.add_surface_load(node, &[1.0], &mut field);
@@ -202,10 +207,10 @@ fn surface_response_equals_solutions_for_unit_loads() {
             factor.solve(&body, &mut field, node);
             let mut trace = Vec::new();
             body.trace(range.clone(), &field, &mut trace);
-            let error = trace.iter().enumerate().map(|(i, t)| (t - response[i * range.len() + k]).abs());
+            let error = trace.iter().enumerate().map(|(i, t)| (t - response.row(i)[k]).abs());
             assert!(error.fold(0.0, f64::max) < 1e-12 * scale);
             let mut product = vec![0.0; body.size()];
-            body.multiply(&transport, STATIONARY, &field, &mut product);
+            body.multiply(&transport, STATIONARY, &field, &mut product, Update::Replace);
             let residual = product.iter().zip(&load).fold(0.0_f64, |m, (p, l)| m.max((p - l).abs()));
             assert!(residual < 1e-8 * load.iter().fold(0.0, |m: f64, l| m.max(l.abs())), "residual {residual:.1e}");
         }
