@@ -6,7 +6,7 @@
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
-# make bench     speed of steps, starts and the reduced basis
+# make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
@@ -67,7 +67,7 @@ locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
 
 bench:
-	$(CARGO) bench --locked
+	$(CARGO) bench --locked --bench table
 
 endurance:
 	$(CARGO) run --release --locked --example ex03_endurance

@@ -383,11 +383,13 @@ fn friction_that_does_not_soften_melts_the_contact_and_heats_it_no_further_at_an
 }
 
 #[test]
-fn a_wheel_of_five_thousand_kelvin_is_refused_by_name_or_keeps_the_bounds_of_temperature() {
+fn a_wheel_that_starts_close_to_melting_keeps_the_bounds_and_one_that_starts_molten_is_refused_by_name() {
     let mut config = common::preset("railway", 10);
-    (config.thermal.wheel_excess, config.initial.velocity) = (5000.0, 20.0);
-    // Friction heats it further, to 7032 K in the first step: a shortfall. Neither strength nor film are known of such a wheel.
-    watched_within(config, 8000.0, locked, 20, 1e-3);
+    (config.thermal.wheel_excess, config.initial.velocity) = (1300.0, 20.0);
+    assert_eq!(watched(config.clone(), locked, 20, 1e-3), 20);
+    config.thermal.wheel_excess = 5000.0;
+    let refusal = config.validate().unwrap_err().to_string();
+    assert!(refusal.contains("thermal.wheel_excess = 5000 ") && refusal.contains("material.liquidus"), "{refusal}");
 }
 
 #[test]

@@ -218,6 +218,25 @@ impl Config {
         }
     }
 
+    /// The wheel starts above absolute zero, and where steel melts no hotter than the liquidus.
+    fn start_temperature(&self) -> Dependent {
+        let (reference, material) = (self.thermal.reference, &self.material);
+        let melts = material.latent_heat > 0.0 && reference < material.solidus;
+        let liquidus = display_number(material.liquidus);
+        let hottest = if melts { format!(" and of at most material.liquidus = {liquidus} K") } else { String::new() };
+        Dependent {
+            name: "thermal.wheel_excess",
+            value: self.thermal.wheel_excess,
+            unit: "K",
+            low: 1.0 - reference,
+            high: if melts { material.liquidus - reference } else { f64::INFINITY },
+            others: format!(
+                "thermal.reference = {} K (the wheel starts above absolute zero{hottest})",
+                display_number(reference)
+            ),
+        }
+    }
+
     /// Melting takes place within a range of temperatures.
     fn melting_range(&self) -> Dependent {
         let solidus = self.material.solidus;
@@ -261,17 +280,7 @@ impl Config {
                 high: infinity,
                 others: with_radius(),
             },
-            Dependent {
-                name: "thermal.wheel_excess",
-                value: self.thermal.wheel_excess,
-                unit: "K",
-                low: 1.0 - self.thermal.reference,
-                high: infinity,
-                others: format!(
-                    "thermal.reference = {} K (the wheel stays above absolute zero)",
-                    display_number(self.thermal.reference)
-                ),
-            },
+            self.start_temperature(),
             self.melting_range(),
             velocity,
             creepage,
@@ -319,7 +328,7 @@ mod tests {
         );
         refused(
             |c| (c.thermal.reference, c.thermal.wheel_excess) = (100.0, -150.0),
-            &["thermal.wheel_excess = -150 ", "at least -99 K with thermal.reference = 100 K"],
+            &["thermal.wheel_excess = -150 ", "-99 to 1703 K with thermal.reference = 100 K"],
         );
         refused(
             |c| (c.initial.velocity, c.initial.creepage, c.material.youngs_modulus) = (200.0, Some(-1.0), 5e9),

@@ -84,6 +84,16 @@ pub enum StepError {
         /// Most internal steps of a communication step.
         most: u64,
     },
+    /// A contact that gets hotter than friction on molten steel can make it.
+    #[error(
+        "the contact heats to {temperature:.0} K, above the {highest:.0} K that molten steel under friction reaches"
+    )]
+    Overheated {
+        /// Highest absolute temperature of the contact \[K].
+        temperature: f64,
+        /// Highest one that can be \[K].
+        highest: f64,
+    },
     /// A kink of the solution: no derivative to either side.
     #[error("no derivative at t = {time:.6} s: contact states change at once to both sides")]
     NoDerivative {

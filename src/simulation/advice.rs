@@ -22,6 +22,11 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
         StepError::BelowAbsoluteZero { .. } => cold(config),
+        StepError::Overheated { .. } => format!(
+            "{shorter}; check friction.coefficient and rail.friction, drive.tread_heat, material.conductivity (now {:?} \
+             W/(m.K)) and thermal.conductance (now {:?} W/(m2.K)), or set material.latent_heat = 0 to leave melting out",
+            config.material.conductivity, config.thermal.conductance
+        ),
         StepError::Motion(_) => {
             "check drive.force, drive.moment and drive.load, or the prescribed velocities".to_owned()
         }
@@ -196,6 +201,7 @@ mod tests {
         for (text, name) in [
             (failed_step(&StepError::Contact { time: 0.0, step: 1e-3, source }, &config), "solver.max_step"),
             (failed_step(&StepError::NotFinite { time: 0.0, step: 1e-3 }, &config), "solver.max_step"),
+            (failed_step(&StepError::Overheated { temperature: 2e3, highest: 1853.0 }, &config), "rail.friction"),
             (failed_step(&StepError::Heat(heat), &config), "thermal.conductance"),
             (failed_step(&StepError::BelowAbsoluteZero { temperature: -1.0 }, &config), "thermal.reference"),
             (failed_start(&StepError::NoEquilibrium("none"), &config), "initial.creepage"),

@@ -11,7 +11,8 @@
 //! - where the contact heats or cools by hundreds of kelvin in one long piece, with or without a tolerance: friction that
 //!   falls with the temperature follows the temperatures of the steps before;
 //! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to steps of
-//!   0.1 ms: a molten film takes friction away only from the step on after which it is seen.
+//!   0.1 ms: a molten film takes friction away only from the step on after which it is seen. What is too hot in the shortest of
+//!   them is refused.
 
 mod control;
 mod prediction;
@@ -155,6 +156,10 @@ fn march(
         if control.refuses(&found, dt) {
             place.halve();
             continue;
+        }
+        if found.molten {
+            let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
+            return Err(StepError::Overheated { temperature: found.hottest, highest });
         }
         control.memory.before = controlled(from);
         place.done += 1;

@@ -46,6 +46,8 @@ pub struct Found {
     pub hottest: f64,
     /// Whether it exceeds the bound of a molten contact, which it kept before.
     pub overheats: bool,
+    /// Whether it exceeds that bound at the end, and has become hotter.
+    pub molten: bool,
     /// Whether steel yields in the contact at the end.
     pub yields: bool,
     /// Whether it was the first step after a jump of the inputs: it has no history.
@@ -80,11 +82,12 @@ impl Found {
             }
         }
         let reference = model.thermal.as_ref().map_or(0.0, |thermal| thermal.reference());
-        let (heating, hottest) = ((hottest(to) - hottest(from)).abs(), reference + hottest(to));
+        let (rise, hottest) = (hottest(to) - hottest(from), reference + hottest(to));
         let bound = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
-        let overheats = hottest > bound && hottest - heating <= bound;
+        let (heating, molten) = (rise.abs(), hottest > bound && rise > 0.0);
+        let overheats = molten && hottest - rise <= bound;
         let yields = to.contact.traction.yielding > 0.0;
-        Self { error, heating, hottest, overheats, yields, first, doubled: ratio > 1.5 }
+        Self { error, heating, hottest, overheats, molten, yields, first, doubled: ratio > 1.5 }
     }
 }
 

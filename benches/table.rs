@@ -1,0 +1,170 @@
+//! One table of what everything costs, as times and as multiples of a fixed reference computation of the same run, so that
+//! tables of different machines and days can be compared: `make bench`.
+//!
+//! Every number is the smallest of many short batches: other programs can only add to it. Each run appends one line of JSON to
+//! `results/bench.jsonl`.
+
+use nalgebra::DMatrix;
+use serde_json::{Map, Value, json};
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+use wheelrail::config::Config;
+use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation, advance_all};
+
+/// Where the history of runs is kept.
+const HISTORY: &str = "results/bench.jsonl";
+/// Batches of every measurement, and their length \[s].
+const BATCHES: usize = 40;
+const BATCH: f64 = 0.02;
+/// Communication step \[s].
+const STEP: f64 = 1e-3;
+/// Wheels of a four-axle vehicle.
+const WHEELS: usize = 8;
+
+/// Smallest time of a call \[s], over batches.
+fn fastest(mut call: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    call();
+    let calls = (BATCH / start.elapsed().as_secs_f64()).ceil().max(1.0);
+    let batch = |_| {
+        let start = Instant::now();
+        (0..calls as usize).for_each(|_| call());
+        start.elapsed().as_secs_f64() / calls
+    };
+    (0..BATCHES).map(batch).fold(f64::INFINITY, f64::min)
+}
+
+/// Time of one call \[s], and its result.
+fn once<T>(call: impl FnOnce() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let result = call();
+    (start.elapsed().as_secs_f64(), result)
+}
+
+/// The default wheel with `elements` per half-width of the contact, with or without heat.
+fn model(elements: usize, heat: bool, store: &BasisStore) -> Arc<Model> {
+    let mut config = Config::default();
+    config.mesh.elements_per_half_width = elements;
+    config.thermal.enabled = heat;
+    let model = Model::prepare(config, store, &mut |_, _| {}).expect("model");
+    if let Some((_, bytes)) = model.basis_file() {
+        store.keep(model.config(), &bytes).expect("stored basis");
+    }
+    model
+}
+
+/// A wheel that rolls under a braking moment of about half the adhesion limit, and its inputs.
+fn braking(model: &Arc<Model>) -> (Simulation, Inputs) {
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).expect("stationary state");
+    inputs.drive.moment = -7000.0;
+    (0..20).for_each(|_| simulation.advance(&inputs, STEP).expect("step"));
+    (simulation, inputs)
+}
+
+/// Time of a step \[s].
+fn step(model: &Arc<Model>) -> f64 {
+    let (mut simulation, inputs) = braking(model);
+    fastest(|| simulation.advance(&inputs, STEP).expect("step"))
+}
+
+/// Resident memory of this process \[MB]; zero where it cannot be read.
+fn resident() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmRSS:")).and_then(|line| line.split_whitespace().nth(1));
+    line.and_then(|kilobytes| kilobytes.parse::<f64>().ok()).unwrap_or(0.0) / 1024.0
+}
+
+/// The rows as they are printed and kept.
+struct Table {
+    reference: f64,
+    rows: Map<String, Value>,
+}
+
+impl Table {
+    fn time(&mut self, name: &str, seconds: f64) {
+        println!("{name:<58} {:>10.1} µs {:>10.3}", 1e6 * seconds, seconds / self.reference);
+        self.rows.insert(name.into(), json!({"seconds": seconds, "ratio": seconds / self.reference}));
+    }
+
+    fn number(&mut self, name: &str, value: f64, unit: &str) {
+        println!("{name:<58} {value:>10.2} {unit}");
+        self.rows.insert(name.into(), json!({"value": value, "unit": unit}));
+    }
+}
+
+/// Step with and without heat, and its growth with the number of contact nodes.
+fn steps(table: &mut Table, store: &BasisStore) {
+    let [mut before, mut coupled_before] = [0.0; 2];
+    for elements in [10, 20, 40] {
+        let [cold, coupled] = [false, true].map(|heat| step(&model(elements, heat, store)));
+        table.time(&format!("step without heat, {elements} elements per half-width"), cold);
+        table.time(&format!("coupled step, {elements} elements per half-width"), coupled);
+        table.time(&format!("  of it heat, {elements} elements per half-width"), coupled - cold);
+        if before > 0.0 {
+            let growth = |now: f64, before: f64| (now / before).log2();
+            table.number("  growth without heat: exponent of the nodes", growth(cold, before), "");
+            table.number("  growth coupled: exponent of the nodes", growth(coupled, coupled_before), "");
+        }
+        [before, coupled_before] = [cold, coupled];
+    }
+}
+
+/// Wheels one after the other and on all cores.
+fn wheels(table: &mut Table, store: &BasisStore) {
+    for (name, heat) in [("coupled", true), ("without heat", false)] {
+        let model = model(20, heat, store);
+        let (mut wheels, inputs): (Vec<_>, Vec<_>) = (0..WHEELS).map(|_| braking(&model)).unzip();
+        let alone =
+            fastest(|| wheels.iter_mut().zip(&inputs).for_each(|(wheel, inputs)| wheel.advance(inputs, STEP).unwrap()));
+        let together = fastest(|| assert!(advance_all(&mut wheels, &inputs, STEP).iter().all(Result::is_ok)));
+        table.number(&format!("{WHEELS} wheels {name}, one core: simulated / wall time"), STEP / alone, "");
+        table.number(&format!("{WHEELS} wheels {name}, all cores: simulated / wall time"), STEP / together, "");
+    }
+}
+
+/// From parameters to a wheel that is ready.
+fn starts(table: &mut Table, store: &BasisStore) {
+    let mut changed = Config::default();
+    changed.model.nominal_load *= 1.07;
+    let ready = |config: Config, store: &BasisStore| {
+        let model = Model::prepare(config, store, &mut |_, _| {}).expect("model");
+        let inputs = Inputs::rolling(model.config());
+        Simulation::new(model, &inputs).expect("stationary state")
+    };
+    table.time("start with a load for which nothing is stored", once(|| ready(changed, &BasisStore::none())).0);
+    table.time("start with a stored basis", fastest(|| drop(ready(Config::default(), store))));
+    let shared = model(20, true, store);
+    let inputs = Inputs::rolling(shared.config());
+    let second = || drop(black_box(Simulation::new(shared.clone(), &inputs).expect("stationary state")));
+    table.time("start of a further equal wheel", fastest(second));
+    let before = resident();
+    let wheels: Vec<_> = (0..40).map(|_| braking(&shared)).collect();
+    table.number("memory of a further equal wheel", (resident() - before) / wheels.len() as f64, "MB");
+}
+
+fn main() {
+    let matrix = DMatrix::from_fn(120, 120, |i, j| 1.0 / (1.0 + i as f64 + j as f64) + f64::from(u8::from(i == j)));
+    let reference = fastest(|| drop(black_box(black_box(&matrix).clone().lu())));
+    println!("{:<58} {:>13} {:>10}", "", "time", "ratio");
+    let mut table = Table { reference, rows: Map::new() };
+    table.time("reference: LU factors of a matrix of 120 rows", reference);
+    let store = BasisStore::within(&std::env::temp_dir().join("wheelrail-bench"));
+    steps(&mut table, &store);
+    wheels(&mut table, &store);
+    starts(&mut table, &store);
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let version = env!("CARGO_PKG_VERSION");
+    let line = json!({"time": seconds, "version": version, "cores": cores, "rows": table.rows});
+    let kept = std::fs::create_dir_all("results").and_then(|()| {
+        use std::io::Write;
+        let mut file = std::fs::OpenOptions::new().create(true).append(true).open(HISTORY)?;
+        writeln!(file, "{line}")
+    });
+    match kept {
+        Ok(()) => println!("appended to {HISTORY}"),
+        Err(error) => eprintln!("{HISTORY} cannot be written: {error}"),
+    }
+}
