@@ -45,6 +45,8 @@ pub struct ContactStep<'a> {
     pub duration: f64,
     /// Distance travelled \[m] and angle turned \[rad] at the end of the step, as predicted.
     pub place: [f64; 2],
+    /// Height of the rail \[m].
+    pub elevation: f64,
     /// How heat has deformed the bodies.
     pub deformation: &'a ThermalDeformation,
     /// Permanent flattening of wheel and rail.
@@ -130,6 +132,7 @@ impl ContactModel {
             placement: Placement {
                 distance,
                 angle,
+                elevation: step.elevation,
                 growth: *radius_growth,
                 swelling: [&swelling[0], &swelling[1]],
                 flattening: [&step.flattening[0], &step.flattening[1]],
@@ -162,9 +165,14 @@ impl ContactModel {
         let limit = JUMP * self.nominal_line_load();
         let limits = [limit, limit, limit * self.surfaces.radius];
         let available = state.available_friction;
-        let force = |k: usize| match drives[k] {
-            AxisDrive::Free { load } => (load - state.hub[k]).abs() > limits[k],
-            AxisDrive::Prescribed { .. } => false,
+        let speeds = state.motion.velocities();
+        let force = |k: usize| {
+            drives[k].loads().is_some_and(|[load, limit]| {
+                let resisting = state.hub[k] - load;
+                // A holding brake gives what is asked for.
+                let able = if speeds[k] == 0.0 { resisting.clamp(-limit, limit) } else { -limit * speeds[k].signum() };
+                (resisting - able).abs() > limits[k]
+            })
         };
         (friction - available).abs() > JUMP * available.max(friction) || (0..3).any(force)
     }

@@ -55,7 +55,7 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
     let config = &model.config;
     let load = config.model.nominal_load;
     let (speed, radius) = (0.1 * state.motion.velocity.now.abs().max(1.0), config.wheel.radius);
-    let approach = state.motion.height.now.abs().max(1e-5);
+    let approach = (state.elevation - state.motion.height.now).abs().max(1e-5);
     Drive {
         omega: speed / radius,
         moment: load * radius,
@@ -65,6 +65,10 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
         displacement: approach,
         friction: 1.0,
         tread_heat: inputs.drive.tread_heat.abs().max(1e4),
+        torque: load * radius,
+        temperature: 100.0,
+        slope: 1.0,
+        elevation: approach,
     }
 }
 
@@ -135,5 +139,8 @@ fn repeat(
 
 /// Whether two states were computed by the same sequence of decisions.
 fn same_branch(a: &State, b: &State) -> bool {
-    a.contact.same_branch(&b.contact) && a.internal_steps == b.internal_steps && a.iterations == b.iterations
+    a.contact.same_branch(&b.contact)
+        && a.brake.locked == b.brake.locked
+        && a.internal_steps == b.internal_steps
+        && a.iterations == b.iterations
 }

@@ -26,6 +26,8 @@ pub struct State {
     pub wheel: BodyState,
     /// Deformation of the rail.
     pub rail: BodyState,
+    /// Height of the rail under the wheel \[m].
+    pub elevation: f64,
     /// Motion of the base of the rail.
     pub base: BaseMotion,
     /// Contact: result of the last step and start of the next one.
@@ -34,10 +36,15 @@ pub struct State {
     pub flattening: [Flattening; 2],
     /// Temperatures, unless the thermal part is switched off.
     pub thermal: Option<ThermalState>,
-    /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
+    /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions, with gravity and the
+    /// brake [N/m, N/m, N].
     pub hub: [f64; 3],
     /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
     pub driving: [f64; 3],
+    /// Part of the force in x: gravity along the track [N/m].
+    pub gravity: f64,
+    /// The brake in the last step.
+    pub brake: Brake,
     /// Which motions (V, U, Ω) were prescribed in the last step.
     pub prescribed: [bool; 3],
     /// Friction coefficient that was available in the last step \[1].
@@ -70,6 +77,19 @@ impl State {
         static NONE: Weakening = Weakening::NONE;
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
     }
+}
+
+/// What the brake does; all zero where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Brake {
+    /// Its moment on the wheel, forward positive: at the end of the last step, or its mean over that step if it holds \[N].
+    pub moment: f64,
+    /// Its impulse in that step [N s].
+    pub impulse: f64,
+    /// Whether it holds the wheel at rest.
+    pub locked: bool,
+    /// Its mean power over the last communication step; at the start the stationary one [W/m].
+    pub power: f64,
 }
 
 /// Rigid motion of the wheel with the history that the time formula needs.
@@ -107,6 +127,8 @@ impl Motion {
 pub struct ThermalState {
     /// Both temperature fields.
     pub fields: HeatState,
+    /// Excess temperature of the rail that has arrived under the wheel, on top of the field of the rail \[K].
+    pub arrived: f64,
     /// Mean heat flows over the last communication step [W/m].
     pub flows: HeatFlows,
     /// Excess temperatures \[K].
@@ -226,6 +248,12 @@ pub struct Audit {
     pub work: f64,
     /// Work of the wheel that grows with its temperature and lifts its load [J/m].
     pub thermal_work: f64,
+    /// Work of gravity along the track; part of the work of the hub forces [J/m].
+    pub gravity: f64,
+    /// Work of the rail that rises under the load [J/m].
+    pub lift: f64,
+    /// Energy that the brake has taken; part of the work of the hub forces [J/m].
+    pub brake: f64,
     /// Energy that friction has turned into heat [J/m].
     pub friction: f64,
     /// Work of plastic flattening [J/m].
@@ -250,7 +278,7 @@ impl Audit {
 
     /// Energy that has vanished in the numerics [J/m].
     pub fn imbalance(&self) -> f64 {
-        self.work + self.thermal_work - (self.energy - self.initial_energy) - self.dissipation()
+        self.work + self.thermal_work + self.lift - (self.energy - self.initial_energy) - self.dissipation()
     }
 
     /// Imbalance relative to the dissipated energy \[1], or to the energy `stored` [J/m] in the loaded contact or a

@@ -79,7 +79,7 @@ pub fn advance(
     let end = inputs.at(h);
     end.validate()?;
     let [velocity, displacement, omega] = state.motion.values();
-    let start = Drive { omega, velocity, displacement, ..inputs.at(0.0) };
+    let start = Drive { omega, velocity, displacement, elevation: state.elevation, ..inputs.at(0.0) };
     let h = h + state.pending;
     if h < SHORTEST_STEP {
         out.clone_from(state);
@@ -177,6 +177,7 @@ fn march(
     }
     now.control = control.memory;
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
+    now.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
     if let Some(thermal) = &mut now.thermal {
         thermal.flows = flows;
     }
