@@ -49,7 +49,7 @@ def test_brake_beyond_adhesion_locks_the_wheel_and_slides_to_rest(start):
 
 def test_the_brake_of_the_fmu_needs_no_logic_in_the_master(start):
     """A torque beyond adhesion locks the wheel, holds it after the stop and lets it go under a driving force."""
-    wheel = start({"initial.velocity": 4.0})
+    wheel = start({"initial.velocity": 2.0})
     names = ("wheel.velocity", "wheel.omega", "brake.torque_actual", "hub.moment", "brake.power", "energy.brake")
     wheel.set({"brake.torque": 2.0 * MOMENT})
     energy, locked = 0.0, []
