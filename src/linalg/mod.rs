@@ -10,11 +10,13 @@ mod blocks;
 pub mod dense;
 mod error;
 pub mod gmres;
+mod lagrange;
 pub mod modes;
 pub mod pencil;
 pub mod sparse;
 
 pub use dense::DenseSystem;
 pub use error::LinalgError;
+pub use lagrange::{Lagrange, POINTS};
 pub use modes::{VibrationModes, lowest_modes};
 pub use sparse::{Cholesky, CholeskyPattern, CsrMatrix};

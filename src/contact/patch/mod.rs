@@ -1,0 +1,31 @@
+//! Contact on a single smooth patch: tractions as series that fit the patch and the part of it that sticks.
+//!
+//! [`kernels`] has the series and what they do to a half-plane, [`tables`] their constants, [`surface`] what the bodies add,
+//! [`press`] solves the normal problem, [`slip`] a given stretch of stick, [`stick`] finds where slip begins, [`conclude`]
+//! takes traction and power, [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
+//! `docs/theory/patch-contact.md`.
+
+mod conclude;
+mod iterate;
+pub mod kernels;
+mod press;
+mod slip;
+mod solver;
+pub(super) mod state;
+mod stick;
+mod surface;
+mod tables;
+mod transfer;
+
+pub use kernels::Arch;
+pub use solver::PatchSolver;
+pub use state::{Past, PatchState, SlipHistory, Tractions};
+
+/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// A line force displaces the surface along itself by this times `−ln|x|` [m/(N/m)].
+    pub kernel: f64,
+    /// A pressure shortens the surface by this share per pascal [1/Pa].
+    pub coupling: f64,
+}
