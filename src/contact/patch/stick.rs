@@ -1,6 +1,7 @@
 //! The search for the place where slip begins.
 
 use super::iterate::Iterate;
+use super::state::Tractions;
 use crate::contact::error::ContactError;
 
 /// Shortest stretch that sticks, over the half-width of the patch \[1].
@@ -63,8 +64,10 @@ impl Search {
         let peak = it.friction * it.tractions.pressure.terms[0];
         let next = share - root / self.slope;
         if next >= 1.0 && share >= 1.0 {
-            // Sticking everywhere asks for slip in the other direction.
-            it.tractions.slide = -it.tractions.slide;
+            // Sticking everywhere asks for slip in the other direction; the shear stays what it is.
+            let Tractions { pressure, slide, stick } = &mut it.tractions;
+            stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
+            *slide = -*slide;
             self.turn_over(it, Some(1.0))?;
             return Ok(1.0);
         }
