@@ -1,11 +1,12 @@
-//! The contact on a single smooth patch, `solver.contact = patch` and `auto`, against Hertz, Carter, the converged reference and
-//! the contact on the grid.
+//! The contact on a single smooth patch, `solver.contact = patch` and `auto`, on the bodies of the presets: against the converged
+//! reference and the contact on the grid, and what a run has to keep.
 
 mod common;
 use common::*;
 use std::sync::Arc;
 use wheelrail::config::{Config, ContactMethod};
-use wheelrail::simulation::{Model, Simulation};
+use wheelrail::contact::SolverState;
+use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation};
 
 /// A preset without heat, on the contact solver asked for.
 fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config)) -> Arc<Model> {
@@ -20,19 +21,20 @@ fn paper_d(contact: ContactMethod) -> Arc<Model> {
     solved_by(contact, "paper_d", |config| config.physics.centrifugal = false)
 }
 
+fn is_patch(simulation: &Simulation) -> bool {
+    matches!(simulation.state().contact.solver, SolverState::Patch(_))
+}
+
 /// Creepage ramp from 0 to −8e-4 in 70 % of `duration`, held to its end: `F/μP` at tenths of the duration.
 fn creepage_ramp(model: &Arc<Model>, duration: f64, steps: usize) -> Vec<f64> {
-    let velocity = 50.0 * KMH;
-    let mut inputs = prescribed(model, velocity, 0.0);
+    let mut inputs = prescribed(model, 50.0 * KMH, 0.0);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     let mut tenths = Vec::new();
     for k in 1..=steps {
         let share = k as f64 / steps as f64;
-        inputs.drive.omega = omega(model, velocity, -8e-4 * (share / 0.7).min(1.0));
-        if let Err(error) = simulation.advance(&inputs, duration / steps as f64) {
-            println!("step {k}: {error}");
-            break;
-        }
+        inputs.drive.omega = omega(model, 50.0 * KMH, -8e-4 * (share / 0.7).min(1.0));
+        simulation.advance(&inputs, duration / steps as f64).unwrap();
+        assert!(is_patch(&simulation) || model.config().solver.contact == ContactMethod::Grid);
         if k % (steps / 10) == 0 {
             tenths.push(signed_utilisation(&simulation, inputs.drive.friction));
         }
@@ -41,53 +43,235 @@ fn creepage_ramp(model: &Arc<Model>, duration: f64, steps: usize) -> Vec<f64> {
 }
 
 #[test]
-fn explore() {
+fn steady_rolling_is_that_of_the_grid_and_of_the_reference() {
     let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(paper_d);
-    for xi in [0.0, -1e-4, -3e-4, -5e-4, -8e-4, 1e-4, 4e-4, 8e-4] {
-        let at = |model: &Arc<Model>| {
-            let inputs = prescribed(model, 50.0 * KMH, xi);
-            match Simulation::new(model.clone(), &inputs) {
-                Ok(simulation) => {
-                    let o = simulation.outputs();
-                    format!("{:.6} a {:.5e} p {:.5e} stick {:.4} U {:.6e} M {:.4} Q {:.4}", signed_utilisation(&simulation, 0.4), o.contact_half_width, o.contact_pressure_max, o.contact_stick_fraction, o.contact_approach, o.hub_moment, o.friction_power)
-                }
-                Err(error) => error.to_string(),
-            }
-        };
-        println!("{xi:e}:\n   patch {}\n   grid  {}", at(&patch), at(&grid));
-    }
-    for duration in [1e-3] {
-        println!("{duration}\n   {:.4?}\n   {:.4?}", creepage_ramp(&patch, duration, 400), creepage_ramp(&grid, duration, 400));
+    let reference = [
+        (0.0, -0.003556),
+        (-1e-4, 0.298297),
+        (-3e-4, 0.741135),
+        (-5e-4, 0.967564),
+        (-8e-4, 1.0),
+        (1e-4, -0.304676),
+        (4e-4, -0.882458),
+    ];
+    for (xi, expected) in reference {
+        let [ours, theirs] = [&patch, &grid].map(|model| {
+            let simulation = Simulation::new(model.clone(), &prescribed(model, 50.0 * KMH, xi)).unwrap();
+            (signed_utilisation(&simulation, 0.4), simulation.outputs().clone())
+        });
+        println!("{xi:e}: patch {:.6}, grid {:.6}, reference {expected:.6}", ours.0, theirs.0);
+        assert!((ours.0 - theirs.0).abs() < 1e-3 && (ours.0 - expected).abs() < 1.5e-3);
+        let relative = |get: fn(&Outputs) -> f64| get(&ours.1) / get(&theirs.1) - 1.0;
+        assert!(relative(|o| o.contact_half_width).abs() < 5e-4 && relative(|o| o.contact_pressure_max).abs() < 3e-4);
+        assert!(relative(|o| o.contact_approach).abs() < 1e-4 && relative(|o| o.friction_power).abs() < 2e-3);
+        assert!((ours.1.contact_stick_fraction - theirs.1.contact_stick_fraction).abs() < 0.02);
+        // Independently computed: half-width 7.611e-4 ± 4e-7 m, pressure 83.65 ± 0.03 MPa.
+        assert!((ours.1.contact_half_width - 7.611e-4).abs() < 4e-7);
+        assert!((ours.1.contact_pressure_max - 83.65e6).abs() < 3e4);
     }
 }
 
 #[test]
-fn explore_moment() {
-    for method in [ContactMethod::Patch, ContactMethod::Grid] {
-        let model = solved_by(method, "railway", |_| {});
-        let mut inputs = wheelrail::simulation::Inputs::rolling(model.config());
-        let mut simulation = match Simulation::new(model.clone(), &inputs) {
-            Ok(simulation) => simulation,
-            Err(error) => {
-                println!("{error}");
-                continue;
-            }
-        };
-        inputs.drive.moment = -7000.0;
-        for k in 0..200 {
-            if let Err(error) = simulation.advance(&inputs, 1e-3) {
-                println!("{k} {error}");
-                break;
-            }
-            if k % 20 == 0 || k < 5 {
-                let o = simulation.outputs();
-                println!("{k} {:.6} {:.6} v {:.8} w {:.8} res {:.2e} int {} fric {:.6} stick {:.4}", signed_utilisation(&simulation, 0.3), o.contact_force_y, o.wheel_velocity, o.wheel_omega, o.energy_residual, o.internal_steps, o.friction_power, o.contact_stick_fraction);
+fn the_railway_wheel_creeps_as_on_the_grid_from_a_tenth_of_the_load_to_nearly_twice_it() {
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(|method| solved_by(method, "railway", |_| {}));
+    for share in [0.1, 1.0, 1.9] {
+        for xi in [-6e-3, -2e-3, -5e-4, 0.0, 1e-3, 3e-3] {
+            for velocity in [1.0, 80.0 * KMH, -20.0] {
+                let [ours, theirs] = [&patch, &grid].map(|model| {
+                    let mut inputs = prescribed(model, velocity, xi);
+                    inputs.drive.load *= share;
+                    let simulation = Simulation::new(model.clone(), &inputs).unwrap();
+                    signed_utilisation(&simulation, inputs.drive.friction)
+                });
+                println!("{share} of the load, {velocity:.0} m/s, {xi:e}: {ours:.6} and {:.1e}", ours - theirs);
+                // A tenth of the load has six cells of the grid to a half-width.
+                let bound = if share < 0.5 { 6e-3 } else { 1e-3 };
+                assert!((ours - theirs).abs() < bound, "{ours} {theirs}");
             }
         }
-        let begin = std::time::Instant::now();
-        for _ in 0..2000 {
-            if simulation.advance(&inputs, 1e-3).is_err() { break }
-        }
-        println!("{method:?}: {:.1} us a step", begin.elapsed().as_secs_f64() / 2000.0 * 1e6);
     }
+}
+
+/// Errors of the reference are up to 0.0059; where they exceed the 0.003 asked for, they are the bound.
+#[test]
+fn creepage_ramps_match_the_reference() {
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(paper_d);
+    let cases = [
+        (
+            1e-3,
+            [-0.0025, -0.0008, 0.0062, 0.0232, 0.0561, 0.1088, 0.1853, 0.2853, 0.4091, 0.5491],
+            [0.0015, 0.0015, 0.0015, 0.0015, 0.0016, 0.0016, 0.0018, 0.0018, 0.002, 0.0026],
+        ),
+        (
+            1e-2,
+            [0.0558, 0.3206, 0.5996, 0.8415, 0.9818, 1.0, 1.0, 1.0, 1.0, 1.0],
+            [0.0016, 0.0023, 0.0022, 0.0038, 0.0059, 0.0015, 0.0015, 0.0015, 0.0015, 0.0015],
+        ),
+        (
+            1e-1,
+            [0.3034, 0.5891, 0.7975, 0.9326, 0.9949, 1.0, 1.0, 1.0, 1.0, 1.0],
+            [0.003, 0.003, 0.0037, 0.0044, 0.0037, 0.0015, 0.0015, 0.0015, 0.0015, 0.0015],
+        ),
+    ];
+    for (duration, reference, errors) in cases {
+        let (curve, on_grid) = (creepage_ramp(&patch, duration, 400), creepage_ramp(&grid, duration, 400));
+        let differences: Vec<f64> = curve.iter().zip(&reference).map(|(a, b)| a - b).collect();
+        let from_grid = curve.iter().zip(&on_grid).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{duration:.0e} s: {curve:.4?}, from the reference {differences:.4?}, from the grid {from_grid:.5}");
+        assert!(from_grid < 1e-3);
+        for (difference, error) in differences.iter().zip(errors) {
+            assert!(difference.abs() <= f64::max(3e-3, error) + 2e-4, "{difference}");
+        }
+    }
+}
+
+/// Rolling under a brake moment that steps on and off; outputs after every millisecond.
+fn braked(model: &Arc<Model>, steps: usize) -> (Simulation, Inputs, Vec<Outputs>) {
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut seen = Vec::new();
+    for k in 0..steps {
+        inputs.drive.moment = if k % 100 < 60 { -7000.0 } else { 2000.0 };
+        simulation.advance(&inputs, 1e-3).unwrap();
+        seen.push(simulation.outputs().clone());
+    }
+    (simulation, inputs, seen)
+}
+
+#[test]
+fn a_braked_wheel_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
+    let run = |method| braked(&solved_by(method, "railway", |_| {}), 200).2;
+    let [ours, theirs] = [ContactMethod::Auto, ContactMethod::Grid].map(run);
+    let load = ours[0].contact_force_y;
+    let worst = |get: fn(&Outputs) -> f64, scale: f64| {
+        ours.iter().zip(&theirs).map(|(a, b)| (get(a) - get(b)).abs() / scale).fold(0.0, f64::max)
+    };
+    let force = worst(|o| o.contact_force_x, 0.3 * load);
+    let normal = worst(|o| o.contact_force_y, load);
+    let speed = worst(|o| o.wheel_velocity, ours[0].wheel_velocity);
+    let residual = ours.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max);
+    let on_grid = theirs.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max);
+    println!("force {force:.1e}, load {normal:.1e}, speed {speed:.1e}, residual {residual:.1e} ({on_grid:.1e} on the grid)");
+    assert!(force < 3e-3 && normal < 3e-4 && speed < 1e-6);
+    assert!(residual < 5e-3);
+}
+
+#[test]
+fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
+    let model = solved_by(ContactMethod::Patch, "railway", |_| {});
+    let (mut simulation, inputs, _) = braked(&model, 30);
+    assert!(is_patch(&simulation));
+    let checkpoint = simulation.checkpoint().clone();
+    let bytes = postcard::to_stdvec(&checkpoint).unwrap();
+    let go_on = |simulation: &mut Simulation| {
+        for k in 0..30 {
+            let mut inputs = inputs;
+            inputs.drive.moment = -1e4 * f64::from(k % 3);
+            simulation.advance(&inputs, 1e-3 * (1.0 + f64::from(k % 2))).unwrap();
+        }
+        simulation.state().clone()
+    };
+    let first = go_on(&mut simulation);
+    simulation.recall(checkpoint).unwrap();
+    assert!(go_on(&mut simulation) == first);
+    let restored = postcard::from_bytes(&bytes).unwrap();
+    let mut other = Simulation::resume(model.clone(), model.config().tuning.clone(), restored).unwrap();
+    assert!(go_on(&mut other) == first);
+}
+
+#[test]
+fn derivatives_by_the_inputs_are_those_of_steps_taken_anew() {
+    let model = solved_by(ContactMethod::Patch, "railway", |_| {});
+    let (mut simulation, mut inputs, _) = braked(&model, 30);
+    let before = simulation.checkpoint().clone();
+    inputs.drive.moment = -7500.0;
+    simulation.advance(&inputs, 1e-3).unwrap();
+    let fields: [(&str, fn(&mut Drive) -> &mut f64, f64); 3] =
+        [("moment", |d| &mut d.moment, 40.0), ("load", |d| &mut d.load, 20.0), ("friction", |d| &mut d.friction, 1e-4)];
+    for (name, field, step) in fields {
+        let mut direction = Drive::default();
+        *field(&mut direction) = 1.0;
+        let found = simulation.difference(&direction).unwrap().quotient(|o| o.contact_force_x);
+        let [low, high] = [-step, step].map(|by| {
+            let mut inputs = inputs;
+            *field(&mut inputs.drive) += by;
+            let mut again = Simulation::resume(model.clone(), model.config().tuning.clone(), before.clone()).unwrap();
+            again.advance(&inputs, 1e-3).unwrap();
+            again.outputs().contact_force_x
+        });
+        let expected = (high - low) / (2.0 * step);
+        println!("d force_x / d {name}: {found:.8e}, by steps taken anew {expected:.8e}");
+        assert!((found / expected - 1.0).abs() < 1e-5);
+    }
+}
+
+/// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and takes over
+/// again. How much the force jumps at a change of solver is what its second difference exceeds the ordinary one by.
+#[test]
+fn a_change_of_solver_does_not_make_the_force_jump() {
+    let model = solved_by(ContactMethod::Auto, "railway", |config| config.tuning.tolerance = 0.0);
+    let xi = -1.5e-3;
+    let mut inputs = prescribed(&model, 1.0, xi);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    assert!(is_patch(&simulation));
+    let (mut forces, mut patch) = (Vec::new(), Vec::new());
+    for k in 0..800 {
+        let share = (f64::from(k) / 300.0).min((800.0 - f64::from(k)) / 300.0).min(1.0);
+        inputs.drive.velocity = 1.0 - 0.98 * share;
+        inputs.drive.omega = omega(&model, inputs.drive.velocity, xi);
+        simulation.advance(&inputs, 1e-3).unwrap();
+        forces.push(simulation.outputs().contact_force_x / simulation.outputs().contact_force_y);
+        patch.push(is_patch(&simulation));
+    }
+    let changes: Vec<usize> = (3..798).filter(|&k| patch[k] != patch[k - 1]).collect();
+    let bend = |k: usize| (forces[k] - 2.0 * forces[k - 1] + forces[k - 2]).abs();
+    println!("changes at {changes:?}");
+    for &k in &changes {
+        let around: Vec<f64> = (k - 1..=k + 2).map(|k| forces[k] - forces[k - 1]).collect();
+        println!("{k} to patch: {}, bends {:.1e} {:.1e} {:.1e}, differences {around:.2?}", patch[k], bend(k - 1), bend(k), bend(k + 1));
+        assert!(bend(k).max(bend(k + 1)) < 1e-4);
+    }
+    assert!(changes.len() >= 2);
+}
+
+#[test]
+fn auto_takes_the_grid_where_the_patch_does_not_hold_and_patch_alone_refuses() {
+    // At rest, locked, and under three times the load, the patch is not what the series describe.
+    let model = solved_by(ContactMethod::Auto, "railway", |_| {});
+    let rest = Simulation::new(model.clone(), &prescribed(&model, 0.0, 0.0)).unwrap();
+    println!("at rest on the patch: {}", is_patch(&rest));
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.load *= 2.4;
+    let wide = Simulation::new(model.clone(), &inputs).unwrap();
+    assert!(!is_patch(&wide));
+    let only = solved_by(ContactMethod::Patch, "railway", |_| {});
+    let mut inputs = Inputs::rolling(only.config());
+    inputs.drive.load *= 2.4;
+    assert!(Simulation::new(only.clone(), &inputs).is_err());
+    // With heat that swells the surfaces the model keeps to the grid.
+    let hot = solved_by(ContactMethod::Auto, "railway", |config| config.thermal.enabled = true);
+    assert!(!is_patch(&Simulation::new(hot.clone(), &Inputs::rolling(hot.config())).unwrap()));
+}
+
+/// Locks the wheel with a moment far beyond adhesion, and lets it go again.
+#[test]
+fn a_wheel_that_locks_and_recovers_runs_through_as_on_the_grid() {
+    let run = |method| {
+        let model = solved_by(method, "railway", |_| {});
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let (mut seen, mut on_patch) = (Vec::new(), 0);
+        for k in 0..400 {
+            inputs.drive.moment = if k < 120 { -40e3 } else { 0.0 };
+            simulation.advance(&inputs, 1e-3).unwrap();
+            on_patch += usize::from(is_patch(&simulation));
+            seen.push((simulation.outputs().wheel_omega, simulation.outputs().wheel_velocity));
+        }
+        println!("{method:?}: {on_patch} of 400 steps end on a patch, last {:?}", seen[399]);
+        seen
+    };
+    let (ours, theirs) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
+    let end = |seen: &[(f64, f64)]| seen[399];
+    assert!((end(&ours).1 / end(&theirs).1 - 1.0).abs() < 1e-5);
+    assert!((end(&ours).0 / end(&theirs).0 - 1.0).abs() < 1e-3);
 }

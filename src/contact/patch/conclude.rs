@@ -12,7 +12,7 @@ use nalgebra::DVector;
 use std::f64::consts::PI;
 
 /// Points of the profiles over the part that slips and the part that sticks.
-const PROFILE: usize = 24;
+const PROFILE: usize = 20;
 
 impl Iterate<'_> {
     /// Ends of the slipping part \[m]; `None` where all sticks.
@@ -70,7 +70,7 @@ impl Iterate<'_> {
         push(&mut state.turn, self.turn);
         state.past[1] = if time.is_stationary() { now.clone() } else { std::mem::take(&mut state.past[0]) };
         state.past[0] = now;
-        state.energy = self.energy();
+        (state.slope, state.energy) = (self.slope, self.energy());
         let slope_power = self.slope_power();
         let history = &mut state.friction;
         let (mut power, mut work) = (slope_power, 0.0);

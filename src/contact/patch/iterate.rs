@@ -40,6 +40,8 @@ pub struct Iterate<'a> {
     pub tractions: Tractions,
     /// V [m/s], U \[m], Ω [rad/s].
     pub rigid: [f64; 3],
+    /// See [`PatchState::slope`].
+    pub slope: f64,
     /// Turn of the rim \[rad].
     pub turn: f64,
     /// Friction coefficient \[1].
@@ -55,9 +57,12 @@ pub struct Iterate<'a> {
 }
 
 /// Largest relative change that ends the iteration.
-const TOLERANCE: f64 = 1e-13;
+const TOLERANCE: f64 = 1e-11;
 /// The same where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
+/// Iterations of the normal problem before those of both, and the change that makes them needless.
+const WARM: usize = 3;
+const CLOSE: f64 = 1e-3;
 /// Iterations of normal and tangential problem.
 const MOST: usize = 30;
 
@@ -72,6 +77,7 @@ impl<'a> Iterate<'a> {
             before,
             tractions: before.tractions,
             rigid: [start(0), hub, start(2)],
+            slope: before.slope,
             turn: before.turn.now,
             friction: problem.friction.coefficient(0.0),
             pressed: none,
@@ -190,8 +196,10 @@ impl<'a> Iterate<'a> {
         self.place_pressure();
         self.place_shear();
         self.displace();
-        for _ in 0..3 {
-            self.press()?;
+        for _ in 0..WARM {
+            if self.press()? < CLOSE {
+                break;
+            }
         }
         let mut search = super::stick::Search::new(self);
         let mut last = f64::INFINITY;
@@ -203,6 +211,7 @@ impl<'a> Iterate<'a> {
             last = change;
             if settled {
                 if search.check(self)? {
+                    self.slope = search.slope(self);
                     return Ok(());
                 }
                 last = f64::INFINITY;

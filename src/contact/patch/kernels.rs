@@ -101,8 +101,7 @@ impl Arch {
         if self.half_width == 0.0 {
             return 0.0;
         }
-        let z = cauchy_terms(self.place(x), self.count);
-        PI * dot(&self.terms[..self.count], &z)
+        PI * sum(self.place(x), self.count, |k| self.terms[k])
     }
 
     /// `∫ f ln|x − s| ds` [N/m], lengths in metres.
@@ -110,9 +109,14 @@ impl Arch {
         if self.half_width == 0.0 {
             return 0.0;
         }
-        let terms = logarithm_terms(self.place(x), self.count);
-        let own = dot(&self.terms[..self.count], &terms);
-        self.half_width * (own + FRAC_PI_2 * self.half_width.ln() * self.terms[0])
+        let (t, f) = (self.place(x), &self.terms);
+        // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
+        let order = |k: usize| {
+            let (below, own) = (if k > 0 { f[k - 1] } else { 0.0 }, if k + 1 < self.count { f[k + 1] } else { 0.0 });
+            (below - own) * SHARES[k]
+        };
+        let own = sum(t, self.count + 1, order) + zeroth(t) * f[0];
+        FRAC_PI_2 * self.half_width * (own + self.half_width.ln() * f[0])
     }
 
     /// Whether numbers are finite and in range.
@@ -130,9 +134,30 @@ impl Arch {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// `Σ f(k) Z_{k+1}(t)` over k below the count.
+fn sum(t: f64, count: usize, f: impl Fn(usize) -> f64) -> f64 {
+    if t.abs() <= 1.0 {
+        // Clenshaw's recursion.
+        let (mut next, mut now) = (0.0, 0.0);
+        for k in (0..count).rev() {
+            (next, now) = (now, f(k) + 2.0 * t * now - next);
+        }
+        t * now - next
+    } else {
+        let base = 1.0 / (t + t.signum() * (t * t - 1.0).sqrt());
+        base * (0..count).rev().fold(0.0, |sum, k| f(k) + base * sum)
+    }
 }
+
+/// 1, ½, ⅓, …
+const SHARES: [f64; TERMS + 1] = {
+    let (mut shares, mut k) = ([1.0; TERMS + 1], 0);
+    while k <= TERMS {
+        shares[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    shares
+};
 
 #[cfg(test)]
 mod tests {

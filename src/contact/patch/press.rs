@@ -44,7 +44,7 @@ impl Iterate<'_> {
         if shift.abs() > half_width || pressure.terms[0] <= 0.0 {
             return Err(ContactError::Unsuited { reason: "the patch moves by more than its width" });
         }
-        let (load, factor) = self.carry()?;
+        let factor = self.carry()?;
         let pressure = &mut self.tractions.pressure;
         pressure.centre += shift;
         pressure.half_width *= factor.sqrt();
@@ -52,12 +52,12 @@ impl Iterate<'_> {
         self.place_pressure();
         self.place_shear();
         self.displace();
-        let _ = load;
+    
         Ok((factor - 1.0).abs().max(shift.abs() / half_width))
     }
 
-    /// Load [N/m] and the factor by which it has to change, with the height of the hub.
-    fn carry(&mut self) -> Result<(f64, f64), ContactError> {
+    /// Factor by which the load has to change \[1]; sets the height of the hub.
+    fn carry(&mut self) -> Result<f64, ContactError> {
         let Constants { points, half_plane, .. } = self.constants;
         let (problem, pressure) = (self.problem, &self.tractions.pressure);
         let (load, at, motion) = (pressure.total(), pressure.centre, &problem.rigid[1]);
@@ -89,6 +89,6 @@ impl Iterate<'_> {
         if !(factor > 0.0 && factor.is_finite()) {
             return Err(ContactError::Unsuited { reason: "the patch opens" });
         }
-        Ok((load, factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR)))
+        Ok(factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR))
     }
 }

@@ -52,6 +52,9 @@ pub struct PatchState {
     pub turn: History,
     /// What the work of friction in the coming step depends on.
     pub friction: SlipHistory,
+    /// How the root at the place where slip begins depends on this place: change of its strength over the friction at the peak
+    /// of the pressure, per share of the patch \[1]; where the search of the next step starts.
+    pub slope: f64,
     /// Elastic energy of the half-planes that the bodies lack [J/m].
     pub energy: f64,
 }

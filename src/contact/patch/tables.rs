@@ -12,9 +12,9 @@ pub const SMOOTH: usize = PRESSURE + 1;
 /// Places at which the surfaces stick: one more than terms.
 pub const STICK: usize = SHEAR + 1;
 /// Places of the rule that integrates tractions.
-pub const QUADRATURE: usize = 16;
+pub const QUADRATURE: usize = 12;
 /// Places of the rule that integrates the power of friction.
-pub const POWER: usize = 16;
+pub const POWER: usize = QUADRATURE;
 
 /// Places and values of the terms.
 #[derive(Clone, Debug)]

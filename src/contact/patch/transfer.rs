@@ -132,7 +132,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     };
     let tractions = Tractions { pressure, slide, stick };
     let friction = slip_history(constants, &tractions, side, state, traction);
-    let patch = PatchState { tractions, past: [history(false), history(true)], turn: state.turn, friction, energy: 0.0 };
+    let patch = PatchState { tractions, past: [history(false), history(true)], turn: state.turn, friction, ..PatchState::default() };
     let mut moved = ContactState { traction: traction.clone(), solver: SolverState::Patch(Box::new(patch)) };
     let mut forces = DVector::zeros(2 * POINTS);
     for i in 0..grid.len() {
