@@ -63,7 +63,10 @@ fn steady_rolling_is_that_of_the_grid_and_of_the_reference() {
         assert!((ours.0 - theirs.0).abs() < 1e-3 && (ours.0 - expected).abs() < 1.5e-3);
         let relative = |get: fn(&Outputs) -> f64| get(&ours.1) / get(&theirs.1) - 1.0;
         assert!(relative(|o| o.contact_half_width).abs() < 5e-4 && relative(|o| o.contact_pressure_max).abs() < 3e-4);
-        assert!(relative(|o| o.contact_approach).abs() < 1e-4 && relative(|o| o.friction_power).abs() < 2e-3);
+        assert!(relative(|o| o.contact_approach).abs() < 1e-4);
+        let power = (ours.1.friction_power - theirs.1.friction_power).abs();
+        println!("friction power {:.4} W and {power:.4} W", ours.1.friction_power);
+        assert!(power < 1e-3 * theirs.1.friction_power + 1e-3);
         assert!((ours.1.contact_stick_fraction - theirs.1.contact_stick_fraction).abs() < 0.02);
         // Independently computed: half-width 7.611e-4 ± 4e-7 m, pressure 83.65 ± 0.03 MPa.
         assert!((ours.1.contact_half_width - 7.611e-4).abs() < 4e-7);
@@ -151,14 +154,17 @@ fn a_braked_wheel_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
     let speed = worst(|o| o.wheel_velocity, ours[0].wheel_velocity);
     let residual = ours.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max);
     let on_grid = theirs.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max);
-    println!("force {force:.1e}, load {normal:.1e}, speed {speed:.1e}, residual {residual:.1e} ({on_grid:.1e} on the grid)");
+    println!(
+        "force {force:.1e}, load {normal:.1e}, speed {speed:.1e}, residual {residual:.1e} ({on_grid:.1e} on the grid)"
+    );
     assert!(force < 3e-3 && normal < 3e-4 && speed < 1e-6);
     assert!(residual < 5e-3);
 }
 
 #[test]
 fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
-    let model = solved_by(ContactMethod::Patch, "railway", |_| {});
+    // The moment jumps in such a way that the grid takes over in between.
+    let model = solved_by(ContactMethod::Auto, "railway", |_| {});
     let (mut simulation, inputs, _) = braked(&model, 30);
     assert!(is_patch(&simulation));
     let checkpoint = simulation.checkpoint().clone();
@@ -181,7 +187,7 @@ fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
 
 #[test]
 fn derivatives_by_the_inputs_are_those_of_steps_taken_anew() {
-    let model = solved_by(ContactMethod::Patch, "railway", |_| {});
+    let model = solved_by(ContactMethod::Patch, "railway", |config| config.tuning.tolerance = 0.0);
     let (mut simulation, mut inputs, _) = braked(&model, 30);
     let before = simulation.checkpoint().clone();
     inputs.drive.moment = -7500.0;
@@ -206,47 +212,48 @@ fn derivatives_by_the_inputs_are_those_of_steps_taken_anew() {
 }
 
 /// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and takes over
-/// again. How much the force jumps at a change of solver is what its second difference exceeds the ordinary one by.
+/// again. How much the force jumps at a change of solver is by what its second difference exceeds that of a run on the grid.
 #[test]
 fn a_change_of_solver_does_not_make_the_force_jump() {
-    let model = solved_by(ContactMethod::Auto, "railway", |config| config.tuning.tolerance = 0.0);
     let xi = -1.5e-3;
-    let mut inputs = prescribed(&model, 1.0, xi);
-    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    assert!(is_patch(&simulation));
-    let (mut forces, mut patch) = (Vec::new(), Vec::new());
-    for k in 0..800 {
-        let share = (f64::from(k) / 300.0).min((800.0 - f64::from(k)) / 300.0).min(1.0);
-        inputs.drive.velocity = 1.0 - 0.98 * share;
-        inputs.drive.omega = omega(&model, inputs.drive.velocity, xi);
-        simulation.advance(&inputs, 1e-3).unwrap();
-        forces.push(simulation.outputs().contact_force_x / simulation.outputs().contact_force_y);
-        patch.push(is_patch(&simulation));
-    }
+    let run = |method| {
+        let model = solved_by(method, "railway", |config| config.tuning.tolerance = 0.0);
+        let mut inputs = prescribed(&model, 1.0, xi);
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let (mut forces, mut patch) = (Vec::new(), Vec::new());
+        for k in 0..800 {
+            let turn = std::f64::consts::TAU * f64::from(k) / 800.0;
+            inputs.drive.velocity = 0.51 + 0.49 * turn.cos();
+            inputs.drive.omega = omega(&model, inputs.drive.velocity, xi);
+            simulation.advance(&inputs, 1e-3).unwrap();
+            forces.push(simulation.outputs().contact_force_x / simulation.outputs().contact_force_y);
+            patch.push(is_patch(&simulation));
+        }
+        (forces, patch)
+    };
+    let ((forces, patch), (on_grid, _)) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
+    let excess = |k: usize| forces[k] - on_grid[k];
     let changes: Vec<usize> = (3..798).filter(|&k| patch[k] != patch[k - 1]).collect();
-    let bend = |k: usize| (forces[k] - 2.0 * forces[k - 1] + forces[k - 2]).abs();
-    println!("changes at {changes:?}");
+    println!("changes at {changes:?}, {} of 800 steps on the patch", patch.iter().filter(|on| **on).count());
     for &k in &changes {
-        let around: Vec<f64> = (k - 1..=k + 2).map(|k| forces[k] - forces[k - 1]).collect();
-        println!("{k} to patch: {}, bends {:.1e} {:.1e} {:.1e}, differences {around:.2?}", patch[k], bend(k - 1), bend(k), bend(k + 1));
-        assert!(bend(k).max(bend(k + 1)) < 1e-4);
+        let jumps = [k, k + 1].map(|k| (excess(k) - excess(k - 1)).abs());
+        println!("{k} to patch: {}, jumps {:.1e} {:.1e}", patch[k], jumps[0], jumps[1]);
+        assert!(jumps.iter().all(|jump| *jump < 1e-4));
     }
     assert!(changes.len() >= 2);
 }
 
 #[test]
 fn auto_takes_the_grid_where_the_patch_does_not_hold_and_patch_alone_refuses() {
-    // At rest, locked, and under three times the load, the patch is not what the series describe.
+    // Under three times the load the patch outgrows what is known of the smooth bodies.
     let model = solved_by(ContactMethod::Auto, "railway", |_| {});
-    let rest = Simulation::new(model.clone(), &prescribed(&model, 0.0, 0.0)).unwrap();
-    println!("at rest on the patch: {}", is_patch(&rest));
     let mut inputs = Inputs::rolling(model.config());
-    inputs.drive.load *= 2.4;
+    inputs.drive.load *= 3.0;
     let wide = Simulation::new(model.clone(), &inputs).unwrap();
     assert!(!is_patch(&wide));
     let only = solved_by(ContactMethod::Patch, "railway", |_| {});
     let mut inputs = Inputs::rolling(only.config());
-    inputs.drive.load *= 2.4;
+    inputs.drive.load *= 3.0;
     assert!(Simulation::new(only.clone(), &inputs).is_err());
     // With heat that swells the surfaces the model keeps to the grid.
     let hot = solved_by(ContactMethod::Auto, "railway", |config| config.thermal.enabled = true);

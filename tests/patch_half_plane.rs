@@ -1,9 +1,7 @@
 //! The contact on a single patch between two elastic half-planes, where Hertz and Carter have closed forms.
 
 use nalgebra::{DMatrix, DVector};
-use wheelrail::analytic::{
-    carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure,
-};
+use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::contact::grid::{ContactGrid, GridSolver};
 use wheelrail::contact::patch::{HalfPlane, PatchSolver};
 use wheelrail::contact::{
@@ -177,10 +175,16 @@ fn a_step_of_creepage_ends_in_carters_state_whatever_the_steps() {
             }
         }
         let end = state.traction.resultant[0] / (FRICTION * LOAD);
-        println!("{steps_per_half_width} steps: after a half-width {:.4}, at the end {end:.5} of {steady:.5}", halfway[halfway.len() - 1]);
+        println!(
+            "{steps_per_half_width} steps: after a half-width {:.4}, at the end {end:.5} of {steady:.5}",
+            halfway[halfway.len() - 1]
+        );
         assert!((end / steady - 1.0).abs() < 0.02);
     }
-    assert!((halfway[0] - halfway[1]).abs() < 0.02 * halfway[0].abs() && (halfway[0] - halfway[2]).abs() < 0.04 * halfway[0].abs());
+    assert!(
+        (halfway[0] - halfway[1]).abs() < 0.02 * halfway[0].abs()
+            && (halfway[0] - halfway[2]).abs() < 0.04 * halfway[0].abs()
+    );
 }
 
 #[test]

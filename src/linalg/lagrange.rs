@@ -65,7 +65,7 @@ mod tests {
         let x: Vec<f64> = (0..21).map(|i| -3.3 + 0.33 * f64::from(i)).collect();
         let values = nalgebra::DVector::from_iterator(21, x.iter().map(|&x| quartic(x)));
         let nodes = basis.projection(&x).unwrap() * values;
-        for x in [-3.0, -1.2, 0.0, 0.7, 2.9] {
+        for x in [-3.0_f64, -1.2, 0.0, 0.7, 2.9] {
             let dot = |weights: [f64; POINTS]| weights.iter().zip(&nodes).map(|(w, v)| w * v).sum::<f64>();
             let slope = -1.0 + x - 0.3 * x * x + 0.12 * x.powi(3);
             assert!((dot(basis.values(x)) - quartic(x)).abs() < 1e-12);

@@ -33,6 +33,6 @@ pub use pair::{Pair, Smooth, bodies};
 pub use reduced::ReducedBody;
 pub use reduction::ReducedBasis;
 pub use response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
-pub use smooth::HalfPlane;
 pub use size::{check_size, contact_zone};
+pub use smooth::HalfPlane;
 pub use system::BodySystem;

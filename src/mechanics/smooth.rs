@@ -6,9 +6,9 @@
 //! Derivation: `docs/theory/patch-contact.md`.
 
 use super::reduction::{ReducedBasis, scale_columns};
-use crate::linalg::dense::symmetrise;
 use crate::linalg::Lagrange;
 pub use crate::linalg::POINTS;
+use crate::linalg::dense::symmetrise;
 use crate::material::Isotropic;
 use nalgebra::{DMatrix, DVector};
 

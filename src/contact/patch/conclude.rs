@@ -30,7 +30,8 @@ impl Iterate<'_> {
         let (tables, [low, high]) = (&self.constants.tables, self.slipping_ends());
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let places = tables.places.map(|t| centre + half * t);
-        let force = |q: usize| half * tables.weights[q] * self.tractions.slide * self.tractions.pressure.density(places[q]);
+        let force =
+            |q: usize| half * tables.weights[q] * self.tractions.slide * self.tractions.pressure.density(places[q]);
         (places, std::array::from_fn(force))
     }
 
@@ -38,9 +39,8 @@ impl Iterate<'_> {
     fn energy(&self) -> f64 {
         let Tractions { slide, stick, .. } = self.tractions;
         let pressed: f64 = self.pressed.iter().map(|place| place.force * place.logarithm).sum();
-        let stuck = |place: &super::iterate::Place| {
-            place.force * (2.0 * slide * place.logarithm + stick.logarithm(place.x))
-        };
+        let stuck =
+            |place: &super::iterate::Place| place.force * (2.0 * slide * place.logarithm + stick.logarithm(place.x));
         let stuck = if stick.half_width > 0.0 { self.stuck.iter().map(stuck).sum() } else { 0.0 };
         -self.constants.half_plane.kernel * (pressed * (1.0 + slide * slide) + stuck)
     }

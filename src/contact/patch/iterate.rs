@@ -1,10 +1,9 @@
 //! One contact problem on its way to the solution on a single patch.
 
-use super::HalfPlane;
+use super::kernels::HalfPlane;
 use super::state::{PatchState, Tractions};
 use super::surface::{AtPoints, Moments, Surface, dot};
 use super::tables::{QUADRATURE, Tables};
-use crate::contact::error::ContactError;
 use crate::contact::problem::{AxisDrive, ContactProblem};
 use crate::linalg::Lagrange;
 
@@ -55,16 +54,6 @@ pub struct Iterate<'a> {
     /// Smooth displacements under them.
     pub surface: Surface,
 }
-
-/// Largest relative change that ends the iteration.
-const TOLERANCE: f64 = 1e-11;
-/// The same where rounding allows no more.
-const ROUNDING: f64 = 1e-9;
-/// Iterations of the normal problem before those of both, and the change that makes them needless.
-const WARM: usize = 3;
-const CLOSE: f64 = 1e-3;
-/// Iterations of normal and tangential problem.
-const MOST: usize = 30;
 
 impl<'a> Iterate<'a> {
     pub fn new(constants: &'a Constants, problem: &'a ContactProblem<'a>, before: &'a PatchState, height: f64) -> Self {
@@ -149,7 +138,8 @@ impl<'a> Iterate<'a> {
     /// vanishes.
     pub fn displace(&mut self) {
         self.surface = Surface::new(self.problem, &self.moments, self.accelerations());
-        let (radius, kernel, slide) = (self.problem.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
+        let (radius, kernel, slide) =
+            (self.problem.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
         let (mut sum, mut arm) = (0.0, 0.0);
         for place in &self.pressed {
             let smooth = dot(&place.values, &self.surface.wheel.tangential);
@@ -189,34 +179,5 @@ impl<'a> Iterate<'a> {
             sum += (bodies.deformation_inertia[(axis, l)] + own) * acceleration;
         }
         sum
-    }
-
-    /// Finds tractions and motions.
-    pub fn run(&mut self) -> Result<(), ContactError> {
-        self.place_pressure();
-        self.place_shear();
-        self.displace();
-        for _ in 0..WARM {
-            if self.press()? < CLOSE {
-                break;
-            }
-        }
-        let mut search = super::stick::Search::new(self);
-        let mut last = f64::INFINITY;
-        for _ in 0..MOST {
-            let normal = self.press()?;
-            let tangential = search.advance(self)?;
-            let change = normal.max(tangential);
-            let settled = change <= TOLERANCE || change <= ROUNDING && change >= last;
-            last = change;
-            if settled {
-                if search.check(self)? {
-                    self.slope = search.slope(self);
-                    return Ok(());
-                }
-                last = f64::INFINITY;
-            }
-        }
-        Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
     }
 }

@@ -16,6 +16,15 @@ use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 /// Largest number of terms of a series.
 pub const TERMS: usize = 12;
 
+/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// A line force displaces the surface along itself by this times `−ln|x|` [m/(N/m)].
+    pub kernel: f64,
+    /// A pressure shortens the surface by this share per pascal [1/Pa].
+    pub coupling: f64,
+}
+
 /// One traction of this form.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Arch {
@@ -204,7 +213,8 @@ mod tests {
             let (mut cauchy, mut logarithm) = (f * ((x - low) / (high - x)).ln(), 0.0);
             for i in 0..n {
                 let theta = (f64::from(i) + 0.5) * PI / f64::from(n);
-                let (s, ds) = (arch.centre + arch.half_width * theta.cos(), PI / f64::from(n) * arch.half_width * theta.sin());
+                let (s, ds) =
+                    (arch.centre + arch.half_width * theta.cos(), PI / f64::from(n) * arch.half_width * theta.sin());
                 cauchy += (arch.density(s) - f) / (x - s) * ds;
                 logarithm += (arch.density(s) - f) * (x - s).abs().ln() * ds;
             }
@@ -220,7 +230,7 @@ mod tests {
         for end in arch.ends() {
             assert!((arch.logarithm(end - 1e-12) - arch.logarithm(end + 1e-12)).abs() < 1e-9);
         }
-        for x in [0.25, 0.285, 0.3, 0.318, 0.35] {
+        for x in [0.25, 0.285, 0.3, 0.317, 0.35] {
             let slope = (arch.logarithm(x + 1e-6) - arch.logarithm(x - 1e-6)) / 2e-6;
             assert!((slope - arch.cauchy(x)).abs() < 1e-5 * arch.terms[0], "{x}");
         }

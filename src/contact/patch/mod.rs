@@ -17,15 +17,6 @@ mod surface;
 mod tables;
 mod transfer;
 
-pub use kernels::Arch;
+pub use kernels::{Arch, HalfPlane};
 pub use solver::PatchSolver;
 pub use state::{Past, PatchState, SlipHistory, Tractions};
-
-/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfPlane {
-    /// A line force displaces the surface along itself by this times `−ln|x|` [m/(N/m)].
-    pub kernel: f64,
-    /// A pressure shortens the surface by this share per pascal [1/Pa].
-    pub coupling: f64,
-}

@@ -52,7 +52,7 @@ impl Iterate<'_> {
         self.place_pressure();
         self.place_shear();
         self.displace();
-    
+
         Ok((factor - 1.0).abs().max(shift.abs() / half_width))
     }
 

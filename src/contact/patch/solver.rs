@@ -1,8 +1,7 @@
 //! The contact solver that takes the patch where it can, and the grid where it cannot.
 
-use super::HalfPlane;
 use super::iterate::{Constants, Iterate};
-use super::kernels::Arch;
+use super::kernels::{Arch, HalfPlane};
 use super::state::{Past, PatchState, Tractions};
 use super::tables::{PRESSURE, Tables};
 use super::transfer;
@@ -18,6 +17,9 @@ use nalgebra::{DMatrix, DVector};
 /// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the series do not resolve what is
 /// carried through it.
 const SHORTEST_WAY: f64 = 0.01;
+
+/// Largest half-width of a start over the reach of the bodies \[1].
+const LARGEST_START: f64 = 0.9;
 
 /// Contact on a single patch, and on a grid where there is none.
 #[derive(Clone, Debug)]
@@ -89,9 +91,11 @@ impl ContactSolver for PatchSolver {
     }
 
     fn touching(&self, half_width: f64) -> ContactState {
-        if half_width >= self.constants.points.reach {
+        let reach = self.constants.points.reach;
+        if half_width >= reach && !self.only {
             return self.grid.touching(half_width);
         }
+        let half_width = half_width.min(LARGEST_START * reach);
         let mut pressure = Arch { centre: 0.0, half_width, count: PRESSURE, ..Arch::default() };
         // That of a cylinder is found in the first iteration.
         pressure.terms[0] = 1.0;

@@ -17,6 +17,8 @@ pub struct Tractions {
     pub stick: Arch,
 }
 
+// A run on a patch keeps the larger variant, without memory to allocate in every step.
+#[allow(clippy::large_enum_variant)]
 /// Tangential displacement of the wheel less that of the rail, as a function of x.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Past {

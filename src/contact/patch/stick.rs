@@ -15,6 +15,47 @@ const CHANGES: usize = 4;
 /// Change of the length of stick that says something about how the root depends on it \[1].
 const TELLING: f64 = 1e-9;
 
+/// Largest relative change that ends the iteration.
+const TOLERANCE: f64 = 1e-11;
+/// The same where rounding allows no more.
+const ROUNDING: f64 = 1e-9;
+/// Iterations of the normal problem before those of both, and the change that makes them needless.
+const WARM: usize = 3;
+const CLOSE: f64 = 1e-3;
+/// Iterations of normal and tangential problem.
+const MOST: usize = 30;
+
+impl Iterate<'_> {
+    /// Finds tractions and motions.
+    pub fn run(&mut self) -> Result<(), ContactError> {
+        self.place_pressure();
+        self.place_shear();
+        self.displace();
+        for _ in 0..WARM {
+            if self.press()? < CLOSE {
+                break;
+            }
+        }
+        let mut search = Search::new(self);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST {
+            let normal = self.press()?;
+            let tangential = search.advance(self)?;
+            let change = normal.max(tangential);
+            let settled = change <= TOLERANCE || change <= ROUNDING && change >= last;
+            last = change;
+            if settled {
+                if search.check(self)? {
+                    self.slope = search.slope(self);
+                    return Ok(());
+                }
+                last = f64::INFINITY;
+            }
+        }
+        Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
+    }
+}
+
 /// The search in one contact problem.
 pub(super) struct Search {
     /// Half-length of the stretch that sticks over that of the patch; `None`: all slips.

@@ -44,8 +44,7 @@ pub(super) fn to_grid(
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
     let past = |k: usize, x: f64| patch.past[k].at(x, constants.half_plane.kernel, &constants.points);
-    state.tangential_gap =
-        grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
+    state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
     state.turn = patch.turn;
     state.rest = REST;
     let closed = |i: usize| status(grid.x[i]).is_active();
@@ -132,7 +131,13 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     };
     let tractions = Tractions { pressure, slide, stick };
     let friction = slip_history(constants, &tractions, side, state, traction);
-    let patch = PatchState { tractions, past: [history(false), history(true)], turn: state.turn, friction, ..PatchState::default() };
+    let patch = PatchState {
+        tractions,
+        past: [history(false), history(true)],
+        turn: state.turn,
+        friction,
+        ..PatchState::default()
+    };
     let mut moved = ContactState { traction: traction.clone(), solver: SolverState::Patch(Box::new(patch)) };
     let mut forces = DVector::zeros(2 * POINTS);
     for i in 0..grid.len() {
@@ -160,8 +165,7 @@ fn slip_history(
     let centre = pressure.centre - side * stick.half_width;
     let tables = &constants.tables;
     let place = |q: usize| centre + half * tables.places[q];
-    let force: [f64; POWER] =
-        std::array::from_fn(|q| half * tables.weights[q] * slide * pressure.density(place(q)));
+    let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * slide * pressure.density(place(q)));
     let span = duration(&state.friction.force, &state.friction.impulse);
     SlipHistory {
         force,

@@ -148,7 +148,9 @@ impl Pass<'_> {
             solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
         }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
-            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => beyond,
+            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => {
+                beyond
+            }
             _ => model.contact.failure(error, 0.0, 0.0),
         })?;
         let accelerations = trial.accelerations;
