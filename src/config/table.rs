@@ -229,7 +229,7 @@ choice! {
     pub enum ContactMethod named "ContactMethod", "How contact forces are found" {
         Auto = "auto", "on the patch while it is single and smooth, otherwise on the grid";
         Grid = "grid", "on a grid of paired surface nodes";
-        Patch = "patch", "on a single smooth patch; steps without one fail";
+        Patch = "patch", "on a single smooth patch where other parameters allow it; a step without one fails";
     }
 }
 
