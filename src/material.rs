@@ -50,6 +50,17 @@ impl Isotropic {
         analytic::contact_modulus(self.youngs_modulus, self.poissons_ratio)
     }
 
+    /// `2 (1 − ν²)/(πE)`: a line force on a half-plane displaces its surface along itself by this times `−ln|x|` [m/(N/m)].
+    pub fn surface_kernel(&self) -> f64 {
+        2.0 / (std::f64::consts::PI * self.plane_strain_modulus())
+    }
+
+    /// `(1 − 2ν)(1 + ν)/E`: a pressure on a half-plane shortens its surface by this share per pascal [1/Pa].
+    pub fn surface_coupling(&self) -> f64 {
+        let nu = self.poissons_ratio;
+        (1.0 - 2.0 * nu) * (1.0 + nu) / self.youngs_modulus
+    }
+
     /// Speed of pressure waves `√((λ + 2μ)/ρ)` [m/s].
     pub fn pressure_wave_speed(&self) -> f64 {
         (self.wave_modulus() / self.density).sqrt()

@@ -120,7 +120,8 @@ mod tests {
 
     fn solver(time_scheme: TimeScheme) -> SolverParameters {
         let response = crate::config::Response::Reduced;
-        SolverParameters { response, modes_wheel: 1, modes_rail: 1, time_scheme, theta: 0.5 }
+        let contact = crate::config::ContactMethod::Grid;
+        SolverParameters { contact, response, modes_wheel: 1, modes_rail: 1, time_scheme, theta: 0.5 }
     }
 
     #[test]

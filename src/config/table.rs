@@ -167,6 +167,7 @@ parameters! {
             1090 response: Response = Response::Reduced, "How the bodies answer contact tractions";
             1091 modes_wheel: usize = 80, from 1 to 200, "Vibration modes kept for the wheel (reduced response)";
             1092 modes_rail: usize = 40, from 1 to 200, "Vibration modes kept for the rail (reduced response)";
+            1189 contact: ContactMethod = ContactMethod::Grid, "How contact forces are found";
             1093 time_scheme: TimeScheme = TimeScheme::Bdf2, "Implicit time discretisation of momentum and slip";
             1094 theta: f64 = 0.5, from 0.5 to 1.0,
                 "Weight of the new time level in the theta scheme (1: backward Euler, 0.5: Crank-Nicolson)";
@@ -226,6 +227,15 @@ choice! {
     pub enum Response named "Response", "How the bodies answer contact tractions" {
         Reduced = "reduced", "vibration modes plus residual flexibility";
         Full = "full", "all finite-element equations";
+    }
+}
+
+choice! {
+    /// Solver of the contact.
+    pub enum ContactMethod named "ContactMethod", "How contact forces are found" {
+        Auto = "auto", "on the patch while it is single and smooth, otherwise on the grid";
+        Grid = "grid", "on a grid of paired surface nodes";
+        Patch = "patch", "on a single smooth patch where other parameters allow it; a step without one fails";
     }
 }
 

@@ -23,6 +23,12 @@ pub enum ContactError {
         /// Contact force [N/m].
         load: f64,
     },
+    /// The solver on a single patch does not describe this contact.
+    #[error("the contact is no single smooth patch: {reason}")]
+    Unsuited {
+        /// What it cannot describe.
+        reason: &'static str,
+    },
     /// The start state belongs to another solver or another mesh.
     #[error("the contact state belongs to another solver")]
     ForeignState,

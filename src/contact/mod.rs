@@ -11,6 +11,7 @@ pub mod flattening;
 pub mod friction;
 pub mod grid;
 pub mod limits;
+pub mod patch;
 pub mod problem;
 pub mod solver;
 pub mod surface;

@@ -3,6 +3,7 @@
 use super::error::ContactError;
 use super::grid::iterate::GridScratch;
 use super::grid::state::GridState;
+use super::patch::state::{PatchState, SlipHistory};
 use super::problem::ContactProblem;
 use super::traction::Traction;
 use crate::piecewise::Piecewise;
@@ -15,8 +16,8 @@ pub trait ContactSolver: Send + Sync {
     /// surface; called once for every new step size, before any [`Self::solve`] with them.
     fn correct(&self, _wheel: &mut DMatrix<f64>, _rail: &mut DMatrix<f64>) {}
 
-    /// Elastic energy that the correction stores [J/m].
-    fn correction_energy(&self, _traction: &Traction) -> f64 {
+    /// Elastic energy that the correction stores, or what else of the bodies only the solver knows [J/m].
+    fn correction_energy(&self, _state: &ContactState) -> f64 {
         0.0
     }
 
@@ -34,8 +35,8 @@ pub trait ContactSolver: Send + Sync {
         scratch: &mut Scratch,
     ) -> Result<(), ContactError>;
 
-    /// The same state with room for wider patches, where [`Self::solve`] found them to exceed the zone; its `port_forces` are
-    /// those of a wider surface. `None` if there is no more room.
+    /// The same state with room for wider patches or for more than one, where [`Self::solve`] found them to exceed the zone or
+    /// what it can describe; its `port_forces` are those of another surface. `None` if there is no more room.
     fn widened(&self, _state: &ContactState) -> Option<ContactState> {
         None
     }
@@ -72,16 +73,24 @@ pub enum SolverState {
     Stateless,
     /// Of the solver on a grid of paired nodes.
     Grid(Box<GridState>),
+    /// Of the solver on a single patch.
+    Patch(Box<PatchState>),
 }
 
 impl ContactState {
     /// Takes away all slip, and what it dissipates: the state of a wheel at rest.
     pub fn rest(&mut self) {
         self.traction.rest();
-        if let SolverState::Grid(grid) = &mut self.solver {
-            grid.slip.fill(0.0);
-            grid.friction.slip.fill(0.0);
-            grid.friction.slope_power = 0.0;
+        match &mut self.solver {
+            SolverState::Grid(grid) => {
+                grid.slip.fill(0.0);
+                grid.friction.slip.fill(0.0);
+                grid.friction.slope_power = 0.0;
+            }
+            SolverState::Patch(patch) => {
+                patch.friction = SlipHistory { slip: Default::default(), slope_power: 0.0, ..patch.friction };
+            }
+            SolverState::Stateless => {}
         }
     }
 
@@ -89,6 +98,7 @@ impl ContactState {
     pub fn turn(&self) -> f64 {
         match &self.solver {
             SolverState::Grid(grid) => grid.turn.now,
+            SolverState::Patch(patch) => patch.turn.now,
             SolverState::Stateless => 0.0,
         }
     }
@@ -98,6 +108,7 @@ impl ContactState {
     pub fn same_branch(&self, other: &Self) -> bool {
         match (&self.solver, &other.solver) {
             (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status && a.yielded == b.yielded,
+            (SolverState::Patch(a), SolverState::Patch(b)) => a.tractions.same_branch(&b.tractions),
             (SolverState::Stateless, SolverState::Stateless) => true,
             _ => false,
         }

@@ -4,6 +4,9 @@ use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
+/// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
+const ENDING: f64 = 0.2;
+
 /// Forces between wheel and rail and what follows from them, per metre of width.
 ///
 /// Positions are relative to the point below the wheel centre, positive in travel direction. Profiles are zero outside the
@@ -73,6 +76,17 @@ impl Traction {
     /// Half of the distance between the outermost contact edges \[m]; zero without contact.
     pub fn half_width(&self) -> f64 {
         hull(&self.edges).map_or(0.0, |edges| 0.5 * (edges.high - edges.low))
+    }
+
+    /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns the power
+    /// for which the profile of dissipation stands.
+    pub(super) fn dissipate(&mut self, friction: f64, work: f64, duration: f64) -> f64 {
+        (self.friction_power, self.friction_work) = (friction, work);
+        let mean = if duration > 0.0 { (work / duration).max(0.0) } else { friction };
+        // Where friction has all but ended within the step, its mean stands for it.
+        let power = if friction > ENDING * mean { friction } else { mean };
+        self.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
+        power
     }
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.

@@ -40,7 +40,7 @@ macro_rules! theory {
 }
 
 /// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 16] = theory![
+const THEORY: [(&str, &[u8]); 17] = theory![
     "README.md",
     "ale-balance.md",
     "condensation.md",
@@ -54,6 +54,7 @@ const THEORY: [(&str, &[u8]); 16] = theory![
     "kernel-correction.md",
     "limits-of-steel.md",
     "material-history.md",
+    "patch-contact.md",
     "time-formula.md",
     "track-support.md",
     "width-of-conduction.md",

@@ -10,6 +10,7 @@ mod blocks;
 pub mod dense;
 mod error;
 pub mod gmres;
+mod lagrange;
 pub mod modes;
 pub mod pencil;
 pub mod sparse;
@@ -17,5 +18,6 @@ pub(crate) mod vectorised;
 
 pub use dense::{DenseSystem, Update, multiply_transposed};
 pub use error::LinalgError;
+pub use lagrange::{Lagrange, POINTS};
 pub use modes::{VibrationModes, lowest_modes};
 pub use sparse::{Cholesky, CholeskyPattern, CsrMatrix};

@@ -6,10 +6,14 @@ use super::error::MechanicsError;
 use super::full::FullBody;
 use super::meshes::{rail_system, wheel_system};
 use super::reduced::ReducedBody;
+use super::reduction::ReducedBasis;
 use super::response::BodyResponse;
 use super::size::contact_zone;
+use super::smooth::HalfPlane;
 use crate::config::Config;
 use crate::fem::graded::GUARDS;
+use crate::linalg::Lagrange;
+use crate::material::Isotropic;
 use std::ops::Range;
 
 /// Both bodies behind their common interface, and the contact grid they share.
@@ -26,12 +30,27 @@ pub struct Pair {
     pub candidates: Range<usize>,
     /// The same bodies with the paired nodes of the wings, among which these are the middle ones; `None` without wings.
     pub wide: Option<Box<Pair>>,
+    /// The same bodies less half-planes, for a contact solver that knows those: reduced bodies without damping in proportion
+    /// to stiffness only.
+    pub smooth: Option<Smooth>,
+}
+
+/// Wheel and rail less half-planes; their ports are the displacements at the points of a polynomial.
+pub struct Smooth {
+    /// The wheel.
+    pub wheel: Box<dyn BodyResponse>,
+    /// The rail.
+    pub rail: Box<dyn BodyResponse>,
+    /// What they lack.
+    pub half_plane: HalfPlane,
+    /// Half of the length over which they are known \[m].
+    pub reach: f64,
 }
 
 impl Pair {
     fn new(wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, surface_x: Vec<f64>, spacing: f64) -> Self {
         let candidates = GUARDS..surface_x.len() - GUARDS;
-        Self { wheel, rail, surface_x, spacing, candidates, wide: None }
+        Self { wheel, rail, surface_x, spacing, candidates, wide: None, smooth: None }
     }
 }
 
@@ -50,6 +69,17 @@ pub fn bodies(
     let core = wing..surface_x.len() - wing;
     let ports = 2 * core.start..2 * core.end;
     type Bodies = [Box<dyn BodyResponse>; 2];
+    let retarded = damping.iter().any(|damping| damping.stiffness > 0.0);
+    let smooth = basis.as_ref().filter(|_| !retarded).and_then(|basis| {
+        let half_plane = HalfPlane::new(&Isotropic::from(&config.material));
+        let x = &surface_x[core.clone()];
+        let reach = x[x.len() - 1 - GUARDS];
+        let points = Lagrange::new(reach);
+        let part = |body: &ReducedBasis, side| body.cut(ports.clone()).smooth(x, &points, half_plane, side);
+        let wheel = ReducedBody::new(part(&basis.wheel, 1.0)?, centrifugal, &damping[0]);
+        let rail = ReducedBody::new(part(&basis.rail, -1.0)?, false, &damping[1]);
+        Some(Smooth { wheel: Box::new(wheel), rail: Box::new(rail), half_plane, reach })
+    });
     let [narrow, wide]: [Bodies; 2] = match basis {
         Some(Basis { wheel, rail, .. }) => {
             [(wheel.cut(ports.clone()), rail.cut(ports)), (wheel, rail)].map(|(w, r)| -> Bodies {
@@ -71,5 +101,5 @@ pub fn bodies(
     };
     let pair = |[wheel, rail]: Bodies, x: Vec<f64>| Pair::new(wheel, rail, x, zone.spacing());
     let middle = pair(narrow, surface_x[core].to_vec());
-    Ok(Pair { wide: (wing > 0).then(|| Box::new(pair(wide, surface_x))), ..middle })
+    Ok(Pair { wide: (wing > 0).then(|| Box::new(pair(wide, surface_x))), smooth, ..middle })
 }

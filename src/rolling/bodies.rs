@@ -2,8 +2,9 @@
 
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
-use crate::contact::{ContactSolver, Traction};
+use crate::contact::{ContactSolver, ContactState};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
+use crate::mechanics::smooth::POINTS;
 use crate::mechanics::{MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
 use nalgebra::DMatrix;
@@ -20,6 +21,8 @@ pub struct Bodies {
     narrow: [Box<dyn BodyResponse>; 2],
     /// The same with the ports of wide ones, and their number.
     wide: Option<([Box<dyn BodyResponse>; 2], usize)>,
+    /// The same less half-planes, for a solver that knows those, and the number of their ports.
+    smooth: Option<([Box<dyn BodyResponse>; 2], usize)>,
     /// What its base stands on; `None`: it is fixed.
     pub support: Option<TrackSupport>,
     /// Whether the correction of the contact solver is part of them, because it is damped as they are.
@@ -64,15 +67,14 @@ impl Bodies {
             let ports = 2 * pair.surface_x.len();
             (corrected(pair.wheel, pair.rail, ports), ports)
         });
-        Self { narrow, wide, support, hold_correction }
+        let smooth = pair.smooth.map(|pair| ([pair.wheel, pair.rail], 2 * POINTS));
+        Self { narrow, wide, smooth, support, hold_correction }
     }
 
     /// Wheel and rail with so many ports.
     fn with_ports(&self, ports: usize) -> [&dyn BodyResponse; 2] {
-        let [wheel, rail] = match &self.wide {
-            Some((wide, wide_ports)) if *wide_ports == ports => wide,
-            _ => &self.narrow,
-        };
+        let other = self.wide.iter().chain(&self.smooth).find(|(_, count)| *count == ports);
+        let [wheel, rail] = other.map_or(&self.narrow, |(bodies, _)| bodies);
         [&**wheel, &**rail]
     }
 
@@ -87,8 +89,8 @@ impl Bodies {
     }
 
     /// Elastic energy of the contact solver's correction, unless the bodies count it [J/m].
-    pub fn correction_energy(&self, solver: &dyn ContactSolver, traction: &Traction) -> f64 {
-        if self.hold_correction { 0.0 } else { solver.correction_energy(traction) }
+    pub fn correction_energy(&self, solver: &dyn ContactSolver, contact: &ContactState) -> f64 {
+        if self.hold_correction { 0.0 } else { solver.correction_energy(contact) }
     }
 
     /// Operators for `a0` on the ports of `state`, from the cache if they are there.

@@ -117,6 +117,17 @@ pub enum StepError {
     ForeignState,
 }
 
+impl StepError {
+    /// Whether another view of the same surfaces may have an answer: a wider zone, or a grid in place of a single patch.
+    pub fn asks_for_width(&self) -> bool {
+        match self {
+            StepError::ZoneExceeded { .. } => true,
+            StepError::Contact { source, .. } => matches!(source, ContactError::Unsuited { .. }),
+            _ => false,
+        }
+    }
+}
+
 /// Why a model could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {

@@ -8,8 +8,9 @@ use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::analytic;
-use crate::config::Config;
+use crate::config::{Config, ContactMethod, TimeScheme};
 use crate::contact::grid::{ContactGrid, GridSolver};
+use crate::contact::patch::{HalfPlane, PatchSolver};
 use crate::contact::{self, ContactSolver};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
@@ -67,7 +68,24 @@ impl Model {
         if let Some(wide) = &bodies.wide {
             solver = solver.with_wider(grid(wide));
         }
-        Self::with_solver(config, bodies, Box::new(solver))
+        let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies) {
+            Some((half_plane, reach)) => {
+                let only = config.solver.contact == ContactMethod::Patch;
+                Box::new(PatchSolver::new(solver, half_plane, reach, only))
+            }
+            None => Box::new(solver),
+        };
+        Self::with_solver(config, bodies, solver)
+    }
+
+    /// What the solver on a single patch needs to know of the bodies, where it is asked for and no parameter rules it out: the
+    /// half-plane that they lack, and how far they are known \[m].
+    fn patch_reach(config: &Config, bodies: &Pair) -> Option<(HalfPlane, f64)> {
+        let expansion = config.thermal.enabled && config.physics.thermal_expansion;
+        let rates = config.solver.time_scheme == TimeScheme::Theta;
+        let smooth = bodies.smooth.as_ref().filter(|_| config.solver.contact != ContactMethod::Grid)?;
+        let mechanics::HalfPlane { kernel, coupling } = smooth.half_plane;
+        (!expansion && !rates).then_some((HalfPlane { kernel, coupling }, smooth.reach))
     }
 
     /// Builds the model on given bodies and a contact solver that belongs to their ports.

@@ -104,10 +104,13 @@ fn attempt(
     next: &mut State,
 ) -> Result<(), StepError> {
     let mut solved = solve_and_commit(model, state, demand, plan, workspace, next);
-    if let Err(StepError::ZoneExceeded { .. }) = solved
-        && let Some(wide) = zones::widened(model, state)
+    let mut wide = None;
+    while let Err(error) = &solved
+        && error.asks_for_width()
+        && let Some(wider) = zones::widened(model, wide.as_ref().unwrap_or(state))
     {
-        solved = solve_and_commit(model, &wide, demand, plan, workspace, next);
+        solved = solve_and_commit(model, &wider, demand, plan, workspace, next);
+        wide = Some(wider);
     }
     solved?;
     zones::narrow(model, next);

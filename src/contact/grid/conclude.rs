@@ -5,9 +5,6 @@ use super::observe;
 use super::power::Power;
 use crate::multistep::History;
 
-/// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
-const ENDING: f64 = 0.2;
-
 impl Iterate<'_> {
     /// Moves the histories on and reads off the traction.
     pub(super) fn conclude(self) {
@@ -32,11 +29,7 @@ impl Iterate<'_> {
         let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
         let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
         let [friction, work] = power.friction(&problem.time, &mut state.friction);
-        (traction.friction_power, traction.friction_work) = (friction, work);
-        let mean = if problem.duration > 0.0 { (work / problem.duration).max(0.0) } else { friction };
-        // Where friction has all but ended within the step, its mean stands for it.
-        let power = if friction > ENDING * mean { friction } else { mean };
-        traction.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
+        let power = traction.dissipate(friction, work, problem.duration);
         traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, &scratch.dents, traction);
         observe::overlap(grid, state, &scratch.overlap, traction);
         let pressures = scratch.limit.iter().enumerate().map(|(i, force)| force / grid.width(i));

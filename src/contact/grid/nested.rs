@@ -51,7 +51,7 @@ pub(super) fn move_to(grid: &ContactGrid, state: &mut GridState, traction: &mut 
     if state.status.is_empty() {
         return;
     }
-    let GridState { status, yielded, slip, gap, tangential_gap, friction, turn: _ } = state;
+    let GridState { status, yielded, slip, gap, tangential_gap, friction, turn: _, rest: _ } = state;
     *status = padded(status, n, Status::Open);
     *yielded = padded(yielded, n, false);
     *slip = padded(slip, n, 0.0);

@@ -37,7 +37,7 @@ impl GridSolver {
     }
 
     /// The grid to which so many ports belong.
-    fn grid(&self, ports: usize) -> Option<&ContactGrid> {
+    pub(in crate::contact) fn grid(&self, ports: usize) -> Option<&ContactGrid> {
         self.grids.iter().find(|grid| grid.ports() == ports)
     }
 }
@@ -57,8 +57,8 @@ impl ContactSolver for GridSolver {
         self.kernel.add_to(rail, 0.5);
     }
 
-    fn correction_energy(&self, traction: &Traction) -> f64 {
-        self.kernel.energy(&traction.port_forces)
+    fn correction_energy(&self, state: &ContactState) -> f64 {
+        self.kernel.energy(&state.traction.port_forces)
     }
 
     fn touching(&self, half_width: f64) -> ContactState {
@@ -75,6 +75,7 @@ impl ContactSolver for GridSolver {
             tangential_gap: vec![History::default(); n],
             friction: FrictionHistory::none(n),
             turn: History::default(),
+            rest: 0,
         };
         let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
         let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };

@@ -100,6 +100,8 @@ pub struct GridState {
     /// Angle by which the rim under the contact has turned against the hub, and its history, positive where the tread
     /// moves towards `+x` \[rad].
     pub turn: History,
+    /// Steps before another solver is tried again.
+    pub rest: u32,
 }
 
 impl GridState {
@@ -111,6 +113,6 @@ impl GridState {
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
         self.friction.copy_from(&other.friction);
-        self.turn = other.turn;
+        (self.turn, self.rest) = (other.turn, other.rest);
     }
 }

@@ -65,7 +65,8 @@ pub(super) fn settle(
         let sought = goal.sought.filter(|_| touching);
         let pass = Pass { model, goal, friction, sought };
         let mut passed = pass.run(&state, &mut trial, workspace, &mut next);
-        if let Err(StepError::ZoneExceeded { .. }) = passed
+        while let Err(error) = &passed
+            && error.asks_for_width()
             && let Some(wide) = zones::widened(model, &state)
         {
             state = wide;
@@ -148,7 +149,9 @@ impl Pass<'_> {
             solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
         }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
-            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => beyond,
+            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => {
+                beyond
+            }
             _ => model.contact.failure(error, 0.0, 0.0),
         })?;
         let accelerations = trial.accelerations;

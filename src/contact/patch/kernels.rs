@@ -1,0 +1,238 @@
+//! Tractions as series of Chebyshev polynomials under a square root, and what they do to a half-plane.
+//!
+//! On the stretch `x = c + b t`, `|t| < 1`, let `f = √(1 − t²) Σ f_k U_k(t)`. With `Z_n = T_n(t)` on the stretch and
+//! `Z_n = (t − sgn(t) √(t² − 1))^n` beyond it (F. W. King, *Hilbert Transforms*, Cambridge 2009, ch. 11)
+//!
+//! ```text
+//! ∫ f/(x − s) ds    = π Σ f_k Z_{k+1}(t)
+//! ∫ f ln|x − s| ds  = b Σ f_k I_k(t) + ½ π b ln b f_0,     I_k = ½ π (Z_{k+2}/(k + 2) − Z_k/k)
+//! ```
+//!
+//! where `−Z_0/0` stands for `−ln 2` on the stretch and for `ln ½(|t| + √(t² − 1))` beyond it.
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_2, LN_2, PI};
+
+/// Largest number of terms of a series.
+pub const TERMS: usize = 12;
+
+/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// A line force displaces the surface along itself by this times `−ln|x|` [m/(N/m)].
+    pub kernel: f64,
+    /// A pressure shortens the surface by this share per pascal [1/Pa].
+    pub coupling: f64,
+}
+
+/// One traction of this form.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Arch {
+    /// Middle of the stretch \[m].
+    pub centre: f64,
+    /// Half of its length \[m]; zero: there is none.
+    pub half_width: f64,
+    /// Number of terms.
+    pub count: usize,
+    /// Coefficients \[Pa]; zero from the number of terms on.
+    pub terms: [f64; TERMS],
+}
+
+/// Writes `Z_n(t)` for all n that fit.
+fn powers(t: f64, z: &mut [f64]) {
+    z[0] = 1.0;
+    if t.abs() <= 1.0 {
+        z[1] = t;
+        for n in 2..z.len() {
+            z[n] = 2.0 * t * z[n - 1] - z[n - 2];
+        }
+    } else {
+        let base = 1.0 / (t + t.signum() * (t * t - 1.0).sqrt());
+        for n in 1..z.len() {
+            z[n] = base * z[n - 1];
+        }
+    }
+}
+
+/// What stands for `−Z_0/0`.
+fn zeroth(t: f64) -> f64 {
+    let t = t.abs();
+    if t <= 1.0 { -LN_2 } else { (0.5 * (t + (t * t - 1.0).sqrt())).ln() }
+}
+
+/// `Z_1 … Z_count` at t: the Cauchy integrals of the terms over π.
+pub fn cauchy_terms(t: f64, count: usize) -> [f64; TERMS] {
+    let mut z = [0.0; TERMS + 2];
+    powers(t, &mut z[..count + 2]);
+    std::array::from_fn(|k| z[k + 1])
+}
+
+/// `I_0 …` at t: the logarithmic integrals of the terms on a stretch of half-length 1.
+pub fn logarithm_terms(t: f64, count: usize) -> [f64; TERMS] {
+    let mut z = [0.0; TERMS + 2];
+    powers(t, &mut z[..count + 2]);
+    std::array::from_fn(|k| {
+        let lower = if k == 0 { zeroth(t) } else { -z[k] / k as f64 };
+        if k < count { FRAC_PI_2 * (z[k + 2] / (k + 2) as f64 + lower) } else { 0.0 }
+    })
+}
+
+impl Arch {
+    /// Place on the stretch.
+    fn place(&self, x: f64) -> f64 {
+        (x - self.centre) / self.half_width
+    }
+
+    /// Ends of the stretch \[m].
+    pub fn ends(&self) -> [f64; 2] {
+        [self.centre - self.half_width, self.centre + self.half_width]
+    }
+
+    /// Traction at x \[Pa].
+    pub fn density(&self, x: f64) -> f64 {
+        if self.half_width == 0.0 {
+            return 0.0;
+        }
+        let t = self.place(x);
+        if t.abs() >= 1.0 {
+            return 0.0;
+        }
+        let (mut before, mut now, mut sum) = (0.0, 1.0, 0.0);
+        for f in &self.terms[..self.count] {
+            sum += f * now;
+            (before, now) = (now, 2.0 * t * now - before);
+        }
+        sum * (1.0 - t * t).sqrt()
+    }
+
+    /// `∫ f/(x − s) ds` \[Pa].
+    pub fn cauchy(&self, x: f64) -> f64 {
+        if self.half_width == 0.0 {
+            return 0.0;
+        }
+        PI * sum(self.place(x), self.count, |k| self.terms[k])
+    }
+
+    /// `∫ f ln|x − s| ds` [N/m], lengths in metres.
+    pub fn logarithm(&self, x: f64) -> f64 {
+        if self.half_width == 0.0 {
+            return 0.0;
+        }
+        let (t, f) = (self.place(x), &self.terms);
+        // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
+        let order = |k: usize| {
+            let (below, own) = (if k > 0 { f[k - 1] } else { 0.0 }, if k + 1 < self.count { f[k + 1] } else { 0.0 });
+            (below - own) * SHARES[k]
+        };
+        let own = sum(t, self.count + 1, order) + zeroth(t) * f[0];
+        FRAC_PI_2 * self.half_width * (own + self.half_width.ln() * f[0])
+    }
+
+    /// Whether numbers are finite and in range.
+    pub fn is_sound(&self) -> bool {
+        self.count <= TERMS
+            && self.half_width >= 0.0
+            && self.centre.is_finite()
+            && self.half_width.is_finite()
+            && self.terms.iter().all(|term| term.is_finite())
+    }
+
+    /// `∫ f ds` [N/m].
+    pub fn total(&self) -> f64 {
+        FRAC_PI_2 * self.half_width * self.terms[0]
+    }
+}
+
+/// `Σ f(k) Z_{k+1}(t)` over k below the count.
+fn sum(t: f64, count: usize, f: impl Fn(usize) -> f64) -> f64 {
+    if t.abs() <= 1.0 {
+        // Clenshaw's recursion.
+        let (mut next, mut now) = (0.0, 0.0);
+        for k in (0..count).rev() {
+            (next, now) = (now, f(k) + 2.0 * t * now - next);
+        }
+        t * now - next
+    } else {
+        let base = 1.0 / (t + t.signum() * (t * t - 1.0).sqrt());
+        base * (0..count).rev().fold(0.0, |sum, k| f(k) + base * sum)
+    }
+}
+
+/// 1, ½, ⅓, …
+const SHARES: [f64; TERMS + 1] = {
+    let (mut shares, mut k) = ([1.0; TERMS + 1], 0);
+    while k <= TERMS {
+        shares[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    shares
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arch() -> Arch {
+        let mut terms = [0.0; TERMS];
+        terms[..5].copy_from_slice(&[3.0, -1.0, 0.7, 0.2, -0.4]);
+        Arch { centre: 0.3, half_width: 0.02, count: 5, terms }
+    }
+
+    /// `∫ f w ds` by the rule of Gauss and Chebyshev over `s = c + b cos θ`.
+    fn integral(arch: &Arch, weight: impl Fn(f64) -> f64) -> f64 {
+        let n = 20_000;
+        let sum: f64 = (0..n)
+            .map(|i| {
+                let theta = (f64::from(i) + 0.5) * PI / f64::from(n);
+                let s = arch.centre + arch.half_width * theta.cos();
+                arch.density(s) * weight(s) * arch.half_width * theta.sin()
+            })
+            .sum();
+        sum * PI / f64::from(n)
+    }
+
+    #[test]
+    fn integrals_of_a_series_are_those_of_quadrature_beyond_its_stretch() {
+        let arch = arch();
+        assert!((integral(&arch, |_| 1.0) - arch.total()).abs() < 1e-12);
+        for x in [0.1, 0.27, 0.2795, 0.3205, 0.34, 0.9] {
+            let (cauchy, logarithm) = (integral(&arch, |s| 1.0 / (x - s)), integral(&arch, |s| (x - s).abs().ln()));
+            assert!((arch.cauchy(x) - cauchy).abs() < 1e-9 * 3.0, "{x}: {} {cauchy}", arch.cauchy(x));
+            assert!((arch.logarithm(x) - logarithm).abs() < 1e-12, "{x}: {} {logarithm}", arch.logarithm(x));
+        }
+    }
+
+    /// The principal value is an ordinary integral of `(f(s) − f(x))/(x − s)` and a logarithm.
+    #[test]
+    fn on_its_stretch_the_principal_value_and_the_logarithm_agree_with_quadrature() {
+        let arch = arch();
+        let [low, high] = arch.ends();
+        let n = 400_000;
+        for x in [0.2841, 0.3, 0.3107, 0.3193] {
+            let f = arch.density(x);
+            let (mut cauchy, mut logarithm) = (f * ((x - low) / (high - x)).ln(), 0.0);
+            for i in 0..n {
+                let theta = (f64::from(i) + 0.5) * PI / f64::from(n);
+                let (s, ds) =
+                    (arch.centre + arch.half_width * theta.cos(), PI / f64::from(n) * arch.half_width * theta.sin());
+                cauchy += (arch.density(s) - f) / (x - s) * ds;
+                logarithm += (arch.density(s) - f) * (x - s).abs().ln() * ds;
+            }
+            logarithm += f * ((x - low) * (x - low).ln() + (high - x) * (high - x).ln() - (high - low));
+            assert!((arch.cauchy(x) - cauchy).abs() < 1e-5, "{x}: {} {cauchy}", arch.cauchy(x));
+            assert!((arch.logarithm(x) - logarithm).abs() < 1e-9, "{x}: {} {logarithm}", arch.logarithm(x));
+        }
+    }
+
+    #[test]
+    fn the_logarithm_is_continuous_at_the_ends_and_its_slope_is_the_principal_value() {
+        let arch = arch();
+        for end in arch.ends() {
+            assert!((arch.logarithm(end - 1e-12) - arch.logarithm(end + 1e-12)).abs() < 1e-9);
+        }
+        for x in [0.25, 0.285, 0.3, 0.317, 0.35] {
+            let slope = (arch.logarithm(x + 1e-6) - arch.logarithm(x - 1e-6)) / 2e-6;
+            assert!((slope - arch.cauchy(x)).abs() < 1e-5 * arch.terms[0], "{x}");
+        }
+    }
+}

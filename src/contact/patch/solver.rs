@@ -1,0 +1,178 @@
+//! The contact solver that takes the patch where it can, and the grid where it cannot.
+
+use super::iterate::{Constants, Iterate};
+use super::kernels::{Arch, HalfPlane};
+use super::state::{Past, PatchState, Tractions};
+use super::tables::{PRESSURE, Tables};
+use super::transfer;
+use crate::contact::error::ContactError;
+use crate::contact::grid::GridSolver;
+use crate::contact::problem::ContactProblem;
+use crate::contact::solver::{ContactSolver, ContactState, Scratch, SolverState};
+use crate::contact::traction::Traction;
+use crate::linalg::{Lagrange, POINTS};
+use crate::piecewise::Piecewise;
+use nalgebra::{DMatrix, DVector};
+
+/// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the series do not resolve what is
+/// carried through it.
+const SHORTEST_WAY: f64 = 0.01;
+
+/// Largest half-width of a start over the reach of the bodies \[1].
+const LARGEST_START: f64 = 0.9;
+
+/// Contact on a single patch, and on a grid where there is none.
+#[derive(Clone, Debug)]
+pub struct PatchSolver {
+    grid: GridSolver,
+    constants: Constants,
+    /// Whether there is no way to the grid.
+    only: bool,
+}
+
+impl PatchSolver {
+    /// Patches within `reach` \[m] of the contact point on bodies that lack a half-plane each, beside a `grid`; `only`: which is
+    /// never used.
+    pub fn new(grid: GridSolver, half_plane: HalfPlane, reach: f64, only: bool) -> Self {
+        let constants = Constants { half_plane, points: Lagrange::new(reach), tables: Tables::new() };
+        Self { grid, constants, only }
+    }
+
+    /// Refuses problems in which a patch is not smooth, or whose past is not what the series can carry.
+    fn check(&self, problem: &ContactProblem, before: &PatchState) -> Result<(), ContactError> {
+        let (surfaces, placement, limits) = (problem.surfaces, &problem.placement, &problem.limits);
+        let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
+        if !(surfaces.wheel.is_empty() && surfaces.rail.is_empty()) {
+            return refuse("the surfaces have profiles");
+        }
+        if placement.flattening.iter().any(|flattening| !flattening.is_empty()) {
+            return refuse("the surfaces are flattened");
+        }
+        if placement.swelling.iter().chain(&problem.membrane).any(|layer| !layer.is_empty()) {
+            return refuse("hot layers swell");
+        }
+        if !limits.film.is_empty() {
+            return refuse("a surface melts");
+        }
+        if problem.friction.varies() {
+            return refuse("the friction coefficient depends on the slip");
+        }
+        if problem.time.b1 != 0.0 {
+            return refuse("the time formula remembers rates");
+        }
+        let speed = problem.rigid[0].start().abs() + (problem.radius() * problem.rigid[2].start()).abs();
+        let slow = 0.5 * speed < SHORTEST_WAY * before.tractions.pressure.half_width * problem.time.a0;
+        if slow { refuse("the material hardly moves") } else { Ok(()) }
+    }
+
+    /// Refuses a solution under which steel yields.
+    fn check_limits(problem: &ContactProblem, traction: &Traction) -> Result<(), ContactError> {
+        let limits = &problem.limits;
+        let yields = |(x, p): (&f64, &f64)| *p > limits.pressure_at(*x);
+        let pressure = &traction.pressure;
+        let any = limits.is_limited()
+            && (traction.pressure_max > limits.pressure_at(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
+        if any { Err(ContactError::Unsuited { reason: "steel yields" }) } else { Ok(()) }
+    }
+}
+
+impl ContactSolver for PatchSolver {
+    fn correct(&self, wheel: &mut DMatrix<f64>, rail: &mut DMatrix<f64>) {
+        if wheel.nrows() != 2 * POINTS {
+            self.grid.correct(wheel, rail);
+        }
+    }
+
+    fn correction_energy(&self, state: &ContactState) -> f64 {
+        match &state.solver {
+            SolverState::Patch(patch) => patch.energy,
+            _ => self.grid.correction_energy(state),
+        }
+    }
+
+    fn touching(&self, half_width: f64) -> ContactState {
+        let reach = self.constants.points.reach;
+        if half_width >= reach && !self.only {
+            return self.grid.touching(half_width);
+        }
+        let half_width = half_width.min(LARGEST_START * reach);
+        let mut pressure = Arch { centre: 0.0, half_width, count: PRESSURE, ..Arch::default() };
+        // That of a cylinder is found in the first iteration.
+        pressure.terms[0] = 1.0;
+        let tractions = Tractions { pressure, slide: 1.0, stick: Arch { terms: Default::default(), ..pressure } };
+        let past = [(); 2].map(|()| Past::Patch(Tractions::default(), [0.0; POINTS]));
+        let state = PatchState { tractions, past, ..PatchState::default() };
+        let ports = || DVector::zeros(2 * POINTS);
+        let [loads, surface] = [(); 2].map(|()| [ports(), ports()]);
+        let traction = Traction { port_forces: ports(), loads, surface, ..Traction::default() };
+        ContactState { traction, solver: SolverState::Patch(Box::new(state)) }
+    }
+
+    fn solve(
+        &self,
+        problem: &ContactProblem,
+        start: &ContactState,
+        found: &mut ContactState,
+        scratch: &mut Scratch,
+    ) -> Result<(), ContactError> {
+        let SolverState::Patch(before) = &start.solver else {
+            self.grid.solve(problem, start, found, scratch)?;
+            if let (SolverState::Grid(grid), false) = (&mut found.solver, problem.time.is_stationary()) {
+                grid.rest = grid.rest.saturating_sub(1);
+            }
+            return Ok(());
+        };
+        if problem.bodies.relative.nrows() != 2 * POINTS {
+            return Err(ContactError::ForeignState);
+        }
+        self.check(problem, before)?;
+        let mut iterate = Iterate::new(&self.constants, problem, before, start.traction.rigid[1]);
+        iterate.run()?;
+        let ContactState { traction, solver } = found;
+        match solver {
+            SolverState::Patch(state) => state.clone_from(before),
+            _ => *solver = SolverState::Patch(before.clone()),
+        }
+        let SolverState::Patch(state) = solver else { return Err(ContactError::ForeignState) };
+        iterate.conclude(state, traction);
+        Self::check_limits(problem, traction)
+    }
+
+    fn widened(&self, state: &ContactState) -> Option<ContactState> {
+        match &state.solver {
+            SolverState::Patch(_) if self.only => None,
+            SolverState::Patch(patch) => {
+                let half_width = patch.tractions.pressure.half_width;
+                let target = self.grid.touching(half_width);
+                let grid = self.grid.grid(target.traction.port_forces.len())?;
+                Some(transfer::to_grid(&self.constants, patch, &state.traction, grid, target))
+            }
+            _ => self.grid.widened(state),
+        }
+    }
+
+    fn narrowed(&self, state: &ContactState, nominal_load: f64) -> Option<ContactState> {
+        if matches!(state.solver, SolverState::Patch(_)) {
+            return None;
+        }
+        self.grid.narrowed(state, nominal_load).or_else(|| {
+            let grid = self.grid.grid(state.traction.port_forces.len())?;
+            transfer::to_patch(&self.constants, grid, state)
+        })
+    }
+
+    fn surface_strain(&self, traction: &Traction) -> [Piecewise; 2] {
+        self.grid.surface_strain(traction)
+    }
+
+    fn fits(&self, state: &ContactState) -> bool {
+        let SolverState::Patch(patch) = &state.solver else { return self.grid.fits(state) };
+        let traction = &state.traction;
+        let arches = [&patch.tractions.pressure, &patch.tractions.stick];
+        let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
+        arches.iter().all(|arch| arch.is_sound())
+            && patch.past.iter().all(Past::is_sound)
+            && vectors.into_iter().all(|values| values.len() == 2 * POINTS)
+            && traction.port_forces.iter().all(|f| f.is_finite())
+    }
+}

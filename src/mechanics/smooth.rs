@@ -1,0 +1,161 @@
+//! Bodies less the half-plane: what is left of their surface compliance is smooth.
+//!
+//! Close to a load every body answers like a half-plane. A contact solver that knows the half-plane in closed form needs of
+//! the body only the difference, which varies over the size of the body, and therefore only a polynomial of it: its ports
+//! are the displacements at a few points of the contact zone. The modes are those of the body with all its surface nodes.
+//! Derivation: `docs/theory/patch-contact.md`.
+
+use super::reduction::{ReducedBasis, scale_columns};
+use crate::linalg::Lagrange;
+pub use crate::linalg::POINTS;
+use crate::linalg::dense::symmetrise;
+use crate::material::Isotropic;
+use nalgebra::{DMatrix, DVector};
+
+/// Nodes within which the compliance of a mesh is not yet that of the elastic body.
+const NEAR: usize = 8;
+
+/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// `κ = 2 (1 − ν²)/(πE)`: a line force displaces the surface along itself by `−κ ln|x|` [m/(N/m)].
+    pub kernel: f64,
+    /// `g = (1 − 2ν)(1 + ν)/E`: a pressure strains the surface by `−g p` [1/Pa].
+    pub coupling: f64,
+}
+
+impl HalfPlane {
+    /// Of this material.
+    pub fn new(material: &Isotropic) -> Self {
+        Self { kernel: material.surface_kernel(), coupling: material.surface_coupling() }
+    }
+
+    /// Displacement `component` (0: x, 1: y) at the distance `x` \[m] from a unit line force in direction `force`, of a body that
+    /// lies above its surface (`side` 1) or below it (−1), but for a constant [m/(N/m)].
+    fn displacement(&self, component: usize, force: usize, x: f64, side: f64) -> f64 {
+        match (component, force) {
+            (0, 1) => -0.5 * side * self.coupling * x.signum(),
+            (1, 0) => 0.5 * side * self.coupling * x.signum(),
+            _ => -self.kernel * x.abs().ln(),
+        }
+    }
+}
+
+impl ReducedBasis {
+    /// The body less a half-plane, on the points of `basis`; `x` are its surface nodes \[m]. `None` where there are too few.
+    pub(super) fn smooth(&self, x: &[f64], basis: &Lagrange, half_plane: HalfPlane, side: f64) -> Option<Self> {
+        let weighted = scale_columns(&self.shapes, &self.squared_frequencies.map(f64::recip));
+        let mut compliance = self.residual.clone();
+        compliance.gemm(1.0, &weighted, &self.shapes.transpose(), 1.0);
+        let rest = |c: usize, d: usize, i: usize, j: usize| {
+            compliance[(2 * i + c, 2 * j + d)] - half_plane.displacement(c, d, x[i] - x[j], side)
+        };
+        let projection = Projection::new(x, basis)?;
+        let shapes = projection.of(&self.shapes);
+        let mut residual = projection.fit(x, rest)?;
+        let weighted = scale_columns(&shapes, &self.squared_frequencies.map(f64::recip));
+        residual.gemm(-1.0, &weighted, &shapes.transpose(), 1.0);
+        symmetrise(&mut residual);
+        let centrifugal = DMatrix::from_column_slice(2 * x.len(), 1, self.centrifugal_residual.as_slice());
+        Some(Self {
+            shapes,
+            residual,
+            rigid_residual: projection.of(&self.rigid_residual),
+            centrifugal_residual: projection.of(&centrifugal).column(0).into_owned(),
+            ..self.clone()
+        })
+    }
+}
+
+/// From surface nodes to the points of a polynomial.
+struct Projection<'a> {
+    basis: &'a Lagrange,
+    matrix: DMatrix<f64>,
+}
+
+impl<'a> Projection<'a> {
+    fn new(x: &[f64], basis: &'a Lagrange) -> Option<Self> {
+        Some(Self { basis, matrix: basis.projection(x)? })
+    }
+
+    /// Rows of surface components at the nodes as rows at the points.
+    fn of(&self, rows: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut projected = DMatrix::zeros(2 * POINTS, rows.ncols());
+        for component in 0..2 {
+            let own = DMatrix::from_fn(rows.nrows() / 2, rows.ncols(), |i, j| rows[(2 * i + component, j)]);
+            let own = &self.matrix * own;
+            for k in 0..POINTS {
+                projected.row_mut(2 * k + component).copy_from(&own.row(k));
+            }
+        }
+        projected
+    }
+
+    /// The smooth function of two places (components `c` and `d`, nodes i and j) that `rest` is away from its diagonal.
+    fn fit(&self, x: &[f64], rest: impl Fn(usize, usize, usize, usize) -> f64) -> Option<DMatrix<f64>> {
+        let values: Vec<[f64; POINTS]> = x.iter().map(|&x| self.basis.values(x)).collect();
+        let size = POINTS * POINTS;
+        let mut normal = DMatrix::zeros(size, size);
+        let mut sides = [(); 4].map(|()| DVector::zeros(size));
+        for i in 0..x.len() {
+            for j in (0..x.len()).filter(|j| i.abs_diff(*j) >= NEAR) {
+                let row = DVector::from_fn(size, |k, _| values[i][k / POINTS] * values[j][k % POINTS]);
+                normal.ger(1.0, &row, &row, 1.0);
+                for (k, side) in sides.iter_mut().enumerate() {
+                    side.axpy(rest(k / 2, k % 2, i, j), &row, 1.0);
+                }
+            }
+        }
+        let factor = normal.cholesky()?;
+        let mut fitted = DMatrix::zeros(2 * POINTS, 2 * POINTS);
+        for (k, side) in sides.iter().enumerate() {
+            let solution = factor.solve(side);
+            for (l, value) in solution.iter().enumerate() {
+                fitted[(2 * (l / POINTS) + k / 2, 2 * (l % POINTS) + k % 2)] = *value;
+            }
+        }
+        Some(fitted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::testing::paper_d;
+    use crate::mechanics::{contact_modulus, nominal_half_width, rail_system, wheel_system};
+
+    /// The compliance of the mesh between nodes far apart is that of the half-plane and the polynomial together.
+    #[test]
+    fn half_plane_and_polynomial_are_the_body() {
+        let config = paper_d(10);
+        let half_plane = HalfPlane::new(&Isotropic::from(&config.material));
+        assert!((half_plane.kernel * std::f64::consts::PI * contact_modulus(&config) - 1.0).abs() < 1e-14);
+        for (system, side) in [(wheel_system(&config).unwrap(), 1.0), (rail_system(&config).unwrap(), -1.0)] {
+            let body = ReducedBasis::compute(&system, 6, &mut |_| {}).unwrap();
+            let n = body.residual.nrows() / 2;
+            let (h, half) = (nominal_half_width(&config) / 10.0, 16);
+            let body = body.cut(2 * (n / 2 - half)..2 * (n / 2 + half + 1));
+            let x: Vec<f64> = (0..=2 * half).map(|i| h * (i as f64 - half as f64)).collect();
+            let basis = Lagrange::new(h * half as f64);
+            let smooth = body.smooth(&x, &basis, half_plane, side).unwrap();
+            let statics = |body: &ReducedBasis| {
+                let weighted = scale_columns(&body.shapes, &body.squared_frequencies.map(f64::recip));
+                &body.residual + weighted * body.shapes.transpose()
+            };
+            let (exact, rest) = (statics(&body), statics(&smooth));
+            let mut worst = 0.0_f64;
+            for (i, j) in [(0, 30), (3, 20), (10, 22), (31, 12), (16, 32)] {
+                let (at, from) = (basis.values(x[i]), basis.values(x[j]));
+                for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let mut sum = half_plane.displacement(c, d, x[i] - x[j], side);
+                    for (k, l) in (0..POINTS).flat_map(|k| (0..POINTS).map(move |l| (k, l))) {
+                        sum += at[k] * from[l] * rest[(2 * k + c, 2 * l + d)];
+                    }
+                    worst = worst.max((sum - exact[(2 * i + c, 2 * j + d)]).abs());
+                }
+            }
+            println!("side {side}: {:.2e} of the kernel", worst / half_plane.kernel);
+            assert!(worst < 2e-3 * half_plane.kernel);
+        }
+    }
+}

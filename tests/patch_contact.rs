@@ -1,0 +1,346 @@
+//! The contact on a single smooth patch, `solver.contact = patch` and `auto`, on the bodies of the presets: against the converged
+//! reference and the contact on the grid, and what a run has to keep.
+
+mod common;
+use common::*;
+use std::sync::Arc;
+use wheelrail::config::{Config, ContactMethod};
+use wheelrail::contact::SolverState;
+use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, Vertical};
+
+type Field = fn(&mut Drive) -> &mut f64;
+
+/// A preset without heat, on the contact solver asked for.
+fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config)) -> Arc<Model> {
+    let mut config = preset(name, 20);
+    config.thermal.enabled = false;
+    config.solver.contact = contact;
+    change(&mut config);
+    model(config)
+}
+
+fn paper_d(contact: ContactMethod) -> Arc<Model> {
+    solved_by(contact, "paper_d", |config| config.physics.centrifugal = false)
+}
+
+fn is_patch(simulation: &Simulation) -> bool {
+    matches!(simulation.state().contact.solver, SolverState::Patch(_))
+}
+
+/// Creepage ramp from 0 to −8e-4 in 70 % of `duration`, held to its end: `F/μP` at tenths of the duration.
+fn creepage_ramp(model: &Arc<Model>, duration: f64, steps: usize) -> Vec<f64> {
+    let mut inputs = prescribed(model, 50.0 * KMH, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut tenths = Vec::new();
+    for k in 1..=steps {
+        let share = k as f64 / steps as f64;
+        inputs.drive.omega = omega(model, 50.0 * KMH, -8e-4 * (share / 0.7).min(1.0));
+        simulation.advance(&inputs, duration / steps as f64).unwrap();
+        assert!(is_patch(&simulation) || model.config().solver.contact == ContactMethod::Grid);
+        if k % (steps / 10) == 0 {
+            tenths.push(signed_utilisation(&simulation, inputs.drive.friction));
+        }
+    }
+    tenths
+}
+
+#[test]
+fn steady_rolling_is_that_of_the_grid_and_of_the_reference() {
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(paper_d);
+    let reference = [
+        (0.0, -0.003556),
+        (-1e-4, 0.298297),
+        (-3e-4, 0.741135),
+        (-5e-4, 0.967564),
+        (-8e-4, 1.0),
+        (1e-4, -0.304676),
+        (4e-4, -0.882458),
+    ];
+    for (xi, expected) in reference {
+        let [ours, theirs] = [&patch, &grid].map(|model| {
+            let simulation = Simulation::new(model.clone(), &prescribed(model, 50.0 * KMH, xi)).unwrap();
+            (signed_utilisation(&simulation, 0.4), simulation.outputs().clone())
+        });
+        println!("{xi:e}: patch {:.6}, grid {:.6}, reference {expected:.6}", ours.0, theirs.0);
+        assert!((ours.0 - theirs.0).abs() < 1e-3 && (ours.0 - expected).abs() < 1.5e-3);
+        let relative = |get: fn(&Outputs) -> f64| get(&ours.1) / get(&theirs.1) - 1.0;
+        assert!(relative(|o| o.contact_half_width).abs() < 5e-4 && relative(|o| o.contact_pressure_max).abs() < 3e-4);
+        assert!(relative(|o| o.contact_approach).abs() < 1e-4);
+        let power = (ours.1.friction_power - theirs.1.friction_power).abs();
+        println!("friction power {:.4} W and {power:.4} W", ours.1.friction_power);
+        assert!(power < 1e-3 * theirs.1.friction_power + 1e-3);
+        assert!((ours.1.contact_stick_fraction - theirs.1.contact_stick_fraction).abs() < 0.02);
+        // Independently computed: half-width 7.611e-4 ± 4e-7 m, pressure 83.65 ± 0.03 MPa.
+        assert!((ours.1.contact_half_width - 7.611e-4).abs() < 4e-7);
+        assert!((ours.1.contact_pressure_max - 83.65e6).abs() < 3e4);
+    }
+}
+
+#[test]
+fn the_railway_wheel_creeps_as_on_the_grid_from_a_tenth_of_the_load_to_nearly_twice_it() {
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(|method| solved_by(method, "railway", |_| {}));
+    for share in [0.1, 1.0, 1.9] {
+        for xi in [-6e-3, -2e-3, -5e-4, 0.0, 1e-3, 3e-3] {
+            for velocity in [1.0, 80.0 * KMH, -20.0] {
+                let [ours, theirs] = [&patch, &grid].map(|model| {
+                    let mut inputs = prescribed(model, velocity, xi);
+                    inputs.drive.load *= share;
+                    let simulation = Simulation::new(model.clone(), &inputs).unwrap();
+                    signed_utilisation(&simulation, inputs.drive.friction)
+                });
+                println!("{share} of the load, {velocity:.0} m/s, {xi:e}: {ours:.6} and {:.1e}", ours - theirs);
+                // A tenth of the load has six cells of the grid to a half-width.
+                let bound = if share < 0.5 { 6e-3 } else { 1e-3 };
+                assert!((ours - theirs).abs() < bound, "{ours} {theirs}");
+            }
+        }
+    }
+}
+
+/// Errors of the reference are up to 0.0059; where they exceed the 0.003 asked for, they are the bound.
+#[test]
+fn creepage_ramps_match_the_reference() {
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(paper_d);
+    let cases = [
+        (
+            1e-3,
+            [-0.0025, -0.0008, 0.0062, 0.0232, 0.0561, 0.1088, 0.1853, 0.2853, 0.4091, 0.5491],
+            [0.0015, 0.0015, 0.0015, 0.0015, 0.0016, 0.0016, 0.0018, 0.0018, 0.002, 0.0026],
+        ),
+        (
+            1e-2,
+            [0.0558, 0.3206, 0.5996, 0.8415, 0.9818, 1.0, 1.0, 1.0, 1.0, 1.0],
+            [0.0016, 0.0023, 0.0022, 0.0038, 0.0059, 0.0015, 0.0015, 0.0015, 0.0015, 0.0015],
+        ),
+        (
+            1e-1,
+            [0.3034, 0.5891, 0.7975, 0.9326, 0.9949, 1.0, 1.0, 1.0, 1.0, 1.0],
+            [0.003, 0.003, 0.0037, 0.0044, 0.0037, 0.0015, 0.0015, 0.0015, 0.0015, 0.0015],
+        ),
+    ];
+    for (duration, reference, errors) in cases {
+        let (curve, on_grid) = (creepage_ramp(&patch, duration, 400), creepage_ramp(&grid, duration, 400));
+        let differences: Vec<f64> = curve.iter().zip(&reference).map(|(a, b)| a - b).collect();
+        let from_grid = curve.iter().zip(&on_grid).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{duration:.0e} s: {curve:.4?}, from the reference {differences:.4?}, from the grid {from_grid:.5}");
+        assert!(from_grid < 1e-3);
+        for (difference, error) in differences.iter().zip(errors) {
+            assert!(difference.abs() <= f64::max(3e-3, error) + 2e-4, "{difference}");
+        }
+    }
+}
+
+/// Rolling under a brake moment that steps on and off; outputs after every millisecond.
+fn braked(model: &Arc<Model>, steps: usize) -> (Simulation, Inputs, Vec<Outputs>) {
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut seen = Vec::new();
+    for k in 0..steps {
+        inputs.drive.moment = if k % 100 < 60 { -7000.0 } else { 2000.0 };
+        simulation.advance(&inputs, 1e-3).unwrap();
+        seen.push(simulation.outputs().clone());
+    }
+    (simulation, inputs, seen)
+}
+
+#[test]
+fn a_braked_wheel_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
+    let run = |method| braked(&solved_by(method, "railway", |_| {}), 200).2;
+    let [ours, theirs] = [ContactMethod::Auto, ContactMethod::Grid].map(run);
+    let load = ours[0].contact_force_y;
+    let worst = |get: fn(&Outputs) -> f64, scale: f64| {
+        ours.iter().zip(&theirs).map(|(a, b)| (get(a) - get(b)).abs() / scale).fold(0.0, f64::max)
+    };
+    let force = worst(|o| o.contact_force_x, 0.3 * load);
+    let normal = worst(|o| o.contact_force_y, load);
+    let speed = worst(|o| o.wheel_velocity, ours[0].wheel_velocity);
+    let residual = ours.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max);
+    let on_grid = theirs.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max);
+    println!(
+        "force {force:.1e}, load {normal:.1e}, speed {speed:.1e}, residual {residual:.1e} ({on_grid:.1e} on the grid)"
+    );
+    assert!(force < 3e-3 && normal < 3e-4 && speed < 1e-6);
+    assert!(residual < 5e-3);
+}
+
+#[test]
+fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
+    // The moment jumps in such a way that the grid takes over in between.
+    let model = solved_by(ContactMethod::Auto, "railway", |_| {});
+    let (mut simulation, inputs, _) = braked(&model, 30);
+    assert!(is_patch(&simulation));
+    let checkpoint = simulation.checkpoint().clone();
+    let bytes = postcard::to_stdvec(&checkpoint).unwrap();
+    let go_on = |simulation: &mut Simulation| {
+        for k in 0..30 {
+            let mut inputs = inputs;
+            inputs.drive.moment = -1e4 * f64::from(k % 3);
+            simulation.advance(&inputs, 1e-3 * (1.0 + f64::from(k % 2))).unwrap();
+        }
+        simulation.state().clone()
+    };
+    let first = go_on(&mut simulation);
+    simulation.recall(checkpoint).unwrap();
+    assert!(go_on(&mut simulation) == first);
+    let restored = postcard::from_bytes(&bytes).unwrap();
+    let mut other = Simulation::resume(model.clone(), model.config().tuning.clone(), restored).unwrap();
+    assert!(go_on(&mut other) == first);
+}
+
+#[test]
+fn derivatives_by_the_inputs_are_those_of_steps_taken_anew() {
+    let model = solved_by(ContactMethod::Patch, "railway", |config| config.tuning.tolerance = 0.0);
+    let (mut simulation, mut inputs, _) = braked(&model, 30);
+    let before = simulation.checkpoint().clone();
+    inputs.drive.moment = -7500.0;
+    simulation.advance(&inputs, 1e-3).unwrap();
+    let fields: [(&str, Field, f64); 3] =
+        [("moment", |d| &mut d.moment, 40.0), ("load", |d| &mut d.load, 20.0), ("friction", |d| &mut d.friction, 1e-4)];
+    for (name, field, step) in fields {
+        let mut direction = Drive::default();
+        *field(&mut direction) = 1.0;
+        let found = simulation.difference(&direction).unwrap().quotient(|o| o.contact_force_x);
+        let [low, high] = [-step, step].map(|by| {
+            let mut inputs = inputs;
+            *field(&mut inputs.drive) += by;
+            let mut again = Simulation::resume(model.clone(), model.config().tuning.clone(), before.clone()).unwrap();
+            again.advance(&inputs, 1e-3).unwrap();
+            again.outputs().contact_force_x
+        });
+        let expected = (high - low) / (2.0 * step);
+        println!("d force_x / d {name}: {found:.8e}, by steps taken anew {expected:.8e}");
+        assert!((found / expected - 1.0).abs() < 1e-5);
+    }
+}
+
+/// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and takes over
+/// again. How much the force jumps at a change of solver is by what its second difference exceeds that of a run on the grid.
+#[test]
+fn a_change_of_solver_does_not_make_the_force_jump() {
+    let xi = -1.5e-3;
+    let run = |method| {
+        let model = solved_by(method, "railway", |config| config.tuning.tolerance = 0.0);
+        let mut inputs = prescribed(&model, 1.0, xi);
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let (mut forces, mut patch) = (Vec::new(), Vec::new());
+        for k in 0..800 {
+            let turn = std::f64::consts::TAU * f64::from(k) / 800.0;
+            inputs.drive.velocity = 0.51 + 0.49 * turn.cos();
+            inputs.drive.omega = omega(&model, inputs.drive.velocity, xi);
+            simulation.advance(&inputs, 1e-3).unwrap();
+            forces.push(simulation.outputs().contact_force_x / simulation.outputs().contact_force_y);
+            patch.push(is_patch(&simulation));
+        }
+        (forces, patch)
+    };
+    let ((forces, patch), (on_grid, _)) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
+    let excess = |k: usize| forces[k] - on_grid[k];
+    let changes: Vec<usize> = (3..798).filter(|&k| patch[k] != patch[k - 1]).collect();
+    println!("changes at {changes:?}, {} of 800 steps on the patch", patch.iter().filter(|on| **on).count());
+    for &k in &changes {
+        let jumps = [k, k + 1].map(|k| (excess(k) - excess(k - 1)).abs());
+        println!("{k} to patch: {}, jumps {:.1e} {:.1e}", patch[k], jumps[0], jumps[1]);
+        assert!(jumps.iter().all(|jump| *jump < 1e-4));
+    }
+    assert!(changes.len() >= 2);
+}
+
+#[test]
+fn auto_takes_the_grid_where_the_patch_does_not_hold_and_patch_alone_refuses() {
+    // Under three times the load the patch outgrows what is known of the smooth bodies.
+    let model = solved_by(ContactMethod::Auto, "railway", |_| {});
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.load *= 3.0;
+    let wide = Simulation::new(model.clone(), &inputs).unwrap();
+    assert!(!is_patch(&wide));
+    let only = solved_by(ContactMethod::Patch, "railway", |_| {});
+    let mut inputs = Inputs::rolling(only.config());
+    inputs.drive.load *= 3.0;
+    assert!(Simulation::new(only.clone(), &inputs).is_err());
+    // With heat that swells the surfaces the model keeps to the grid.
+    let hot = solved_by(ContactMethod::Auto, "railway", |config| config.thermal.enabled = true);
+    assert!(!is_patch(&Simulation::new(hot.clone(), &Inputs::rolling(hot.config())).unwrap()));
+}
+
+/// Locks the wheel with a moment far beyond adhesion, and lets it go again.
+#[test]
+fn a_wheel_that_locks_and_recovers_runs_through_as_on_the_grid() {
+    let run = |method| {
+        let model = solved_by(method, "railway", |_| {});
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let (mut seen, mut on_patch) = (Vec::new(), 0);
+        for k in 0..400 {
+            inputs.drive.moment = if k < 120 { -40e3 } else { 0.0 };
+            simulation.advance(&inputs, 1e-3).unwrap();
+            on_patch += usize::from(is_patch(&simulation));
+            seen.push((simulation.outputs().wheel_omega, simulation.outputs().wheel_velocity));
+        }
+        println!("{method:?}: {on_patch} of 400 steps end on a patch, last {:?}", seen[399]);
+        seen
+    };
+    let (ours, theirs) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
+    let end = |seen: &[(f64, f64)]| seen[399];
+    assert!((end(&ours).1 / end(&theirs).1 - 1.0).abs() < 1e-5);
+    assert!((end(&ours).0 / end(&theirs).0 - 1.0).abs() < 1e-3);
+}
+
+/// From rest under a driving moment, lifted off the rail, put down again and braked to a stop.
+#[test]
+fn a_wheel_that_starts_lifts_off_and_stops_runs_through_as_on_the_grid() {
+    let run = |method| {
+        let model = solved_by(method, "railway", |config| config.initial.velocity = 0.5);
+        let mut inputs = Inputs::rolling(model.config());
+        let mut on_patch = 0;
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let mut seen = Vec::new();
+        for k in 0..600 {
+            inputs.drive.moment = if k < 200 { 3000.0 } else { -6000.0 };
+            let lifted = (100..110).contains(&k);
+            inputs.vertical = if lifted { Vertical::Displacement } else { Vertical::Force };
+            inputs.drive.displacement = if lifted { 2e-5 } else { 0.0 };
+            simulation.advance(&inputs, 1e-3).unwrap();
+            on_patch += usize::from(is_patch(&simulation));
+            seen.push(simulation.outputs().clone());
+        }
+        let open = seen.iter().filter(|o| o.contact_force_y == 0.0).count();
+        println!("{method:?}: {on_patch} of 600 steps end on the patch, {open} without contact");
+        assert!(open > 5);
+        seen
+    };
+    let (ours, theirs) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
+    for k in [99, 150, 250, 400, 599] {
+        let (a, b) = (&ours[k], &theirs[k]);
+        println!(
+            "{k}: {:.6} and {:.6} m/s, {:.5} and {:.5} rad/s",
+            a.wheel_velocity, b.wheel_velocity, a.wheel_omega, b.wheel_omega
+        );
+        assert!(
+            (a.wheel_velocity - b.wheel_velocity).abs() < 1e-3 && (a.contact_force_y - b.contact_force_y).abs() < 2e3
+        );
+    }
+}
+
+/// Time of a step without heat, the best of many short runs on either solver in turn.
+#[test]
+#[ignore = "a measurement of time; run by hand"]
+fn a_step_on_the_patch_takes_less_than_half_of_one_on_the_grid() {
+    let runs = [ContactMethod::Patch, ContactMethod::Grid].map(|method| solved_by(method, "railway", |_| {}));
+    let mut simulations = runs.map(|model| {
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        inputs.drive.moment = -7000.0;
+        (0..200).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
+        (simulation, inputs)
+    });
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..200 {
+        for (best, (simulation, inputs)) in best.iter_mut().zip(&mut simulations) {
+            let begin = std::time::Instant::now();
+            (0..20).for_each(|_| simulation.advance(inputs, 1e-3).unwrap());
+            *best = best.min(begin.elapsed().as_secs_f64() / 20.0);
+        }
+    }
+    println!("patch {:.1} us, grid {:.1} us, ratio {:.3}", 1e6 * best[0], 1e6 * best[1], best[0] / best[1]);
+    assert!(best[0] < 0.5 * best[1]);
+}
