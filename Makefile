@@ -3,6 +3,7 @@
 # make fmu       target/wheelrail.fmu
 # make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
 # make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
+# make python-wheel  the Python package with the FMU inside: target/wheelrail-*.whl
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
@@ -36,7 +37,7 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -56,6 +57,11 @@ fmu-all: $(FMU_ALL)
 
 platforms-check: $(FMU_ALL)
 	$(PYTHON) packaging/check.py $(FMU_ALL) --run
+
+python-wheel: $(FMU) $(INSTALLED)
+	cp $(FMU) python/src/wheelrail/wheelrail.fmu
+	$(PY) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir target ./python; \
+		status=$$?; rm python/src/wheelrail/wheelrail.fmu; exit $$status
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
@@ -120,10 +126,11 @@ $(BUILT): $(SOURCES)
 	$(CARGO) build --release --locked
 	touch $@
 
-$(INSTALLED): requirements.txt
+$(INSTALLED): requirements.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable ./python
 	touch $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)

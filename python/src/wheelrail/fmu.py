@@ -1,5 +1,6 @@
 """One instance of wheelrail.fmu on fmpy's FMU2Slave: variables by name, enumerations by item name, SI units."""
 
+import os
 from ctypes import byref
 from itertools import count
 from pathlib import Path
@@ -34,10 +35,17 @@ _callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
 addLoggerProxy(byref(_callbacks))
 
 
-class Fmu:
-    """An FMU extracted once, for any number of instances. Use as a context manager."""
+def default_path():
+    """The FMU named by the environment variable WHEELRAIL_FMU, else the one inside this package, else that of a checkout."""
+    inside, built = Path(__file__).with_name("wheelrail.fmu"), Path("target/wheelrail.fmu")
+    return Path(os.environ.get("WHEELRAIL_FMU") or (inside if inside.is_file() else built))
 
-    def __init__(self, path):
+
+class Fmu:
+    """An FMU extracted once, for any number of instances: that at `path`, or at `default_path()`. A context manager."""
+
+    def __init__(self, path=None):
+        path = default_path() if path is None else path
         if not Path(path).is_file():
             raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`")
         self._temporary = TemporaryDirectory(prefix="wheelrail-")
