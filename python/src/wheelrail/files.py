@@ -89,11 +89,12 @@ class Named:
     default: dict | None = None
 
 
-def read_json(path, schema):
-    """The values of a JSON file as attributes; names that the schema does not know, and "source" apart, are errors.
+# Names that every object may have: where its numbers come from, and the schema for editors.
+REMARKS = ("source", "$schema")
 
-    Every object may have a text "source" that says where its numbers come from.
-    """
+
+def read_json(path, schema):
+    """The values of a JSON file as attributes. Names that are neither in the schema nor `REMARKS` are errors."""
     path = Path(path)
     text = _text(path)
     try:
@@ -139,7 +140,7 @@ def json_schema(schema):
     """The schema as JSON Schema (2020-12), for editors that complete and check."""
     properties = {name: _describe(field) for name, field in schema.items()}
     required = [name for name, field in schema.items() if _needed(field)]
-    properties["source"] = {"type": "string"}
+    properties |= {name: {"type": "string"} for name in REMARKS}
     return {"type": "object", "additionalProperties": False, "required": required, "properties": properties}
 
 
@@ -189,7 +190,7 @@ class _Reader:
         if not isinstance(values, dict):
             self.fail(place, f"is {values!r}, not an object")
         for name in values:
-            if name not in schema and name != "source":
+            if name not in schema and name not in REMARKS:
                 self.fail((*place, name), f"is unknown{_meant(name, schema)}")
         return SimpleNamespace(**{name: self.one(values, name, field, place) for name, field in schema.items()})
 
@@ -217,7 +218,7 @@ class _Reader:
         """An object with free names."""
         if not isinstance(value, dict):
             self.fail(place, f"is {value!r}, not an object")
-        return {name: self.one(value, name, field.item, place) for name in value if name != "source"}
+        return {name: self.one(value, name, field.item, place) for name in value if name not in REMARKS}
 
 
 def _text(path):

@@ -102,11 +102,18 @@ class Wheel:
 
     def set(self, values):
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
+        references, reals = [], []
         for name, value in values.items():
             variable = self.fmu.variables[name]
+            if variable.type == "Real":
+                references.append(variable.valueReference)
+                reals.append(value)
+                continue
             if variable.type == "Enumeration" and isinstance(value, str):
                 value = 1 + [item.name for item in variable.declaredType.items].index(value)
             self._call(self._access("set", variable), [variable.valueReference], [value])
+        if references:
+            self._call(self.slave.setReal, references, reals)
 
     def set_rates(self, values):
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
