@@ -17,6 +17,7 @@ b = sqrt(conductivity density heat capacity) [J/(m2 K sqrt(s))], has left at t (
 Solids, 10.3).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,8 +96,8 @@ class RailMap:
         if not -0.5 <= place <= last + 0.5:
             end = self.begin + self.cell * len(self.degraded)
             raise ValueError(f"position {position:g} m is off the rail map, {self.begin:g} to {end:g} m")
-        left = int(np.clip(np.floor(place), 0, max(last - 1, 0)))
-        share = float(np.clip(place - left, 0.0, 1.0))
+        left = min(max(math.floor(place), 0), max(last - 1, 0))
+        share = min(max(place - left, 0.0), 1.0)
         return np.array([left, min(left + 1, last)]), np.array([1.0 - share, share])
 
     def _between(self, start, end):

@@ -1,5 +1,6 @@
 """What a stop consists of, as files: scenario, vehicle, brake, track. `load` reads and checks all of them."""
 
+from bisect import bisect_right
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -172,7 +173,7 @@ def check_sections(track):
 
 def section(track, position):
     """Index of the section at a position [m]; the first one reaches back."""
-    return max(int(np.searchsorted(track.sections.position, position, side="right")) - 1, 0)
+    return max(bisect_right(track.sections.position, position) - 1, 0)
 
 
 def rail_map(track, behind, axles, dry=None):

@@ -48,7 +48,8 @@ class Contacts:
         self.places = np.array(positions, float)
         self.seen = None
         self.met = [(0.0, 0.0)] * len(wheelsets)
-        self.pool = ThreadPoolExecutor(len(wheelsets))
+        # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not.
+        self.pool = ThreadPoolExecutor(len(wheelsets)) if isinstance(wheelsets[0], FmuWheelset) else None
 
     def step(self, h, forces, loads, torques, sand):
         """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle."""
@@ -58,7 +59,8 @@ class Contacts:
             for k in range(len(self.wheelsets))
         ]
         before = self.seen
-        self.seen = list(self.pool.map(lambda pair: pair[0].step(h, pair[1]), zip(self.wheelsets, drives)))
+        each = self.pool.map if self.pool else map
+        self.seen = list(each(lambda wheelset, drive: wheelset.step(h, drive), self.wheelsets, drives))
         self.time += h
         for axle, seen in enumerate(self.seen):
             self._leave(axle, before[axle] if before else None, seen, sand[axle])
@@ -86,7 +88,8 @@ class Contacts:
 
     def close(self):
         """Frees wheelsets and threads."""
-        self.pool.shutdown()
+        if self.pool:
+            self.pool.shutdown()
         for wheelset in self.wheelsets:
             wheelset.close()
 
