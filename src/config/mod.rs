@@ -11,7 +11,7 @@ pub mod units;
 pub mod value;
 
 pub use table::{
-    ConductanceLaw, Config, CrossSection, Damping, Friction, Hub, Initial, Material, MeshParameters, ModelParameters,
+    BrakeParameters, ConductanceLaw, Config, CrossSection, Damping, Friction, Hub, Initial, Material, MeshParameters, ModelParameters,
     Physics, Rail, Response, SolverParameters, Thermal, TimeScheme, Tuning, Vehicle, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};

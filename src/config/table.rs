@@ -51,6 +51,12 @@ parameters! {
             1046 restraint_damping: f64 = 1e6, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
                 "Longitudinal damping of the restraint, 0 if it is rigid";
         }
+        /// Brake of the wheel; its strength is the input `brake.torque`.
+        brake: BrakeParameters fixed {
+            1170 tread_share: f64 = 0.0, from 0.0 to 1.0,
+                "Share of brake.power that heats the tread, where thermal.tread_angle and the like put it, besides \
+                 drive.tread_heat: 0 for discs, about 0.9 for blocks";
+        }
         /// Isotropic linear elastic material of both bodies.
         material: Material fixed {
             1050 youngs_modulus: f64 = 210e9, in "Pa" as "GPa", from 1e5 to 1e13, "Young's modulus of both bodies";

@@ -37,6 +37,30 @@ pub enum AxisDrive {
         /// V [m/s], U \[m] or Ω [rad/s] at the end of the step.
         target: f64,
     },
+    /// A force or moment acts, and dry friction besides: it opposes the motion with its `limit`, or holds the axis at rest
+    /// with what that takes, up to the limit.
+    Braked {
+        /// External force [N/m] or moment \[N].
+        load: f64,
+        /// Largest force [N/m] or moment \[N] of the brake.
+        limit: f64,
+    },
+}
+
+impl AxisDrive {
+    /// A force or moment `load` beside a brake of strength `limit`, if it is on.
+    pub fn of(load: f64, limit: f64) -> Self {
+        if limit > 0.0 { Self::Braked { load, limit } } else { Self::Free { load } }
+    }
+
+    /// The force or moment that acts and the strength of the brake beside it; `None` for a prescribed motion.
+    pub fn loads(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Free { load } => Some([load, 0.0]),
+            Self::Braked { load, limit } => Some([load, limit]),
+            Self::Prescribed { .. } => None,
+        }
+    }
 }
 
 /// One rigid motion of the wheel and its balance `m a + ṗ = f + Σ contact`.
@@ -67,7 +91,7 @@ impl RigidMotion {
     /// Value at which the solution starts.
     pub fn start(&self) -> f64 {
         match self.drive {
-            AxisDrive::Free { .. } => self.guess,
+            AxisDrive::Free { .. } | AxisDrive::Braked { .. } => self.guess,
             AxisDrive::Prescribed { target } => target,
         }
     }
@@ -75,7 +99,7 @@ impl RigidMotion {
     /// Prescribed value, if it is.
     pub fn target(&self) -> Option<f64> {
         match self.drive {
-            AxisDrive::Free { .. } => None,
+            AxisDrive::Free { .. } | AxisDrive::Braked { .. } => None,
             AxisDrive::Prescribed { target } => Some(target),
         }
     }

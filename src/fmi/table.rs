@@ -5,7 +5,7 @@
 //! profile is one row, an array; [`super::variables`] spreads it over scalars.
 //!
 //! Value references are fixed numbers by group, so that other people's scripts survive new variables: 100 control,
-//! 200 drive, 250 rail, 300 contact, 400 wheel, 500 hub, 600 heat, 700 damage, 800 solver, 1000 parameters,
+//! 200 drive, 250 rail, 260 brake, 300 contact, 400 wheel, 500 hub, 600 heat, 700 damage, 800 solver, 1000 parameters,
 //! 10000 profiles. Signs: x in travel direction, y up, `omega > 0` rolls forward, `contact.*` forces act on the wheel.
 
 use super::units;
@@ -72,6 +72,7 @@ fn outputs() -> impl Iterator<Item = Variable> {
         let kind = match o.read {
             Read::Real(_) | Read::Profile(_) => real(o.measure, [o.low, o.high], o.nominal),
             Read::Count(_) => Kind::Integer { min: 0, max: i32::MAX },
+            Read::Flag(_) => Kind::Boolean,
         };
         Variable {
             dimension: Some(o.points.len()).filter(|&points| points > 0),

@@ -124,6 +124,7 @@ impl Variable {
         Some(match read {
             Read::Real(get) => Value::Real(get(outputs)),
             Read::Count(get) => Value::Integer(i32::try_from(get(outputs)).unwrap_or(i32::MAX)),
+            Read::Flag(get) => Value::Boolean(get(outputs)),
             Read::Profile(get) => Value::Reals(get(outputs).to_vec()),
         })
     }

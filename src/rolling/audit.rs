@@ -40,6 +40,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
+        brake: before.brake - next.brake.impulse * 0.5 * (from[2] + to[2]),
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
         plastic: before.plastic,

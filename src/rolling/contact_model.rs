@@ -162,9 +162,14 @@ impl ContactModel {
         let limit = JUMP * self.nominal_line_load();
         let limits = [limit, limit, limit * self.surfaces.radius];
         let available = state.available_friction;
-        let force = |k: usize| match drives[k] {
-            AxisDrive::Free { load } => (load - state.hub[k]).abs() > limits[k],
-            AxisDrive::Prescribed { .. } => false,
+        let speeds = state.motion.velocities();
+        let force = |k: usize| {
+            drives[k].loads().is_some_and(|[load, limit]| {
+                let resisting = state.hub[k] - load;
+                // A holding brake gives what is asked for.
+                let able = if speeds[k] == 0.0 { resisting.clamp(-limit, limit) } else { -limit * speeds[k].signum() };
+                (resisting - able).abs() > limits[k]
+            })
         };
         (friction - available).abs() > JUMP * available.max(friction) || (0..3).any(force)
     }

@@ -179,6 +179,9 @@ inputs! {
             "Friction coefficient available now; unset: friction.coefficient";
         206 tread_heat of "drive", in "W" as "kW", from 0.0 to 1e9, nominal 1e4,
             "Heat of the brake blocks into the tread";
+        260 torque of "brake", in "N.m" as "kN.m", from 0.0 to 1e9, nominal 1e4,
+            "Strength of the brake: its moment opposes the rotation, and holds the wheel at rest as far as that takes no \
+             more; acts beside drive.moment, and not while control.rotation prescribes drive.omega";
     }
 }
 

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`state`], [`control`], [`error`] | data of a restart; inputs; failures |
 //! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
+//! | [`brake`] | how the wheel is braked and held |
 //! | [`zones`] | how much of the surfaces the contact sees |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
@@ -13,6 +14,7 @@
 
 pub mod audit;
 pub mod bodies;
+pub mod brake;
 pub mod contact_model;
 pub mod control;
 pub mod error;

@@ -11,6 +11,8 @@ pub enum Read {
     Real(fn(&Outputs) -> f64),
     /// A count.
     Count(fn(&Outputs) -> u64),
+    /// Yes or no.
+    Flag(fn(&Outputs) -> bool),
     /// All points of a profile across the contact zone.
     Profile(fn(&Outputs) -> &[f64]),
 }
@@ -59,9 +61,11 @@ macro_rules! points {
 macro_rules! outputs {
     (@type real) => { f64 };
     (@type count) => { u64 };
+    (@type flag) => { bool };
     (@type profile) => { Vec<f64> };
     (@read real $field:ident) => { Read::Real(|outputs| outputs.$field) };
     (@read count $field:ident) => { Read::Count(|outputs| outputs.$field) };
+    (@read flag $field:ident) => { Read::Flag(|outputs| outputs.$field) };
     (@read profile $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
     (@points profile $name:literal $text:literal) => { points!($name, $text) };
     (@points $sort:ident $name:literal $text:literal) => { &[] };
@@ -149,7 +153,14 @@ outputs! {
     501 hub_force_y: real "hub.force_y", in "N" as "kN", nominal 1e5,
         "Vertical force on the hub, prescribed or reaction, up positive (-drive.load)";
     502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,
-        "Moment that drives the hub, prescribed or reaction, forward positive; conjugate to wheel.omega";
+        "Moment that drives the hub, prescribed (drive.moment + brake.torque_actual) or reaction, forward positive; \
+         conjugate to wheel.omega";
+    261 brake_moment: real "brake.torque_actual", in "N.m" as "kN.m", nominal 1e4,
+        "Moment of the brake on the wheel, forward positive (negative while it brakes forward rolling): brake.torque \
+         against the rotation, or while brake.locked the reaction, as its mean over the last internal step";
+    262 brake_power: real "brake.power", in "W" as "kW", nominal 1e4,
+        "Mean power that the brake took from the wheel in the last communication step";
+    263 brake_locked: flag "brake.locked", "Whether the brake holds the wheel at rest";
     600 friction_power: real "heat.friction_power", in "W" as "kW", nominal 1e4,
         "Mean power that friction turned into heat in the last communication step, net of the work of hot material that \
          expands in the contact";
@@ -236,6 +247,8 @@ outputs! {
     812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
         "Growth of kinetic and elastic energy since the start; with friction, damping and solver.energy_residual it \
          balances energy.hub_work + energy.thermal_work";
+    816 brake_energy: real "energy.brake", in "J" as "kJ", nominal 1e5, start zero,
+        "Energy that the brake has taken from the wheel since the start; energy.hub_work is net of it";
     813 friction_energy: real "energy.friction", in "J" as "kJ", nominal 1e5, start zero,
         "Energy that friction has turned into heat since the start";
     815 plastic_energy: real "energy.plastic", in "J" as "kJ", nominal 1e2, start zero,

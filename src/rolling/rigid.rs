@@ -56,7 +56,7 @@ impl RigidWheel {
                 Vertical::Displacement => AxisDrive::Prescribed { target: target.displacement },
             },
             match inputs.rotation {
-                Rotation::Moment => AxisDrive::Free { load: target.moment / self.width },
+                Rotation::Moment => AxisDrive::of(target.moment / self.width, target.torque / self.width),
                 Rotation::Velocity => AxisDrive::Prescribed { target: target.omega },
             },
         ]
@@ -67,6 +67,10 @@ impl RigidWheel {
         [(&motion.velocity, drives[0]), (&motion.omega, drives[2])].map(|(history, drive)| match drive {
             AxisDrive::Free { .. } => history.now + dt * history.rate,
             AxisDrive::Prescribed { target } => target,
+            AxisDrive::Braked { .. } => match history.now + dt * history.rate {
+                speed if speed * history.now > 0.0 => speed,
+                _ => 0.0,
+            },
         })
     }
 
@@ -98,19 +102,22 @@ impl RigidWheel {
         [axis(0, speeds[0], td.a0, motion.velocity.offset(td)), hub, axis(2, speeds[1], td.a0, motion.omega.offset(td))]
     }
 
-    /// Forces that drive the hub (x, y, moment): those prescribed, and the reactions to prescribed motions.
+    /// Forces that drive the hub (x, y, moment): those prescribed, with the brake, and the reactions where a motion is
+    /// prescribed or a brake holds the wheel at rest.
     pub fn hub_forces(
         &self,
         drives: &[AxisDrive; 3],
-        accelerations: [f64; 3],
+        motion: &Motion,
         operator: &StepOperator,
         free: &FreeResponse,
         forces: &DVector<f64>,
         resultant: [f64; 3],
     ) -> [f64; 3] {
+        let (speeds, accelerations) = (motion.velocities(), motion.accelerations());
         std::array::from_fn(|k| match drives[k] {
             AxisDrive::Free { load } => load,
-            AxisDrive::Prescribed { .. } => {
+            AxisDrive::Braked { load, limit } if speeds[k] != 0.0 => load - limit * speeds[k].signum(),
+            AxisDrive::Prescribed { .. } | AxisDrive::Braked { .. } => {
                 let of_forces: f64 = operator.momentum.row(k).iter().zip(forces.iter()).map(|(m, f)| m * f).sum();
                 let of_motion: f64 = (0..3).map(|l| operator.deformation_inertia[(k, l)] * accelerations[l]).sum();
                 let deformation = free.momentum[k] + of_forces + of_motion;

@@ -65,6 +65,7 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
         displacement: approach,
         friction: 1.0,
         tread_heat: inputs.drive.tread_heat.abs().max(1e4),
+        torque: load * radius,
     }
 }
 
@@ -135,5 +136,7 @@ fn repeat(
 
 /// Whether two states were computed by the same sequence of decisions.
 fn same_branch(a: &State, b: &State) -> bool {
-    a.contact.same_branch(&b.contact) && a.internal_steps == b.internal_steps && a.iterations == b.iterations
+    a.contact.same_branch(&b.contact)
+        && a.brake.locked == b.brake.locked
+        && a.internal_steps == b.internal_steps && a.iterations == b.iterations
 }

@@ -38,6 +38,8 @@ pub struct State {
     pub hub: [f64; 3],
     /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
     pub driving: [f64; 3],
+    /// The brake in the last step.
+    pub brake: Brake,
     /// Which motions (V, U, Ω) were prescribed in the last step.
     pub prescribed: [bool; 3],
     /// Friction coefficient that was available in the last step \[1].
@@ -70,6 +72,19 @@ impl State {
         static NONE: Weakening = Weakening::NONE;
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
     }
+}
+
+/// What the brake does; all zero where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Brake {
+    /// Its moment on the wheel, forward positive: at the end of the last step, or its mean over that step if it holds \[N].
+    pub moment: f64,
+    /// Its impulse in that step [N s].
+    pub impulse: f64,
+    /// Whether it holds the wheel at rest.
+    pub locked: bool,
+    /// Its mean power over the last communication step; at the start the stationary one [W/m].
+    pub power: f64,
 }
 
 /// Rigid motion of the wheel with the history that the time formula needs.
@@ -226,6 +241,8 @@ pub struct Audit {
     pub work: f64,
     /// Work of the wheel that grows with its temperature and lifts its load [J/m].
     pub thermal_work: f64,
+    /// Energy that the brake has taken; part of the work of the hub forces [J/m].
+    pub brake: f64,
     /// Energy that friction has turned into heat [J/m].
     pub friction: f64,
     /// Work of plastic flattening [J/m].

@@ -1,12 +1,13 @@
 //! One implicit step: predict → solve the contact → commit → audit → heat.
 
 use super::audit;
+use super::brake;
 use super::contact_model::{ContactStep, friction_law};
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
 use super::model::{Model, Workspace};
-use super::state::{Motion, State, ThermalState};
+use super::state::{Brake, Motion, State, ThermalState};
 use super::thermal::{self, HeatStep};
 use super::zones;
 use crate::config::Tuning;
@@ -120,7 +121,9 @@ fn attempt(
     match (&model.thermal, &state.thermal) {
         (Some(thermal), Some(before)) => {
             let temperatures = next.thermal.take().unwrap_or_default();
-            let (tread_heat, criteria) = (demand.target.tread_heat, thermal::criteria(demand.tuning));
+            let criteria = thermal::criteria(demand.tuning);
+            let brake_power = (next.audit.brake - state.audit.brake) / plan.dt;
+            let tread_heat = brake::tread_heat(model, demand.target, brake_power);
             let step = HeatStep { dt: plan.dt, tread_heat, criteria };
             let touch = thermal.touch(&model.contact, &next.contact.traction);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
@@ -136,16 +139,18 @@ impl Plan {
     fn new(model: &Model, state: &State, demand: &Demand, dt: f64) -> Self {
         let [begin, given] = [demand.begin, demand.target].map(|drive| model.wheel.drives(demand.inputs, drive));
         let available = demand.target.friction;
-        let jumped = model.contact.jumped(state, &begin, available);
+        let stopped = state.brake.locked && state.motion.omega.before != 0.0;
+        let jumped = stopped || model.contact.jumped(state, &begin, available);
         let before = if jumped { 0.0 } else { demand.last_step };
         let dt = settled(dt, before);
         let td = formula(&model.config.solver, dt, before);
-        let drives = std::array::from_fn(|k| match (begin[k], given[k]) {
-            (AxisDrive::Free { load: from }, AxisDrive::Free { load: to }) => {
-                let impulse = 0.5 * dt * (from + to);
-                AxisDrive::Free { load: td.force(impulse, state.driving[k], state.audit.impulse[k]) }
+        let drives = std::array::from_fn(|k| match (begin[k].loads(), given[k].loads()) {
+            (Some([from, brake_from]), Some([to, brake_to])) => {
+                let [impulse, of_brake] = [from + to, brake_from + brake_to].map(|sum| 0.5 * dt * sum);
+                // The impulse of the brake comes on top, up to its own: what is known of the past counts once.
+                AxisDrive::of(td.force(impulse, state.driving[k], state.audit.impulse[k]), td.a0 * of_brake)
             }
-            (_, prescribed) => prescribed,
+            _ => given[k],
         });
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
@@ -201,11 +206,10 @@ fn solve_and_commit(
     model.bodies.commit(&operators, free, accelerations, td, state, next);
     let traction = &next.contact.traction;
     let (forces, resultant) = (&traction.loads[0], traction.resultant);
-    next.driving = model.wheel.hub_forces(drives, accelerations, &operators.wheel, &free[0], forces, resultant);
-    next.hub = std::array::from_fn(|k| match plan.given[k] {
-        AxisDrive::Free { load } => load,
-        AxisDrive::Prescribed { .. } => next.driving[k],
-    });
+    next.driving = model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], forces, resultant);
+    next.brake = Brake::applied(plan.given[2], drives[2], &next.motion, next.driving[2], [td.a0, *dt]);
+    next.hub = std::array::from_fn(|k| plan.given[k].loads().map_or(next.driving[k], |[load, _]| load));
+    next.hub[2] += next.brake.moment;
     next.time = state.time + dt;
     next.pending = 0.0;
     next.distance = moved_by(state.distance, &state.motion.velocity, next.motion.velocity.now, *dt);

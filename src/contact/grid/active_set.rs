@@ -3,7 +3,7 @@
 //! Unknown are the nodal forces of closed nodes and those rigid motions (V, U, Ω) that are not prescribed. Each
 //! iteration solves the linear problem of the present states and updates the states:
 //! - closed if `λ_n − c g > 0`;
-//! - a stuck node slips when `|λ_t| > μ λ_n`; a slipping node whose friction force no longer opposes the slip sticks, so
+//! - a stuck node slips when `|λ_t| > μ λ_n`, and so does a [brake](super::brake) beyond its strength; a slipping node whose friction force no longer opposes the slip sticks, so
 //!   a reversal of slip always passes through stick; a node that closes takes the state of its nearest closed neighbour
 //!   and sticks where it has none, unless the surfaces run against each other. Without these rules the iteration cycles.
 //!
@@ -19,7 +19,6 @@ use super::rows::AffineRow;
 use super::state::Status;
 use super::streamline::upwind_rows;
 use crate::contact::error::ContactError;
-use crate::contact::problem::AxisDrive;
 use crate::linalg::DenseSystem;
 use std::ops::Range;
 
@@ -227,11 +226,8 @@ impl Iterate<'_> {
             self.write(system.row(closed + r), &row, &forces);
         }
         for r in 0..axes {
-            let axis = self.scratch.axes[r];
-            if let AxisDrive::Free { load } = self.problem.rigid[axis].drive {
-                let row = self.balance_row(axis, load, &mut forces);
-                self.write(system.row(closed + stuck + r), &row, &forces);
-            }
+            let row = self.axis_row(self.scratch.axes[r], &mut forces);
+            self.write(system.row(closed + stuck + r), &row, &forces);
         }
         self.scratch.row = forces;
     }
@@ -288,7 +284,7 @@ impl Iterate<'_> {
             forces[self.grid.port(i)] = *force;
         }
         for (value, &k) in rigid.iter().zip(axes) {
-            self.traction.rigid[k] = *value;
+            self.traction.rigid[k] = if self.holds(k) { 0.0 } else { *value };
         }
     }
 
@@ -316,7 +312,8 @@ impl Iterate<'_> {
             self.state.status[i] = new;
             self.state.yielded[i] = yields;
         }
-        self.support() || changed
+        let braked = self.update_brakes(force * self.grid.len() as f64);
+        self.support() || changed || braked
     }
 
     /// Whether the steel at a node yields: where it bears more than its limit.

@@ -81,6 +81,8 @@ pub(super) struct Iterate<'a> {
     /// The turn that belongs to the surface displacements at hand: in the first iteration those of the start, while
     /// [`Self::frame`] is predicted [rad].
     pub turn_of_surface: f64,
+    /// States of the brakes of the three axes: stuck ones hold; without meaning where there is none.
+    pub brakes: [Status; 3],
 }
 
 impl Iterate<'_> {

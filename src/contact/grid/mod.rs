@@ -1,10 +1,11 @@
 //! Contact on a grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
 //! [`rows`] writes gap, slip and balance as rows of a linear system, [`streamline`] gives the slip its upwind
-//! differences, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, [`kernel`] corrects the
+//! differences, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, [`brake`] those of brakes, [`kernel`] corrects the
 //! compliance at grid scale, [`observe`] reads the traction off the solution, and [`power`] balances its power. Theory: `docs/theory/contact.md`.
 
 mod active_set;
+mod brake;
 mod candidates;
 mod coefficient;
 mod conclude;

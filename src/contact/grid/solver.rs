@@ -1,5 +1,6 @@
 //! The contact solver on a grid, behind the seam that all contact solvers share.
 
+use super::brake::founding_brakes;
 use super::candidates::ContactGrid;
 use super::frame::{RimFrame, sagitta};
 use super::iterate::{Iterate, copy};
@@ -105,7 +106,8 @@ impl ContactSolver for GridSolver {
         let mut heights = std::mem::take(&mut scratch.sagitta);
         sagitta(grid, radius, &mut heights);
         let frame = RimFrame { grid, radius, sagitta: &heights, turn: 0.0 };
-        let solved = Iterate { grid, problem, state, traction, scratch, frame, turn_of_surface: 0.0 }.run();
+        let brakes = founding_brakes(problem);
+        let solved = Iterate { grid, problem, state, traction, scratch, frame, turn_of_surface: 0.0, brakes }.run();
         scratch.sagitta = heights;
         solved
     }

@@ -158,7 +158,7 @@ pub fn start_value(variable: &Variable) -> Option<Value> {
 pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
         Access::ChoiceInput(..) => "discrete",
-        Access::Output(row) if matches!(row.read, Read::Count(_)) => "discrete",
+        Access::Output(row) if matches!(row.read, Read::Count(_) | Read::Flag(_)) => "discrete",
         Access::RealInput(_) | Access::Output(_) | Access::ProfilePoint(..) => "continuous",
         _ if variable.tunable => "tunable",
         _ => "fixed",

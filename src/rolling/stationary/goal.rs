@@ -1,5 +1,6 @@
 //! What a stationary state has to satisfy: which speeds are given, and which one is sought.
 
+use super::super::brake;
 use super::super::control::{Drive, Inputs, peripheral_velocity};
 use super::super::error::StepError;
 use super::super::model::Model;
@@ -12,7 +13,10 @@ const AT_REST: f64 = 1e-9;
 pub(super) struct Goal {
     /// Values of the inputs.
     pub drive: Drive,
+    /// What drives the wheel, with what the brake does to it.
     pub drives: [AxisDrive; 3],
+    /// The same as the inputs give it.
+    pub given: [AxisDrive; 3],
     /// V [m/s].
     velocity: f64,
     /// Ω [rad/s], if it is given.
@@ -43,15 +47,19 @@ impl Goal {
     /// - without friction nothing holds the wheel, and it rolls without creepage.
     pub fn new(model: &Model, inputs: &Inputs) -> Result<Self, StepError> {
         let (drive, initial, radius) = (inputs.at(0.0), &model.config.initial, model.wheel.radius);
-        let drives = model.wheel.drives(inputs, &drive);
-        let prescribed = |k: usize| match drives[k] {
+        let given = model.wheel.drives(inputs, &drive);
+        let target = |drive: AxisDrive| match drive {
             AxisDrive::Prescribed { target } => Some(target),
-            AxisDrive::Free { .. } => None,
+            AxisDrive::Free { .. } | AxisDrive::Braked { .. } => None,
         };
+        let creepage = initial.creepage.unwrap_or(0.0);
+        let velocity = target(given[0]).unwrap_or(initial.velocity);
+        let rotation = brake::at_start(&given, velocity, peripheral_velocity(velocity, creepage), radius);
+        let drives = [given[0], given[1], rotation];
+        let prescribed = |k: usize| target(drives[k]);
         if prescribed(1).is_none() && drive.load <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }
-        let velocity = prescribed(0).unwrap_or(initial.velocity);
         let omega = prescribed(2);
         let moving = velocity.abs() + (radius * omega.unwrap_or(velocity / radius)).abs() > AT_REST;
         let axis = match (omega, moving) {
@@ -60,7 +68,7 @@ impl Goal {
             (Some(_), true) => None,
         };
         let sought = axis.filter(|_| initial.creepage.is_none() && drive.friction > 0.0);
-        let goal = Self { drive, drives, velocity, omega, creepage: initial.creepage.unwrap_or(0.0), sought, moving };
+        let goal = Self { drive, drives, given, velocity, omega, creepage, sought, moving };
         goal.check(model, goal.trial(radius).speeds)?;
         Ok(goal)
     }
@@ -93,10 +101,7 @@ impl Goal {
 
     /// Force [N/m] and moment \[N] where they are prescribed.
     fn free_loads(&self) -> [Option<f64>; 2] {
-        [0, 2].map(|k| match self.drives[k] {
-            AxisDrive::Free { load } => Some(load),
-            AxisDrive::Prescribed { .. } => None,
-        })
+        [0, 2].map(|k| self.drives[k].loads().map(|[load, _]| load))
     }
 
     /// V [m/s] and Ω [rad/s] of the state whose slip has the given speeds.
@@ -132,7 +137,9 @@ impl Goal {
     /// What asks for it, in words, for wheels of the given width \[m].
     pub fn demand(&self, width: f64) -> String {
         let [force, moment] = self.free_loads();
-        let parts = [("drive.moment", moment, "N m"), ("drive.force", force, "N")];
+        let braked = matches!(self.given[2], AxisDrive::Braked { .. });
+        let turning = if braked { "drive.moment less brake.torque" } else { "drive.moment" };
+        let parts = [(turning, moment, "N m"), ("drive.force", force, "N")];
         let named =
             parts.iter().filter_map(|(name, load, unit)| load.map(|load| format!("{name} = {} {unit}", load * width)));
         named.collect::<Vec<_>>().join(" and ")

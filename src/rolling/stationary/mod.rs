@@ -8,6 +8,7 @@
 mod goal;
 mod settle;
 
+use super::brake;
 use super::control::Inputs;
 use super::error::StepError;
 use super::model::{Model, Workspace};
@@ -44,7 +45,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
         let touch = thermal.touch(&model.contact, &state.contact.traction);
-        let mut temperatures = thermal.stationary(&state, &touch, goal.drive.tread_heat)?;
+        let mut temperatures = thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?;
         if let (Some(before), true) = (&state.thermal, averaged > 0) {
             thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
         }

@@ -5,7 +5,7 @@ use super::super::contact_model::{ContactStep, friction_law};
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::model::{Model, Workspace};
-use super::super::state::{Motion, State, ThermalState, Weakening};
+use super::super::state::{Brake, Motion, State, ThermalState, Weakening};
 use super::super::substeps;
 use super::super::zones;
 use super::goal::{Goal, Trial};
@@ -48,7 +48,7 @@ pub(super) fn settle(
         rail,
         contact: model.contact.hertzian_guess(load),
         available_friction: goal.drive.friction,
-        prescribed: goal.drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
+        prescribed: goal.given.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
         restarted: true,
         flattening: flattening::none(model),
         thermal,
@@ -198,6 +198,9 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
         hub_velocity: History::default(),
     };
     zones::narrow(model, &mut state);
+    state.brake = Brake::stationary(goal.given[2], omega, state.hub[2]);
+    state.hub[2] = goal.given[2].loads().map_or(state.hub[2], |[load, _]| load + state.brake.moment);
+    state.driving = state.hub;
     state.control = substeps::unlimited(&state);
     state.friction_power = state.contact.traction.friction_power;
     state.audit = audit::start(model, &state);

@@ -172,6 +172,7 @@ fn march(
     }
     now.control = control.memory;
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
+    now.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
     if let Some(thermal) = &mut now.thermal {
         thermal.flows = flows;
     }
