@@ -98,3 +98,30 @@ def _rail(axis, _table, rail):
         axis.plot(place, met, color=colour, linewidth=0.8, linestyle="-" if axle < AXLES else ":")
     used = np.flatnonzero(rail.energy[0])
     axis.set(ylabel="friction met [1]", xlabel="position [m]", xlim=(0, place[used[-1]] if len(used) else place[-1]))
+
+
+def draw_sweep(path, rows):
+    """Draws stopping distances over speed and adhesion, one map for every payload and threshold."""
+    plt = pyplot()
+    axis_of = lambda key: sorted({row[key] for row in rows})
+    speeds, adhesions, payloads, thresholds = map(axis_of, ("speed", "adhesion", "payload", "slide_high"))
+    figure, axes = plt.subplots(
+        len(payloads), len(thresholds), figsize=(3.4 * len(thresholds) + 1.2, 2.8 * len(payloads)),
+        layout="constrained", squeeze=False,
+    )  # fmt: skip
+    distances = {tuple(row[k] for k in ("payload", "slide_high", "adhesion", "speed")): row["stopping distance"] for row in rows}
+    limits = min(distances.values()), max(distances.values())
+    for i, payload in enumerate(payloads):
+        for j, threshold in enumerate(thresholds):
+            axis = axes[i, j]
+            table = [[distances.get((payload, threshold, a, v), np.nan) for v in speeds] for a in adhesions]
+            image = axis.imshow(table, origin="lower", aspect="auto", cmap="viridis", vmin=limits[0], vmax=limits[1])
+            for (y, x), value in np.ndenumerate(np.array(table)):
+                axis.text(x, y, f"{value:.0f}", ha="center", va="center", color="white", fontsize=7)
+            axis.grid(False)
+            axis.set_xticks(range(len(speeds)), [f"{3.6 * v:.0f}" for v in speeds])
+            axis.set_yticks(range(len(adhesions)), [f"{a:g}" for a in adhesions])
+            axis.set(title=f"{payload / 1e3:g} t, slide {100 * threshold:g} %", xlabel="speed [km/h]", ylabel="adhesion [1]")
+    figure.colorbar(image, ax=axes, label="stopping distance [m]")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
