@@ -62,15 +62,20 @@ class SlideProtection:
 
     The reference is the fastest axle, but falls no faster than `reference_deceleration` [m/s2]. An axle is vented when its
     slide exceeds `slide_high`, or when it slides more than `slide_low` and slows down faster than `deceleration`; held
-    while it slides more than `slide_low`; otherwise its valve follows the control pressure. The thresholds are shares of the reference
-    speed, but at least `least_slide` [m/s]. An axle that comes back (faster than `recovery` [m/s2]) is held as well. Below
-    `off_speed` nothing is controlled.
+    while it slides more than `slide_low`, or comes back faster than `recovery` [m/s2]; otherwise its valve follows the
+    control pressure. The thresholds are shares of the reference speed, but at least `least_slide` [m/s]. Below `off_speed`
+    nothing is controlled.
+
+    When all axles slide, the reference would sink with them. So while the protection acts, one axle after the other is
+    vented every `sounding` seconds until it has stopped gaining speed, at most `longest_sounding`: it rolls, and the
+    reference is the speed of the train again.
     """
 
     def __init__(self, wsp, speeds):
         self.wsp, self.reference = wsp, max(speeds)
         self.waited, self.before = 0.0, np.array(speeds, float)
         self.valves = [Valve.APPLY] * len(speeds)
+        self.since_sounding, self.sounded, self.sounding_for = 0.0, 0, None
 
     def step(self, h, speeds):
         """Valves after `h` [s], decided every `period`; `speeds` are peripheral [m/s]."""
@@ -83,8 +88,9 @@ class SlideProtection:
         speeds = np.array(speeds, float)
         self.reference = max(self.reference - w.reference_deceleration * self.waited, speeds.max())
         rates = (speeds - self.before) / self.waited
-        self.before, self.waited = speeds, 0.0
         self.valves = [self._decide(*pair) for pair in zip(speeds, rates)]
+        self._sound(self.waited, rates)
+        self.before, self.waited = speeds, 0.0
         return self.valves
 
     def _decide(self, speed, rate):
@@ -101,6 +107,22 @@ class SlideProtection:
         if slide > low or (returning and slide > 0.5 * low):
             return Valve.HOLD
         return Valve.APPLY
+
+    def _sound(self, h, rates):
+        """Vents the axle whose turn it is to find the speed of the train."""
+        w = self.wsp
+        acting = any(valve is not Valve.APPLY for valve in self.valves)
+        if self.sounding_for is None:
+            self.since_sounding = self.since_sounding + h if acting else 0.0
+            if self.since_sounding < w.sounding:
+                return
+            self.sounding_for = 0.0
+        self.sounding_for += h
+        rolls = self.sounding_for > 2.0 * w.vent_time and rates[self.sounded] < 0.5 * w.recovery
+        if rolls or self.sounding_for > w.longest_sounding or self.reference < w.off_speed:
+            self.sounded, self.sounding_for, self.since_sounding = (self.sounded + 1) % len(rates), None, 0.0
+        else:
+            self.valves[self.sounded] = Valve.VENT
 
 
 class Sander:

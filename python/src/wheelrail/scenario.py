@@ -70,6 +70,8 @@ BRAKE = {
         "deceleration": Real(0, 100, "m/s2", "of a sliding axle, from which it is vented", 3.0),
         "recovery": Real(0, 100, "m/s2", "acceleration of an axle that comes back", 1.0),
         "reference_deceleration": Real(0.01, 10, "m/s2", "largest fall of the reference speed", 1.5),
+        "sounding": Real(0.1, 1e6, "s", "after which an axle is released to find the train's speed", 2.0),
+        "longest_sounding": Real(0.1, 60, "s", "that it is released", 2.0),
         "off_speed": Real(0, 20, "m/s", "below which nothing is controlled", 1.0),
         "vent_time": Real(0.01, 10, "s", "time constant of venting", 0.25),
         "fill_time": Real(0.01, 10, "s", "time constant of filling through the valve", 0.3),

@@ -18,8 +18,8 @@ import numpy as np
 
 from . import scenario as scenarios
 from .brake import Brakes, Valve
-from .vehicle import AXLES, Coach
-from .wheelset import GRAVITY, Drive, FmuWheelset, RigidWheelset
+from .vehicle import AXLES, GRAVITY, Coach
+from .wheelset import Drive, FmuWheelset, RigidWheelset
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
 STANDING = 0.02  # m/s, of a wheelset that does not turn: it is held by the rail
@@ -55,7 +55,7 @@ class Contacts:
         """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle."""
         self.met = [self._rail(axle) for axle in range(len(self.wheelsets))]
         drives = [
-            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k], slope=self.slope(k))
+            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k])
             for k in range(len(self.wheelsets))
         ]
         before = self.seen
@@ -151,18 +151,17 @@ class Stop:
         omegas = [w.omega for w in seen] if seen else [self.scenario.speed / self.radius] * AXLES
         torques, sand = self.brakes.step(h, self.scenario.demand, [self.radius * omega for omega in omegas])
         pulls, loads = self.coach.forces()
+        weight = -mass * GRAVITY * np.array([self.contacts.slope(k) for k in range(AXLES)])
         masses, others = np.full(AXLES, mass), np.zeros(AXLES)
         if seen:
             contact = np.array([w.force for w in seen])
-            slopes = np.array([self.contacts.slope(k) for k in range(AXLES)])
-            masses, others = predicted(self.scenario.vehicle.wheelset, seen, pulls, contact - mass * GRAVITY * slopes)
+            masses, others = predicted(self.scenario.vehicle.wheelset, seen, pulls, contact + weight)
         reaction = [w.torque for w in seen] if seen else [0.0] * AXLES
         new_pulls, new_loads = self.coach.advance(h, reaction, self.contacts.slope(0), masses, others)
-        seen = self.contacts.step(
-            h, np.array([pulls, new_pulls]), np.array([loads, new_loads]), np.array([self.torques, torques]), sand
-        )
+        forces, torques = np.array([pulls, new_pulls]) + weight, np.array(torques)
+        seen = self.contacts.step(h, forces, np.array([loads, new_loads]), np.array([self.torques, torques]), sand)
         self.coach.correct([w.position for w in seen], [w.velocity for w in seen])
-        self.torques = np.array(torques)
+        self.torques = torques
         self.rows.append(self.row(new_pulls))
 
     def row(self, pulls):
