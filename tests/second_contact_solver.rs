@@ -129,7 +129,9 @@ impl ContactSolver for Hertz {
             let rigid = self.motion(problem, load, radius);
             let forces = self.forces(load, radius);
             match problem.rigid[1].drive {
-                AxisDrive::Free { load } => self.unbalance(problem, 1, &forces, &rigid) - load,
+                AxisDrive::Free { load } | AxisDrive::Braked { load, .. } => {
+                    self.unbalance(problem, 1, &forces, &rigid) - load
+                }
                 AxisDrive::Prescribed { target } => {
                     self.gap(problem, &self.surfaces(problem, &forces, &rigid), target) * problem.nominal_load * 1e4
                 }

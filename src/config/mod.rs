@@ -11,8 +11,8 @@ pub mod units;
 pub mod value;
 
 pub use table::{
-    BrakeParameters, ConductanceLaw, Config, CrossSection, Damping, Friction, Hub, Initial, Material, MeshParameters, ModelParameters,
-    Physics, Rail, Response, SolverParameters, Thermal, TimeScheme, Tuning, Vehicle, Wheel,
+    BrakeParameters, ConductanceLaw, Config, CrossSection, Damping, Friction, Hub, Initial, Material, MeshParameters,
+    ModelParameters, Physics, Rail, Response, SolverParameters, Thermal, TimeScheme, Tuning, Vehicle, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 

@@ -138,5 +138,6 @@ fn repeat(
 fn same_branch(a: &State, b: &State) -> bool {
     a.contact.same_branch(&b.contact)
         && a.brake.locked == b.brake.locked
-        && a.internal_steps == b.internal_steps && a.iterations == b.iterations
+        && a.internal_steps == b.internal_steps
+        && a.iterations == b.iterations
 }

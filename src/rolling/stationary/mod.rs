@@ -45,7 +45,8 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
         let touch = thermal.touch(&model.contact, &state.contact.traction);
-        let mut temperatures = thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?;
+        let mut temperatures =
+            thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?;
         if let (Some(before), true) = (&state.thermal, averaged > 0) {
             thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
         }
