@@ -5,6 +5,9 @@
 # make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
 # make python-wheel  the Python package with the FMU inside: target/wheelrail-*.whl
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
+# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
+# make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
+# make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make bench     speed of steps, starts and the reduced basis
@@ -33,11 +36,13 @@ PY := $(VENV)/bin/python
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
+TRAIN := $(VENV)/.train
+SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension train sweep flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -48,7 +53,7 @@ test: test-rust test-fmpy
 test-rust:
 	$(CARGO) test --release --locked
 
-test-fmpy: $(FMU) $(MASTERS)
+test-fmpy: $(FMU) $(MASTERS) $(TRAIN)
 	$(PY) -m pytest fmpy_tests
 
 fmu: $(FMU)
@@ -65,6 +70,15 @@ python-wheel: $(FMU) $(INSTALLED)
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
+
+suspension: $(FMU) $(INSTALLED)
+	$(PY) examples/ex07_suspension.py --fmu $(FMU) --out results
+
+train: $(FMU) $(INSTALLED)
+	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out results
+
+sweep: $(FMU) $(TRAIN)
+	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(SCHEDULER),--scheduler $(SCHEDULER))
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
@@ -134,6 +148,10 @@ $(INSTALLED): requirements.txt python/pyproject.toml
 	touch $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(TRAIN): requirements-train.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 

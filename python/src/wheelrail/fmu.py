@@ -1,5 +1,6 @@
 """One instance of wheelrail.fmu on fmpy's FMU2Slave: variables by name, enumerations by item name, SI units."""
 
+import difflib
 import os
 from ctypes import byref
 from itertools import count
@@ -53,6 +54,13 @@ class Fmu:
         self.description = fmpy.read_model_description(self.directory)
         self.variables = {v.name: v for v in self.description.modelVariables}
 
+    def variable(self, name):
+        """The variable of a name."""
+        if name not in self.variables:
+            close = difflib.get_close_matches(name, self.variables, n=1)
+            raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
+        return self.variables[name]
+
     def __enter__(self):
         return self
 
@@ -104,7 +112,7 @@ class Wheel:
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
         references, reals = [], []
         for name, value in values.items():
-            variable = self.fmu.variables[name]
+            variable = self.fmu.variable(name)
             if variable.type == "Real":
                 references.append(variable.valueReference)
                 reals.append(value)
@@ -117,12 +125,12 @@ class Wheel:
 
     def set_rates(self, values):
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
-        references = [self.fmu.variables[name].valueReference for name in values]
+        references = [self.fmu.variable(name).valueReference for name in values]
         self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), list(values.values()))
 
     def get(self, *names):
         """Values of variables; one name gives a scalar, several a list. Several must be of one type."""
-        variables = [self.fmu.variables[name] for name in names]
+        variables = [self.fmu.variable(name) for name in names]
         values = self._call(self._access("get", variables[0]), [v.valueReference for v in variables])
         return values[0] if len(names) == 1 else values
 

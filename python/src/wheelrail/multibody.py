@@ -26,7 +26,7 @@ class MultibodyCoach:
         self.mass = self.body_mass + 2 * values.bogie.mass + AXLES * values.wheelset.mass
         self.static_load = self.mass * GRAVITY / AXLES
         self.settings = exudyn.SimulationSettings()
-        self.settings.solutionSettings.writeSolutionToFile = False
+        self.settings.solution.file.write = False
         self.settings.timeIntegration.verboseMode = 0
         self.settings.timeIntegration.numberOfSteps = 1
         self.settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = True
@@ -50,7 +50,7 @@ class MultibodyCoach:
         """A body that pitches, with its loads: weight and slope, and a moment."""
         add, items = self.mbs, self.items
         node = add.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, y, 0.0], initialVelocities=[speed, 0.0, 0.0]))
-        body = add.AddObject(items.ObjectRigidBody2D(physicsMass=mass, physicsInertia=inertia, nodeNumber=node))
+        body = add.AddObject(items.ObjectRigidBody2D(mass=mass, inertia=inertia, nodeNumber=node))
         centre = add.AddMarker(items.MarkerBodyRigid(bodyNumber=body, localPosition=[0.0, 0.0, 0.0]))
         force = add.AddLoad(items.LoadForceVector(markerNumber=centre, loadVector=[0.0, -mass * GRAVITY, 0.0]))
         moment = add.AddLoad(items.LoadTorqueVector(markerNumber=centre, loadVector=[0.0, 0.0, 0.0]))
@@ -60,7 +60,7 @@ class MultibodyCoach:
         """A wheelset, which moves along the track."""
         add, items = self.mbs, self.items
         node = add.AddNode(items.Node1D(referenceCoordinates=[0.0], initialVelocities=[speed]))
-        body = add.AddObject(items.ObjectMass1D(physicsMass=mass, nodeNumber=node, referencePosition=[x, y, 0.0]))
+        body = add.AddObject(items.ObjectMass1D(mass=mass, nodeNumber=node, referencePosition=[x, y, 0.0]))
         marker = add.AddMarker(items.MarkerBodyPosition(bodyNumber=body, localPosition=[0.0, 0.0, 0.0]))
         force = add.AddLoad(items.LoadForceVector(markerNumber=marker, loadVector=[0.0, 0.0, 0.0]))
         return SimpleNamespace(body=body, node=node, marker=marker, force=force, x=x, y=y)
@@ -145,7 +145,7 @@ class MultibodyCoach:
         for bogie, pair in zip(self.bogies, (torques[:2], torques[2:])):
             mbs.SetLoadParameter(bogie.moment, "loadVector", [0.0, 0.0, float(sum(pair))])
         for wheelset, mass, force in zip(self.wheelsets, wheel_masses, wheel_forces):
-            mbs.SetObjectParameter(wheelset.body, "physicsMass", float(mass))
+            mbs.SetObjectParameter(wheelset.body, "mass", float(mass))
             mbs.SetLoadParameter(wheelset.force, "loadVector", [float(force), 0.0, 0.0])
         self.settings.timeIntegration.startTime, self.settings.timeIntegration.endTime = self.time, self.time + h
         self.exudyn.SolveDynamic(mbs, self.settings, updateInitialValues=True)

@@ -22,7 +22,7 @@ from .vehicle import AXLES, GRAVITY, Coach
 from .wheelset import Drive, FmuWheelset, RigidWheelset
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
-STANDING = 0.02  # m/s, of a wheelset that does not turn: it is held by the rail
+STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
 IMMOBILE = 1e6  # times its mass counts a wheelset that is held
 AT_REST = 2e-3  # m/s
 
@@ -155,7 +155,7 @@ class Stop:
         masses, others = np.full(AXLES, mass), np.zeros(AXLES)
         if seen:
             contact = np.array([w.force for w in seen])
-            masses, others = predicted(self.scenario.vehicle.wheelset, seen, pulls, contact + weight)
+            masses, others = predicted(h, self.scenario.vehicle.wheelset, seen, pulls, contact + weight)
         reaction = [w.torque for w in seen] if seen else [0.0] * AXLES
         new_pulls, new_loads = self.coach.advance(h, reaction, self.contacts.slope(0), masses, others)
         forces, torques = np.array([pulls, new_pulls]) + weight, np.array(torques)
@@ -180,12 +180,12 @@ class Stop:
         self.contacts.close()
 
 
-def predicted(wheelset, seen, pulls, others):
+def predicted(h, wheelset, seen, pulls, others):
     """Masses [kg] of the wheelsets in the vehicle's step, and the forces [N] on them beside the suspension's."""
     masses, forces = np.full(len(seen), wheelset.mass), np.array(others, float)
     for k, w in enumerate(seen):
         peripheral = wheelset.radius * w.omega
-        if abs(w.omega) < 1e-9 and abs(w.velocity) < STANDING:
+        if abs(w.omega) < 1e-9 and abs(w.velocity) < STANDING + 2.0 * h * abs(w.force) / wheelset.mass:
             masses[k], forces[k] = IMMOBILE * wheelset.mass, -pulls[k]
         elif abs(w.velocity - peripheral) < ROLLING * max(abs(w.velocity), abs(peripheral)):
             masses[k] = wheelset.mass + wheelset.inertia / wheelset.radius**2

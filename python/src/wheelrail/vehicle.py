@@ -6,7 +6,7 @@ two bodies at one point of each; with b, the row that maps all coordinates to it
 
     M q'' + C q' + K q = f,     K = sum k b^T b,     C = sum c b^T b                              [N], [N m]
 
-which `Coach.advance` integrates by the trapezoidal rule. Gravity acts through the slope and through the static loads.
+which `Coach.advance` integrates implicitly (Newmark). Gravity acts through the slope and through the static loads.
 """
 
 from dataclasses import dataclass
@@ -19,6 +19,9 @@ AXLES = 4
 BODY, LEADING, TRAILING = 0, 3, 6
 WHEELSETS = slice(9, 9 + AXLES)
 SIZE = 9 + AXLES
+# Newmark's beta: bodies move by the trapezoidal rule; accelerations of wheelsets change linearly, as under the ramping forces
+# of the FMU, so that what is predicted is what they do.
+SHARE_AFTER = np.array([0.25] * 9 + [1.0 / 6.0] * AXLES)
 
 
 @dataclass(frozen=True)
@@ -124,11 +127,11 @@ class Coach:
         before[WHEELSETS] = ((f - self.C @ self.velocity - self.K @ self.position) / masses)[WHEELSETS]
         key = (h, *wheel_masses)
         if key not in self._solvers:
-            self._solvers[key] = np.linalg.inv(np.diag(masses) + 0.5 * h * self.C + 0.25 * h * h * self.K)
+            self._solvers[key] = np.linalg.inv(np.diag(masses) + 0.5 * h * self.C + h * h * self.K * SHARE_AFTER)
         half = self.velocity + 0.5 * h * before
-        there = self.position + h * self.velocity + 0.25 * h * h * before
+        there = self.position + h * self.velocity + h * h * (0.5 - SHARE_AFTER) * before
         after = self._solvers[key] @ (f - self.C @ half - self.K @ there)
-        self.position, self.velocity = there + 0.25 * h * h * after, half + 0.5 * h * after
+        self.position, self.velocity = there + h * h * SHARE_AFTER * after, half + 0.5 * h * after
         return self.forces()
 
     def correct(self, positions, velocities):
