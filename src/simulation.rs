@@ -83,6 +83,7 @@ impl Inputs {
             velocity,
             load: config.model.nominal_load,
             friction: config.friction.coefficient,
+            temperature: config.thermal.reference,
             ..Drive::default()
         };
         let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);

@@ -21,6 +21,8 @@ pub struct Placement<'a> {
     pub distance: f64,
     /// Angle of rotation, forward positive \[rad].
     pub angle: f64,
+    /// Height of the rail \[m].
+    pub elevation: f64,
     /// Thermal growth of the wheel radius \[m].
     pub growth: f64,
     /// Swelling of the hot layers of wheel and rail under the contact \[m].
@@ -43,7 +45,7 @@ impl Surfaces {
     pub fn gap(&self, x: f64, at: &Placement) -> f64 {
         // The form of r − √(r² − x²) without cancellation.
         let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
-        let mut gap = circle - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>() - at.growth;
+        let mut gap = circle - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>() - at.growth - at.elevation;
         if !self.wheel.x.is_empty() {
             let turn = std::f64::consts::TAU;
             gap -= self.wheel.at((at.angle + x / self.radius).rem_euclid(turn));
@@ -71,7 +73,14 @@ mod tests {
     static UNDAMAGED: std::sync::LazyLock<Flattening> = std::sync::LazyLock::new(|| Flattening::none(0.0));
 
     fn place<'a>(distance: f64, angle: f64, growth: f64, swelling: &'a Piecewise) -> Placement<'a> {
-        Placement { distance, angle, growth, swelling: [swelling, NONE], flattening: [&UNDAMAGED, &UNDAMAGED] }
+        Placement {
+            distance,
+            angle,
+            elevation: 0.0,
+            growth,
+            swelling: [swelling, NONE],
+            flattening: [&UNDAMAGED, &UNDAMAGED],
+        }
     }
 
     #[test]

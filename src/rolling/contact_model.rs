@@ -45,6 +45,8 @@ pub struct ContactStep<'a> {
     pub duration: f64,
     /// Distance travelled \[m] and angle turned \[rad] at the end of the step, as predicted.
     pub place: [f64; 2],
+    /// Height of the rail \[m].
+    pub elevation: f64,
     /// How heat has deformed the bodies.
     pub deformation: &'a ThermalDeformation,
     /// Permanent flattening of wheel and rail.
@@ -130,6 +132,7 @@ impl ContactModel {
             placement: Placement {
                 distance,
                 angle,
+                elevation: step.elevation,
                 growth: *radius_growth,
                 swelling: [&swelling[0], &swelling[1]],
                 flattening: [&step.flattening[0], &step.flattening[1]],

@@ -120,7 +120,8 @@ macro_rules! inputs {
 
         /// Everything the outside prescribes during one communication step.
         ///
-        /// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities and the hub displacement cannot
+        /// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities, the hub displacement and
+        /// the elevation of the rail cannot
         /// jump: they move linearly from their present value to the input's value at the end of the communication step.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         pub struct Inputs {
@@ -174,9 +175,20 @@ inputs! {
         204 load of "drive", in "N" as "kN", from 0.0 to 1e9, nominal 1e5,
             "Vertical load on the hub, pressing down positive; unset: model.nominal_load";
         205 displacement of "drive", in "m" as "mm", from -0.1 to 0.1, nominal 1e-4,
-            "Hub height above just touching, up positive (pressed: negative)";
+            "Hub height above just touching a rail of elevation 0, up positive (pressed: negative); unset: the height at which \
+             the wheel carries drive.load at the start";
         250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3,
             "Friction coefficient available now; unset: friction.coefficient";
+        251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0,
+            "Absolute temperature of the rail that arrives at the contact, uniform over its depth; under the wheel it changes \
+             with the way, over the length of the patch; unset: thermal.reference";
+        252 slope of "rail", in "1" as "%", from -0.5 to 0.5, nominal 0.01,
+            "Gradient of the track, rising in x positive: the weight of all masses that move in x pulls the wheel along it, \
+             downhill; drive.load stays normal to the track";
+        253 elevation of "rail", in "m" as "mm", from -0.1 to 0.1, nominal 1e-3,
+            "Height of the rail under the wheel, up positive; moves linearly to its value over the step, as \
+             drive.displacement does, whose zero stays where it was (the height of the modelled piece of rail is the \
+             parameter rail.height)";
         206 tread_heat of "drive", in "W" as "kW", from 0.0 to 1e9, nominal 1e4,
             "Heat of the brake blocks into the tread";
         260 torque of "brake", in "N.m" as "kN.m", from 0.0 to 1e9, nominal 1e4,

@@ -43,7 +43,8 @@ pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
     lift(&mut wheel.mesh.nodes);
     wheel.displacement.iter_mut().for_each(|[_, y]| *y += motion.height.now);
     wheel.velocity.iter_mut().for_each(|[_, y]| *y += motion.height.rate);
-    let (base, speed) = (state.base.displacement.map(|b| b.now), state.base.velocities());
+    let (mut base, speed) = (state.base.displacement.map(|b| b.now), state.base.velocities());
+    base[1] += state.elevation;
     for k in 0..2 {
         rail.displacement.iter_mut().for_each(|u| u[k] += base[k]);
         rail.velocity.iter_mut().for_each(|v| v[k] += speed[k]);

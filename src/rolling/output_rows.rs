@@ -137,7 +137,7 @@ outputs! {
     310 contact_pressure_max: real "contact.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
         "Peak contact pressure";
     311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,
-        "Approach of hub and rail base since just touching, pressed positive";
+        "Approach of hub and rail base since just touching, pressed positive: rail.elevation - hub.height";
     400 wheel_velocity: real "wheel.velocity", in "m/s" as "km/h", nominal 30.0,
         "Travel velocity V of the wheel centre, positive in x";
     401 wheel_omega: real "wheel.omega", in "rad/s" as "rpm", nominal 60.0,
@@ -148,13 +148,28 @@ outputs! {
     404 wheel_acceleration: real "wheel.acceleration", in "m/s2", "Acceleration of the wheel centre in x";
     405 wheel_angular_acceleration: real "wheel.angular_acceleration", in "rad/s2",
         "Angular acceleration, forward positive";
+    406 wheel_mass: real "wheel.mass", in "kg", from 0.0, nominal 100.0,
+        "Mass of the wheel: wheel.hub_mass and that of the elastic annulus; vehicle.mass not included";
+    407 wheel_inertia: real "wheel.inertia", in "kg.m2", from 0.0, nominal 10.0,
+        "Moment of inertia of the wheel about its axle: wheel.hub_inertia and that of the elastic annulus";
     500 hub_force_x: real "hub.force_x", in "N" as "kN", nominal 1e4,
-        "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity";
+        "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity; gravity \
+         on a rail.slope acts besides";
     501 hub_force_y: real "hub.force_y", in "N" as "kN", nominal 1e5,
         "Vertical force on the hub, prescribed or reaction, up positive (-drive.load)";
     502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,
         "Moment that drives the hub, prescribed (drive.moment + brake.torque_actual) or reaction, forward positive; \
          conjugate to wheel.omega";
+    503 hub_height: real "hub.height", in "m" as "mm", nominal 1e-4,
+        "Height of the hub above just touching a rail of elevation 0, up positive: the partner of drive.displacement";
+    504 hub_vertical_velocity: real "hub.vertical_velocity", in "m/s" as "mm/s", nominal 1e-2,
+        "Vertical velocity of the hub, up positive; conjugate to hub.force_y";
+    255 rail_energy: real "rail.energy_per_metre", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
+        "Friction energy per metre of rail: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
+         standstill";
+    256 heat_per_metre: real "rail.heat_per_metre", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
+        "Heat left per metre of rail: heat.to_rail over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at standstill \
+         and where the rail gives heat to the wheel";
     261 brake_moment: real "brake.torque_actual", in "N.m" as "kN.m", nominal 1e4,
         "Moment of the brake on the wheel, forward positive (negative while it brakes forward rolling): brake.torque \
          against the rotation, or while brake.locked the reaction, as its mean over the last internal step";
@@ -246,7 +261,11 @@ outputs! {
         "Work of the wheel that grows with its temperature and lifts its load since the start";
     812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
         "Growth of kinetic and elastic energy since the start; with friction, damping and solver.energy_residual it \
-         balances energy.hub_work + energy.thermal_work";
+         balances energy.hub_work + energy.thermal_work + energy.gravity + energy.rail_work";
+    817 gravity_work: real "energy.gravity", in "J" as "kJ", nominal 1e5, start zero,
+        "Work of gravity along the track since the start, negative uphill";
+    818 lift_work: real "energy.rail_work", in "J" as "kJ", nominal 1e2, start zero,
+        "Work of the rail that rises under the wheel by rail.elevation since the start";
     816 brake_energy: real "energy.brake", in "J" as "kJ", nominal 1e5, start zero,
         "Energy that the brake has taken from the wheel since the start; energy.hub_work is net of it";
     813 friction_energy: real "energy.friction", in "J" as "kJ", nominal 1e5, start zero,

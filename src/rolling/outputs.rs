@@ -29,7 +29,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         contact_stick_fraction: traction.stick_fraction,
         contact_half_width: traction.half_width(),
         contact_pressure_max: traction.pressure_max,
-        contact_approach: -state.motion.height.now,
+        contact_approach: state.elevation - state.motion.height.now,
         friction: traction.friction,
         contact_tread_slip: traction.tread_slip,
         wheel_velocity: v,
@@ -38,7 +38,11 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         wheel_angle: state.angle,
         wheel_acceleration: state.motion.velocity.rate,
         wheel_angular_acceleration: state.motion.omega.rate,
-        hub_force_x: state.hub[0] * width,
+        wheel_mass: model.wheel.inertia[1] * width,
+        wheel_inertia: model.wheel.inertia[2] * width,
+        hub_height: state.motion.height.now,
+        hub_vertical_velocity: state.motion.height.rate,
+        hub_force_x: (state.hub[0] - state.gravity) * width,
         hub_force_y: state.hub[1] * width,
         hub_moment: state.hub[2] * width,
         brake_moment: state.brake.moment * width,
@@ -46,7 +50,9 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         brake_locked: state.brake.locked,
         brake_energy: state.audit.brake * width,
         friction_power: state.friction_power * width,
-        hub_work: state.audit.work * width,
+        hub_work: (state.audit.work - state.audit.gravity) * width,
+        gravity_work: state.audit.gravity * width,
+        lift_work: state.audit.lift * width,
         thermal_work: state.audit.thermal_work * width,
         stored_energy: (state.audit.energy - state.audit.initial_energy) * width,
         friction_energy: state.audit.friction * width,
@@ -56,6 +62,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         flattening_rail: state.flattening[1].deepest(),
         damping_energy: state.audit.damping * width,
         t_gamma: per_metre(state.friction_power * width, v, v_c),
+        rail_energy: per_metre(state.friction_power * width, v, v_c),
         internal_steps: state.internal_steps,
         iterations: state.iterations,
         energy_residual: state.audit.residual(model.contact.nominal_energy()),
@@ -84,6 +91,7 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
     let (temperatures, flows, damage) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
     let depths = profile_depths();
     let (found, v) = (damage.findings(), state.motion.velocity.now);
+    let rail_heat = per_metre(width * flows.to_rail, v, model.rolling_radius(state) * state.motion.omega.now);
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
         temperature_wheel_max: kelvin + temperatures.wheel_max,
@@ -107,7 +115,8 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         martensite_depth: found.martensite_depth,
         flats: damage.places,
         rail_peak: damage.rail_peak,
-        rail_heat: per_metre(width * flows.to_rail, v, model.rolling_radius(state) * state.motion.omega.now),
+        rail_heat,
+        heat_per_metre: rail_heat,
         thermal_growth: thermal.deformation.radius_growth,
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),

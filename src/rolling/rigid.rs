@@ -11,6 +11,9 @@ use crate::mechanics::response::{FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
 
+/// Standard gravity [m/s²].
+const GRAVITY: f64 = 9.80665;
+
 /// How far a motion may leave the range of the input that could prescribe it, as a factor.
 const MOTION_MARGIN: f64 = 1.05;
 
@@ -48,7 +51,7 @@ impl RigidWheel {
     pub fn drives(&self, inputs: &Inputs, target: &Drive) -> [AxisDrive; 3] {
         [
             match inputs.translation {
-                Translation::Force => AxisDrive::Free { load: target.force / self.width },
+                Translation::Force => AxisDrive::Free { load: target.force / self.width + self.gravity(target) },
                 Translation::Velocity => AxisDrive::Prescribed { target: target.velocity },
             },
             match inputs.vertical {
@@ -60,6 +63,11 @@ impl RigidWheel {
                 Rotation::Velocity => AxisDrive::Prescribed { target: target.omega },
             },
         ]
+    }
+
+    /// Force of gravity along the track, positive in x [N/m].
+    pub fn gravity(&self, target: &Drive) -> f64 {
+        -GRAVITY * self.inertia[0] * target.slope / target.slope.hypot(1.0)
     }
 
     /// Velocity V [m/s] and angular velocity Ω [rad/s] expected after a step `dt` \[s].

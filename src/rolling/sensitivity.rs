@@ -55,7 +55,7 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
     let config = &model.config;
     let load = config.model.nominal_load;
     let (speed, radius) = (0.1 * state.motion.velocity.now.abs().max(1.0), config.wheel.radius);
-    let approach = state.motion.height.now.abs().max(1e-5);
+    let approach = (state.elevation - state.motion.height.now).abs().max(1e-5);
     Drive {
         omega: speed / radius,
         moment: load * radius,
@@ -66,6 +66,9 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
         friction: 1.0,
         tread_heat: inputs.drive.tread_heat.abs().max(1e4),
         torque: load * radius,
+        temperature: 100.0,
+        slope: 1.0,
+        elevation: approach,
     }
 }
 

@@ -26,6 +26,8 @@ pub struct State {
     pub wheel: BodyState,
     /// Deformation of the rail.
     pub rail: BodyState,
+    /// Height of the rail under the wheel \[m].
+    pub elevation: f64,
     /// Motion of the base of the rail.
     pub base: BaseMotion,
     /// Contact: result of the last step and start of the next one.
@@ -34,10 +36,13 @@ pub struct State {
     pub flattening: [Flattening; 2],
     /// Temperatures, unless the thermal part is switched off.
     pub thermal: Option<ThermalState>,
-    /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions [N/m, N/m, N].
+    /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions, with gravity and the
+    /// brake [N/m, N/m, N].
     pub hub: [f64; 3],
     /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
     pub driving: [f64; 3],
+    /// Part of the force in x: gravity along the track [N/m].
+    pub gravity: f64,
     /// The brake in the last step.
     pub brake: Brake,
     /// Which motions (V, U, Ω) were prescribed in the last step.
@@ -122,6 +127,8 @@ impl Motion {
 pub struct ThermalState {
     /// Both temperature fields.
     pub fields: HeatState,
+    /// Excess temperature of the rail that has arrived under the wheel, on top of the field of the rail \[K].
+    pub arrived: f64,
     /// Mean heat flows over the last communication step [W/m].
     pub flows: HeatFlows,
     /// Excess temperatures \[K].
@@ -241,6 +248,10 @@ pub struct Audit {
     pub work: f64,
     /// Work of the wheel that grows with its temperature and lifts its load [J/m].
     pub thermal_work: f64,
+    /// Work of gravity along the track; part of the work of the hub forces [J/m].
+    pub gravity: f64,
+    /// Work of the rail that rises under the load [J/m].
+    pub lift: f64,
     /// Energy that the brake has taken; part of the work of the hub forces [J/m].
     pub brake: f64,
     /// Energy that friction has turned into heat [J/m].
@@ -267,7 +278,7 @@ impl Audit {
 
     /// Energy that has vanished in the numerics [J/m].
     pub fn imbalance(&self) -> f64 {
-        self.work + self.thermal_work - (self.energy - self.initial_energy) - self.dissipation()
+        self.work + self.thermal_work + self.lift - (self.energy - self.initial_energy) - self.dissipation()
     }
 
     /// Imbalance relative to the dissipated energy \[1], or to the energy `stored` [J/m] in the loaded contact or a

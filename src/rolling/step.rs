@@ -125,7 +125,8 @@ fn attempt(
             let brake_power = (next.audit.brake - state.audit.brake) / plan.dt;
             let tread_heat = brake::tread_heat(model, demand.target, brake_power);
             let step = HeatStep { dt: plan.dt, tread_heat, criteria };
-            let touch = thermal.touch(&model.contact, &next.contact.traction);
+            let arriving = thermal.arriving(before, next, demand.target.temperature, plan.dt);
+            let touch = thermal.touch(&model.contact, &next.contact.traction, arriving);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
             next.thermal = Some(temperatures);
             audit::grow(next, &before.deformation);
@@ -192,6 +193,7 @@ fn solve_and_commit(
         time: *td,
         duration: *dt,
         place,
+        elevation: demand.target.elevation,
         deformation: state.deformation(),
         flattening: &state.flattening,
         weakening: state.weakening(),
@@ -210,6 +212,8 @@ fn solve_and_commit(
     next.brake = Brake::applied(plan.given[2], drives[2], &next.motion, next.driving[2], [td.a0, *dt]);
     next.hub = std::array::from_fn(|k| plan.given[k].loads().map_or(next.driving[k], |[load, _]| load));
     next.hub[2] += next.brake.moment;
+    next.gravity = model.wheel.gravity(demand.target);
+    next.elevation = demand.target.elevation;
     next.time = state.time + dt;
     next.pending = 0.0;
     next.distance = moved_by(state.distance, &state.motion.velocity, next.motion.velocity.now, *dt);

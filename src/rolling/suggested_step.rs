@@ -23,7 +23,7 @@ pub fn suggested_step(model: &Model, state: &State) -> f64 {
     let [mass, wheel, moment] = model.wheel.inertia;
     let radius = model.rolling_radius(state);
     let traction = &state.contact.traction;
-    let (load, approach) = (traction.resultant[1], -state.motion.height.now);
+    let (load, approach) = (traction.resultant[1], state.elevation - state.motion.height.now);
     let compliance = |prescribed: bool, inverse: f64| if prescribed { inverse } else { 0.0 };
     let inverse_mass = compliance(x, 1.0 / mass) + compliance(rotation, radius * radius / moment);
     let mut suggestion = LARGEST;

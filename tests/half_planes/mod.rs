@@ -99,6 +99,7 @@ impl HalfPlanes {
             placement: Placement {
                 distance: 0.0,
                 angle: 0.0,
+                elevation: 0.0,
                 growth: 0.0,
                 swelling: [&flat, &flat],
                 flattening: [&sound, &sound],

@@ -6,9 +6,10 @@ use crate::fmi::lifecycle::Call;
 use crate::fmi::log::{CallError, Status};
 use crate::fmi::settings::with_parameters;
 use crate::fmi::snapshot::Snapshot;
-use crate::fmi::variables::find;
+use crate::fmi::variable::{Reference, Value};
+use crate::fmi::variables::{find, variables};
 use crate::simulation::validity::Limit;
-use crate::simulation::{BasisStore, Model, Simulation, advice};
+use crate::simulation::{BasisStore, Inputs, Model, Simulation, Vertical, advice};
 use std::sync::Arc;
 
 impl Instance {
@@ -67,15 +68,28 @@ impl Instance {
         if self.simulation.is_none() {
             self.check_settings()?;
             let model = self.model(self.config.clone())?;
-            let inputs = self.effective_inputs();
+            let mut inputs = self.effective_inputs();
             let failed = |error| {
                 let why = advice::failed_start(&error, &self.config);
                 CallError::error(format!("no stationary state for these inputs: {why}"))
             };
             let tuning = self.config.tuning.clone();
+            if let Some(reference) = self.height_to_find(&inputs) {
+                let pressed = Inputs { vertical: Vertical::Force, ..inputs };
+                let loaded = Simulation::start(model.clone(), tuning.clone(), &pressed).map_err(failed)?;
+                inputs.drive.displacement = loaded.outputs().hub_height;
+                self.bumpless.insert(reference, Value::Real(inputs.drive.displacement));
+            }
             self.simulation = Some(Simulation::start(model, tuning, &inputs).map_err(failed)?);
         }
         self.simulation.as_mut().ok_or_else(|| CallError::error("no simulation"))
+    }
+
+    /// Reference of the hub height, if it is prescribed at the start and has not been set.
+    fn height_to_find(&self, inputs: &Inputs) -> Option<Reference> {
+        let reference = variables().iter().find(|row| row.name == "drive.displacement")?.reference;
+        let unset = inputs.vertical == Vertical::Displacement && !self.inputs.contains_key(&reference);
+        unset.then_some(reference)
     }
 
     /// Refuses parameters and inputs that do not go together. Each is within its own range since it was set; what follows
@@ -104,6 +118,7 @@ impl Instance {
                 "drive.velocity" => format!("initial.velocity = {:?} m/s", initial.velocity),
                 "drive.load" => format!("model.nominal_load = {:?} N", self.config.model.nominal_load),
                 "rail.friction" => format!("friction.coefficient = {:?}", self.config.friction.coefficient),
+                "rail.temperature" => format!("thermal.reference = {:?} K", self.config.thermal.reference),
                 _ => return CallError::error(error.to_string()),
             };
             CallError::error(format!("{error}; it follows from {source} unless it is set"))

@@ -98,7 +98,7 @@ impl Instance {
         };
         let vertical = match next.vertical {
             Vertical::Force => ("drive.load", -outputs.hub_force_y),
-            Vertical::Displacement => ("drive.displacement", -outputs.contact_approach),
+            Vertical::Displacement => ("drive.displacement", outputs.hub_height),
         };
         for (switched, (name, present)) in [
             (now.rotation != next.rotation, rotation),

@@ -139,7 +139,8 @@ impl Goal {
         let [force, moment] = self.free_loads();
         let braked = matches!(self.given[2], AxisDrive::Braked { .. });
         let turning = if braked { "drive.moment less brake.torque" } else { "drive.moment" };
-        let parts = [(turning, moment, "N m"), ("drive.force", force, "N")];
+        let pulling = if self.drive.slope == 0.0 { "drive.force" } else { "drive.force on this rail.slope" };
+        let parts = [(turning, moment, "N m"), (pulling, force, "N")];
         let named =
             parts.iter().filter_map(|(name, load, unit)| load.map(|load| format!("{name} = {} {unit}", load * width)));
         named.collect::<Vec<_>>().join(" and ")

@@ -130,6 +130,7 @@ impl Pass<'_> {
             time: td,
             duration: 0.0,
             place: [0.0; 2],
+            elevation: goal.drive.elevation,
             deformation: state.deformation(),
             flattening: &state.flattening,
             weakening: state.weakening(),
@@ -198,6 +199,7 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
         hub_velocity: History::default(),
     };
     zones::narrow(model, &mut state);
+    (state.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
     state.brake = Brake::stationary(goal.given[2], omega, state.hub[2]);
     state.hub[2] = goal.given[2].loads().map_or(state.hub[2], |[load, _]| load + state.brake.moment);
     state.driving = state.hub;

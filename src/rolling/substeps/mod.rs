@@ -78,7 +78,7 @@ pub fn advance(
     let end = inputs.at(h);
     end.validate()?;
     let [velocity, displacement, omega] = state.motion.values();
-    let start = Drive { omega, velocity, displacement, ..inputs.at(0.0) };
+    let start = Drive { omega, velocity, displacement, elevation: state.elevation, ..inputs.at(0.0) };
     let h = h + state.pending;
     if h < SHORTEST_STEP {
         out.clone_from(state);

@@ -47,8 +47,11 @@ impl BrakeBlocks {
 pub struct Touch<'a> {
     /// Its forces.
     pub traction: &'a Traction,
-    /// Reversible temperatures of the surfaces of wheel and rail \[K]; empty if they are not computed.
-    pub reversible: [Piecewise; 2],
+    /// Temperatures of the surfaces of wheel and rail besides those of the fields \[K]: reversible ones, and that with which
+    /// the rail has arrived; empty without.
+    pub besides: [Piecewise; 2],
+    /// Excess temperature with which the rail has arrived \[K].
+    pub arrived: f64,
 }
 
 impl Touch<'_> {
@@ -62,7 +65,7 @@ impl Touch<'_> {
         copy(&contact.dissipation, &mut exchange.friction_power);
         exchange.friction_excess = contact.dissipation_excess;
         blocks.fill(tread_heat, &mut exchange.tread);
-        let [wheel, rail] = &self.reversible;
+        let [wheel, rail] = &self.besides;
         for ((&x, of_wheel), of_rail) in wheel.x.iter().zip(&wheel.value).zip(&rail.value) {
             exchange.reversible.push(x, of_wheel - of_rail);
         }

@@ -1,0 +1,272 @@
+//! What a master tells of the track: gradient, height and temperature of the rail; and what it learns of the wheel.
+
+mod common;
+
+use common::{model, preset};
+use std::f64::consts::PI;
+use std::sync::Arc;
+use wheelrail::config::{Config, Hub};
+use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, Translation, Vertical};
+
+const GRAVITY: f64 = 9.80665;
+
+/// A railway wheel on a coarse mesh.
+fn wheel(change: impl Fn(&mut Config)) -> Arc<Model> {
+    let mut config = preset("railway", 6);
+    (config.solver.modes_wheel, config.solver.modes_rail) = (20, 10);
+    config.thermal.enabled = false;
+    change(&mut config);
+    model(config)
+}
+
+/// Mass moving in x [kg], and the same with the moment of inertia at the rim.
+fn masses(model: &Model, outputs: &Outputs) -> [f64; 2] {
+    let mass = outputs.wheel_mass + model.config().vehicle.mass;
+    [mass, mass + outputs.wheel_inertia / model.config().wheel.radius.powi(2)]
+}
+
+#[test]
+fn mass_and_inertia_are_those_of_annulus_and_hub() {
+    let model = wheel(|_| {});
+    let simulation = Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap();
+    let (c, o) = (model.config(), simulation.outputs());
+    let (r, i) = (c.wheel.radius, c.wheel.hub_radius);
+    let annulus = PI * c.material.density * c.model.contact_width * (r * r - i * i);
+    println!("{} kg, {} kg m²", o.wheel_mass, o.wheel_inertia);
+    assert!((o.wheel_mass / (annulus + 250.0) - 1.0).abs() < 1e-12);
+    assert!((o.wheel_inertia / (0.5 * annulus * (r * r + i * i) + 15.0) - 1.0).abs() < 1e-12);
+    assert_eq!(o.hub_height, -o.contact_approach);
+}
+
+#[test]
+fn a_wheel_rolls_down_a_gradient_and_its_brake_holds_it_there() {
+    let model = wheel(|config| config.initial.velocity = 0.0);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.drive.slope, inputs.drive.torque) = (0.03, 5e3);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let start = simulation.outputs().clone();
+    let [mass, with_inertia] = masses(&model, &start);
+    let pull = mass * GRAVITY * 0.03 / 0.03f64.hypot(1.0);
+    println!("holds {} N m against {} N", start.brake_moment, pull);
+    assert!(start.brake_locked && (start.brake_moment / (0.46 * pull) - 1.0).abs() < 1e-2);
+    assert_eq!(start.hub_force_x, 0.0);
+    for _ in 0..500 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+        assert!(simulation.outputs().brake_locked && simulation.outputs().wheel_velocity.abs() < 1e-6);
+    }
+    inputs.drive.torque = 0.0;
+    for _ in 0..2000 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let (o, v) = (simulation.outputs(), -2.0 * pull / with_inertia);
+    println!("{} m/s, closed form {v}; gravity {} J", o.wheel_velocity, o.gravity_work);
+    println!("stored {} J, hub {} J, residual {}", o.stored_energy, o.hub_work, o.energy_residual);
+    assert!((o.wheel_velocity / v - 1.0).abs() < 1e-3);
+    assert!((o.gravity_work / (-pull * o.wheel_distance) - 1.0).abs() < 1e-9);
+    assert!((o.gravity_work / o.stored_energy - 1.0).abs() < 1e-3 && o.hub_work.abs() < 1e-2);
+}
+
+#[test]
+fn a_start_uphill_needs_the_pull_of_the_gradient_before_the_brake_lets_go() {
+    let model = wheel(|config| config.initial.velocity = 0.0);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.drive.slope, inputs.drive.torque) = (0.02, 4e3);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    // The driver opens the throttle against the brake, which fades from half a second on.
+    let (mut lowest, mut released) = (f64::MAX, None);
+    for k in 0..3000 {
+        let t = f64::from(k + 1) * 1e-3;
+        inputs.drive.moment = 2e3 * (t / 0.5).min(1.0);
+        inputs.drive.torque = 4e3 * (1.0 - (t - 0.5).clamp(0.0, 1.0));
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let o = simulation.outputs();
+        lowest = lowest.min(o.wheel_distance);
+        if released.is_none() && !o.brake_locked {
+            released = Some(t);
+        }
+    }
+    let (o, [mass, _]) = (simulation.outputs(), masses(&model, simulation.outputs()));
+    // It is free where the torque is what the drive has over the pull.
+    let free = 1.5 - (2e3 - 0.46 * mass * GRAVITY * 0.02 / 0.02f64.hypot(1.0)) / 4e3;
+    println!("free at {released:?} s, closed form {free}; lowest {lowest:e} m, {} m/s", o.wheel_velocity);
+    assert!((released.unwrap() - free).abs() < 5e-3 && o.wheel_velocity > 0.1);
+    assert!(lowest > -1e-4, "it rolls back by {lowest} m");
+}
+
+#[test]
+fn a_prescribed_velocity_on_a_gradient_takes_the_force_of_gravity() {
+    let model = wheel(|_| {});
+    let force = [0.0, 0.01].map(|slope| {
+        let mut inputs = Inputs { translation: Translation::Velocity, ..Inputs::rolling(model.config()) };
+        inputs.drive.slope = slope;
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let start = simulation.outputs().hub_force_x;
+        (0..20).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
+        [start, simulation.outputs().hub_force_x]
+    });
+    let [mass, _] = masses(&model, Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap().outputs());
+    let pull = mass * GRAVITY * 0.01 / 0.01f64.hypot(1.0);
+    println!("{force:?}, gravity {pull}");
+    for (flat, rising) in force[0].into_iter().zip(force[1]) {
+        assert!((rising - flat - pull).abs() < 1e-6 * pull);
+    }
+}
+
+#[test]
+fn a_rail_that_rises_lifts_the_wheel_and_does_the_work_of_the_load() {
+    let model = wheel(|_| {});
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let before = simulation.outputs().clone();
+    for k in 0..2000 {
+        let share = (f64::from(k + 1) / 1000.0).min(1.0);
+        inputs.drive.elevation = 5e-4 * (1.0 - (PI * share).cos());
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let o = simulation.outputs();
+    println!("{} m, {} J, residual {}", o.hub_height - before.hub_height, o.lift_work, o.energy_residual);
+    assert!((o.hub_height - before.hub_height - 1e-3).abs() < 1e-8);
+    assert!((o.lift_work / (1e-3 * 1e5) - 1.0).abs() < 1e-3 && (o.hub_work / (-1e-3 * 1e5) - 1.0).abs() < 1e-3);
+    assert!((o.contact_approach - before.contact_approach).abs() < 1e-8 && o.energy_residual.abs() < 1e-2);
+}
+
+#[test]
+fn a_rail_that_rises_under_a_held_hub_presses_as_a_hub_that_sinks() {
+    let model = wheel(|_| {});
+    let mut inputs = Inputs { vertical: Vertical::Displacement, ..Inputs::rolling(model.config()) };
+    inputs.drive.displacement = -8e-5;
+    let run = |change: &dyn Fn(&mut Drive, f64)| {
+        let mut inputs = inputs;
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        for k in 0..50 {
+            change(&mut inputs.drive, 1e-5 * (f64::from(k + 1) / 20.0).min(1.0));
+            simulation.advance(&inputs, 1e-3).unwrap();
+        }
+        simulation.outputs().clone()
+    };
+    let [rises, sinks] = [run(&|drive, by| drive.elevation = by), run(&|drive, by| drive.displacement = -8e-5 - by)];
+    println!("{} and {} N", rises.contact_force_y, sinks.contact_force_y);
+    assert!(rises.contact_force_y > 4e4);
+    // The annulus is not lifted, so that its inertia makes a difference while the motion lasts.
+    assert!((rises.contact_force_y / sinks.contact_force_y - 1.0).abs() < 1e-4);
+    assert!((rises.contact_approach - sinks.contact_approach).abs() < 1e-12);
+}
+
+#[test]
+fn a_warm_wheel_on_a_warm_rail_is_a_cold_one_at_a_warm_reference() {
+    let warm = |reference: f64, excess: f64| {
+        wheel(|config| {
+            config.thermal.enabled = true;
+            config.physics.thermal_expansion = false;
+            config.tuning.softening = 0.0;
+            config.thermal.hub = Hub::Insulated;
+            (config.thermal.reference, config.thermal.wheel_excess) = (reference, excess);
+        })
+    };
+    let [whole, parts] = [(343.0, 0.0), (293.0, 50.0)].map(|(reference, excess)| {
+        let model = warm(reference, excess);
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.drive.temperature = 343.0;
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        for _ in 0..300 {
+            inputs.drive.torque = 1e4;
+            simulation.advance(&inputs, 1e-3).unwrap();
+        }
+        simulation.outputs().clone()
+    });
+    let of = |o: &Outputs| {
+        let mean = [o.temperature_wheel_mean, o.temperature_rail_mean, o.temperature_wheel_max, o.temperature_rail_max];
+        (mean, [o.heat_to_rail, o.heat_conduction, o.rail_heat, o.friction_power])
+    };
+    println!("{:?}\n{:?}", of(&whole), of(&parts));
+    let ((a, p), (b, q)) = (of(&whole), of(&parts));
+    assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-2) && a[3] > 350.0);
+    assert!(p.iter().zip(q).all(|(p, q)| (p - q).abs() < 3e-3 * whole.friction_power));
+    assert_eq!([whole.rail_heat, whole.t_gamma], [whole.heat_per_metre, whole.rail_energy]);
+}
+
+#[test]
+fn warm_rail_arrives_with_the_way_and_heats_a_cold_wheel() {
+    let model = model(preset("railway", 20));
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let cold = simulation.outputs().clone();
+    inputs.drive.temperature = 343.0;
+    for _ in 0..200 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let o = simulation.outputs();
+    println!("{} K, {} K, {} W", o.temperature_rail_mean, o.temperature_rail_max, o.heat_conduction);
+    assert!(o.heat_conduction < -1e3 && o.temperature_wheel_mean > cold.temperature_wheel_mean + 10.0);
+    assert!(o.temperature_rail_max > 338.0 && o.temperature_rail_max < 344.0);
+    // The heat that the wheel has taken from the rail is in the wheel.
+    assert!(o.heat_residual.abs() < 1e-9 && o.heat_per_metre == 0.0);
+    // No new rail comes under a wheel that stands.
+    let standing = wheel(|config| (config.thermal.enabled, config.initial.velocity) = (true, 0.0));
+    let mut inputs = Inputs::rolling(standing.config());
+    let mut simulation = Simulation::new(standing, &inputs).unwrap();
+    inputs.drive.temperature = 343.0;
+    (0..100).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
+    assert!((simulation.outputs().temperature_rail_mean - 293.0).abs() < 1e-3);
+}
+
+/// The parameters of a wheelset, as `docs/coupling.md` gives them.
+fn wheelset(config: &mut Config) {
+    config.model.contact_width *= 2.0;
+    config.model.nominal_load *= 2.0;
+    config.wheel.hub_mass *= 2.0;
+    config.wheel.hub_inertia *= 2.0;
+    config.vehicle.mass *= 2.0;
+    config.vehicle.damping *= 2.0;
+    config.rail.restraint_stiffness *= 2.0;
+    config.rail.restraint_damping *= 2.0;
+    let thermal = &mut config.thermal;
+    for width in [&mut thermal.rim_width, &mut thermal.web_width, &mut thermal.boss_width, &mut thermal.head_width] {
+        *width *= 2.0;
+    }
+    thermal.block_width *= 2.0;
+}
+
+#[test]
+fn a_wheelset_is_two_wheels() {
+    let [one, two] = [false, true].map(|both| {
+        let model = wheel(|config| {
+            config.thermal.enabled = true;
+            if both {
+                wheelset(config);
+            }
+        });
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        for _ in 0..300 {
+            inputs.drive.torque = if both { 1.6e4 } else { 8e3 };
+            simulation.advance(&inputs, 1e-3).unwrap();
+        }
+        simulation.outputs().clone()
+    });
+    println!(
+        "{} kg, {} kg m²; {} m/s, {} m/s",
+        two.wheel_mass, two.wheel_inertia, one.wheel_velocity, two.wheel_velocity
+    );
+    for (one, two) in [
+        (one.contact_force_x, two.contact_force_x),
+        (one.contact_force_y, two.contact_force_y),
+        (one.brake_power, two.brake_power),
+        (one.friction_power, two.friction_power),
+        (one.wheel_mass, two.wheel_mass),
+        (one.rail_energy, two.rail_energy),
+    ] {
+        assert!((two / one - 2.0).abs() < 5e-5, "{one} and {two}");
+    }
+    for (one, two) in [(one.wheel_velocity, two.wheel_velocity), (one.contact_pressure_max, two.contact_pressure_max)] {
+        assert!((two / one - 1.0).abs() < 1e-6, "{one} and {two}");
+    }
+    // Heat spreads sideways over lengths that do not double.
+    println!(
+        "{} W, {} W; {} K, {} K",
+        one.heat_to_rail, two.heat_to_rail, one.temperature_wheel_max, two.temperature_wheel_max
+    );
+    assert!((two.heat_to_rail / one.heat_to_rail - 2.0).abs() < 1e-2);
+    assert!((two.temperature_wheel_max - one.temperature_wheel_max).abs() < 0.1);
+    assert!((two.temperature_wheel_bulk - one.temperature_wheel_bulk).abs() < 1e-2);
+}
