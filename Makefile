@@ -8,6 +8,7 @@
 # make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
+# make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make bench     speed of steps, starts and the reduced basis
@@ -42,7 +43,7 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension train sweep flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -73,6 +74,9 @@ masters: $(FMU) $(INSTALLED)
 
 suspension: $(FMU) $(INSTALLED)
 	$(PY) examples/ex07_suspension.py --fmu $(FMU) --out results
+
+creep-curve: $(FMU) $(INSTALLED)
+	$(PY) examples/ex08_creep_curve.py --fmu $(FMU) --out results
 
 train: $(FMU) $(INSTALLED)
 	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out results

@@ -75,12 +75,7 @@ class Run:
         if master == "velocity":
             inputs |= {"control.translation": "velocity", "drive.velocity": SPEED}
         self.wheel = Wheel(fmu, COLD | {"initial.velocity": SPEED}, inputs)
-        radius, hub, density, width = self.wheel.get(
-            "wheel.radius", "wheel.hub_radius", "material.density", "model.contact_width"
-        )
-        rim = density * width * np.pi * (radius**2 - hub**2)
-        self.mass, self.radius = HUB_MASS + rim, radius
-        self.inertia = HUB_INERTIA + 0.5 * rim * (radius**2 + hub**2)
+        self.mass, self.inertia, self.radius = self.wheel.get("wheel.mass", "wheel.inertia", "wheel.radius")
         self.vehicle = Vehicle(SPEED)
         self.place, self.speed, self.contact, self.omega = self.wheel.get(*SEEN)
         self.rows = []
@@ -169,6 +164,7 @@ class Run:
 
 
 MASTERS = ("held", "ramped", "velocity", "iterative")
+STYLES = {"held": "s-", "ramped": "o-", "velocity": "^-", "iterative": "x:"}
 
 
 def swing(table, chosen, column=3):
@@ -205,10 +201,11 @@ def plot(path, found, reference):
         for master in MASTERS:
             rows = [(1e3 * h, found[master, h][k]) for h in STEPS if found[master, h]]
             values = [max(100.0 * abs(v / reference - 1.0) if k == 0 else v, 1e-5) for _, v in rows]
-            axis.loglog([h for h, _ in rows], values, "o-", label=master, markersize=4)
+            axis.loglog([h for h, _ in rows], values, STYLES[master], label=master, markersize=4)
         axis.set(title=title, xlabel="communication step [ms]")
+        axis.set_xticks([1e3 * h for h in STEPS], [f"{1e3 * h:g}" for h in STEPS])
+        axis.minorticks_off()
     axes[0].axhline(0.3, color="#777777", linestyle=":")
-    axes[2].axhline(0.5, color="#777777", linestyle=":")
     axes[0].legend()
     figure.savefig(path, dpi=110)
 

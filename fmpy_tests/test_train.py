@@ -45,7 +45,7 @@ def test_a_dry_stop_is_as_long_as_the_closed_form_says_balances_its_energy_and_e
     kinetic = 0.5 * rolling_mass(coach.vehicle)[1] * coach.speed**2
     print(f"kinetic energy {kinetic:.0f} J, brakes {brakes:.0f} J, contacts {contacts:.0f} J")
     # What is missing swings out in the dampers of the vehicle once the wheels stand.
-    assert 0.985 * kinetic < brakes + contacts < kinetic
+    assert 0.995 * kinetic < brakes + contacts < kinetic
 
 
 def test_slide_protection_keeps_wheels_turning_where_they_lock_without(coach, fmu):
@@ -54,13 +54,19 @@ def test_slide_protection_keeps_wheels_turning_where_they_lock_without(coach, fm
     coach.hold, unprotected = 0.0, deepcopy(coach)
     unprotected.brake.wsp.active = False
     protected, rail = stopped(coach, fmu)
-    unprotected, _ = stopped(unprotected, fmu)
-    with_it, without = report.figures(protected), report.figures(unprotected)
+    found = report.figures(protected)
     for name in ("stopping distance", "longest lock", "slide while sliding, p95", "mean adhesion while sliding"):
-        print(f"{name}: {with_it[name][0]}, without protection {without[name][0]}")
-    assert max(with_it["longest lock"][0]) < 0.4
-    assert min(without["longest lock"][0]) > 2.0
-    assert without["stopping distance"][0] > with_it["stopping distance"][0]
+        print(f"{name}: {found[name][0]}")
+    assert max(found["longest lock"][0]) < 0.4
+
+    run = Stop(unprotected, fmu)
+    turning = True
+    while turning and run.contacts.time < 8.0:
+        run.step(unprotected.step)
+        turning = max(wheelset.omega for wheelset in run.contacts.seen) > 1e-9
+    print(f"without protection locked after {run.contacts.time:.2f} s at {run.coach.speed():.2f} m/s")
+    assert not turning and run.coach.speed() > 3.0
+    run.close()
 
     # The friction that axles met is the law of what the axles ahead had left there.
     time = report.column(protected, "time")

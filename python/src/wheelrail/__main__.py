@@ -69,7 +69,11 @@ def main(argv=None):
         return
     try:
         scenario = scenarios.load(options.scenario)
-        scenario.step = options.step or scenario.step
+        if options.step is not None:
+            wrong = scenarios.SCENARIO["step"].check(options.step)
+            if wrong:
+                raise BadFile(f"--step {wrong}")
+            scenario.step = options.step
         if options.command == "train":
             train(options, scenario)
         else:

@@ -120,7 +120,7 @@ SCENARIO = {
     "demand": Real(0, 1, "1", "share of the full brake pressure", 1.0),
     "payload": Real(0, 1e6, "kg", "in place of the vehicle's", optional=True),
     "adhesion": Real(1e-3, 1, "1", "of contaminated rail, in place of the track's", optional=True),
-    "step": Real(1e-5, 0.05, "s", "communication step", 0.005),
+    "step": Real(1e-5, 0.01, "s", "communication step; longer ones do not resolve the primary suspension", 0.005),
     "hold": Real(0, 60, "s", "watched after standstill", 2.0),
     "longest": Real(0.01, 3600, "s", "a stop may take", 240.0),
     "dry": Real(1e-3, 1, "1", "friction of the dry stop that the others are compared with", 0.3),

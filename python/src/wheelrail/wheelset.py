@@ -55,15 +55,16 @@ class FmuWheelset:
         values = whole_wheelset(fmu, wheelset, parameters or {})
         values |= {"initial.velocity": speed, "vehicle.mass": 0.0, "vehicle.damping": damping}
         self.wheel = Wheel(fmu, values, {"drive.load": load}, name="wheelset")
-        self.reference = self.wheel.get("thermal.reference")
+        self.reference, *held = self.wheel.get("thermal.reference", "wheel.mass", "wheel.inertia")
+        if not np.allclose(held, [self.mass, self.inertia], rtol=1e-6):
+            self.close()
+            raise ValueError(f"the FMU holds {held[0]:g} kg, {held[1]:g} kg m2 in place of {wheelset}")
         self._heat = 0.0
 
     def step(self, h, drive):
         """Advances by `h` seconds."""
         ramped = {"drive.force": drive.force, "drive.load": drive.load, "brake.torque": drive.torque}
-        held = {"rail.friction": drive.friction}
-        if "rail.temperature" in self.wheel.fmu.variables:
-            held["rail.temperature"] = self.reference + drive.rail_excess
+        held = {"rail.friction": drive.friction, "rail.temperature": self.reference + drive.rail_excess}
         self.wheel.set({name: begin for name, (begin, _) in ramped.items()} | held)
         self.wheel.set_rates({name: (end - begin) / h for name, (begin, end) in ramped.items()})
         self.wheel.step(h)
@@ -76,21 +77,22 @@ class FmuWheelset:
         self.wheel.close()
 
 
+# Parameters that two wheels have twice.
+DOUBLED = (
+    "model.contact_width", "model.nominal_load", "rail.restraint_stiffness", "rail.restraint_damping",
+    "rail.support_stiffness", "rail.support_damping", "rail.support_mass",
+)  # fmt: skip
+
+
 def whole_wheelset(fmu, wheelset, parameters):
     """Parameters of one wheel made those of two on an axle that weigh and turn as given [kg, kg m2]."""
-    names = ("model.contact_width", "wheel.hub_radius", "material.density", "model.nominal_load")
-    with Wheel(fmu, parameters | {"wheel.radius": wheelset.radius}) as probe:
-        width, hub_radius, density, load = probe.get(*names)
-    width *= WHEELS
-    annulus = density * width * np.pi * (wheelset.radius**2 - hub_radius**2)
-    hub_mass = wheelset.mass - annulus
-    hub_inertia = wheelset.inertia - 0.5 * annulus * (wheelset.radius**2 + hub_radius**2)
-    if hub_mass < 0.0 or hub_inertia < 0.0:
+    with Wheel(fmu, parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}) as one:
+        mass, inertia = (WHEELS * value for value in one.get("wheel.mass", "wheel.inertia"))
+        doubled = {name: WHEELS * value for name, value in zip(DOUBLED, one.get(*DOUBLED))}
+    if mass > wheelset.mass or inertia > wheelset.inertia:
         raise ValueError(f"a wheelset of {wheelset.mass:g} kg, {wheelset.inertia:g} kg m2 is lighter than its two rims")
-    return parameters | {
-        "wheel.radius": wheelset.radius, "model.contact_width": width, "model.nominal_load": WHEELS * load,
-        "wheel.hub_mass": hub_mass, "wheel.hub_inertia": hub_inertia,
-    }  # fmt: skip
+    hub = {"wheel.hub_mass": wheelset.mass - mass, "wheel.hub_inertia": wheelset.inertia - inertia}
+    return parameters | doubled | hub | {"wheel.radius": wheelset.radius}
 
 
 class RigidWheelset:
