@@ -320,3 +320,42 @@ fn a_run_goes_on_bit_for_bit_from_a_checkpoint_before_a_lock_up() {
     }
     assert!(ends[0] == ends[1]);
 }
+
+#[test]
+fn a_hot_wheel_locks_and_is_released_where_its_friction_says() {
+    let model = wheel(|config| (config.thermal.enabled, config.thermal.wheel_excess) = (true, 300.0));
+    let mut events = Vec::new();
+    for step in [1e-3f64, 1e-4] {
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let torque = |t: f64| 25e3 * (t / 0.1).min(1.0).min(((0.8 - t) / 0.5).max(0.0));
+        let (mut seen, mut held, mut freed) = (Vec::new(), 0.0, None);
+        for k in 0..(0.8 / step).round() as usize {
+            let [t, end] = [k, k + 1].map(|k| k as f64 * step);
+            inputs.drive.torque = torque(t);
+            inputs.rate.torque = (torque(end) - torque(t)) / step;
+            simulation.advance(&inputs, step).unwrap();
+            let o = simulation.outputs();
+            let strength = torque(t).max(torque(end));
+            if o.brake_locked {
+                assert!(o.wheel_omega == 0.0 && o.brake_moment.abs() <= strength * (1.0 + 1e-9) + 1e-3);
+                held = o.brake_moment / (o.contact_force_x * (0.46 + o.thermal_growth));
+            } else {
+                assert!((o.brake_moment + torque(end) * o.wheel_omega.signum()).abs() < 1e-6);
+                if held != 0.0 && freed.is_none() {
+                    freed = Some(torque(t) / (0.46 * o.contact_force_x.abs()));
+                }
+            }
+            seen.push((end, o.brake_locked));
+        }
+        let locked = switched(&seen, 0.0, true);
+        let (released, o) = (switched(&seen, locked, false), simulation.outputs());
+        println!("{step}: {locked} s, {released} s; reaction over r F_x {held}, torque at release {freed:?}");
+        println!("  {} K, residual {}, {}", o.temperature_wheel_max, o.energy_residual, o.heat_residual);
+        // The rim rings against the held hub under friction that softens, and the reaction with it.
+        assert!((held - 1.0).abs() < 0.2 && (freed.unwrap() - 1.0).abs() < 0.2);
+        assert!(o.energy_residual.abs() < 1e-2 && o.heat_residual.abs() < 1e-9);
+        events.push([locked, released]);
+    }
+    assert!((0..2).all(|k| (events[0][k] - events[1][k]).abs() <= 1.001e-3), "{events:?}");
+}
