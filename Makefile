@@ -3,7 +3,12 @@
 # make fmu       target/wheelrail.fmu
 # make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
 # make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
+# make python-wheel  the Python package with the FMU inside: target/wheelrail-*.whl
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
+# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
+# make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
+# make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
+# make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
@@ -32,11 +37,13 @@ PY := $(VENV)/bin/python
 BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
+TRAIN := $(VENV)/.train
+SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -47,7 +54,7 @@ test: test-rust test-fmpy
 test-rust:
 	$(CARGO) test --release --locked
 
-test-fmpy: $(FMU) $(MASTERS)
+test-fmpy: $(FMU) $(MASTERS) $(TRAIN)
 	$(PY) -m pytest fmpy_tests
 
 fmu: $(FMU)
@@ -57,8 +64,25 @@ fmu-all: $(FMU_ALL)
 platforms-check: $(FMU_ALL)
 	$(PYTHON) packaging/check.py $(FMU_ALL) --run
 
+python-wheel: $(FMU) $(INSTALLED)
+	cp $(FMU) python/src/wheelrail/wheelrail.fmu
+	$(PY) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir target ./python; \
+		status=$$?; rm python/src/wheelrail/wheelrail.fmu; exit $$status
+
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
+
+suspension: $(FMU) $(INSTALLED)
+	$(PY) examples/ex07_suspension.py --fmu $(FMU) --out results
+
+creep-curve: $(FMU) $(INSTALLED)
+	$(PY) examples/ex08_creep_curve.py --fmu $(FMU) --out results
+
+train: $(FMU) $(INSTALLED)
+	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out results
+
+sweep: $(FMU) $(TRAIN)
+	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(SCHEDULER),--scheduler $(SCHEDULER))
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
@@ -120,13 +144,18 @@ $(BUILT): $(SOURCES)
 	$(CARGO) build --release --locked
 	touch $@
 
-$(INSTALLED): requirements.txt
+$(INSTALLED): requirements.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable ./python
 	touch $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(TRAIN): requirements-train.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from wheel import Fmu, Refused, Wheel
+from wheelrail import Fmu, Refused, Wheel
 
 # Recorded once, at half the speed.
 PROFILES = ("x", "pressure", "shear", "temperature_wheel", "temperature_rail")

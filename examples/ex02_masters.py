@@ -32,7 +32,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wheel import Fmu, Refused, Wheel
+from wheelrail import Fmu, Refused, Wheel
 
 SPEED = 2.0  # m/s at the start
 RESIDUAL_SPEED = 0.05  # m/s, about, at the end

@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from wheel import Fmu, Refused, Wheel
+from wheelrail import Fmu, Refused, Wheel
 
 KELVIN = 273.15  # K at 0 °C
 LOCK = 0.02  # s, in which the rotation stops

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from wheel import Fmu, Wheel
+from wheelrail import Fmu, Wheel
 
 ROOT = Path(__file__).parent.parent
 PACKED = Path(os.environ.get("WHEELRAIL_FMU", ROOT / "target" / "wheelrail.fmu"))

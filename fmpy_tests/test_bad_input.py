@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from wheel import Refused
+from wheelrail import Refused
 
 NAN, INF = math.nan, math.inf
 

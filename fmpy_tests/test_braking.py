@@ -3,7 +3,7 @@
 import pytest
 
 from ex01_braking_stop import brake_to_standstill, column, results
-from wheel import Wheel
+from wheelrail import Wheel
 
 MOMENT = 0.6 * 0.3 * 1e5 * 0.46
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from wheel import Refused
+from wheelrail import Refused
 
 STEP = 1e-3
 OUTPUTS = ("contact.force_x", "contact.force_y", "contact.moment", "wheel.velocity", "wheel.omega", "hub.moment")

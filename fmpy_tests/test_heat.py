@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from wheel import Refused
+from wheelrail import Refused
 
 REFERENCE = 293.0
 

@@ -16,7 +16,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from wheel import Wheel
+from wheelrail import Wheel
 
 STEP = 1e-3  # s
 STEPS = 500

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from wheel import Wheel
+from wheelrail import Wheel
 
 V = 20.0  # m/s
 CREEPAGE = 5e-4

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from conftest import ROOT
-from wheel import Refused
+from wheelrail import Refused
 
 PRESETS = (
     "railway",

@@ -2,7 +2,7 @@
 
 import pytest
 
-from wheel import Refused
+from wheelrail import Refused
 
 
 def drive(wheel, outputs, first, count):

@@ -35,8 +35,8 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 
 /// Whether a word is a path of this repository.
 fn is_path(word: &str) -> bool {
-    const ROOMS: [&str; 8] =
-        ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/", "packaging/"];
+    const ROOMS: [&str; 9] =
+        ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/", "packaging/", "python/"];
     ROOMS.iter().any(|room| word.starts_with(room))
 }
 

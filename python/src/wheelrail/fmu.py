@@ -1,5 +1,7 @@
 """One instance of wheelrail.fmu on fmpy's FMU2Slave: variables by name, enumerations by item name, SI units."""
 
+import difflib
+import os
 from ctypes import byref
 from itertools import count
 from pathlib import Path
@@ -34,16 +36,30 @@ _callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
 addLoggerProxy(byref(_callbacks))
 
 
-class Fmu:
-    """An FMU extracted once, for any number of instances. Use as a context manager."""
+def default_path():
+    """The FMU named by the environment variable WHEELRAIL_FMU, else the one inside this package, else that of a checkout."""
+    inside, built = Path(__file__).with_name("wheelrail.fmu"), Path("target/wheelrail.fmu")
+    return Path(os.environ.get("WHEELRAIL_FMU") or (inside if inside.is_file() else built))
 
-    def __init__(self, path):
+
+class Fmu:
+    """An FMU extracted once, for any number of instances: that at `path`, or at `default_path()`. A context manager."""
+
+    def __init__(self, path=None):
+        path = default_path() if path is None else path
         if not Path(path).is_file():
             raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`")
         self._temporary = TemporaryDirectory(prefix="wheelrail-")
         self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
         self.description = fmpy.read_model_description(self.directory)
         self.variables = {v.name: v for v in self.description.modelVariables}
+
+    def variable(self, name):
+        """The variable of a name."""
+        if name not in self.variables:
+            close = difflib.get_close_matches(name, self.variables, n=1)
+            raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
+        return self.variables[name]
 
     def __enter__(self):
         return self
@@ -94,20 +110,27 @@ class Wheel:
 
     def set(self, values):
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
+        references, reals = [], []
         for name, value in values.items():
-            variable = self.fmu.variables[name]
+            variable = self.fmu.variable(name)
+            if variable.type == "Real":
+                references.append(variable.valueReference)
+                reals.append(value)
+                continue
             if variable.type == "Enumeration" and isinstance(value, str):
                 value = 1 + [item.name for item in variable.declaredType.items].index(value)
             self._call(self._access("set", variable), [variable.valueReference], [value])
+        if references:
+            self._call(self.slave.setReal, references, reals)
 
     def set_rates(self, values):
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
-        references = [self.fmu.variables[name].valueReference for name in values]
+        references = [self.fmu.variable(name).valueReference for name in values]
         self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), list(values.values()))
 
     def get(self, *names):
         """Values of variables; one name gives a scalar, several a list. Several must be of one type."""
-        variables = [self.fmu.variables[name] for name in names]
+        variables = [self.fmu.variable(name) for name in names]
         values = self._call(self._access("get", variables[0]), [v.valueReference for v in variables])
         return values[0] if len(names) == 1 else values
 

@@ -1,0 +1,91 @@
+"""Example 8: the creep curve of a locomotive, 0 to 21 %, against its measurement.
+
+    make creep-curve
+
+Siemens Eurosprinter 127 001 (W. Engel, M. Beck, J. Alders, Elektrische Bahnen 96 (1998) 201-209; as plotted in the user guide of
+CONTACT, E. A. H. Vollebregt, 2025, and read from that plot within 0.01): 10 m/s, 106.7 kN on a wheel of 625 mm. Friction falls
+with the slip by the law given there, 0.36 (0.38 + 0.62 exp(-0.7 s w)). It is a fit to this measurement: what is tested is the
+way from law to curve, not the law. Softening is off, since the measured fall contains the heat.
+
+Every point is a stationary state: the start of an instance whose velocities are prescribed.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from wheelrail import Fmu, Refused, Wheel
+
+SPEED, LOAD, RADIUS = 10.0, 106.7e3, 0.625  # m/s, N, m
+LAW = {"friction.coefficient": 0.36, "friction.falling_ratio": 0.38, "friction.falling_decay": 0.7, "friction.softening": 0.0}
+MEASURED = (  # creep [%] from, to; adhesion from, to
+    (0.5, 1.0, 0.21, 0.33), (1.6, 1.6, 0.28, 0.325), (3.0, 5.0, 0.25, 0.34), (10.0, 13.0, 0.18, 0.29),
+    (15.0, 18.0, 0.17, 0.27), (20.0, 21.0, 0.185, 0.23),
+)  # fmt: skip
+READING = 0.01  # of the values read from the plot
+CREEPS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.6, 2, 3, 4, 5, 7, 10, 11.5, 13, 15, 16.5, 18, 20, 21)  # %
+
+
+def adhesion(fmu, creep):
+    """Adhesion at a creep (r omega - V)/V [%] in traction."""
+    share = 0.01 * creep
+    parameters = LAW | {
+        "thermal.enabled": False, "wheel.radius": RADIUS, "initial.velocity": SPEED, "initial.creepage": -2.0 * share / (2.0 + share),
+    }  # fmt: skip
+    inputs = {"control.rotation": "velocity", "control.translation": "velocity", "drive.load": LOAD}
+    with Wheel(fmu, parameters, inputs) as wheel:
+        return wheel.get("contact.adhesion")
+
+
+def judged(curve):
+    """Rows of the measurement with the points of the curve in them, and whether these lie within the scatter."""
+    for low, high, least, most in MEASURED:
+        points = [(creep, value) for creep, value in curve if low <= creep <= high]
+        inside = all(least - READING <= value <= most + READING for _, value in points)
+        yield (low, high, least, most), points, inside
+
+
+def plot(path, curve):
+    """The curve and the scatter of the measurement."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axis = plt.subplots(figsize=(6, 3.6), layout="constrained")
+    axis.plot(*zip(*curve), "o-", color="#0072B2", markersize=3, label="FMU")
+    for k, (low, high, least, most) in enumerate(MEASURED):
+        label = "Eurosprinter, measured" if k == 0 else None
+        wide = max(high - low, 0.3)
+        axis.add_patch(plt.Rectangle((low, least), wide, most - least, color="#D55E00", alpha=0.3, label=label))
+    axis.set(xlabel="creep [%]", ylabel="adhesion [1]", xlim=(0, 22), ylim=(0, 0.36))
+    axis.legend()
+    figure.savefig(path, dpi=110)
+
+
+def run(options):
+    """The curve."""
+    with Fmu(options.fmu) as fmu:
+        curve = [(creep, adhesion(fmu, creep)) for creep in CREEPS]
+    print("creep [%]   measured        FMU")
+    for (low, high, least, most), points, inside in judged(curve):
+        values = ", ".join(f"{value:.3f} ({creep:g})" for creep, value in points)
+        print(f"{low:4g} - {high:4g}  {least:.3f} - {most:.3f}   {values}{'' if inside else '   outside'}")
+    options.out.mkdir(parents=True, exist_ok=True)
+    plot(options.out / "creep_curve.png", curve)
+    print(f"\nwritten: {options.out / 'creep_curve.png'}")
+
+
+def arguments():
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, default=Path("target/wheelrail.fmu"), help="default: %(default)s")
+    parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    try:
+        run(arguments())
+    except (FileNotFoundError, Refused) as error:
+        sys.exit(f"error: {error}")

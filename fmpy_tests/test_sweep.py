@@ -1,0 +1,71 @@
+"""A sweep over workers: nothing is lost when one is killed, nothing is computed twice when it goes on."""
+
+import os
+import signal
+import threading
+from pathlib import Path
+
+import pytest
+
+from wheelrail import scenario
+from wheelrail.files import BadFile
+
+sweep = pytest.importorskip("wheelrail.sweep")
+distributed = pytest.importorskip("distributed", reason="pip install -r requirements-train.txt")
+
+TRAIN = Path(__file__).parent.parent / "examples" / "train"
+
+
+@pytest.fixture
+def many():
+    """64 short stops."""
+    s = scenario.load(TRAIN / "low_adhesion.json")
+    s.step, s.hold = 0.01, 0.0
+    s.sweep.speed, s.sweep.adhesion = [1.5, 2.0, 3.0, 4.0], [0.05, 0.08, 0.12, 0.2]
+    s.sweep.payload, s.sweep.slide_high = [0.0, 10000.0], [0.15, 0.25]
+    return s
+
+
+@pytest.fixture(scope="module")
+def client():
+    """Two workers on this machine."""
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with cluster, distributed.Client(cluster) as connected:
+        yield connected
+
+
+def test_64_stops_survive_the_death_of_a_worker_and_are_not_computed_again(many, client, tmp_path):
+    victim, rows_seen, killed = client.run(os.getpid), [], threading.Event()
+
+    def kill(row):
+        rows_seen.append(row)
+        if len(rows_seen) == 10:
+            os.kill(next(iter(victim.values())), signal.SIGKILL)
+            killed.set()
+
+    rows = sweep.sweep(client, many, None, tmp_path / "sweep.csv", kill)
+    assert killed.is_set() and len(rows) == len(sweep.points(many)) == 64
+    keys = [tuple(row[key] for key in sweep.KEYS) for row in rows]
+    assert len(set(keys)) == 64
+    written = sweep.done(tmp_path / "sweep.csv", sweep.fingerprint(many, True))
+    assert sorted(map(str, written)) == sorted(map(str, rows))
+
+    again = []
+    assert len(sweep.sweep(client, many, None, tmp_path / "sweep.csv", again.append)) == 64
+    assert again == []
+    distance = {key: row["stopping distance"] for key, row in zip(keys, rows)}
+    assert distance[4.0, 0.05, 0.0, 0.15] > 1.05 * distance[4.0, 0.2, 0.0, 0.15]
+
+
+def test_a_torn_file_goes_on_and_one_of_another_scenario_is_refused(many, client, tmp_path):
+    many.sweep.speed, many.sweep.adhesion = [1.5], [0.05, 0.2]
+    path = tmp_path / "sweep.csv"
+    whole = sweep.sweep(client, many, None, path)
+    text = path.read_text()
+    path.write_text(text[: len(text) - 25])
+    again = []
+    rows = sweep.sweep(client, many, None, path, again.append)
+    assert len(again) == 1 and sorted(map(str, rows)) == sorted(map(str, whole))
+    many.brake.torque *= 1.1
+    with pytest.raises(BadFile, match="sweep.csv:2: a row of another scenario"):
+        sweep.sweep(client, many, None, path)

@@ -1,0 +1,88 @@
+"""Command line: `python -m wheelrail train SCENARIO`, `sweep SCENARIO`, `schema KIND`."""
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+from . import scenario as scenarios
+from .files import BadFile, json_schema
+from .fmu import Refused, default_path
+
+
+def arguments(argv=None):
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="wheelrail", description="A train brakes.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
+        command = commands.add_parser(name, help=about)
+        command.add_argument("scenario", type=Path, help="JSON file, see `wheelrail schema scenario`")
+        command.add_argument("--out", type=Path, default=Path("results"), help="directory, default %(default)s")
+        wheels = command.add_mutually_exclusive_group()
+        wheels.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
+        wheels.add_argument("--rigid", action="store_true", help="rigid wheelsets with a creep law, no FMU")
+        command.add_argument("--step", type=float, help="communication step [s] in place of the scenario's")
+    sweep = commands.choices["sweep"]
+    sweep.add_argument("--scheduler", help="address of a dask scheduler; default: workers on this machine")
+    sweep.add_argument("--workers", type=int, default=2, help="on this machine, default %(default)s")
+    schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
+    schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
+    return parser.parse_args(argv)
+
+
+def train(options, scenario):
+    """Three stops side by side: table, CSV, plot."""
+    from tqdm import tqdm
+
+    from . import compare, report
+    from .plots import draw_stops
+
+    began, done = time.perf_counter(), {}
+    with tqdm(total=300, desc="braking", bar_format="{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]") as bar:
+
+        def progress(name, share):
+            done[name] = share
+            bar.set_postfix_str(", ".join(f"{name} {share} %" for name, share in done.items()), refresh=False)
+            bar.update(sum(done.values()) - bar.n)
+
+        stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress)
+    print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
+    print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
+    options.out.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, (table, _) in stops.items():
+        written.append(options.out / f"train_{name.lower().replace(' ', '_')}.csv")
+        report.write_csv(written[-1], table)
+    written.append(options.out / "train.png")
+    draw_stops(written[-1], stops)
+    simulated = sum(table[-1, 0] for table, _ in stops.values())
+    wall = time.perf_counter() - began
+    print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written: {', '.join(map(str, written))}")
+
+
+def main(argv=None):
+    """Runs a command; errors of files and of the FMU become one line."""
+    options = arguments(argv)
+    if options.command == "schema":
+        print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))
+        return
+    try:
+        scenario = scenarios.load(options.scenario)
+        if options.step is not None:
+            wrong = scenarios.SCENARIO["step"].check(options.step)
+            if wrong:
+                raise BadFile(f"--step {wrong}")
+            scenario.step = options.step
+        if options.command == "train":
+            train(options, scenario)
+        else:
+            from .sweep import run
+
+            run(options, scenario)
+    except (BadFile, FileNotFoundError, Refused, TimeoutError) as error:
+        sys.exit(f"error: {error}")
+
+
+if __name__ == "__main__":
+    main()

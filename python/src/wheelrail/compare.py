@@ -1,0 +1,59 @@
+"""Stops side by side: dry, on the track with slide protection, on the track without. Each in a process of its own."""
+
+import multiprocessing
+import queue
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import nullcontext
+from copy import deepcopy
+
+from .fmu import Fmu
+from .train import Stop
+
+DRY, PROTECTED, UNPROTECTED = "dry", "WSP on", "WSP off"
+
+
+def variants(scenario):
+    """The three stops: name to (scenario, friction in place of the track's)."""
+    protected, unprotected = deepcopy(scenario), deepcopy(scenario)
+    protected.brake.wsp.active, unprotected.brake.wsp.active = True, False
+    return {DRY: (protected, scenario.dry), PROTECTED: (protected, None), UNPROTECTED: (unprotected, None)}
+
+
+def stop(name, scenario, dry, path, news=None):
+    """One stop: name, its table and its rail. `path` of the FMU, or None for rigid wheelsets; `news` is a queue that gets
+    (name, share done) about a hundred times."""
+    with Fmu(path) if path else nullcontext() as fmu:
+        run = Stop(scenario, fmu, dry)
+        told = 0
+
+        def tell(run):
+            nonlocal told
+            done = int(100 * (1.0 - max(run.coach.speed(), 0.0) / scenario.speed))
+            if news is not None and done > told:
+                told = done
+                news.put((name, done))
+
+        try:
+            table = run.run(tell)
+        finally:
+            run.close()
+    if news is not None:
+        news.put((name, 100))
+    return name, table, run.contacts.rail
+
+
+def side_by_side(scenario, path, progress=lambda name, done: None):
+    """All variants at once; name to (table, rail map)."""
+    context = multiprocessing.get_context("spawn")
+    runs = variants(scenario)
+    with context.Manager() as manager, ProcessPoolExecutor(len(runs), mp_context=context) as pool:
+        news = manager.Queue()
+        jobs = [pool.submit(stop, name, s, dry, path, news) for name, (s, dry) in runs.items()]
+        while not all(job.done() for job in jobs):
+            try:
+                progress(*news.get(timeout=0.2))
+            except queue.Empty:
+                pass
+        while not news.empty():
+            progress(*news.get())
+        return {name: (table, rail) for name, table, rail in (job.result() for job in jobs)}

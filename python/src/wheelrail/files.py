@@ -1,0 +1,289 @@
+"""Readable files with a schema: JSON and CSV in, values in attributes out, or an error with file, line, name and range."""
+
+import csv
+import difflib
+import json
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+
+
+class BadFile(Exception):
+    """A file that cannot be used; the text names file, line, name and range."""
+
+
+@dataclass(frozen=True)
+class Real:
+    """A number from `low` to `high`. Without a `default` it must be given, unless it is `optional`: then it may be None."""
+
+    low: float
+    high: float
+    unit: str
+    about: str
+    default: float | None = None
+    whole: bool = False
+    optional: bool = False
+
+    def check(self, value):
+        """What is wrong with it."""
+        number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+        if not number or (self.whole and value != int(value)):
+            return f"is {value!r}, not a {'whole ' if self.whole else ''}number"
+        if not self.low <= value <= self.high:
+            return f"= {value:g} {self.unit} is outside {self.low:g} to {self.high:g} {self.unit}"
+        return None
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text, one of `choices` if there are any."""
+
+    about: str
+    default: str | None = None
+    choices: tuple = ()
+
+    def check(self, value):
+        """What is wrong with the value."""
+        if not isinstance(value, str):
+            return f"is {value!r}, not a text"
+        if self.choices and value not in self.choices:
+            return f"= {value!r} is none of {', '.join(self.choices)}"
+        return None
+
+
+@dataclass(frozen=True)
+class Flag:
+    """true or false."""
+
+    about: str
+    default: bool | None = None
+
+    def check(self, value):
+        """What is wrong with the value."""
+        return None if isinstance(value, bool) else f"is {value!r}, neither true nor false"
+
+
+@dataclass(frozen=True)
+class Several:
+    """A list of values of one kind."""
+
+    item: Real | Text
+    about: str
+    default: tuple | None = None
+
+    def check(self, value):
+        """What is wrong with the value."""
+        if not isinstance(value, list) or not value:
+            return f"is {value!r}, not a list with entries"
+        return next((f"entry {wrong}" for wrong in map(self.item.check, value) if wrong), None)
+
+
+@dataclass(frozen=True)
+class Named:
+    """An object whose names are free and whose values are of one kind: a field, or a group of fields."""
+
+    item: object
+    about: str
+    default: dict | None = None
+
+
+# Names that every object may have: where its numbers come from, and the schema for editors.
+REMARKS = ("source", "$schema")
+
+
+def read_json(path, schema):
+    """The values of a JSON file as attributes. Names that are neither in the schema nor `REMARKS` are errors."""
+    path = Path(path)
+    text = _text(path)
+    try:
+        values = json.loads(text, object_pairs_hook=_once, parse_constant=_refuse)
+    except json.JSONDecodeError as error:
+        raise BadFile(f"{path}:{error.lineno}: not JSON: {error.msg}") from None
+    except ValueError as error:
+        raise BadFile(f"{path}: {error}") from None
+    return _Reader(path, _lines(text)).group(values, schema, ())
+
+
+def read_csv(path, columns):
+    """The columns of a CSV file: name to list of values. The first line names them; all of `columns` without default must
+    be there, no others."""
+    path = Path(path)
+    rows = list(csv.reader(_text(path).splitlines()))
+    if not rows:
+        raise BadFile(f"{path}:1: empty; expected a line with {', '.join(columns)}")
+    header = [name.strip() for name in rows[0]]
+    for name in header:
+        if name not in columns:
+            raise BadFile(f"{path}:1: unknown column {name!r}{_meant(name, columns)}")
+        if header.count(name) > 1:
+            raise BadFile(f"{path}:1: column {name!r} twice")
+    for name, field in columns.items():
+        if name not in header and _needed(field):
+            raise BadFile(f"{path}:1: column {name!r} is missing ({field.about})")
+    table = {name: [] for name in columns}
+    for line, row in enumerate(rows[1:], start=2):
+        if not row:
+            raise BadFile(f"{path}:{line}: an empty line")
+        if len(row) != len(header):
+            raise BadFile(f"{path}:{line}: {len(row)} entries, the first line has {len(header)}")
+        given = dict(zip(header, row))
+        for name, field in columns.items():
+            table[name].append(_entry(path, line, name, field, given[name].strip()) if name in given else field.default)
+    if not table[next(iter(columns))]:
+        raise BadFile(f"{path}:2: no line of values")
+    return table
+
+
+def json_schema(schema):
+    """The schema as JSON Schema (2020-12), for editors that complete and check."""
+    properties = {name: _describe(field) for name, field in schema.items()}
+    required = [name for name, field in schema.items() if _needed(field)]
+    properties |= {name: {"type": "string"} for name in REMARKS}
+    return {"type": "object", "additionalProperties": False, "required": required, "properties": properties}
+
+
+def _describe(field):
+    """JSON Schema of one field."""
+    if isinstance(field, dict):
+        return json_schema(field)
+    about = {"description": f"{field.about} [{field.unit}]" if isinstance(field, Real) else field.about}
+    if field.default is not None:
+        about["default"] = field.default
+    match field:
+        case Real():
+            kind = "integer" if field.whole else "number"
+            return {"type": kind, "minimum": field.low, "maximum": field.high} | about
+        case Text():
+            return {"type": "string"} | ({"enum": list(field.choices)} if field.choices else {}) | about
+        case Flag():
+            return {"type": "boolean"} | about
+        case Several():
+            return {"type": "array", "minItems": 1, "items": _describe(field.item)} | about
+        case Named():
+            return {"type": "object", "additionalProperties": _describe(field.item)} | about
+    raise TypeError(f"no JSON Schema for {field!r}")
+
+
+def _needed(field):
+    """Whether a field, or any field of a group, must be given."""
+    if isinstance(field, dict):
+        return any(map(_needed, field.values()))
+    return field.default is None and not getattr(field, "optional", False)
+
+
+class _Reader:
+    """Checks the values of one file against a schema."""
+
+    def __init__(self, path, lines):
+        self.path, self.lines = path, lines
+
+    def fail(self, place, problem):
+        """Raises with file, line and name."""
+        known = next(place[:n] for n in range(len(place), -1, -1) if place[:n] in self.lines)
+        name = ".".join(map(str, place)) or "the file"
+        raise BadFile(f"{self.path}:{self.lines[known]}: {name} {problem}")
+
+    def group(self, values, schema, place):
+        """An object whose names the schema lists."""
+        if not isinstance(values, dict):
+            self.fail(place, f"is {values!r}, not an object")
+        for name in values:
+            if name not in schema and name not in REMARKS:
+                self.fail((*place, name), f"is unknown{_meant(name, schema)}")
+        return SimpleNamespace(**{name: self.one(values, name, field, place) for name, field in schema.items()})
+
+    def one(self, values, name, field, place):
+        """The value of one name."""
+        place = (*place, name)
+        if name not in values:
+            if isinstance(field, dict) and not _needed(field):
+                return self.group({}, field, place)
+            if _needed(field):
+                about = "" if isinstance(field, dict) else f" ({field.about})"
+                self.fail(place, f"is missing{about}")
+            return field.default
+        value = values[name]
+        if isinstance(field, dict):
+            return self.group(value, field, place)
+        if isinstance(field, Named):
+            return self.named(value, field, place)
+        wrong = field.check(value)
+        if wrong:
+            self.fail(place, wrong)
+        return value
+
+    def named(self, value, field, place):
+        """An object with free names."""
+        if not isinstance(value, dict):
+            self.fail(place, f"is {value!r}, not an object")
+        return {name: self.one(value, name, field.item, place) for name in value if name not in REMARKS}
+
+
+def _text(path):
+    """Text of a file."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadFile(f"{path}: cannot be read: {error}") from None
+
+
+def _once(pairs):
+    """An object, unless a name comes twice."""
+    names = [name for name, _ in pairs]
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"{name} twice in one object")
+    return dict(pairs)
+
+
+def _refuse(constant):
+    """NaN and infinities are no JSON."""
+    raise ValueError(f"{constant} is not a number")
+
+
+def _meant(name, known):
+    """A hint at a name that resembles the unknown one."""
+    close = difflib.get_close_matches(name, known, n=1)
+    return f"; did you mean {close[0]!r}?" if close else f"; known: {', '.join(known)}"
+
+
+def _entry(path, line, name, field, text):
+    """One entry of a CSV file."""
+    value = text
+    if isinstance(field, Real):
+        try:
+            value = float(text)
+        except ValueError:
+            raise BadFile(f"{path}:{line}: {name} is {text!r}, not a number") from None
+    wrong = field.check(value)
+    if wrong:
+        raise BadFile(f"{path}:{line}: {name} {wrong}")
+    return value
+
+
+_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|[{}\[\]:,]|[^\s{}\[\]:,"]+')
+
+
+def _lines(text):
+    """Line of every name in a valid JSON text: (names from the outside in) to line, from 1."""
+    found, place, expecting = {(): 1}, [], False
+    kinds, key = [], None
+    for token in _TOKEN.finditer(text):
+        word = token.group()
+        if word in "{[":
+            kinds.append(word)
+            place.append(key)
+            key, expecting = None, word == "{"
+        elif word in "}]":
+            kinds.pop()
+            key = place.pop()
+            expecting = False
+        elif word == ",":
+            expecting = bool(kinds) and kinds[-1] == "{"
+        elif word != ":" and expecting:
+            key, expecting = json.loads(word), False
+            names = tuple(name for name in (*place, key) if name is not None)
+            found[names] = text.count("\n", 0, token.start()) + 1
+    return found

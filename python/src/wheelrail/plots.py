@@ -1,0 +1,127 @@
+"""Pictures of stops and of parameter studies."""
+
+import numpy as np
+
+from .brake import Valve
+from .report import CELSIUS, column, slide
+from .train import AXLES
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+GREY = "#777777"
+
+
+def pyplot():
+    """matplotlib without a window, in the style of this project."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
+    plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.1})
+    return plt
+
+
+def draw_stops(path, stops):
+    """Draws stops side by side, one a column: `stops` is name to (table, rail map)."""
+    plt = pyplot()
+    rows = (_speeds, _slides, _brakes, _adhesion, _temperatures, _rail)
+    figure, axes = plt.subplots(
+        len(rows), len(stops), figsize=(4.6 * len(stops), 2.1 * len(rows)), layout="constrained", squeeze=False
+    )
+    for k, (name, (table, rail)) in enumerate(stops.items()):
+        for draw, axis in zip(rows, axes[:, k]):
+            draw(axis, table, rail)
+        axes[0, k].set_title(name)
+    for row in axes:
+        low, high = min(a.get_ylim()[0] for a in row), max(a.get_ylim()[1] for a in row)
+        for axis in row:
+            axis.set_ylim(low, high)
+    axes[0, 0].legend(fontsize=7)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def _speeds(axis, table, _rail):
+    """Speed of travel and of the four treads."""
+    time = column(table, "time")
+    for k in range(AXLES):
+        axis.plot(time, 3.6 * column(table, "peripheral", k), color=COLOURS[k], label=f"axle {k + 1}", linewidth=0.7)
+    axis.plot(time, 3.6 * column(table, "speed"), color="black", label="coach")
+    axis.set(ylabel="speed [km/h]", xlabel="time [s]")
+
+
+def _slides(axis, table, _rail):
+    """Slide of every axle."""
+    for k in range(AXLES):
+        axis.plot(column(table, "time"), 100.0 * slide(table, k)[0], color=COLOURS[k], linewidth=0.7)
+    axis.set(ylabel="slide [%]", xlabel="time [s]")
+
+
+def _brakes(axis, table, _rail):
+    """Cylinder pressures; venting is marked."""
+    time = column(table, "time")
+    axis.plot(time, column(table, "control_pressure") / 1e5, ":", color=GREY)
+    for k in range(AXLES):
+        pressure = column(table, "pressure", k) / 1e5
+        venting = column(table, "valve", k) == Valve.VENT.value
+        axis.plot(time, pressure, color=COLOURS[k], linewidth=0.7)
+        axis.plot(time[venting], pressure[venting], ".", color=COLOURS[k], markersize=1.5)
+    axis.set(ylabel="pressure [bar]", xlabel="time [s]")
+
+
+def _adhesion(axis, table, _rail):
+    """Adhesion used by every axle."""
+    for k in range(AXLES):
+        used = -column(table, "force", k) / column(table, "load", k)
+        axis.plot(column(table, "time"), used, color=COLOURS[k], linewidth=0.7)
+    axis.set(ylabel="adhesion used [1]", xlabel="time [s]")
+
+
+def _temperatures(axis, table, _rail):
+    """Hottest point of the contact."""
+    for k in range(AXLES):
+        hottest = column(table, "hottest", k)
+        if np.any(hottest > 0.0):
+            axis.plot(column(table, "time"), hottest - CELSIUS, color=COLOURS[k], linewidth=0.7)
+    axis.set(ylabel="contact [°C]", xlabel="time [s]")
+
+
+def _rail(axis, _table, rail):
+    """Friction that each axle met along the track, and what a fifth one would."""
+    place = rail.centres()
+    for axle in range(AXLES + 1):
+        energy = rail.energy[:axle].sum(axis=0) / rail.cell
+        sand = rail.sand[: axle + 1].sum(axis=0) / rail.cell
+        met = rail.law.friction(rail.degraded, rail.recovered, energy, sand)
+        colour = COLOURS[axle] if axle < AXLES else "black"
+        axis.plot(place, met, color=colour, linewidth=0.8, linestyle="-" if axle < AXLES else ":")
+    used = np.flatnonzero(rail.energy[0])
+    axis.set(ylabel="friction met [1]", xlabel="position [m]", xlim=(0, place[used[-1]] if len(used) else place[-1]))
+
+
+def draw_sweep(path, rows):
+    """Draws stopping distances over speed and adhesion, one map for every payload and threshold."""
+    plt = pyplot()
+    axis_of = lambda key: sorted({row[key] for row in rows})
+    speeds, adhesions, payloads, thresholds = map(axis_of, ("speed", "adhesion", "payload", "slide_high"))
+    figure, axes = plt.subplots(
+        len(payloads), len(thresholds), figsize=(3.4 * len(thresholds) + 1.2, 2.8 * len(payloads)),
+        layout="constrained", squeeze=False,
+    )  # fmt: skip
+    distances = {tuple(row[k] for k in ("payload", "slide_high", "adhesion", "speed")): row["stopping distance"] for row in rows}
+    limits = min(distances.values()), max(distances.values())
+    for i, payload in enumerate(payloads):
+        for j, threshold in enumerate(thresholds):
+            axis = axes[i, j]
+            table = [[distances.get((payload, threshold, a, v), np.nan) for v in speeds] for a in adhesions]
+            image = axis.imshow(table, origin="lower", aspect="auto", cmap="viridis", vmin=limits[0], vmax=limits[1])
+            for (y, x), value in np.ndenumerate(np.array(table)):
+                axis.text(x, y, f"{value:.0f}", ha="center", va="center", color="white", fontsize=7)
+            axis.grid(False)
+            axis.set_xticks(range(len(speeds)), [f"{3.6 * v:.0f}" for v in speeds])
+            axis.set_yticks(range(len(adhesions)), [f"{a:g}" for a in adhesions])
+            axis.set(title=f"{payload / 1e3:g} t, slide {100 * threshold:g} %", xlabel="speed [km/h]", ylabel="adhesion [1]")
+    figure.colorbar(image, ax=axes, label="stopping distance [m]")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)

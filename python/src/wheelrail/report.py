@@ -1,0 +1,116 @@
+"""Key figures of a stop in the manner of EN 15595: table of several stops side by side, and CSV."""
+
+import csv
+
+import numpy as np
+
+from .train import AT_REST, AXLES, columns
+
+MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
+SLIDING = 0.01  # slide from which an axle counts as sliding
+LOCKED_BELOW = 0.1  # m/s, of the periphery
+LOCKED_ABOVE = 3.0  # m/s, of travel
+CELSIUS = 273.15  # K at 0 °C
+NAMES = columns()
+
+
+def column(table, name, axle=None):
+    """A column of a table of `Stop.run`, of an axle (from 0) if one is given."""
+    return table[:, NAMES.index(name if axle is None else f"{name}_{axle + 1}")]
+
+
+def slide(table, axle):
+    """Slide (V - r omega)/V of an axle, and whether it moves fast enough for that."""
+    velocity = column(table, "velocity", axle)
+    moving = velocity > MOVING
+    return np.where(moving, 1.0 - column(table, "peripheral", axle) / np.where(moving, velocity, 1.0), 0.0), moving
+
+
+def figures(table):
+    """Key figures of a stop: name to (value or list of one per axle, unit)."""
+    time, speed = column(table, "time"), column(table, "speed")
+    rest = int(np.argmax(speed < AT_REST)) if np.any(speed < AT_REST) else len(table) - 1
+    running, step = table[: rest + 1], time[1] - time[0]
+    axles = range(AXLES)
+    slides = [slide(running, k) for k in axles]
+    sliding = [values[moving & (values > SLIDING)] for values, moving in slides]
+    share = lambda values, q: float(np.percentile(values, q)) if len(values) else 0.0
+    locked = lambda k: (column(running, "peripheral", k) < LOCKED_BELOW) & (column(running, "velocity", k) > LOCKED_ABOVE)
+    adhesion = [-column(running, "force", k) / column(running, "load", k) for k in axles]
+    found = {
+        "stopping distance": (float(column(table, "travelled")[rest]), "m"),
+        "stopping time": (float(time[rest]), "s"),
+        "time of slide, over 1 %": ([step * len(values) for values in sliding], "s"),
+        "slide while sliding, p50": ([100.0 * share(values, 50) for values in sliding], "%"),
+        "slide while sliding, p95": ([100.0 * share(values, 95) for values in sliding], "%"),
+        "locked time": ([step * float(np.sum(locked(k))) for k in axles], "s"),
+        "longest lock": ([step * longest(locked(k)) for k in axles], "s"),
+        "mean adhesion": ([float(np.mean(values)) for values in adhesion], "1"),
+        "mean adhesion while sliding": (
+            [mean(a[m & (values > SLIDING)]) for a, (values, m) in zip(adhesion, slides)], "1",
+        ),
+        "energy into rail and tread": ([column(table, "energy", k)[-1] / 1e3 for k in axles], "kJ"),
+        "peak temperature": ([peak(column(table, "peak", k)) for k in axles], "°C"),
+        "depth above Ac1": ([1e3 * float(column(table, "ac1_depth", k)[-1]) for k in axles], "mm"),
+        "air used": (1e3 * float(column(table, "air")[-1]), "l"),
+        "sand used": (float(column(table, "sand")[-1]), "kg"),
+        "load, smallest to largest": (
+            [f"{column(running, 'load', k).min() / 1e3:.0f}-{column(running, 'load', k).max() / 1e3:.0f}" for k in axles], "kN",
+        ),
+        "force on a standing axle, last 0.5 s": (standing(table), "kN"),
+    }  # fmt: skip
+    return found
+
+
+def mean(values):
+    """Mean, 0 of nothing."""
+    return float(np.mean(values)) if len(values) else 0.0
+
+
+def peak(values):
+    """Highest temperature [°C]; nan if unknown."""
+    return float(values[-1]) - CELSIUS if values[-1] > 0.0 else float("nan")
+
+
+def longest(flags):
+    """Most flags in a row."""
+    best = now = 0
+    for flag in flags:
+        now = now + 1 if flag else 0
+        best = max(best, now)
+    return best
+
+
+def standing(table):
+    """Half the swing of the suspension's force on each axle in the last half second [kN]."""
+    late = column(table, "time") > column(table, "time")[-1] - 0.5
+    return [0.5e-3 * float(np.ptp(column(table, "pull", k)[late])) for k in range(AXLES)]
+
+
+def lines(stops):
+    """A text table of several stops: name to `figures`. The first is the dry one that the others are compared with."""
+    names = list(stops)
+    dry = stops[names[0]]["stopping distance"][0]
+    width = 34
+    yield f"{'':42}" + "".join(f"{name:>{width}}" for name in names)
+    extension = [f"{100.0 * (stops[name]['stopping distance'][0] / dry - 1.0):.1f}" for name in names]
+    for figure in stops[names[0]]:
+        cells = [_cell(stops[name][figure][0]) for name in names]
+        yield f"{figure + ' [' + stops[names[0]][figure][1] + ']':42}" + "".join(f"{cell:>{width}}" for cell in cells)
+        if figure == "stopping distance":
+            yield f"{'extension over dry [%]':42}" + "".join(f"{cell:>{width}}" for cell in extension)
+
+
+def _cell(value):
+    """One entry: a number, or one per axle."""
+    if isinstance(value, list):
+        return " ".join(f"{_cell(entry):>7}" for entry in value)
+    return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def write_csv(path, table):
+    """Writes a table with a line of names."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(NAMES)
+        writer.writerows([f"{value:.9g}" for value in row] for row in table)

@@ -1,0 +1,129 @@
+"""Many stops on many machines: speed x adhesion x payload x threshold of the slide protection, over dask.distributed.
+
+Every stop is a task of its own; its row is written as soon as it is there. A sweep that was stopped goes on where it was: rows
+that are in the file already are not computed again. A worker that dies loses nothing: its tasks go to others.
+"""
+
+import csv
+import hashlib
+import json
+from contextlib import nullcontext
+from copy import deepcopy
+from itertools import product
+from pathlib import Path
+from types import SimpleNamespace
+
+from .files import BadFile
+from .fmu import Fmu
+from .report import figures
+from .scenario import settle
+from .train import Stop
+
+KEYS = ("speed", "adhesion", "payload", "slide_high")
+RESULTS = (
+    "stopping distance", "stopping time", "slide while sliding, p95", "longest lock", "mean adhesion",
+    "energy into rail and tread", "peak temperature", "depth above Ac1", "air used",
+)  # fmt: skip
+
+
+def header():
+    """Names of the columns: scenario, keys, results; of the worst axle where there is one value per axle."""
+    return ["scenario", *KEYS, *RESULTS]
+
+
+def points(scenario):
+    """All combinations of a scenario's sweep."""
+    values = vars(scenario.sweep)
+    return [dict(zip(KEYS, map(float, point))) for point in product(*(values[key] for key in KEYS))]
+
+
+def fingerprint(scenario, rigid):
+    """Names what a sweep is of, the swept values apart, so that rows of another one are not taken for its own."""
+    rest = {k: v for k, v in vars(scenario).items() if k not in ("sweep", "speed", "adhesion", "payload")}
+    text = json.dumps([rest, rigid], default=lambda v: vars(v) if isinstance(v, SimpleNamespace) else str(v), sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def one(scenario, point, path):
+    """One stop: the point with its results. `path` of the FMU; None takes rigid wheelsets; a bare name is looked for where
+    dask puts files that were sent to its workers."""
+    scenario = deepcopy(scenario)
+    scenario.speed, scenario.adhesion, scenario.payload = point["speed"], point["adhesion"], point["payload"]
+    scenario.brake.wsp.slide_high = point["slide_high"]
+    settle(scenario)
+    if path is not None and not Path(path).is_absolute():
+        from distributed import get_worker
+
+        path = Path(get_worker().local_directory) / path
+    with Fmu(path) if path else nullcontext() as fmu:
+        run = Stop(scenario, fmu)
+        try:
+            found = figures(run.run())
+        finally:
+            run.close()
+    worst = lambda name: min if name == "mean adhesion" else max
+    values = {name: found[name][0] for name in RESULTS}
+    return point | {name: float(worst(name)(v) if isinstance(v, list) else v) for name, v in values.items()}
+
+
+def done(path, name):
+    """Rows of a file that belong to the scenario of this name; others are an error. A torn last line is cut off."""
+    path = Path(path)
+    if not path.is_file():
+        return []
+    text = path.read_text(encoding="utf-8")
+    if not text.endswith("\n"):
+        text = text[: text.rfind("\n") + 1]
+        path.write_text(text, encoding="utf-8")
+    rows = list(csv.DictReader(text.splitlines()))
+    for line, row in enumerate(rows, start=2):
+        if list(row) != header():
+            raise BadFile(f"{path}:1: not the columns of a sweep: {', '.join(row)}")
+        if row["scenario"] != name:
+            raise BadFile(f"{path}:{line}: a row of another scenario ({row['scenario']}, this is {name}); take another --out")
+    return [{key: float(value) for key, value in row.items() if key != "scenario"} for row in rows]
+
+
+def sweep(client, scenario, fmu, path, progress=lambda row: None):
+    """Computes what is missing in the file at `path` and returns all rows. `fmu` None takes rigid wheelsets."""
+    from distributed import as_completed
+    from distributed.diagnostics.plugin import UploadFile
+
+    name = fingerprint(scenario, fmu is None)
+    rows = done(path, name)
+    known = {tuple(row[key] for key in KEYS) for row in rows}
+    missing = [point for point in points(scenario) if tuple(point.values()) not in known]
+    if fmu is not None:
+        client.register_plugin(UploadFile(str(fmu)))
+        fmu = Path(fmu).name
+    # Whoever kills a worker may hit the same task several times.
+    futures = client.map(lambda point: one(scenario, point, fmu), missing, pure=False, retries=3)
+    with open(path, "a", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, header())
+        if not rows and file.tell() == 0:
+            writer.writeheader()
+        for _, row in as_completed(futures, with_results=True):
+            writer.writerow({"scenario": name} | {key: repr(value) for key, value in row.items()})
+            file.flush()
+            rows.append(row)
+            progress(row)
+    return rows
+
+
+def run(options, scenario):
+    """The command: cluster, progress, file, picture."""
+    from distributed import Client, LocalCluster
+    from tqdm import tqdm
+
+    from .plots import draw_sweep
+
+    options.out.mkdir(parents=True, exist_ok=True)
+    path = options.out / "sweep.csv"
+    fmu = None if options.rigid else options.fmu
+    known = len(done(path, fingerprint(scenario, options.rigid)))
+    local = lambda: LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None)
+    with nullcontext() if options.scheduler else local() as cluster, Client(options.scheduler or cluster) as client:
+        with tqdm(total=len(points(scenario)), initial=known, desc="stops", unit="stop") as bar:
+            rows = sweep(client, scenario, fmu, path, lambda row: bar.update())
+    draw_sweep(options.out / "sweep.png", rows)
+    print(f"{len(rows)} stops, {known} of them known before; written: {path}, {options.out / 'sweep.png'}")

@@ -1,0 +1,193 @@
+"""One stop, step by step: the vehicle moves, its brakes act, its wheelsets roll or slide, the rail remembers.
+
+The wheelsets own their inertia (force and moment control); a step of `h` goes like this:
+
+1. Brakes: pressures and torques at the end of the step.
+2. Vehicle: one implicit step in which wheelsets are masses under the suspension and the last contact force. While a
+   wheelset rolls, its mass counts with its rotation; when it stands, it does not move. This predicts the suspension's
+   force at the end of the step, without which stiff primary suspensions do not converge.
+3. Wheelsets: each takes its step, force, load and torque ramping to what was found, in a thread of its own.
+4. Correction: the vehicle's wheelsets are put where they really are. What the wheelsets got over the step is what the
+   vehicle lost, so that momentum is kept whatever the prediction was.
+5. Rail: energy, heat and sand of the step are left on the map for the axles behind.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from . import scenario as scenarios
+from .brake import Brakes, Valve
+from .vehicle import AXLES, GRAVITY, Coach
+from .wheelset import Drive, FmuWheelset, RigidWheelset
+
+ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
+STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
+IMMOBILE = 1e6  # times its mass counts a wheelset that is held
+AT_REST = 2e-3  # m/s
+
+# Columns of a result: of the vehicle, and of every axle.
+OF_VEHICLE = ("time", "speed", "travelled", "control_pressure", "reference_speed", "air", "sand")
+OF_AXLE = (
+    "velocity", "peripheral", "force", "load", "pull", "torque", "pressure", "valve", "friction", "rail_excess", "energy",
+    "hottest", "peak", "ac1_depth",
+)  # fmt: skip
+
+
+def columns():
+    """Names of all columns."""
+    return [*OF_VEHICLE, *(f"{name}_{axle + 1}" for axle in range(AXLES) for name in OF_AXLE)]
+
+
+class Contacts:
+    """Wheelsets and the rail they share."""
+
+    def __init__(self, wheelsets, positions, rail, track):
+        self.wheelsets, self.positions, self.rail, self.track = wheelsets, positions, rail, track
+        self.time = 0.0
+        self.places = np.array(positions, float)
+        self.seen = None
+        self.met = [(0.0, 0.0)] * len(wheelsets)
+        # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not.
+        self.pool = ThreadPoolExecutor(len(wheelsets)) if isinstance(wheelsets[0], FmuWheelset) else None
+
+    def step(self, h, forces, loads, torques, sand):
+        """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle."""
+        self.met = [self._rail(axle) for axle in range(len(self.wheelsets))]
+        drives = [
+            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k])
+            for k in range(len(self.wheelsets))
+        ]
+        before = self.seen
+        each = self.pool.map if self.pool else map
+        self.seen = list(each(lambda wheelset, drive: wheelset.step(h, drive), self.wheelsets, drives))
+        self.time += h
+        for axle, seen in enumerate(self.seen):
+            self._leave(axle, before[axle] if before else None, seen, sand[axle])
+        return self.seen
+
+    def slope(self, axle):
+        """Slope of the track below an axle."""
+        return self.track.sections.slope[scenarios.section(self.track, self.places[axle])]
+
+    def _rail(self, axle):
+        """Friction and excess temperature that an axle meets."""
+        place = self.places[axle]
+        warm = self.track.sections.temperature[scenarios.section(self.track, place)]
+        return self.rail.friction(place, axle), warm + self.rail.temperature(place, axle, self.time)
+
+    def _leave(self, axle, before, seen, sand):
+        """What the axle left on each rail in the last step, half of that of both."""
+        start, end = self.places[axle], self.positions[axle] + seen.position
+        energy = seen.friction_energy - (before.friction_energy if before else 0.0)
+        heat = seen.rail_heat - (before.rail_heat if before else 0.0)
+        self.rail.leave(axle, start, end, self.time, 0.5 * max(energy, 0.0), 0.5 * max(heat, 0.0))
+        if sand:
+            self.rail.lay_sand(axle, start, end, sand)
+        self.places[axle] = end
+
+    def close(self):
+        """Frees wheelsets and threads."""
+        if self.pool:
+            self.pool.shutdown()
+        for wheelset in self.wheelsets:
+            wheelset.close()
+
+
+def fmu_wheelsets(fmu, scenario, coach):
+    """Wheelsets in the FMU."""
+    damping = scenario.vehicle.primary.vertical_damping
+    make = lambda: FmuWheelset(
+        fmu, scenario.vehicle.wheelset, coach.static_load, scenario.speed, damping, dict(scenario.wheel)
+    )
+    return [make() for _ in range(AXLES)]
+
+
+def rigid_wheelsets(scenario):
+    """Rigid wheelsets with the friction law of the scenario's wheels."""
+    law = scenario.wheel
+    falling = law.get("friction.falling_ratio", 1.0), law.get("friction.falling_decay", 0.0)
+    return [RigidWheelset(scenario.vehicle.wheelset, scenario.speed, 4e-3, *falling) for _ in range(AXLES)]
+
+
+class Stop:
+    """A stop of a coach. `fmu` None takes rigid wheelsets; `dry` is a friction in place of the track's; `coach` another
+    vehicle with the methods of `Coach`."""
+
+    def __init__(self, scenario, fmu=None, dry=None, coach=None):
+        self.scenario = scenario
+        self.coach = coach or Coach(scenario.vehicle)
+        self.coach.start(scenario.speed)
+        ahead = self.coach.axle_positions - self.coach.axle_positions[0]
+        rail = scenarios.rail_map(scenario.track, -ahead[-1], AXLES, dry)
+        wheelsets = fmu_wheelsets(fmu, scenario, self.coach) if fmu else rigid_wheelsets(scenario)
+        self.contacts = Contacts(wheelsets, ahead, rail, scenario.track)
+        self.brakes = Brakes(scenario.brake, [scenario.speed] * AXLES)
+        self.torques = np.zeros(AXLES)
+        self.radius = scenario.vehicle.wheelset.radius
+        self.rows = []
+
+    def run(self, progress=lambda stop: None):
+        """Brakes to rest, watches it for a while; returns the table of `columns()`."""
+        s, rest = self.scenario, None
+        steps = 0
+        while rest is None or self.contacts.time < rest + s.hold:
+            self.step(s.step)
+            steps += 1
+            progress(self)
+            if rest is None and self.at_rest():
+                rest = self.contacts.time
+            if self.contacts.time > s.longest:
+                raise TimeoutError(f"no standstill in {s.longest:g} s: still {self.coach.speed():.3g} m/s")
+        return np.array(self.rows)
+
+    def at_rest(self):
+        """Whether the coach has stopped."""
+        return self.coach.speed() < AT_REST
+
+    def step(self, h):
+        """One step of all parts."""
+        seen, mass = self.contacts.seen, self.scenario.vehicle.wheelset.mass
+        omegas = [w.omega for w in seen] if seen else [self.scenario.speed / self.radius] * AXLES
+        torques, sand = self.brakes.step(h, self.scenario.demand, [self.radius * omega for omega in omegas])
+        pulls, loads = self.coach.forces()
+        weight = -mass * GRAVITY * np.array([self.contacts.slope(k) for k in range(AXLES)])
+        masses, others = np.full(AXLES, mass), np.zeros(AXLES)
+        if seen:
+            contact = np.array([w.force for w in seen])
+            masses, others = predicted(h, self.scenario.vehicle.wheelset, seen, pulls, contact + weight)
+        reaction = [w.torque for w in seen] if seen else [0.0] * AXLES
+        new_pulls, new_loads = self.coach.advance(h, reaction, self.contacts.slope(0), masses, others)
+        forces, torques = np.array([pulls, new_pulls]) + weight, np.array(torques)
+        seen = self.contacts.step(h, forces, np.array([loads, new_loads]), np.array([self.torques, torques]), sand)
+        self.coach.correct([w.position for w in seen], [w.velocity for w in seen])
+        self.torques = torques
+        self.rows.append(self.row(new_pulls))
+
+    def row(self, pulls):
+        """Values of `columns()` now."""
+        brakes, contacts = self.brakes, self.contacts
+        row = [contacts.time, self.coach.speed(), self.coach.travelled(), brakes.distributor.pressure]
+        row += [brakes.protection.reference, brakes.air(), brakes.sander.used]
+        for k, w in enumerate(contacts.seen):
+            row += [w.velocity, self.radius * w.omega, w.force, w.load, pulls[k], w.torque]
+            row += [brakes.cylinders[k].pressure, brakes.valves[k].value, *contacts.met[k], w.friction_energy]
+            row += [w.hottest, w.peak, w.ac1_depth]
+        return row
+
+    def close(self):
+        """Frees the wheelsets."""
+        self.contacts.close()
+
+
+def predicted(h, wheelset, seen, pulls, others):
+    """Masses [kg] of the wheelsets in the vehicle's step, and the forces [N] on them beside the suspension's."""
+    masses, forces = np.full(len(seen), wheelset.mass), np.array(others, float)
+    for k, w in enumerate(seen):
+        peripheral = wheelset.radius * w.omega
+        if abs(w.omega) < 1e-9 and abs(w.velocity) < STANDING + 2.0 * h * abs(w.force) / wheelset.mass:
+            masses[k], forces[k] = IMMOBILE * wheelset.mass, -pulls[k]
+        elif abs(w.velocity - peripheral) < ROLLING * max(abs(w.velocity), abs(peripheral)):
+            masses[k] = wheelset.mass + wheelset.inertia / wheelset.radius**2
+            forces[k] = masses[k] / wheelset.mass * (pulls[k] + others[k]) - pulls[k]
+    return masses, forces

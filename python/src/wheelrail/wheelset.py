@@ -1,0 +1,151 @@
+"""A wheelset on the rail behind one interface: in the FMU, or rigid with a creep law for quick studies.
+
+Both own the wheelset's mass and inertia and are driven by what the suspension does to them (`Drive`); `step` returns what
+a vehicle, a brake and a rail want to know (`Seen`). Forces are those of both wheels.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .fmu import Wheel
+
+WHEELS = 2
+
+
+class Drive(NamedTuple):
+    """Inputs of a step; pairs are values at its beginning and its end, between which they change linearly."""
+
+    force: tuple  # N, along the track, with the wheelset's weight on a slope
+    load: tuple  # N, pressing down
+    torque: tuple  # N m, of the brake, at least 0
+    friction: float  # 1
+    rail_excess: float = 0.0  # K, of the arriving rail over the reference
+
+
+class Seen(NamedTuple):
+    """A wheelset at the end of a step."""
+
+    position: float  # m, since the start
+    velocity: float  # m/s
+    omega: float  # rad/s
+    force: float  # N, of the contact on both wheels, along the track
+    load: float  # N
+    torque: float  # N m, of the brake on the wheelset, forward positive
+    friction_energy: float  # J, since the start, both rails
+    rail_heat: float  # J, since the start, both rails
+    hottest: float  # K, of the contact now; 0 if unknown
+    peak: float  # K, of the tread so far; 0 if unknown
+    ac1_depth: float  # m
+
+
+OUTPUTS = (
+    "wheel.distance", "wheel.velocity", "wheel.omega", "contact.force_x", "contact.force_y", "brake.torque_actual",
+    "energy.friction", "heat.to_rail", "temperature.wheel_max", "damage.peak_temperature", "damage.ac1_depth",
+)  # fmt: skip
+
+
+class FmuWheelset:
+    """A whole wheelset as one instance: twice the width and the nominal load of one wheel."""
+
+    def __init__(self, fmu, wheelset, load, speed, damping=0.0, parameters=None):
+        """`wheelset` has mass [kg], inertia [kg m2] and radius [m]; `damping` [N s/m] resists its bounce; `parameters`
+        of the FMU count for one wheel and go before everything else."""
+        self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
+        values = whole_wheelset(fmu, wheelset, parameters or {})
+        values |= {"initial.velocity": speed, "vehicle.mass": 0.0, "vehicle.damping": damping}
+        self.wheel = Wheel(fmu, values, {"drive.load": load}, name="wheelset")
+        self.reference, *held = self.wheel.get("thermal.reference", "wheel.mass", "wheel.inertia")
+        if not np.allclose(held, [self.mass, self.inertia], rtol=1e-6):
+            self.close()
+            raise ValueError(f"the FMU holds {held[0]:g} kg, {held[1]:g} kg m2 in place of {wheelset}")
+        self._heat = 0.0
+
+    def step(self, h, drive):
+        """Advances by `h` seconds."""
+        ramped = {"drive.force": drive.force, "drive.load": drive.load, "brake.torque": drive.torque}
+        held = {"rail.friction": drive.friction, "rail.temperature": self.reference + drive.rail_excess}
+        self.wheel.set({name: begin for name, (begin, _) in ramped.items()} | held)
+        self.wheel.set_rates({name: (end - begin) / h for name, (begin, end) in ramped.items()})
+        self.wheel.step(h)
+        seen = self.wheel.get(*OUTPUTS)
+        self._heat += h * seen[7]
+        return Seen(*seen[:7], self._heat, *seen[8:])
+
+    def close(self):
+        """Frees the instance."""
+        self.wheel.close()
+
+
+# Parameters that two wheels have twice.
+DOUBLED = (
+    "model.contact_width", "model.nominal_load", "rail.restraint_stiffness", "rail.restraint_damping",
+    "rail.support_stiffness", "rail.support_damping", "rail.support_mass",
+)  # fmt: skip
+
+
+def whole_wheelset(fmu, wheelset, parameters):
+    """Parameters of one wheel made those of two on an axle that weigh and turn as given [kg, kg m2]."""
+    with Wheel(fmu, parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}) as one:
+        mass, inertia = (WHEELS * value for value in one.get("wheel.mass", "wheel.inertia"))
+        doubled = {name: WHEELS * value for name, value in zip(DOUBLED, one.get(*DOUBLED))}
+    if mass > wheelset.mass or inertia > wheelset.inertia:
+        raise ValueError(f"a wheelset of {wheelset.mass:g} kg, {wheelset.inertia:g} kg m2 is lighter than its two rims")
+    hub = {"wheel.hub_mass": wheelset.mass - mass, "wheel.hub_inertia": wheelset.inertia - inertia}
+    return parameters | doubled | hub | {"wheel.radius": wheelset.radius}
+
+
+class RigidWheelset:
+    """A rigid wheelset under Carter's creep force with friction that falls with the slip, by backward Euler.
+
+    With z = |s|/(V xi_full), F = mu N (2 z - z^2) below full slip, mu N beyond; mu = mu_0 (A + (1 - A) exp(-B |s|)) with
+    the slip s of the step before. The load is that of the suspension; nothing is hot.
+    """
+
+    def __init__(self, wheelset, speed, full_slip=4e-3, falling_ratio=1.0, falling_decay=0.0):
+        self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
+        self.full_slip, self.ratio, self.decay = full_slip, falling_ratio, falling_decay
+        self.position, self.velocity, self.omega = 0.0, speed, speed / wheelset.radius
+        self.slip, self.energy = 0.0, 0.0
+
+    def step(self, h, drive):
+        """Advances by `h` seconds."""
+        r, m, inertia = self.radius, self.mass, self.inertia
+        pull, torque, load = (0.5 * sum(pair) for pair in (drive.force, drive.torque, drive.load))
+        grip = load * drive.friction * (self.ratio + (1.0 - self.ratio) * np.exp(-self.decay * abs(self.slip)))
+        scale = max(abs(self.velocity), abs(r * self.omega), 0.01) * self.full_slip
+        turning = np.sign(self.omega) or np.sign(self.velocity)
+        free = self.velocity + h * pull / m
+        spun = self.omega - h * turning * torque / inertia
+        slip = _slip(free - r * spun, h * grip * (1.0 / m + r * r / inertia), scale)
+        force = -grip * _share(slip, scale)
+        omega = spun - h * r * force / inertia
+        if omega * turning <= 0.0:
+            omega = 0.0
+            slip = _slip(free, h * grip / m, scale)
+            force = -grip * _share(slip, scale)
+        velocity = free + h * force / m
+        acting = inertia * (omega - self.omega) / h + r * force
+        self.position += 0.5 * h * (self.velocity + velocity)
+        self.energy -= h * force * slip
+        self.velocity, self.omega, self.slip = velocity, omega, slip
+        return Seen(
+            self.position, velocity, omega, force, drive.load[1], acting, self.energy, 0.5 * self.energy, 0.0, 0.0, 0.0
+        )
+
+    def close(self):
+        """Nothing to free."""
+
+
+def _share(slip, scale):
+    """Carter's force over mu N, against positive slip [1]."""
+    z = min(abs(slip) / scale, 1.0)
+    return np.copysign(2.0 * z - z * z, slip)
+
+
+def _slip(free, change, scale):
+    """Slip s with s + change share(s/scale) = free: a quadratic equation below full slip."""
+    if abs(free) >= scale + change:
+        return free - np.copysign(change, free)
+    b = scale + 2.0 * change
+    return np.copysign(2.0 * abs(free) * scale / (b + np.sqrt(max(b * b - 4.0 * change * abs(free), 0.0))), free)
