@@ -72,6 +72,7 @@ impl HalfPlanes {
             duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
             surfaces: &surfaces,
             placement: Placement {
+                elevation: 0.0,
                 distance: 0.0,
                 angle: 0.0,
                 growth: 0.0,

@@ -7,7 +7,7 @@ use super::tables::{PRESSURE, Tables};
 use super::transfer;
 use crate::contact::error::ContactError;
 use crate::contact::grid::GridSolver;
-use crate::contact::problem::ContactProblem;
+use crate::contact::problem::{AxisDrive, ContactProblem};
 use crate::contact::solver::{ContactSolver, ContactState, Scratch, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
@@ -50,6 +50,9 @@ impl PatchSolver {
         }
         if placement.swelling.iter().chain(&problem.membrane).any(|layer| !layer.is_empty()) {
             return refuse("hot layers swell");
+        }
+        if problem.rigid.iter().any(|motion| matches!(motion.drive, AxisDrive::Braked { .. })) {
+            return refuse("a brake may hold the wheel");
         }
         if !limits.film.is_empty() {
             return refuse("a surface melts");
