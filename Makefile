@@ -9,6 +9,7 @@
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
+# make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
@@ -43,7 +44,7 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -83,6 +84,9 @@ train: $(FMU) $(INSTALLED)
 
 sweep: $(FMU) $(TRAIN)
 	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(SCHEDULER),--scheduler $(SCHEDULER))
+
+eight-wheels: $(FMU) $(INSTALLED)
+	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU)
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results

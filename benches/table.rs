@@ -10,7 +10,8 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use wheelrail::config::Config;
-use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation, advance_all};
+use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
+use wheelrail::wheels::advance_all;
 
 /// Where the history of runs is kept.
 const HISTORY: &str = "results/bench.jsonl";

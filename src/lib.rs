@@ -48,6 +48,7 @@
 //! | [`damage`] | history of hot material: temperatures of places that were heated in one piece, structure of the steel | [material-history](../../../docs/theory/material-history.md) |
 //! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit, derivatives | [lever-arms](../../../docs/theory/lever-arms.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |
 //! | [`simulation`] | façade: configuration → shared model → advance → outputs; stored bases, advice | |
+//! | [`wheels`] | many of them, stepped side by side on all cores | |
 //! | [`fmi`] | the FMI 2.0 co-simulation slave around it | |
 //!
 //! The command line is a room of the binary, `src/cli`. How to add to a room: `CONTRIBUTING.md`.
@@ -68,3 +69,4 @@ pub mod multistep;
 pub mod piecewise;
 pub mod rolling;
 pub mod simulation;
+pub mod wheels;

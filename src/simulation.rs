@@ -25,10 +25,8 @@ mod plausible;
 mod shared;
 mod store;
 pub mod validity;
-mod wheels;
 
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
-pub use wheels::advance_all;
 
 use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::heat::HeatError;

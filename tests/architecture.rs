@@ -27,6 +27,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         &["mechanics", "contact", "heat", "damage", "multistep", "config", "analytic", "piecewise", "material"],
     ),
     ("simulation", &["material", "rolling", "mechanics", "heat", "fem", "linalg", "config"]),
+    ("wheels", &["simulation"]),
     ("fmi", &["simulation", "config"]),
     ("cli", &["fmi", "simulation", "analytic", "config", "piecewise"]),
     ("main", &["cli"]),

@@ -2,7 +2,8 @@
 
 mod common;
 
-use wheelrail::simulation::{Inputs, Model, Simulation, advance_all};
+use wheelrail::simulation::{Inputs, Model, Simulation};
+use wheelrail::wheels::advance_all;
 
 #[test]
 fn wheels_on_threads_are_those_of_one_after_the_other_bit_for_bit() {

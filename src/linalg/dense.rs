@@ -2,9 +2,8 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::linalg::matmul::matmul;
 use faer::perm::PermRef;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 /// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
@@ -82,25 +81,6 @@ impl DenseSystem {
     }
 }
 
-/// What a product does to its target.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Update {
-    /// It takes its place.
-    Replace,
-    /// It is added.
-    Add,
-}
-
-/// The product `A Bᵀ` of two matrices with rows of `width` numbers; `target` starts with its first entry and has rows that
-/// are `stride` apart.
-pub fn multiply_transposed(a: &[f64], b: &[f64], width: usize, target: &mut [f64], stride: usize, update: Update) {
-    let (rows, columns) = (a.len() / width, b.len() / width);
-    let accum = if update == Update::Add { Accum::Add } else { Accum::Replace };
-    let target = MatMut::from_column_major_slice_with_stride_mut(target, columns, rows, stride).transpose_mut();
-    let (a, b) = (MatRef::from_row_major_slice(a, rows, width), MatRef::from_row_major_slice(b, columns, width));
-    matmul(target, accum, a, b.transpose(), 1.0, Par::Seq);
-}
-
 /// Removes the round-off between `a_ij` and `a_ji`.
 pub fn symmetrise(a: &mut DMatrix<f64>) {
     for i in 0..a.nrows() {
@@ -137,16 +117,6 @@ mod tests {
         assert_eq!(solve(&mut system, [], []), Some(vec![]));
         let x = solve(&mut system, [[2.0, 1.0], [1.0, 3.0]], [3.0, 5.0]).unwrap();
         assert!((x[0] - 0.8).abs() < 1e-15 && (x[1] - 1.4).abs() < 1e-15);
-    }
-
-    #[test]
-    fn products_land_in_their_block() {
-        let (a, b) = ([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [1.0, 0.5, -1.0, 2.0]);
-        let mut target = vec![9.0; 3 * 4];
-        multiply_transposed(&a, &b, 2, &mut target[1..], 4, Update::Replace);
-        assert_eq!(target, [9.0, 2.0, 3.0, 9.0, 9.0, 5.0, 5.0, 9.0, 9.0, 8.0, 7.0, 9.0]);
-        multiply_transposed(&a, &b, 2, &mut target[1..], 4, Update::Add);
-        assert_eq!(target, [9.0, 4.0, 6.0, 9.0, 9.0, 10.0, 10.0, 9.0, 9.0, 16.0, 14.0, 9.0]);
     }
 
     #[test]

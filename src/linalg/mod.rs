@@ -16,8 +16,9 @@ pub mod pencil;
 pub mod sparse;
 pub(crate) mod vectorised;
 
-pub use dense::{DenseSystem, Update, multiply_transposed};
+pub use dense::DenseSystem;
 pub use error::LinalgError;
 pub use lagrange::{Lagrange, POINTS};
 pub use modes::{VibrationModes, lowest_modes};
 pub use sparse::{Cholesky, CholeskyPattern, CsrMatrix};
+pub(crate) use vectorised::{Update, multiply_transposed};

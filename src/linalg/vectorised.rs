@@ -47,3 +47,82 @@ vectorised! {
         simd.reduce_sum_f64s(sum) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
     }
 }
+
+/// What a product does to its target.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Update {
+    /// It takes its place.
+    Replace,
+    /// It is added.
+    Add,
+}
+
+/// Rows of the second factor that are multiplied at a time.
+const TOGETHER: usize = 4;
+
+vectorised! {
+    /// The product `A Bᵀ` of two matrices with rows of `width` numbers, a multiple of four; `target` starts with its first entry
+    /// and has rows that are `stride` apart.
+    ///
+    /// Not by a library: those at hand keep buffers of the thread, which hold a shared library in memory, or need columns.
+    fn multiply_transposed<'a, S>(
+        simd,
+        a: &'a [f64],
+        b: &'a [f64],
+        width: usize,
+        target: &'a mut [f64],
+        stride: usize,
+        update: Update,
+    ) {
+        let (a, b, k) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0, width / S::F64_LANES);
+        for (i, a) in a.chunks_exact(k).enumerate() {
+            for (block, b) in b.chunks(TOGETHER * k).enumerate() {
+                let mut sums = [simd.splat_f64s(0.0); TOGETHER];
+                for (q, &a) in a.iter().enumerate() {
+                    for (sum, b) in sums.iter_mut().zip(b[q..].iter().step_by(k)) {
+                        *sum = simd.add_f64s(*sum, simd.mul_f64s(a, *b));
+                    }
+                }
+                let target = &mut target[i * stride + block * TOGETHER..][..b.len() / k];
+                for (target, sum) in target.iter_mut().zip(sums) {
+                    let product = simd.reduce_sum_f64s(sum);
+                    *target = if update == Update::Add { *target + product } else { product };
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_land_in_their_block() {
+        let number = |i: usize, j: usize| ((7 * i + 3 * j) % 11) as f64 - 4.0;
+        for (rows, columns, width) in [(3, 2, 4), (5, 9, 8), (7, 4, 28)] {
+            let matrix = |rows: usize, shift: usize| -> Vec<f64> {
+                (0..rows).flat_map(|i| (0..width).map(move |j| number(i + shift, j))).collect()
+            };
+            let (a, b, stride) = (matrix(rows, 0), matrix(columns, 2), columns + 3);
+            let exact = |i: usize, j: usize| (0..width).map(|q| number(i, q) * number(j + 2, q)).sum::<f64>();
+            let mut target = vec![0.5; rows * stride];
+            for (update, times) in [(Update::Replace, 1.0), (Update::Add, 2.0)] {
+                multiply_transposed(&a, &b, width, &mut target[1..], stride, update);
+                for (at, value) in target.iter().enumerate() {
+                    let (i, j) = (at / stride, at % stride);
+                    let inside = (1..=columns).contains(&j);
+                    assert_eq!(*value, if inside { times * exact(i, j - 1) } else { 0.5 }, "{i}, {j}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn scalar_products_of_any_length_are_exact() {
+        for length in [0, 1, 4, 15, 16, 33] {
+            let [a, b]: [Vec<f64>; 2] = [2.0, 3.0].map(|step| (0..length).map(|i| step * f64::from(i) - 5.0).collect());
+            assert_eq!(dot(&a, &b), a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>());
+        }
+    }
+}

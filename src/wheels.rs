@@ -1,18 +1,19 @@
 //! Many wheels, stepped side by side on the cores of the machine.
 
-use super::{Inputs, Simulation, StepError};
+use crate::simulation::{Inputs, Simulation, StepError};
 use rayon::prelude::*;
 
 /// Advances every simulation by `h` seconds with its own inputs, on as many threads as the machine has cores; what became of
 /// each, in their order.
 ///
 /// Wheels do not see each other within a step, so that the results are those of one after the other, bit for bit. A wheel whose
-/// step fails stays where it was; those beside it have advanced. Equal wheels share one [`Model`](super::Model); a few wheels
+/// step fails stays where it was; those beside it have advanced. Equal wheels share one [`Model`](crate::simulation::Model); a few wheels
 /// gain by threads once a step takes more than some 20 µs.
 ///
 /// ```no_run
 /// use wheelrail::config::Config;
-/// use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation, advance_all};
+/// use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
+/// use wheelrail::wheels::advance_all;
 ///
 /// let model = Model::shared(Config::default(), &BasisStore::of_user(), &mut |_, _| {})?;
 /// let inputs = vec![Inputs::rolling(model.config()); 8];

@@ -1,0 +1,63 @@
+"""Example 9: eight wheels, stepped one after the other and on threads.
+
+    make eight-wheels
+
+A master in Python steps wheels at the same time with nothing but threads: while the FMU computes, its caller does not hold the
+lock of the interpreter. Every instance has its own state; equal ones share their model. Wheels whose brakes differ take steps of
+different length, so that every step waits for the slowest wheel.
+"""
+
+import argparse
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from time import perf_counter
+
+from wheelrail import Fmu, Wheel
+
+WHEELS, STEP = 8, 1e-3  # number, s
+START = {"initial.velocity": 27.8}
+MOMENTS = [-500.0 * k for k in range(WHEELS)]  # N m
+
+
+def run(wheels, steps, pool):
+    """Steps all wheels; seconds of wall time."""
+    begin = perf_counter()
+    for _ in range(steps):
+        if pool is None:
+            for wheel in wheels:
+                wheel.step(STEP)
+        else:
+            list(pool.map(lambda wheel: wheel.step(STEP), wheels))
+    return perf_counter() - begin
+
+
+def measure(fmu, heat, steps, threads):
+    """Wall seconds and the last forces, without threads (`threads` = 0) or with them."""
+    with ExitStack() as stack:
+        parameters = START | {"thermal.enabled": heat}
+        wheels = [stack.enter_context(Wheel(fmu, parameters, {"drive.moment": moment})) for moment in MOMENTS]
+        run(wheels, 100, None)
+        pool = stack.enter_context(ThreadPoolExecutor(threads)) if threads else None
+        wall = run(wheels, steps, pool)
+        return wall, [wheel.get("contact.force_x") for wheel in wheels]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--fmu", default="target/wheelrail.fmu")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--steps", type=int, default=1000)
+    options = parser.parse_args()
+    print(f"{WHEELS} wheels, {options.steps} steps of {STEP:g} s: simulated over wall time")
+    print(f"{'':14}{'one thread':>12}{f'{options.threads} threads':>12}{'gain':>8}")
+    with Fmu(options.fmu) as fmu:
+        for name, heat in (("with heat", True), ("without heat", False)):
+            (alone, forces), (together, same) = (measure(fmu, heat, options.steps, n) for n in (0, options.threads))
+            if forces != same:
+                raise SystemExit(f"{name}: threads changed the forces: {forces} and {same} N")
+            simulated = options.steps * STEP
+            print(f"{name:14}{simulated / alone:12.2f}{simulated / together:12.2f}{alone / together:8.2f}")
+
+
+if __name__ == "__main__":
+    main()
