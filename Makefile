@@ -6,6 +6,7 @@
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
+# make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 # make bench     speed of steps, starts and the reduced basis
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
@@ -36,7 +37,7 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check masters flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check masters flat locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -46,6 +47,7 @@ test: test-rust test-fmpy
 
 test-rust:
 	$(CARGO) test --release --locked
+	$(CARGO) test --release --locked -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(MASTERS)
 	$(PY) -m pytest fmpy_tests
@@ -65,6 +67,9 @@ flat: $(FMU) $(INSTALLED)
 
 locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
+
+thesis:
+	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- --out results/thesis
 
 bench:
 	$(CARGO) bench --locked

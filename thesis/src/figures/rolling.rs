@@ -1,0 +1,135 @@
+//! Stationary rolling, Papers C and D: ours beside Carter. The thesis's own path (penalty, tanh) does not run yet.
+
+use super::{Figure, must};
+use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
+use crate::ours::Product;
+use crate::plot::{Curve, Plot, Source};
+use crate::quoted::Status;
+use std::f64::consts::TAU;
+use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
+
+/// Creepage at which Carter's contact slips fully, for a load [N/m].
+fn full_slip(load: f64, friction: f64) -> f64 {
+    carter_full_slip(friction, hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3)), OUTER)
+}
+
+/// Force–creepage curves: product and Carter, and the largest difference.
+fn curves(product: &Product, load: f64, friction: f64, largest: f64) -> Result<(Vec<Curve>, f64), String> {
+    let creepages: Vec<f64> = (-8..=8).map(|i| largest * f64::from(i) / 8.0).collect();
+    let full = full_slip(load, friction);
+    let force = |xi: &f64| product.stationary(*xi, Some(friction)).map(|state| [1e4 * xi, state.utilisation]);
+    let ours = creepages.iter().map(force).collect::<Result<Vec<_>, _>>()?;
+    let carter: Vec<[f64; 2]> = creepages.iter().map(|xi| [1e4 * xi, carter_force(*xi, full)]).collect();
+    let difference = ours.iter().zip(&carter).fold(0.0_f64, |worst, (a, b)| worst.max((a[1] - b[1]).abs()));
+    let curves = vec![
+        Curve { source: Source::Ours, name: format!("ours, μ = {friction}"), points: ours },
+        Curve { source: Source::Exact, name: format!("Carter, μ = {friction}"), points: carter },
+    ];
+    Ok((curves, difference))
+}
+
+fn plot(curves: Vec<Curve>) -> Plot {
+    Plot { axes: ["creepage ξ in 1e-4".into(), "F/μP".into()], curves }
+}
+
+/// Figure C 7: force over creepage. The friction coefficient is not stated.
+pub fn paper_c() -> Result<Figure, String> {
+    let (product, still) = (Product::new("paper_c", true)?, Product::new("paper_c", false)?);
+    let (mut all, _) = curves(&product, 10e3, 0.4, 2.5e-4)?;
+    all.extend(curves(&product, 10e3, 0.5, 2.5e-4)?.0);
+    let at = [-5e-5, -1.25e-4, 0.0].map(|xi| product.stationary(xi, None).map(|state| state.utilisation));
+    let [first, second, free] = [at[0].clone()?, at[1].clone()?, at[2].clone()?];
+    // Carter and the references know no centrifugal load.
+    let difference = curves(&still, 10e3, 0.4, 2.5e-4)?.1;
+    let references = [(-5e-5, 0.45108), (-1.25e-4, 0.876526)];
+    let error = |(xi, value): (f64, f64)| still.stationary(xi, None).map(|state| (state.utilisation - value).abs());
+    let worst = error(references[0])?.max(error(references[1])?);
+    Ok(Figure {
+        item: "C 7",
+        title: "Tangential force over creepage",
+        status: Status::NotStated,
+        parameters: "Base of Paper C, P = 10 kN/m, 50 km/h; μ is not stated: 0.4 and 0.5 assumed.",
+        finding: format!(
+            "μ = 0.4: {first:.4} of the limit at −5e-5, {second:.4} at −1.25e-4, {free:+.4} without creepage: the centrifugal load \
+             counts under so small a weight."
+        ),
+        plots: vec![plot(all)],
+        values: vec![("c7.first".into(), first), ("c7.second".into(), second), ("c7.free".into(), free)],
+        predicates: vec![
+            must(format!("without centrifugal load within 0.002 of Carter: {difference:.4}"), difference < 2e-3),
+            must(format!("without it within 0.002 of 0.4511 and 0.8765: {worst:.4}"), worst < 2e-3),
+        ],
+    })
+}
+
+/// Figure D 6: force over creepage, and the creepage of full slip.
+pub fn paper_d() -> Result<Figure, String> {
+    let product = Product::new("paper_d", true)?;
+    let (mut all, difference) = curves(&product, 100e3, 0.4, 8e-4)?;
+    all.push(Curve {
+        source: Source::Quoted,
+        name: "stated full slip".into(),
+        points: vec![[-6.0, -1.0], [-6.0, 1.0]],
+    });
+    let free = product.stationary(0.0, None)?.utilisation;
+    let full = full_slip(100e3, 0.4);
+    Ok(Figure {
+        item: "D 6",
+        title: "Tangential force over creepage",
+        status: Status::Agrees,
+        parameters: "Base of Paper D, P = 100 kN/m, μ = 0.4, 50 km/h.",
+        finding: format!(
+            "Full slip at ∓{full:.3e} after Carter, stated −6e-4. F(0) = {free:.4} of the limit, not quite zero."
+        ),
+        plots: vec![plot(all)],
+        values: vec![("d6.free".into(), free)],
+        predicates: vec![
+            must(format!("within 0.002 of Carter: {difference:.4}"), difference < 2e-3),
+            must("|F(0)| below 0.005 of the limit and not zero", free.abs() < 5e-3 && free.abs() > 1e-5),
+        ],
+    })
+}
+
+/// Text to C 12: mean temperature of the wheel.
+pub fn temperature() -> Result<Figure, String> {
+    let product = Product::new("paper_c", true)?;
+    let ours = product.stationary(-5e-5, None)?;
+    // The reference knows no centrifugal load.
+    let still = Product::new("paper_c", false)?.stationary(-5e-5, None)?.wheel_mean;
+    // Outside of the skin the fast wheel is axisymmetric: its heat flows to the hub through an annulus.
+    let square = OUTER * OUTER;
+    let shape = square * (OUTER / INNER).ln() / (square - INNER * INNER) - 0.5;
+    let per_heat = shape / (TAU * CONDUCTIVITY);
+    // Half of a tenth of the friction power F V |ξ| goes to the wheel, before conduction to the rail.
+    let friction = ours.utilisation * 0.4 * 10e3 * 50.0 / 3.6 * 5e-5;
+    let share = ours.wheel_mean / (0.05 * friction * per_heat);
+    let stated = 2.26e-6;
+    let stated_share = stated / (0.05 * friction * per_heat);
+    Ok(Figure {
+        item: "C 12",
+        title: "Mean temperature of the wheel",
+        status: Status::ThesisError,
+        parameters: "Base of Paper C, ξ = −5e-5, 50 km/h; μ = 0.4 assumed.",
+        finding: format!(
+            "Ours {:.2e} K, reference 7.52e-5 K; stated 2.26e-6 K, {:.0} times less. The hub carries away what the mean temperature \
+             drives through the annulus: {:.1} % of the wheel's half of the friction heat in ours, {:.1} % in the thesis, which \
+             must have lost the rest, most likely as figure B 5 loses temperature.",
+            ours.wheel_mean,
+            ours.wheel_mean / stated,
+            100.0 * share,
+            100.0 * stated_share
+        ),
+        plots: Vec::new(),
+        values: vec![("c12.wheel".into(), ours.wheel_mean)],
+        predicates: vec![
+            must(
+                format!("without centrifugal load {still:.4e} K, within 2 % of the reference 7.5217e-5 K"),
+                (still / 7.5217e-5 - 1.0).abs() < 0.02,
+            ),
+            must(
+                "reference and its heat to the hub fit the annulus",
+                (0.011_648_07 * per_heat / 7.5217e-5 - 1.0).abs() < 1e-3,
+            ),
+        ],
+    })
+}
