@@ -1,4 +1,4 @@
-//! The test of [B] 4: heat in a rotating annulus with a uniform source and cold rims, whose exact temperature does not
+//! The test of \[B] 4: heat in a rotating annulus with a uniform source and cold rims, whose exact temperature does not
 //! depend on the rotation.
 
 use crate::Error;
@@ -8,7 +8,7 @@ use crate::sparse::Matrix;
 use crate::stabilise::Scheme;
 use crate::triangle::{Order, Space, shape};
 
-/// Outer and inner radius \[m], source [W/m³], ρc [J/(m³ K)], conductivity [W/(m K)]: [B] with steel.
+/// Outer radius \[m].
 pub const OUTER: f64 = 0.5;
 /// Inner radius \[m].
 pub const INNER: f64 = 0.05;
@@ -16,7 +16,7 @@ pub const INNER: f64 = 0.05;
 pub const SOURCE: f64 = 1000.0;
 /// Heat capacity of the volume [J/(m³ K)].
 pub const CAPACITY: f64 = 8000.0 * 460.0;
-/// Conductivity [W/(m K)], not stated in [B]: the one of its main example.
+/// Conductivity [W/(m K)], not stated in \[B]: the one of its main example.
 pub const CONDUCTIVITY: f64 = 45.0;
 
 /// Exact temperature \[K] at radius `r` \[m].

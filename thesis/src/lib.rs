@@ -8,10 +8,14 @@
 #![warn(missing_docs)]
 
 pub mod annulus;
+pub mod contact;
+pub mod dual;
+pub mod elastic;
 pub mod errors;
 pub mod figures;
 pub mod flow;
 pub mod mesh;
+pub mod newton;
 pub mod one_dimension;
 pub mod ours;
 pub mod plot;
@@ -19,6 +23,7 @@ pub mod quoted;
 pub mod rail;
 pub mod report;
 pub mod rivara;
+pub mod rolling;
 pub mod sparse;
 pub mod stabilise;
 pub mod triangle;
@@ -34,5 +39,13 @@ pub enum Error {
         size: usize,
         /// What the factorisation says.
         reason: String,
+    },
+    /// A Newton iteration that does not end.
+    #[error("Newton's iteration stalls after {iterations} steps at a residual of {residual:.1e} of the load")]
+    NotConverged {
+        /// Steps taken.
+        iterations: usize,
+        /// Largest residual over the load \[1].
+        residual: f64,
     },
 }

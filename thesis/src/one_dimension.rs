@@ -1,4 +1,4 @@
-//! The one-dimensional example of the introduction ([I] 4.2, 5.3): heated rod in a stream,
+//! The one-dimensional example of the introduction (\[I] 4.2, 5.3): heated rod in a stream,
 //! `ρc V dθ/dx − k d²θ/dx² = R`, `θ = 0` at both ends, by three schemes.
 
 use crate::stabilise::{Scheme, bubble_position, upwind};
@@ -24,7 +24,7 @@ impl Rod {
         Self { length: 2.0, capacity: 1.0, conductivity: 1.0, source: 1000.0, velocity }
     }
 
-    /// Exact temperature \[K] at `x` \[m], [I] (4.6).
+    /// Exact temperature \[K] at `x` \[m], \[I] (4.6).
     pub fn exact(&self, x: f64) -> f64 {
         let stream = self.capacity * self.velocity / self.conductivity;
         if stream == 0.0 {

@@ -1,4 +1,4 @@
-//! Stabilisation of convection: streamline upwinding ([I] 5.2.1, [D] 5.2.3) and quasi-residual-free bubbles ([B] Fig. 2).
+//! Stabilisation of convection: streamline upwinding (\[I] 5.2.1, \[D] 5.2.3) and quasi-residual-free bubbles (\[B] Fig. 2).
 
 /// How an element treats convection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -95,7 +95,7 @@ pub fn laplacians(corners: &[[f64; 2]; 3], order: Order) -> [f64; 6] {
     found
 }
 
-/// Seven places of integration, exact for polynomials of degree five (Radon 1948): the rule of [B] 4.
+/// Seven places of integration, exact for polynomials of degree five (Radon 1948): the rule of \[B] 4.
 pub fn points(corners: &[[f64; 2]; 3], order: Order) -> [Point; 7] {
     let root = 15.0_f64.sqrt();
     let area = 0.5 * double_area(corners);

@@ -1,11 +1,10 @@
 //! Meshes of the wheel: an annulus about the origin, refined after Rivara, with round rims and its centre of gravity
-//! corrected ([C] 5.1).
+//! corrected (\[C] 5.1).
 
 use crate::Error;
-use crate::mesh::{Mesh, double_area};
+use crate::elastic;
+use crate::mesh::Mesh;
 use crate::rivara;
-use crate::sparse::Matrix;
-use crate::triangle::linear_gradients;
 use std::f64::consts::TAU;
 
 /// Radii of an annulus \[m].
@@ -83,11 +82,10 @@ pub fn centre(mesh: &mut Mesh, annulus: Annulus, poisson: f64) -> Result<[f64; 2
     let hub_area = polygon_area(mesh, &hub);
     let (area, centroid) = (mesh.area(), mesh.centroid());
     let way = centroid.map(|c| area * c / hub_area);
-    let stiffness = stiffness(mesh, poisson);
+    let mut matrix = elastic::stiffness(mesh, 1.0, poisson);
     let fixed: Vec<usize> = tread.iter().chain(&hub).flat_map(|node| [2 * node, 2 * node + 1]).collect();
-    let mut load = vec![0.0; stiffness.size];
+    let mut load = vec![0.0; matrix.size];
     hub.iter().for_each(|node| (0..2).for_each(|axis| load[2 * node + axis] = way[axis]));
-    let mut matrix = stiffness;
     matrix.fix(&fixed);
     let moved = matrix.factorise()?.solve(load)?;
     for (node, shift) in mesh.nodes.iter_mut().zip(moved.as_chunks::<2>().0) {
@@ -105,45 +103,21 @@ fn polygon_area(mesh: &Mesh, nodes: &[usize]) -> f64 {
     corners.iter().enumerate().map(|(i, a)| 0.5 * (a[0] * next(i)[1] - a[1] * next(i)[0])).sum()
 }
 
-/// Stiffness of linear triangles in plane strain with a shear modulus of 1.
-fn stiffness(mesh: &Mesh, poisson: f64) -> Matrix {
-    let mut matrix = Matrix::new(2 * mesh.nodes.len());
-    let bulk = 2.0 * poisson / (1.0 - 2.0 * poisson);
-    for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = mesh.corners(t);
-        let (area, slopes) = (0.5 * double_area(&corners), linear_gradients(&corners));
-        for (a, i) in triangle.iter().enumerate() {
-            for (b, j) in triangle.iter().enumerate() {
-                let product = slopes[a][0] * slopes[b][0] + slopes[a][1] * slopes[b][1];
-                for p in 0..2 {
-                    for q in 0..2 {
-                        let mut value = bulk * slopes[a][p] * slopes[b][q] + slopes[a][q] * slopes[b][p];
-                        value += if p == q { product } else { 0.0 };
-                        matrix.add(2 * i + p, 2 * j + q, area * value);
-                    }
-                }
-            }
-        }
-    }
-    matrix
-}
-
-/// Mesh of a rolling wheel as [A] 3.1 and [C] 5.1 build it: refined in ever smaller discs about the contact until the edges
-/// there would be shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the
+/// Mesh of a rolling wheel as \[A] 3.1 and \[C] 5.1 build it: refined in ever smaller discs about the contact, the last one with a
+/// radius of at least `patch` \[m], until the edges there would be shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the
 /// longest edges of the tread, the round rims, and the centre of gravity.
-pub fn rolling(annulus: Annulus, size: f64, global: usize, poisson: f64) -> Result<Mesh, Error> {
+pub fn rolling(annulus: Annulus, patch: f64, size: f64, global: usize, poisson: f64) -> Result<Mesh, Error> {
     let mut mesh = coarse(&[annulus.inner, (annulus.inner * annulus.outer).sqrt(), annulus.outer], 12);
     let before = size * 2.0_f64.powf(0.5 * global as f64);
-    let mut disc = annulus.outer;
-    while disc > 4.0 * before {
+    let mut disc = 0.5 * annulus.outer;
+    while disc > patch {
+        let within = |corner: &[f64; 2]| corner[0].hypot(corner[1] + annulus.outer) < disc;
+        let coarse = if disc < 2.0 * patch { before } else { 0.5 * disc };
+        rivara::refine_while(&mut mesh, |corners| {
+            corners.iter().any(within) && rivara::longest(corners) > coarse * coarse
+        });
         disc *= 0.5;
-        let near = |corners: &[[f64; 2]; 3]| corners.iter().any(|c| c[0].hypot(c[1] + annulus.outer) < disc);
-        rivara::refine_while(&mut mesh, |corners| near(corners) && rivara::longest(corners) > (0.5 * disc).powi(2));
     }
-    let contact = |c: &[f64; 2]| c[0].hypot(c[1] + annulus.outer) < disc;
-    rivara::refine_while(&mut mesh, |corners| {
-        corners.iter().any(contact) && rivara::longest(corners) > before * before
-    });
     rivara::refine_all(&mut mesh, global);
     refine_tread(&mut mesh, annulus);
     make_round(&mut mesh, annulus);
@@ -171,7 +145,7 @@ fn refine_tread(mesh: &mut Mesh, annulus: Annulus) {
     }
 }
 
-/// Unstructured annulus for the test of [B] 4: refined after Rivara until edges are shorter than `size` \[m], its inner
+/// Unstructured annulus for the test of \[B] 4: refined after Rivara until edges are shorter than `size` \[m], its inner
 /// nodes then moved by pseudo-random shares of up to `disorder` of their distance to the nearest neighbour.
 pub fn unstructured(annulus: Annulus, size: f64, disorder: f64) -> Mesh {
     // Rings that widen like the circles on which they lie: about equal sides everywhere.

@@ -19,7 +19,7 @@ fn across(mesh: &Mesh, depth: impl Fn([f64; 2]) -> f64) -> usize {
 fn the_wheel_is_round_centred_and_fine_where_it_touches() {
     for global in [1, 2, 3] {
         let size = PATCH / 4.0;
-        let mesh = wheel::rolling(WHEEL, size, global, 0.3).unwrap();
+        let mesh = wheel::rolling(WHEEL, PATCH, size, global, 0.3).unwrap();
         let (tread, _) = wheel::rims(&mesh, WHEEL);
         let radius = |n: &usize| mesh.nodes[*n][0].hypot(mesh.nodes[*n][1]);
         let roundness = tread.iter().fold(0.0_f64, |worst, n| worst.max((radius(n) / WHEEL.outer - 1.0).abs()));

@@ -154,7 +154,9 @@ pub fn braking() -> Result<Figure, String> {
         title: "Controlled braking: share of the limit at the largest creepage (closed form only)",
         status: Status::ThesisError,
         parameters: "r 0.5 m, P 100 kN/m, μ 0.4, creepage 1.9e-4 as stated.",
-        finding: format!("Carter: {share:.3} of the limit; stated 0.48. The regularised law softens the contact."),
+        finding: format!(
+            "Carter: {share:.3} of the limit; stated 0.48. The regularised law does not explain it: figure D 6."
+        ),
         plots: vec![Plot {
             axes: ["|creepage| in 1e-4".into(), "|F|/μP".into()],
             curves: vec![
