@@ -12,6 +12,7 @@
 # make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
+# make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
@@ -44,7 +45,7 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat locked-wheels bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -54,6 +55,7 @@ test: test-rust test-fmpy
 
 test-rust:
 	$(CARGO) test --release --locked
+	$(CARGO) test --release --locked -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(MASTERS) $(TRAIN)
 	$(PY) -m pytest fmpy_tests
@@ -94,6 +96,9 @@ flat: $(FMU) $(INSTALLED)
 locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
 
+thesis:
+	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- --out results/thesis
+
 bench:
 	$(CARGO) bench --locked --bench table
 
@@ -121,7 +126,7 @@ leak-check:
 	else echo "leak-check skipped: valgrind is not installed"; fi
 
 docs:
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
 
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new

@@ -17,7 +17,13 @@ VALUES = {
     "drive.displacement": (-1.78e-4, -1.80e-4),
     "drive.tread_heat": (0.0, 1e3),
     "rail.friction": (0.3, 0.05),
+    "rail.temperature": (293.0, 303.0),
+    "rail.slope": (0.0, 0.01),
+    "rail.elevation": (0.0, 1e-6),
+    "brake.torque": (0.0, 500.0),
 }
+# Inputs that act whatever is prescribed.
+ALWAYS = {"rail.friction", "rail.temperature", "rail.slope", "rail.elevation", "drive.tread_heat"}
 # Parameters that need no new basis.
 PARAMETERS = {"initial.velocity": 15.0, "initial.creepage": 2e-4, "vehicle.mass": 5e3, "thermal.wheel_excess": 5.0}
 
@@ -38,7 +44,7 @@ def unknowns(fmu):
 def values(wheel):
     """All outputs, by name."""
     found = {}
-    for kind in ("Real", "Integer"):
+    for kind in ("Real", "Integer", "Boolean"):
         of_kind = [v for v in wheel.fmu.description.modelVariables if v.causality == "output" and v.type == kind]
         names = [variable.name for variable in of_kind]
         found |= dict(zip(names, wheel.get(*names)))
@@ -84,11 +90,11 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
             acted.add(name)
     wheel.forget(here)
     prescribed = {
-        "forces": {"drive.moment", "drive.force", "drive.load"},
+        "forces": {"drive.moment", "drive.force", "drive.load", "brake.torque"},
         "motion": {"drive.omega", "drive.velocity", "drive.displacement"},
     }["forces" if control is DEFAULT else "motion"]
-    assert acted >= prescribed | set(DEFAULT) | {"rail.friction", "drive.tread_heat"}
-    partners = set(VALUES) - prescribed - {"rail.friction", "drive.tread_heat"}
+    assert acted >= prescribed | set(DEFAULT) | ALWAYS
+    partners = set(VALUES) - prescribed - ALWAYS
     assert not acted & partners, "the partner that is not prescribed has no effect"
 
 

@@ -1,0 +1,89 @@
+//! `wheelrail-thesis [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads and writes the report.
+//!
+//! Ends with an error if a figure shows something else than it must, or a quoted number has the wrong status.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use wheelrail_thesis::figures::{ALL, Figure, Recipe};
+use wheelrail_thesis::{quoted, report};
+
+const THREADS: usize = 2;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let (mut out, mut wanted) = (PathBuf::from("results/thesis"), Vec::new());
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--out" => out = arguments.next().ok_or("--out needs a directory")?.into(),
+            item if ALL.iter().any(|(name, _)| *name == item) => wanted.push(argument),
+            other => {
+                let names: Vec<&str> = ALL.iter().map(|(name, _)| *name).collect();
+                return Err(format!("{other} is not recomputed; there are {names:?}"));
+            }
+        }
+    }
+    let recipes: Vec<_> =
+        ALL.iter().filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|w| w == name)).collect();
+    let figures = compute(&recipes)?;
+    let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
+    let quoted = quoted::all()?;
+    std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
+    for (name, text) in [("index.html", report::html(&figures, &quoted)), ("values.csv", report::csv(&figures))] {
+        let file = out.join(name);
+        std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
+        println!("{}", file.display());
+    }
+    let mut wrong: Vec<String> = Vec::new();
+    for (figure, _) in &figures {
+        let broken = figure.predicates.iter().filter(|predicate| !predicate.holds);
+        wrong.extend(broken.map(|predicate| format!("{}: {} does not hold", figure.item, predicate.says)));
+    }
+    if wanted.is_empty() {
+        for entry in &quoted {
+            if !entry.holds(&values)? {
+                wrong.push(format!("{} {}: {} is the wrong status", entry.item, entry.quantity, entry.status.name()));
+            }
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
+}
+
+/// All figures in their order, each with its time \[s].
+fn compute(recipes: &[&(&'static str, Recipe)]) -> Result<Vec<(Figure, f64)>, String> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(BTreeMap::new());
+    std::thread::scope(|scope| {
+        for _ in 0..THREADS {
+            scope.spawn(|| {
+                while let Some((name, recipe)) = recipes.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let start = Instant::now();
+                    let outcome = recipe().map_err(|error| format!("{name}: {error}"));
+                    let seconds = start.elapsed().as_secs_f64();
+                    println!("{name}: {seconds:.1} s");
+                    if let Ok(mut done) = done.lock() {
+                        done.insert(*name, outcome.map(|figure| (figure, seconds)));
+                    }
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().map_err(|error| error.to_string())?;
+    recipes
+        .iter()
+        .map(|(name, _)| done.remove(name).unwrap_or_else(|| Err(format!("{name} was not computed"))))
+        .collect()
+}

@@ -1,0 +1,270 @@
+//! One Newton iteration for all unknowns (\[B] 5.3, \[C] 5.3, \[D] 5.3), and the same iteration on the contact alone.
+
+use crate::Error;
+use crate::contact::Law;
+use crate::rolling::{Motion, System, Touch};
+use crate::sparse::Matrix;
+use nalgebra::{DMatrix, DVector};
+use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
+
+/// What drives the wheel; the velocity of travel is prescribed.
+#[derive(Clone, Copy, Debug)]
+pub enum Drive {
+    /// Its angular velocity is prescribed.
+    Velocity,
+    /// The moment on its hub is prescribed, forward \[N]; the angular velocity is found.
+    Moment(f64),
+}
+
+/// Unknowns and motion.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Unknown displacements \[m].
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub motion: Motion,
+}
+
+/// Residual of a state \[N/m], and its last entry with a prescribed moment \[N].
+pub type Residual = Vec<f64>;
+
+/// Residual over the load at which an iteration has converged \[1].
+const TOLERANCE: f64 = 1e-9;
+const ITERATIONS: usize = 80;
+/// Halvings of a step at most.
+const HALVINGS: usize = 14;
+
+/// An iteration on a system.
+pub struct Newton<'a> {
+    /// What is solved.
+    pub system: &'a System,
+    /// Contact law, mostly the system's own.
+    pub law: Law,
+    /// Drive.
+    pub drive: Drive,
+}
+
+impl Newton<'_> {
+    /// Residual and contact of a state (\[D] 26, 27).
+    pub fn residual(&self, state: &State) -> (Residual, Vec<Touch>) {
+        let system = self.system;
+        let u = system.expand(&state.q);
+        let touches = system.touches(&u, state.motion, self.law);
+        let mut forces = system.stiffness(state.motion).multiply(&u);
+        let square = state.motion.omega.powi(2);
+        forces.iter_mut().zip(&system.centrifugal).for_each(|(force, load)| *force -= square * load);
+        for touch in &touches {
+            for (node, force) in [touch.nodes[0], touch.nodes[2], touch.nodes[3]].into_iter().zip(touch.forces.on) {
+                (0..2).for_each(|axis| forces[2 * node + axis] -= force[axis].value);
+            }
+        }
+        let mut residual = system.gather(&forces);
+        residual[system.size - 1] += system.parameters.load;
+        if let Drive::Moment(moment) = self.drive {
+            let reaction: f64 = forces.iter().zip(&system.arms).map(|(force, arm)| force * arm).sum();
+            residual.push(reaction - moment);
+        }
+        (residual, touches)
+    }
+
+    /// Derivative of the residual (\[D] 29 to 44): contact included, and with a prescribed moment one more column and row.
+    pub fn tangent(&self, state: &State, touches: &[Touch]) -> Matrix {
+        let system = self.system;
+        let full = system.stiffness(state.motion);
+        let mut tangent = system.reduce(&full);
+        let last = system.size;
+        let mut with_omega = vec![0.0; system.arms.len()];
+        for touch in touches {
+            for (row, force) in [touch.nodes[0], touch.nodes[2], touch.nodes[3]].into_iter().zip(touch.forces.on) {
+                for (axis, part) in force.iter().enumerate() {
+                    let slopes = part.slopes;
+                    with_omega[2 * row + axis] -= slopes[8];
+                    let Some(i) = system.unknown[2 * row + axis] else { continue };
+                    for (k, slope) in slopes[..8].iter().enumerate() {
+                        system.unknown[2 * touch.nodes[k / 2] + k % 2].iter().for_each(|j| tangent.add(i, *j, -slope));
+                    }
+                }
+            }
+        }
+        if matches!(self.drive, Drive::Moment(_)) {
+            tangent.size += 1;
+            let turned = system.turning.multiply(&system.expand(&state.q));
+            for (i, value) in with_omega.iter_mut().enumerate() {
+                *value -= 2.0 * state.motion.omega * (turned[i] + system.centrifugal[i]);
+            }
+            let column = system.gather(&with_omega);
+            column.iter().enumerate().for_each(|(i, value)| tangent.add(i, last, *value));
+            let corner = with_omega.iter().zip(&system.arms).map(|(value, arm)| value * arm).sum();
+            tangent.add(last, last, corner);
+            for (i, j, value) in full.entries.iter().filter(|entry| system.arms[entry.0] != 0.0) {
+                system.unknown[*j].iter().for_each(|j| tangent.add(last, *j, system.arms[*i] * value));
+            }
+        }
+        tangent
+    }
+
+    /// Size of a residual over the load \[1]; moments over the radius.
+    pub fn size(&self, residual: &[f64]) -> f64 {
+        let parameters = &self.system.parameters;
+        let (forces, moments) = residual.split_at(self.system.size);
+        let sum: f64 = forces.iter().map(|force| force * force).sum();
+        let moment: f64 = moments.iter().map(|moment| (moment / parameters.annulus.outer).powi(2)).sum();
+        (sum + moment).sqrt() / parameters.load
+    }
+
+    /// The step of a state.
+    pub fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
+        let (residual, touches) = self.residual(state);
+        self.tangent(state, &touches).factorise()?.solve(residual.iter().map(|value| -value).collect())
+    }
+
+    /// The state a share of a step further on.
+    pub fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
+        let q = state.q.iter().zip(step).map(|(q, d)| q + share * d).collect();
+        let omega = state.motion.omega + share * step.get(state.q.len()).copied().unwrap_or_default();
+        State { q, motion: Motion { omega, ..state.motion } }
+    }
+
+    /// Solves from a start; returns the state and the number of steps. Steps are halved while the residual would grow.
+    pub fn solve(&self, start: &State) -> Result<(State, usize), Error> {
+        let mut state = start.clone();
+        let mut residual = self.size(&self.residual(&state).0);
+        for iterations in 0..ITERATIONS {
+            if residual < TOLERANCE {
+                return Ok((state, iterations));
+            }
+            let step = self.step(&state)?;
+            let try_share = |k: usize| {
+                let next = self.moved(&state, &step, 0.5_f64.powi(k as i32));
+                let size = self.size(&self.residual(&next).0);
+                (next, size)
+            };
+            let Some((next, size)) = (0..HALVINGS).map(try_share).find(|(_, size)| *size < residual) else {
+                return Err(Error::NotConverged { iterations, residual });
+            };
+            (state, residual) = (next, size);
+        }
+        Err(Error::NotConverged { iterations: ITERATIONS, residual })
+    }
+}
+
+/// Contact without friction at rest: from bodies loaded by Hertz' pressure, brought together until they carry the load.
+pub fn frictionless(system: &System) -> Result<State, Error> {
+    let parameters = &system.parameters;
+    let a = hertz_half_width(
+        parameters.load,
+        parameters.annulus.outer,
+        contact_modulus(parameters.young, parameters.poisson),
+    );
+    let load = system.hertz(a, hertz_peak_pressure(parameters.load, a));
+    let rest = Motion { omega: 0.0, velocity: 0.0 };
+    let mut matrix = system.reduce(&system.stiffness(rest));
+    matrix.fix(&[system.size - 1]);
+    let mut right = system.gather(&load);
+    right[system.size - 1] = 0.0;
+    let mut q = matrix.factorise()?.solve(right)?;
+    // The whole wheel comes down until the contact point penetrates as far as the penalty wants.
+    let [tread, rail] = system.nearest();
+    let u = system.expand(&q);
+    let down = u[2 * rail + 1] - u[2 * tread + 1] - a.min(parameters.load / parameters.law.penalty * 0.2);
+    let mut lowered = vec![false; system.size];
+    (0..system.wheel_nodes).for_each(|node| system.unknown[2 * node + 1].iter().for_each(|i| lowered[*i] = true));
+    q.iter_mut().zip(lowered).filter(|(_, lowered)| *lowered).for_each(|(q, _)| *q += down);
+    let law = Law { friction: 0.0, ..parameters.law };
+    let newton = Newton { system, law, drive: Drive::Velocity };
+    newton.solve(&State { q, motion: rest }).map(|(state, _)| state)
+}
+
+/// Rolling by velocity stepping (\[C] 5.3): velocities grow from a thousandth to their full values by factors of √10 with the
+/// creepage kept; a step that fails is halved on the logarithmic scale. Returns the state and all Newton steps.
+pub fn rolling(system: &System, motion: Motion) -> Result<(State, usize), Error> {
+    let mut state = frictionless(system)?;
+    let newton = Newton { system, law: system.parameters.law, drive: Drive::Velocity };
+    let (mut reached, mut factor, mut count) = (1e-3 / 10.0_f64.sqrt(), 10.0_f64.sqrt(), 0);
+    loop {
+        let scale = (reached * factor).min(1.0);
+        state.motion = Motion { omega: scale * motion.omega, velocity: scale * motion.velocity };
+        match newton.solve(&state) {
+            Ok((next, steps)) => {
+                (state, reached, count) = (next, scale, count + steps);
+                if scale == 1.0 {
+                    return Ok((state, count));
+                }
+            }
+            Err(error) if factor < 1.02 => return Err(error),
+            Err(_) => factor = factor.sqrt(),
+        }
+    }
+}
+
+/// Forces of the contact on the wheel [N/m]: forward and up.
+pub fn resultant(touches: &[Touch]) -> [f64; 2] {
+    [0, 1].map(|axis| touches.iter().map(|touch| touch.forces.on[0][axis].value).sum())
+}
+
+/// The same iteration on the unknowns of the contact and the hub: all others are linear and eliminated once.
+pub struct Condensed {
+    /// Unknowns that are kept.
+    pub kept: Vec<usize>,
+    stiffness: DMatrix<f64>,
+    load: DVector<f64>,
+}
+
+impl Condensed {
+    /// Eliminates what is linear, for a motion.
+    pub fn new(system: &System, motion: Motion) -> Result<Self, Error> {
+        let kept = system.contact_unknowns();
+        let matrix = system.reduce(&system.stiffness(motion));
+        let mut full_load = system.gather(&system.centrifugal);
+        full_load.iter_mut().for_each(|load| *load *= motion.omega.powi(2));
+        full_load[system.size - 1] -= system.parameters.load;
+        let mut place = vec![None; system.size];
+        kept.iter().enumerate().for_each(|(k, i)| place[*i] = Some(k));
+        let mut inner = Matrix::new(system.size);
+        let mut columns = vec![0.0; system.size * (kept.len() + 1)];
+        let mut stiffness = DMatrix::zeros(kept.len(), kept.len());
+        let mut rows = Vec::new();
+        for &(i, j, value) in &matrix.entries {
+            match (place[i], place[j]) {
+                (None, None) => inner.add(i, j, value),
+                (None, Some(column)) => columns[column * system.size + i] += value,
+                (Some(row), None) => rows.push((row, j, value)),
+                (Some(row), Some(column)) => stiffness[(row, column)] += value,
+            }
+        }
+        kept.iter().for_each(|i| inner.add(*i, *i, 1.0));
+        let mut load = DVector::from_iterator(kept.len(), kept.iter().map(|i| full_load[*i]));
+        for (i, value) in full_load.iter().enumerate().filter(|(i, _)| place[*i].is_none()) {
+            columns[kept.len() * system.size + i] = *value;
+        }
+        let solved = inner.factorise()?.solve(columns)?;
+        for (row, j, value) in rows {
+            (0..kept.len()).for_each(|column| stiffness[(row, column)] -= value * solved[column * system.size + j]);
+            load[row] -= value * solved[kept.len() * system.size + j];
+        }
+        Ok(Self { kept, stiffness, load })
+    }
+
+    /// The next values of the kept unknowns after a full Newton step from a state.
+    pub fn next(&self, newton: &Newton<'_>, state: &State) -> Option<DVector<f64>> {
+        let system = newton.system;
+        let mut place = vec![None; system.size];
+        self.kept.iter().enumerate().for_each(|(k, i)| place[*i] = Some(k));
+        let now = DVector::from_iterator(self.kept.len(), self.kept.iter().map(|i| state.q[*i]));
+        let mut tangent = self.stiffness.clone();
+        let mut residual = &self.stiffness * &now - &self.load;
+        for touch in system.touches(&system.expand(&state.q), state.motion, newton.law) {
+            for (row, force) in [touch.nodes[0], touch.nodes[2], touch.nodes[3]].into_iter().zip(touch.forces.on) {
+                for (axis, part) in force.iter().enumerate() {
+                    let Some(i) = system.unknown[2 * row + axis].and_then(|i| place[i]) else { continue };
+                    residual[i] -= part.value;
+                    for (k, slope) in part.slopes[..8].iter().enumerate() {
+                        let column = system.unknown[2 * touch.nodes[k / 2] + k % 2].and_then(|j| place[j]);
+                        column.iter().for_each(|j| tangent[(i, *j)] -= slope);
+                    }
+                }
+            }
+        }
+        tangent.lu().solve(&residual).map(|step| now - step)
+    }
+}

@@ -1,0 +1,125 @@
+//! Sparse systems without symmetry: convection makes every matrix of this crate unsymmetric.
+//!
+//! The product needs Cholesky factors only. The LU factorisation therefore stays here, over the same library.
+
+use crate::Error;
+use faer::MatMut;
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::Lu;
+use faer::sparse::{SparseColMat, Triplet};
+
+/// A square matrix as a list of entries; equal positions add up.
+#[derive(Clone, Debug, Default)]
+pub struct Matrix {
+    /// Number of rows and columns.
+    pub size: usize,
+    /// Row, column and value of each entry.
+    pub entries: Vec<(usize, usize, f64)>,
+}
+
+impl Matrix {
+    /// The zero matrix.
+    pub fn new(size: usize) -> Self {
+        Self { size, entries: Vec::new() }
+    }
+
+    /// Adds to one entry.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.entries.push((row, column, value));
+    }
+
+    /// `A x`.
+    pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.size];
+        for &(row, column, value) in &self.entries {
+            y[row] += value * x[column];
+        }
+        y
+    }
+
+    /// Replaces the rows of `fixed` by those of the identity.
+    pub fn fix(&mut self, fixed: &[usize]) {
+        let mut is_fixed = vec![false; self.size];
+        fixed.iter().for_each(|row| is_fixed[*row] = true);
+        self.entries.retain(|entry| !is_fixed[entry.0]);
+        self.entries.extend(fixed.iter().map(|row| (*row, *row, 1.0)));
+    }
+
+    /// LU factors with partial pivoting.
+    pub fn factorise(&self) -> Result<Factors, Error> {
+        let singular = |reason: String| Error::Singular { size: self.size, reason };
+        let entries: Vec<_> =
+            self.entries.iter().map(|(row, column, value)| Triplet::new(*row, *column, *value)).collect();
+        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(self.size, self.size, &entries)
+            .map_err(|error| singular(format!("{error:?}")))?;
+        let lu = matrix.sp_lu().map_err(|error| singular(format!("{error:?}")))?;
+        Ok(Factors { size: self.size, lu })
+    }
+}
+
+/// Factors of a [`Matrix`].
+pub struct Factors {
+    size: usize,
+    lu: Lu<usize, f64>,
+}
+
+impl Factors {
+    /// `A⁻¹` times each column of length `size` in `columns`; an error where a result is not finite.
+    pub fn solve(&self, mut columns: Vec<f64>) -> Result<Vec<f64>, Error> {
+        let count = columns.len() / self.size;
+        self.lu.solve_in_place(MatMut::from_column_major_slice_mut(&mut columns, self.size, count));
+        if columns.iter().all(|value| value.is_finite()) {
+            Ok(columns)
+        } else {
+            Err(Error::Singular { size: self.size, reason: "the solution is not finite".into() })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Unsymmetric, with zeros on the diagonal, so that only pivoting solves it.
+    fn circulant(n: usize) -> Matrix {
+        let mut matrix = Matrix::new(n);
+        for i in 0..n {
+            matrix.add(i, (i + 1) % n, 3.0);
+            matrix.add(i, (i + 2) % n, 0.5);
+            matrix.add(i, (i + 2) % n, 0.5);
+            matrix.add(i, (i + n - 1) % n, -1.0);
+        }
+        matrix
+    }
+
+    #[test]
+    fn lu_solves_unsymmetric_systems_with_zeros_on_the_diagonal() {
+        let matrix = circulant(60);
+        let x: Vec<f64> = (0..120).map(|i| ((i * 7) % 11) as f64 - 5.0).collect();
+        let b = [matrix.multiply(&x[..60]), matrix.multiply(&x[60..])].concat();
+        let found = matrix.factorise().unwrap().solve(b).unwrap();
+        let error = found.iter().zip(&x).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
+        println!("error {error:.1e}");
+        assert!(error < 1e-12);
+    }
+
+    #[test]
+    fn singular_matrices_are_refused() {
+        let mut matrix = Matrix::new(3);
+        for i in 0..3 {
+            matrix.add(i, 0, 1.0);
+            matrix.add(i, 1, 2.0);
+            matrix.add(i, 2, 3.0);
+        }
+        let outcome = matrix.factorise().and_then(|factors| factors.solve(vec![1.0, 2.0, 4.0]));
+        assert!(matches!(outcome, Err(Error::Singular { size: 3, .. })));
+    }
+
+    #[test]
+    fn fixed_rows_return_their_values() {
+        let mut matrix = circulant(5);
+        matrix.fix(&[2]);
+        let x = matrix.factorise().unwrap().solve(vec![1.0, 0.0, 7.0, 0.0, 2.0]).unwrap();
+        assert!((x[2] - 7.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,217 @@
+//! Rolling contact on triangles: penalty, regularised friction, velocity stepping, one Newton iteration.
+
+use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
+use wheelrail_thesis::contact::{Law, Pair};
+use wheelrail_thesis::mesh::Mesh;
+use wheelrail_thesis::newton::{Condensed, Drive, Newton, State, frictionless, resultant, rolling};
+use wheelrail_thesis::rail::{self, Plate};
+use wheelrail_thesis::rolling::{Motion, Parameters, System};
+use wheelrail_thesis::wheel::{self, Annulus};
+
+/// Base of Paper D, with the friction of the regularised law.
+const PARAMETERS: Parameters = Parameters {
+    annulus: Annulus { outer: 0.5, inner: 0.05 },
+    plate: Plate { length: 1.0, height: 0.1 },
+    young: 200e9,
+    poisson: 0.3,
+    density: 8000.0,
+    load: 100e3,
+    law: Law { penalty: 5e12, friction: 0.4, regularisation: 1e-4 },
+};
+const VELOCITY: f64 = 50.0 / 3.6;
+
+fn half_width() -> f64 {
+    hertz_half_width(PARAMETERS.load, PARAMETERS.annulus.outer, contact_modulus(PARAMETERS.young, PARAMETERS.poisson))
+}
+
+/// Wheel and rail with edges of `share` half-widths in the contact, and the wheel's mesh.
+fn bodies(share: f64, law: Law) -> (System, Mesh) {
+    let (a, parameters) = (half_width(), Parameters { law, ..PARAMETERS });
+    let wheel = wheel::rolling(parameters.annulus, 1.5 * a, share * a, 1, parameters.poisson).unwrap();
+    let rail = rail::rolling(parameters.plate, 31, 2.0 * a, share * a);
+    println!("{} + {} triangles", wheel.triangles.len(), rail.triangles.len());
+    (System::new(parameters, &wheel, &rail, 2.0 * a), wheel)
+}
+
+fn system(share: f64, law: Law) -> System {
+    bodies(share, law).0
+}
+
+fn motion(creepage: f64) -> Motion {
+    let peripheral = VELOCITY * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage);
+    Motion { omega: peripheral / PARAMETERS.annulus.outer, velocity: VELOCITY }
+}
+
+#[test]
+fn the_tangent_of_a_contact_element_is_that_of_differences() {
+    let law = Law { penalty: 5e12, friction: 0.4, regularisation: 1e-2 };
+    let pair =
+        Pair { slave: [2e-4, 5e-8], upstream: [4e-4, 2e-7], master: [[1e-4, 0.0], [5e-4, 0.0]], centre: [0.0, 0.5] };
+    let base = [2e-7, -3e-6, 3e-7, -2.5e-6, -1e-7, -1e-6, 2e-7, -1.2e-6, 27.78, 13.89];
+    let forces = |x: &[f64; 10]| {
+        let u = [[x[0], x[1]], [x[2], x[3]], [x[4], x[5]], [x[6], x[7]]];
+        law.forces(&pair, &u, x[8], x[9]).unwrap()
+    };
+    let exact = forces(&base);
+    for variable in 0..10 {
+        let h = if variable < 8 { 1e-11 } else { 1e-6 };
+        let moved = |sign: f64| {
+            let mut x = base;
+            x[variable] += sign * h;
+            forces(&x)
+        };
+        let (ahead, back) = (moved(1.0), moved(-1.0));
+        let largest = exact.on.iter().flatten().fold(0.0_f64, |most, f| most.max(f.slopes[variable].abs()));
+        for node in 0..3 {
+            for axis in 0..2 {
+                let difference = (ahead.on[node][axis].value - back.on[node][axis].value) / (2.0 * h);
+                let error = (exact.on[node][axis].slopes[variable] - difference).abs() / largest;
+                assert!(error < 1e-6, "variable {variable}, node {node}, axis {axis}: {error:.1e}");
+            }
+        }
+    }
+    // What acts on the wheel acts back on the rail.
+    for axis in 0..2 {
+        let sum: f64 = exact.on.iter().map(|force| force[axis].value).sum();
+        assert!(sum.abs() < 1e-9 * exact.on[0][1].value);
+    }
+}
+
+#[test]
+fn friction_follows_the_slip_up_to_its_limit_and_open_gaps_carry_nothing() {
+    let law = PARAMETERS.law;
+    let pair =
+        Pair { slave: [0.0, 0.0], upstream: [1e-4, 0.0], master: [[-1e-4, 0.0], [1e-4, 0.0]], centre: [0.0, 0.5] };
+    let force =
+        |down: f64, omega: f64| law.forces(&pair, &[[0.0, -down], [0.0, -down], [0.0; 2], [0.0; 2]], omega, VELOCITY);
+    assert!(force(-1e-9, 20.0).is_none());
+    for (omega, sign) in [(20.0, -1.0), (40.0, 1.0)] {
+        let on = force(1e-6, omega).unwrap().on[0];
+        assert!((on[1].value / (1e-6 * law.penalty) - 1.0).abs() < 1e-12);
+        assert!((on[0].value / (sign * law.friction * on[1].value) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_tangent_of_the_system_is_that_of_differences_with_its_column_and_row_of_the_moment() {
+    let system = system(0.5, Law { regularisation: 1e-2, ..PARAMETERS.law });
+    let mut state = frictionless(&system).unwrap();
+    state.motion = motion(-2e-4);
+    let newton = Newton { system: &system, law: system.parameters.law, drive: Drive::Moment(1000.0) };
+    let (_, touches) = newton.residual(&state);
+    assert!(touches.len() > 2);
+    let tangent = newton.tangent(&state, &touches);
+    let contact = system.contact_unknowns();
+    // Unknowns of the contact, some others, and the angular velocity.
+    let columns = contact.iter().copied().chain((0..system.size).step_by(97)).chain([system.size]);
+    let mut worst = 0.0_f64;
+    for column in columns {
+        let h = if column == system.size { 1e-5 } else { 1e-10 };
+        let mut unit = vec![0.0; system.size + 1];
+        unit[column] = 1.0;
+        let [ahead, back] = [h, -h].map(|share| newton.residual(&newton.moved(&state, &unit, share)).0);
+        let exact = tangent.multiply(&unit);
+        let largest = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (i, value) in exact.iter().enumerate() {
+            let difference = (ahead[i] - back[i]) / (2.0 * h);
+            worst = worst.max((value - difference).abs() / largest);
+        }
+    }
+    println!("worst difference {worst:.1e}");
+    assert!(worst < 1e-6);
+}
+
+#[test]
+fn newton_on_the_contact_alone_takes_the_steps_of_the_assembled_one() {
+    let system = system(0.5, Law { regularisation: 1e-2, ..PARAMETERS.law });
+    let mut state = frictionless(&system).unwrap();
+    state.motion = motion(-2e-4);
+    let newton = Newton { system: &system, law: system.parameters.law, drive: Drive::Velocity };
+    let condensed = Condensed::new(&system, state.motion).unwrap();
+    let mut alone = state.clone();
+    for iteration in 0..6 {
+        let step = newton.step(&state).unwrap();
+        state = newton.moved(&state, &step, 1.0);
+        let next = condensed.next(&newton, &alone).unwrap();
+        condensed.kept.iter().zip(next.iter()).for_each(|(i, value)| alone.q[*i] = *value);
+        let largest = condensed.kept.iter().fold(0.0_f64, |most, i| most.max(state.q[*i].abs()));
+        let difference = condensed.kept.iter().fold(0.0_f64, |most, i| most.max((state.q[*i] - alone.q[*i]).abs()));
+        println!(
+            "step {iteration}: residual {:.1e}, difference {:.1e}",
+            newton.size(&newton.residual(&state).0),
+            difference / largest
+        );
+        assert!(difference < 1e-9 * largest);
+    }
+}
+
+#[test]
+fn frictionless_contact_carries_the_load_over_the_width_of_hertz() {
+    for (share, tolerance) in [(0.4, 0.05), (0.2, 0.02)] {
+        let (system, wheel) = bodies(share, PARAMETERS.law);
+        let state = frictionless(&system).unwrap();
+        let newton = Newton { system: &system, law: Law { friction: 0.0, ..PARAMETERS.law }, drive: Drive::Velocity };
+        let (_, touches) = newton.residual(&state);
+        let [forward, up] = resultant(&touches);
+        assert!((up / PARAMETERS.load - 1.0).abs() < 1e-8 && forward.abs() < 1e-3 * up);
+        // The square of a Hertzian half-width is four times the variance of the pressure.
+        let moment = |power: i32| {
+            let terms = touches.iter().map(|t| t.forces.on[0][1].value * wheel.nodes[t.nodes[0]][0].powi(power));
+            terms.sum::<f64>() / up
+        };
+        let (centre, width) = (moment(1), 2.0 * (moment(2) - moment(1).powi(2)).sqrt());
+        println!(
+            "{} nodes, half-width {:.4}, centre {:.4} of Hertz",
+            touches.len(),
+            width / half_width(),
+            centre / half_width()
+        );
+        assert!((width / half_width() - 1.0).abs() < tolerance && centre.abs() < tolerance * half_width());
+    }
+}
+
+/// Utilisation of the limit, traction positive, and the Newton steps it took.
+fn utilisation(system: &System, creepage: f64) -> (State, f64, usize) {
+    let (state, steps) = rolling(system, motion(creepage)).unwrap();
+    let newton = Newton { system, law: system.parameters.law, drive: Drive::Velocity };
+    let [forward, up] = resultant(&newton.residual(&state).1);
+    (state, forward / (0.4 * up), steps)
+}
+
+/// The mean of traction and braking leaves out the bias of an uneven mesh, which is of first order in its edges.
+#[test]
+fn velocity_stepping_reaches_rolling_near_carter_and_a_wider_regularisation_softens_it() {
+    let full = carter_full_slip(0.4, half_width(), PARAMETERS.annulus.outer);
+    let mut before = f64::INFINITY;
+    for regularisation in [1e-4, 1e-3, 1e-2] {
+        let system = system(0.2, Law { regularisation, ..PARAMETERS.law });
+        let [traction, braking] = [-1.9e-4, 1.9e-4].map(|creepage| utilisation(&system, creepage));
+        let mean = 0.5 * (traction.1 - braking.1);
+        let exact = carter_force(-1.9e-4, full);
+        println!(
+            "{regularisation:e} m/s: {:.4} in {} steps, {:.4} in {}, mean {mean:.4}, Carter {exact:.4}",
+            traction.1, traction.2, braking.1, braking.2
+        );
+        assert!(mean < before);
+        assert!(regularisation > 1e-4 || (mean - exact).abs() < 0.02);
+        before = mean;
+    }
+    let (_, sliding, _) = utilisation(&system(0.4, PARAMETERS.law), -8e-4);
+    println!("beyond full slip {sliding:.4}");
+    assert!((sliding - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_prescribed_moment_gives_back_the_creepage_that_needs_it() {
+    let system = system(0.5, Law { regularisation: 1e-3, ..PARAMETERS.law });
+    let (state, _, _) = utilisation(&system, -3e-4);
+    let free = Newton { system: &system, law: system.parameters.law, drive: Drive::Moment(0.0) };
+    let moment = *free.residual(&state).0.last().unwrap();
+    let newton = Newton { drive: Drive::Moment(moment), ..free };
+    let mut start = state.clone();
+    start.motion.omega = motion(-2.8e-4).omega;
+    let (found, steps) = newton.solve(&start).unwrap();
+    let error = found.motion.omega / state.motion.omega - 1.0;
+    println!("moment {moment:.1} N, angular velocity off by {error:.1e} after {steps} steps");
+    assert!(error.abs() < 1e-8);
+}
