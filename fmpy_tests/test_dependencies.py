@@ -47,7 +47,8 @@ def values(wheel):
     for kind in ("Real", "Integer", "Boolean"):
         of_kind = [v for v in wheel.fmu.description.modelVariables if v.causality == "output" and v.type == kind]
         names = [variable.name for variable in of_kind]
-        found |= dict(zip(names, wheel.get(*names)))
+        got = wheel.get(*names)
+        found |= dict(zip(names, got if len(names) > 1 else [got]))
     return found
 
 
