@@ -5,13 +5,11 @@ import signal
 import threading
 from pathlib import Path
 
+import distributed
 import pytest
 
-from wheelrail import scenario
+from wheelrail import scenario, sweep
 from wheelrail.files import BadFile
-
-sweep = pytest.importorskip("wheelrail.sweep")
-distributed = pytest.importorskip("distributed", reason="pip install -r requirements-train.txt")
 
 TRAIN = Path(__file__).parent.parent / "examples" / "train"
 
