@@ -22,7 +22,7 @@ const SETS: u64 = 8;
 const SETS_VARIABLE: &str = "WHEELRAIL_TEMPERATURE_SETS";
 const STEPS: usize = 50;
 /// Parameter sets of the heat model alone.
-const HEAT_SETS: u64 = 120;
+const HEAT_SETS: u64 = 40;
 
 /// Groups of parameters that act on temperatures and leave the bases of the bodies alone.
 const VARIED: [&str; 3] = ["thermal.", "friction.", "physics."];
