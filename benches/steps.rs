@@ -1,6 +1,6 @@
 //! Cost of a step, of a start and of the reduced basis on the default mesh, one core.
 //!
-//! `cargo bench` prints medians; README quotes them.
+//! `cargo bench` prints medians; `make bench` (`table.rs`) is the table that docs/speed.md quotes.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::time::{Duration, Instant};

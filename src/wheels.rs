@@ -7,8 +7,7 @@ use rayon::prelude::*;
 /// each, in their order.
 ///
 /// Wheels do not see each other within a step, so that the results are those of one after the other, bit for bit. A wheel whose
-/// step fails stays where it was; those beside it have advanced. Equal wheels share one [`Model`](crate::simulation::Model); a few wheels
-/// gain by threads once a step takes more than some 20 µs.
+/// step fails stays where it was; those beside it have advanced. Equal wheels share one [`Model`](crate::simulation::Model).
 ///
 /// ```no_run
 /// use wheelrail::config::Config;

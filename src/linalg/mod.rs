@@ -3,7 +3,8 @@
 //!
 //! Two libraries share the work. faer factorises and multiplies large matrices. nalgebra holds the small dense ones of the
 //! bodies and solves the dense symmetric eigenproblems of the modes, because the divide and conquer of faer 0.24.4 loses
-//! nine digits there (also faer-rs issue 273); a test in [`modes`] tells when that has changed.
+//! nine digits there (also faer-rs issue 273); a test in [`modes`] tells when that has changed. Loops that take most of the time of
+//! a step are written for the vector registers at hand ([`vectorised`], over pulp).
 
 pub mod anderson;
 mod blocks;

@@ -41,7 +41,8 @@ pub(super) struct DepthModes {
     pub fixed: bool,
 }
 
-/// Modes are padded to a multiple of this number with empty ones, so that inner loops run on full registers.
+/// Modes are padded to a multiple of this number with empty ones, so that inner loops run on full registers. Wider ones than
+/// those of four numbers need a multiple of theirs: `rows` leaves out what does not fill a register.
 const PADDING: usize = 4;
 
 impl DepthModes {
