@@ -12,8 +12,8 @@ pub mod value;
 
 pub use table::{
     BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Hub, Initial, Material,
-    MeshParameters, ModelParameters, Physics, Rail, Response, SolverParameters, Thermal, TimeScheme, Tuning, Vehicle,
-    Wheel,
+    MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, Thermal, TimeScheme, Tuning,
+    Vehicle, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 

@@ -50,6 +50,7 @@ parameters! {
                 "Longitudinal stiffness of the rail's restraint; 0: rigid";
             1046 restraint_damping: f64 = 1e6, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
                 "Longitudinal damping of the restraint, 0 if it is rigid";
+            1048 ends: RailEnds = RailEnds::Free, "What the ends of the modelled rail do to waves";
         }
         /// Brake of the wheel; its strength is the input `brake.torque`.
         brake: BrakeParameters fixed {
@@ -219,6 +220,15 @@ parameters! {
                 "Excess temperature of the tread over the wheel's mean above which a place that the contact heats in \
                  one piece is followed";
         }
+    }
+}
+
+choice! {
+    /// Ends of the modelled rail.
+    pub enum RailEnds named "RailEnds", "What the ends of the modelled rail do to waves" {
+        Free = "free", "reflect them as free surfaces";
+        Fixed = "fixed", "reflect them as surfaces that cannot move";
+        Nonreflecting = "nonreflecting", "let them pass: dashpots swallow plane waves";
     }
 }
 

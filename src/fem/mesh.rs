@@ -30,6 +30,16 @@ impl Mesh {
         self.cells[cell].map(|node| self.nodes[node])
     }
 
+    /// Fixes the nodes of the ends, which are none from then on.
+    pub fn fix_ends(&mut self) {
+        let corner = |face: &Face, next: usize| self.cells[face.cell][(face.edge + next) % 4];
+        let held: Vec<usize> = self.ends.iter().flat_map(|face| [corner(face, 0), corner(face, 1)]).collect();
+        self.fixed.extend(held);
+        self.fixed.sort_unstable();
+        self.fixed.dedup();
+        self.ends.clear();
+    }
+
     /// x of the surface nodes \[m].
     pub fn surface_x(&self) -> Vec<f64> {
         self.surface.iter().map(|&node| self.nodes[node][0]).collect()

@@ -58,14 +58,14 @@ pub enum BasisError {
 
 /// Name of the basis for a configuration: UUID version 5 of the parameters it depends on.
 ///
-/// Geometry, elasticity, density, mesh, nominal line load and numbers of modes, and the code; not masses, friction or time
+/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load and numbers of modes, and the code; not masses, friction or time
 /// scheme.
 pub fn key(config: &Config) -> String {
     let Config { model, wheel, rail, material, mesh, solver, .. } = config;
     let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
     let elastic = [material.youngs_modulus, material.poissons_ratio, material.density];
     let line_load = [model.nominal_load / model.contact_width];
-    let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail];
+    let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
     let mut bytes = CODE.as_bytes().to_vec();
     bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));

@@ -11,6 +11,7 @@ use crate::config::Config;
 use crate::linalg::{Cholesky, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// What damps one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +121,7 @@ impl ModeCharacter {
 /// Vibration modes of a body with all finite elements, and how they are damped.
 pub(super) struct DampedModes {
     /// Modes, mass-normalised.
-    pub shapes: DMatrix<f64>,
+    pub shapes: Arc<DMatrix<f64>>,
     /// Squared frequencies [rad²/s²].
     pub squared_frequencies: DVector<f64>,
     /// See [`ModeCharacter::transport`].
@@ -137,7 +138,7 @@ impl DampedModes {
         let character = ModeCharacter::new(system, &modes.shapes);
         Ok(Self {
             rates: damping.modal(&modes.squared_frequencies, &character),
-            shapes: modes.shapes,
+            shapes: Arc::new(modes.shapes),
             squared_frequencies: modes.squared_frequencies,
             transport: character.transport,
         })

@@ -58,9 +58,6 @@ pub enum MechanicsError {
         /// What may help.
         advice: &'static str,
     },
-    /// Damping of the kept modes together with dashpots, for all finite elements.
-    #[error("ratios of modes and Rayleigh damping cannot be combined with dashpots in the full response")]
-    CoupledModes,
     /// A cell or an assembled matrix without meaning.
     #[error(transparent)]
     Fem(#[from] FemError),

@@ -6,7 +6,7 @@ use super::motion::{self, Equations};
 use super::reduction::scale_columns;
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::RetardedLayer;
-use super::solver::StepSolver;
+use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
@@ -50,8 +50,7 @@ impl FullBody {
         Ok(Self { system, pattern, centrifugal, damping: None })
     }
 
-    /// The same with damping, for which the lowest `modes` vibration modes are computed. Refuses ratios of modes for a body
-    /// with dashpots, whose modes they couple.
+    /// The same with damping, for which the lowest `modes` vibration modes are computed.
     pub fn damped(
         system: BodySystem,
         centrifugal: bool,
@@ -61,9 +60,6 @@ impl FullBody {
         let mut body = Self::new(system, centrifugal)?;
         if damping.is_none() {
             return Ok(body);
-        }
-        if body.system.damping.is_some() {
-            return Err(MechanicsError::CoupledModes);
         }
         let modes = Arc::new(DampedModes::compute(&body.system, modes, damping)?);
         let ports = body.system.surface.len();
@@ -91,15 +87,38 @@ impl FullBody {
 }
 
 impl FullDamping {
-    /// How modal damping changes the answer of each mode to a modal force: `1/(s + 2ζω a0) − 1/s` with
-    /// `s = a0² + α0 a0 + (1 + α1 a0) ω²`. Exact, since the modes are eigenvectors of the matrix of the step.
-    fn corrections(&self, a0: f64) -> DVector<f64> {
+    /// What the damping of modes by ratios adds to the inverse of the matrix `A` of the step, whose `factor` does not have
+    /// it: `L W Lᵀ`.
+    fn correction(&self, system: &BodySystem, factor: &Cholesky, a0: f64) -> Result<Correction, MechanicsError> {
+        match system.damping {
+            None => Ok(self.uncoupled(a0)),
+            Some(_) => self.coupled(system, factor, a0),
+        }
+    }
+
+    /// The modes are eigenvectors of `A`: `L = Φ` and `W = diag(1/(s + 2ζω a0) − 1/s)` with
+    /// `s = a0² + α0 a0 + (1 + α1 a0) ω²`.
+    fn uncoupled(&self, a0: f64) -> Correction {
         let [mass, stiffness] = self.rayleigh;
-        let DampedModes { squared_frequencies, rates, .. } = &*self.modes;
-        squared_frequencies.zip_map(rates, |square, rate| {
+        let DampedModes { squared_frequencies, rates, shapes, .. } = &*self.modes;
+        let weights = squared_frequencies.zip_map(rates, |square, rate| {
             let without = a0 * a0 + mass * a0 + (1.0 + stiffness * a0) * square;
             1.0 / (without + rate * a0) - 1.0 / without
-        })
+        });
+        Correction { shapes: shapes.clone(), weights: DMatrix::from_diagonal(&weights) }
+    }
+
+    /// Dashpots couple the modes: `L = A⁻¹ M Φ R`, `W = −a0 (1 + a0 R Φᵀ M A⁻¹ M Φ R)⁻¹` with `R² = diag(2ζω)` (Woodbury).
+    fn coupled(&self, system: &BodySystem, factor: &Cholesky, a0: f64) -> Result<Correction, MechanicsError> {
+        let DampedModes { rates, shapes, .. } = &*self.modes;
+        let loads = scale_columns(&system.mass.multiply_columns(shapes), &rates.map(f64::sqrt));
+        let mut answers = loads.clone();
+        factor.solve_columns(&mut answers);
+        let one = DMatrix::identity(rates.len(), rates.len());
+        let mut capacity = &one + loads.tr_mul(&answers) * a0;
+        symmetrise(&mut capacity);
+        let weights = Dense::new(capacity)?.solve(&(one * -a0));
+        Ok(Correction { shapes: Arc::new(answers), weights })
     }
 
     /// `v ← v + s Φ (Φᵀ T Φ) Φᵀ M y`: the rate of the material, from that at a fixed place of the frame.
@@ -120,19 +139,26 @@ fn product(a: &CsrMatrix, x: &DVector<f64>) -> DVector<f64> {
     result
 }
 
-/// The factor of the undamped or Rayleigh-damped matrix, and what modal damping changes.
+/// A matrix `L W Lᵀ` of small rank, which is added to an inverse.
+struct Correction {
+    /// `L`, a column for each damped mode.
+    shapes: Arc<DMatrix<f64>>,
+    /// `W`, symmetric.
+    weights: DMatrix<f64>,
+}
+
+/// The factor of a matrix without modal damping, and what that changes.
 struct Corrected {
     factor: Cholesky,
-    modes: Arc<DampedModes>,
-    corrections: DVector<f64>,
+    correction: Correction,
 }
 
 impl StepSolver for Corrected {
     fn solve_in_place(&self, f: &mut DVector<f64>) {
-        let mut modal = self.modes.shapes.tr_mul(f);
-        modal.component_mul_assign(&self.corrections);
+        let Correction { shapes, weights } = &self.correction;
+        let modal = weights * shapes.tr_mul(f);
         self.factor.solve_in_place(f.as_mut_slice());
-        f.gemv(1.0, &self.modes.shapes, &modal, 1.0);
+        f.gemv(1.0, shapes, &modal, 1.0);
     }
 }
 
@@ -155,7 +181,7 @@ impl Equations for FullBody {
         let DampedModes { shapes, rates, .. } = &*damping.modes;
         let modal = shapes.tr_mul(&product(&self.system.mass, velocity)).component_mul(rates);
         let [mass, stiffness] = damping.rayleigh;
-        let field = shapes * modal + &*velocity * mass;
+        let field = &**shapes * modal + &*velocity * mass;
         self.system.mass.multiply_add(-1.0, field.as_slice(), load.as_mut_slice());
         self.system.stiffness.multiply_add(-stiffness, velocity.as_slice(), load.as_mut_slice());
     }
@@ -204,16 +230,16 @@ impl BodyResponse for FullBody {
         let solver: Box<dyn StepSolver> = match &self.damping {
             None => Box::new(factor),
             Some(damping) => {
-                let (modes, corrections) = (damping.modes.clone(), damping.corrections(a0));
-                let weighted = scale_columns(&modes.shapes, &corrections);
-                rigid.gemm(1.0, &weighted, &modes.shapes.tr_mul(&system.rigid), 1.0);
-                let on_surface = system.rows_on_surface(&modes.shapes);
-                surface.gemm(1.0, &system.rows_on_surface(&weighted), &on_surface.transpose(), 1.0);
+                let correction = damping.correction(system, &factor, a0)?;
+                let Correction { shapes, weights } = &correction;
+                rigid += &**shapes * (weights * shapes.tr_mul(&system.rigid));
+                let on_surface = system.rows_on_surface(shapes);
+                surface.gemm(1.0, &(&on_surface * weights), &on_surface.transpose(), 1.0);
                 if let Some(layer) = &damping.layer {
                     surface += &layer.flexibility * layer.share(a0);
                 }
                 symmetrise(&mut surface);
-                Box::new(Corrected { factor, modes, corrections })
+                Box::new(Corrected { factor, correction })
             }
         };
         let inertial_response = -system.rows_on_surface(&rigid);
@@ -277,5 +303,34 @@ impl BodyResponse for FullBody {
     fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
         let layer = self.damping.as_mut().and_then(|damping| damping.layer.as_mut());
         layer.map(|layer| layer.flexibility += flexibility).is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::RailEnds;
+    use crate::mechanics::rail_system;
+    use crate::mechanics::testing::paper_d;
+
+    /// Ratios of modes and Rayleigh damping beside dashpots: the residual of the equations of the step.
+    #[test]
+    fn the_matrix_of_a_step_with_dashpots_and_damped_modes_is_inverted() {
+        let mut config = paper_d(3);
+        config.rail.ends = RailEnds::Nonreflecting;
+        let system = rail_system(&config).unwrap();
+        let damping = BodyDamping { ratios: [0.1; 4], mass: 30.0, stiffness: 2e-6 };
+        let body = FullBody::damped(system.clone(), false, &damping, 8).unwrap();
+        let a0 = 2e4;
+        let f = DVector::from_fn(system.unknowns(), |i, _| ((i * 37) % 101) as f64 - 50.0);
+        let mut y = f.clone();
+        body.operator(a0).unwrap().solver.solve_in_place(&mut y);
+        let modes = &body.damping.as_ref().unwrap().modes;
+        let momentum = product(&system.mass, &y);
+        let modal = modes.shapes.tr_mul(&momentum).component_mul(&modes.rates);
+        let field = &momentum * (a0 * a0 + a0 * damping.mass) + product(&system.mass, &(&*modes.shapes * modal)) * a0;
+        let elastic = product(&system.stiffness, &y) * (1.0 + a0 * damping.stiffness);
+        let residual = field + elastic + product(system.damping.as_ref().unwrap(), &y) * a0 - &f;
+        assert!(residual.amax() < 1e-9 * f.amax(), "{:e}", residual.amax());
     }
 }

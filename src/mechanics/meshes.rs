@@ -5,7 +5,7 @@ use super::error::MechanicsError;
 use super::layout::largest_rail_cell;
 use super::size::{check_size, contact_zone, unmeshable};
 use super::system::BodySystem;
-use crate::config::Config;
+use crate::config::{Config, RailEnds};
 use crate::fem::{Mesh, graded};
 
 /// Mesh of the wheel; an error that names parameters if it were too large, see [`check_size`].
@@ -20,7 +20,11 @@ pub fn rail_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
     check_size(config)?;
     let rail = &config.rail;
     let mesh = graded::rail(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
-    mesh.map_err(|source| unmeshable("rail", source))
+    let mut mesh = mesh.map_err(|source| unmeshable("rail", source))?;
+    if rail.ends == RailEnds::Fixed {
+        mesh.fix_ends();
+    }
+    Ok(mesh)
 }
 
 /// Finite-element matrices of the wheel.
@@ -30,5 +34,11 @@ pub fn wheel_system(config: &Config) -> Result<BodySystem, MechanicsError> {
 
 /// Finite-element matrices of the rail.
 pub fn rail_system(config: &Config) -> Result<BodySystem, MechanicsError> {
-    Ok(BodySystem::assemble(&rail_mesh(config)?, &config.material, Stream::Translation)?)
+    let (mesh, material, stream) = (rail_mesh(config)?, &config.material, Stream::Translation);
+    let system = BodySystem::assemble(&mesh, material, stream)?;
+    Ok(match config.rail.ends {
+        RailEnds::Fixed => system,
+        RailEnds::Free => system.with_free_ends(&mesh, material, stream)?,
+        RailEnds::Nonreflecting => system.with_quiet_ends(&mesh, material, stream)?,
+    })
 }

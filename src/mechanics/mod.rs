@@ -4,6 +4,7 @@ pub mod ale;
 pub mod basis;
 pub mod damping;
 pub mod elasticity;
+mod ends;
 mod error;
 pub mod field;
 pub mod full;

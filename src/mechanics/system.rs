@@ -3,7 +3,7 @@
 use super::ale::Stream;
 use super::elasticity::{self, Lame};
 use crate::config::Material;
-use crate::fem::{DofMap, FemError, Mesh, assemble, assemble_faces, assemble_vector};
+use crate::fem::{DofMap, FemError, Mesh, assemble, assemble_vector};
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CsrMatrix};
 use nalgebra::{DMatrix, DVector};
@@ -25,7 +25,7 @@ pub struct BodySystem {
     /// Matrices that tell vibration modes of the wheel apart: `n²`-weighted and circumferential mass (see
     /// [`Stream::squared_diameters`], [`Stream::circumferential_mass`]); `None` for the rail.
     pub circles: Option<[CsrMatrix; 2]>,
-    /// `S − B`: minus the weak form of `ρ ∂∂u` (per unit stream speed squared); `B` is the Robin term of open ends.
+    /// `S − B`: minus the weak form of `ρ ∂∂u` (per unit stream speed squared); `B` is the Robin term of free ends.
     pub ale_inertia: CsrMatrix,
     /// `M r_k` for unit rigid accelerations in x, y and Ω (`r_Ω = (y, −x)`), hub or base nodes included;
     /// the rail has no `r_Ω`.
@@ -37,7 +37,7 @@ pub struct BodySystem {
 }
 
 impl BodySystem {
-    /// Integrates all matrices of a body whose material streams as `stream`.
+    /// Integrates all matrices of a body whose material streams as `stream`, without those of its [ends](super::ends).
     pub fn assemble(mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
         let dofs = DofMap::new(mesh);
         let (lame, density) = (Lame::from(material), material.density);
@@ -48,8 +48,6 @@ impl BodySystem {
             Stream::Translation => Ok(DVector::zeros(dofs.len())),
         };
         let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, turning(|[x, y]| [y, -x])?];
-        let inner = assemble(mesh, &dofs, |p| stream.ale_inertia(p, density))?;
-        let ends = assemble_faces(mesh, &dofs, |p| stream.outflow(p, density))?;
         let circles = match stream {
             Stream::Rotation => Some([
                 assemble(mesh, &dofs, |p| Stream::squared_diameters(p, density))?,
@@ -65,7 +63,7 @@ impl BodySystem {
             gyroscopic: assemble(mesh, &dofs, |p| stream.gyroscopic(p, density))?,
             transport: assemble(mesh, &dofs, |p| stream.transport(p, density))?,
             circles,
-            ale_inertia: CsrMatrix::combination(1.0, &inner, -1.0, &ends)?,
+            ale_inertia: assemble(mesh, &dofs, |p| stream.ale_inertia(p, density))?,
             rigid: DMatrix::from_columns(&rigid),
             centrifugal: turning(|x| x)?,
             surface: mesh.surface.iter().flat_map(unknowns).flatten().collect(),

@@ -1,0 +1,248 @@
+//! Ends of the rail: free, fixed, or such that waves leave (Paper A, section 4.3 and figures 5 and 6).
+
+mod common;
+
+use common::*;
+use nalgebra::{Complex, DVector, Matrix2, Vector2};
+use std::f64::consts::{FRAC_PI_2, PI};
+use wheelrail::config::{Config, Material, RailEnds, TimeScheme};
+use wheelrail::fem::{DofMap, Face, Mesh, assemble};
+use wheelrail::linalg::CsrMatrix;
+use wheelrail::material::Isotropic;
+use wheelrail::mechanics::ale::Stream;
+use wheelrail::mechanics::elasticity::{self, Lame};
+use wheelrail::mechanics::{BodyResponse, BodyState, BodySystem, Convection, FreeResponse, FullBody};
+use wheelrail::multistep::TimeDerivative;
+use wheelrail::simulation::Simulation;
+
+/// The steel of Paper A.
+fn steel() -> Material {
+    Material { youngs_modulus: 200e9, density: 8000.0, ..Config::default().material }
+}
+
+/// Plate `|x| ≤ length/2`, `−height ≤ y ≤ 0` of square cells of the size `h` \[m] on a fixed base; all of its top are ports.
+fn plate(length: f64, height: f64, h: f64) -> Mesh {
+    let [along, up] = [length, height].map(|size| (size / h).round() as usize);
+    let mut mesh = Mesh::default();
+    for i in 0..=up {
+        let y = -height * (1.0 - i as f64 / up as f64);
+        mesh.nodes.extend((0..=along).map(|j| [length * (j as f64 / along as f64 - 0.5), y]));
+    }
+    for i in 0..up {
+        for j in 0..along {
+            let (cell, below) = (mesh.cells.len(), i * (along + 1) + j);
+            mesh.cells.push([below, below + 1, below + along + 2, below + along + 1]);
+            if j == 0 {
+                mesh.ends.push(Face { cell, edge: 3 });
+            }
+            if j == along - 1 {
+                mesh.ends.push(Face { cell, edge: 1 });
+            }
+        }
+    }
+    mesh.fixed = (0..=along).collect();
+    mesh.surface = (up * (along + 1)..(up + 1) * (along + 1)).collect();
+    mesh
+}
+
+fn system(mesh: &Mesh, ends: RailEnds) -> BodySystem {
+    let (material, stream) = (steel(), Stream::Translation);
+    let system = BodySystem::assemble(mesh, &material, stream).unwrap();
+    match ends {
+        RailEnds::Fixed => system,
+        RailEnds::Free => system.with_free_ends(mesh, &material, stream).unwrap(),
+        RailEnds::Nonreflecting => system.with_quiet_ends(mesh, &material, stream).unwrap(),
+    }
+}
+
+/// Mass and stiffness of the cells within half a metre of the middle.
+fn central(mesh: &Mesh) -> [CsrMatrix; 2] {
+    let (material, dofs) = (steel(), DofMap::new(mesh));
+    let within = |cell: &[usize; 4]| cell.iter().all(|&node| mesh.nodes[node][0].abs() < 0.5 + 1e-9);
+    let part = Mesh { cells: mesh.cells.iter().copied().filter(within).collect(), ..mesh.clone() };
+    [
+        assemble(&part, &dofs, |p| elasticity::mass(p, material.density)).unwrap(),
+        assemble(&part, &dofs, |p| elasticity::stiffness(p, Lame::from(&material))).unwrap(),
+    ]
+}
+
+/// Energy in the central metre [J/m] over time, from the end of a quarter period of a point load of 5·10⁴ rad/s at the middle
+/// of the top, which takes `quarter` steps, to eleven times that. Elements of the size `h` \[m], trapezoidal rule, stream at
+/// `speed` \[m/s].
+fn energies(length: f64, ends: RailEnds, speed: f64, h: f64, quarter: i32) -> Vec<f64> {
+    let mesh = plate(length, 0.1, h);
+    let [mass, stiffness] = central(&mesh);
+    let body = FullBody::new(system(&mesh, ends), false).unwrap();
+    let frequency = 5e4;
+    let dt = FRAC_PI_2 / frequency / f64::from(quarter);
+    let td = TimeDerivative { a0: 2.0 / dt, a1: -2.0 / dt, a2: 0.0, b1: -1.0 };
+    let op = body.operator(td.a0).unwrap();
+    let middle = 2 * (mesh.surface.len() / 2) + 1;
+    let (mut state, mut next) = (BodyState::zeros(body.state_len()), BodyState::zeros(0));
+    let mut known = FreeResponse::default();
+    let mut history = Vec::new();
+    for k in 1..=11 * quarter {
+        let mut forces = DVector::zeros(op.surface.nrows());
+        if k < quarter {
+            forces[middle] = -1e5 * (frequency * f64::from(k) * dt).sin();
+        }
+        body.free_response(&op, &state, &td, Convection { speed, acceleration: 0.0 }, &mut known);
+        body.commit(&op, &known, &forces, [0.0; 3], &td, &state, &mut next);
+        std::mem::swap(&mut state, &mut next);
+        let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
+        if k >= quarter {
+            history.push(0.5 * (stiffness.bilinear(y, y) + mass.bilinear(v, v)));
+        }
+    }
+    history
+}
+
+/// Largest difference of two histories over the first value of the second.
+fn deviation(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / b[0]
+}
+
+/// Paper A, figures 5 and 6: the energy that a quarter period of load leaves in the central metre, 31 to 345 µs.
+#[test]
+fn a_metre_with_quiet_ends_loses_energy_as_the_middle_of_four_metres_does() {
+    // Paper A's elements and about its step of 10 µs; half and a quarter of them.
+    for (h, quarter) in [(1.0 / 30.0, 3), (1.0 / 60.0, 8)] {
+        let mut at_rest = f64::NAN;
+        for speed in [0.0, 100.0 * KMH, -100.0 * KMH] {
+            let run = |length: f64, ends: RailEnds| energies(length, ends, speed, h, quarter);
+            let four = run(4.0, RailEnds::Free);
+            let off = deviation(&run(1.0, RailEnds::Nonreflecting), &four);
+            let kept = [&four, &run(1.0, RailEnds::Free)].map(|energy| energy[energy.len() - 1] / energy[0]);
+            println!("1/{:.0} m, {speed:.1} m/s: quiet against four metres {off:.4}, kept {kept:.4?}", 1.0 / h);
+            assert!(off < 0.03 && kept[0] < 0.6);
+            if speed == 0.0 {
+                at_rest = off;
+                assert!((kept[1] - 1.0).abs() < 1e-9);
+            }
+            assert!(off < 1.05 * at_rest);
+        }
+    }
+}
+
+/// Energy of pressure waves that come back from a dashpot as pressure waves, by their angle to the normal: the amplitudes of
+/// both reflected plane waves from the balance of the assembled nodal forces at the end.
+#[test]
+fn reflected_pressure_waves_follow_the_formula_for_plane_waves() {
+    let (material, h) = (Isotropic::from(&steel()), 2e-3);
+    let [pressure, shear] = [material.pressure_wave_speed(), material.shear_wave_speed()];
+    let wavelength = 0.2;
+    let omega = 2.0 * PI * pressure / wavelength;
+    let mesh = plate(12.0 * h, 100.0 * h, h);
+    let (system, dofs) = (system(&mesh, RailEnds::Nonreflecting), DofMap::new(&mesh));
+    // Nodes of the right end without the corners.
+    let end: Vec<usize> = (0..mesh.nodes.len())
+        .filter(|&k| mesh.nodes[k][0] > 5.9 * h && (mesh.nodes[k][1] + 50.0 * h).abs() < 48.5 * h)
+        .collect();
+    for (angle, expected) in [(0.0_f64, 0.0), (30.0, 2e-4), (45.0, 5.5e-3), (60.0, 0.043), (75.0, 0.22)] {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let across = omega / pressure * sin;
+        let along = [omega / pressure * cos, ((omega / shear).powi(2) - across * across).sqrt()];
+        // Displacements of the incident and the reflected pressure wave, and of the reflected shear wave.
+        let (p, s) = ([cos, sin], [across * shear / omega, along[1] * shear / omega]);
+        let waves = [(along[0], p), (-along[0], [-p[0], p[1]]), (-along[1], s)];
+        let forces = waves.map(|(k, direction)| {
+            let field = |part: fn(Complex<f64>) -> f64| {
+                let mut field = vec![0.0; dofs.len()];
+                for (node, [x, y]) in mesh.nodes.iter().enumerate() {
+                    let phase = Complex::new(0.0, -(k * (x - 6.0 * h) + across * y)).exp();
+                    for c in 0..2 {
+                        if let Some(i) = dofs.unknown(node, c) {
+                            field[i] = direction[c] * part(phase);
+                        }
+                    }
+                }
+                field
+            };
+            let product = |matrix: &CsrMatrix, x: &[f64]| {
+                let mut y = vec![0.0; x.len()];
+                matrix.multiply(x, &mut y);
+                y
+            };
+            let (re, im) = (field(|z| z.re), field(|z| z.im));
+            let damping = system.damping.as_ref().unwrap();
+            let [a, b] = [&re, &im].map(|x| {
+                let (k, m) = (product(&system.stiffness, x), product(&system.mass, x));
+                (0..x.len()).map(|i| k[i] - omega * omega * m[i]).collect::<Vec<_>>()
+            });
+            let [c, d] = [&re, &im].map(|x| product(damping, x));
+            // e^{iωt}: the velocity is iω times the displacement.
+            (0..a.len()).map(|i| Complex::new(a[i] - omega * d[i], b[i] + omega * c[i])).collect::<Vec<_>>()
+        });
+        let (mut matrix, mut right) = (Matrix2::<Complex<f64>>::zeros(), Vector2::<Complex<f64>>::zeros());
+        for i in end.iter().flat_map(|&node| [0, 1].map(|c| dofs.unknown(node, c).unwrap())) {
+            for row in 0..2 {
+                right[row] -= forces[row + 1][i].conj() * forces[0][i];
+                for column in 0..2 {
+                    matrix[(row, column)] += forces[row + 1][i].conj() * forces[column + 1][i];
+                }
+            }
+        }
+        let amplitudes = matrix.lu().solve(&right).unwrap();
+        let shear_share = along[1] * shear * shear / (along[0] * pressure * pressure);
+        let energy = amplitudes[0].norm_sqr() + amplitudes[1].norm_sqr() * shear_share;
+        println!("{angle:2.0}°: {energy:.2e} of the energy comes back ({expected:.1e})");
+        assert!((energy - expected).abs() < 2e-3);
+    }
+}
+
+/// A wheel that bounces on a high rail, in which its waves can travel, after a jump of its load: force over load, energy that damping and
+/// ends have taken, and what is missing in the balance [J].
+fn bounce(ends: RailEnds, speed: f64) -> (Vec<f64>, [f64; 2]) {
+    let mut config = preset("paper_d", 4);
+    config.thermal.enabled = false;
+    config.rail.ends = ends;
+    (config.rail.length, config.rail.height, config.damping.modal) = (3.0, 2.0, true);
+    (config.solver.time_scheme, config.solver.theta) = (TimeScheme::Theta, 0.5);
+    let model = model(config);
+    let mut inputs = prescribed(&model, speed, 0.0);
+    inputs.drive.friction = 0.0;
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    inputs.drive.load *= 1.2;
+    let advance = |_| {
+        simulation.advance(&inputs, 1e-4).unwrap();
+        simulation.outputs().contact_force_y / inputs.drive.load
+    };
+    let history = (0..100).map(advance).collect();
+    let outputs = simulation.outputs();
+    let (gain, taken) = (outputs.hub_work - outputs.stored_energy, outputs.damping_energy);
+    (history, [taken, gain - taken - outputs.friction_energy])
+}
+
+/// What is missing in the balance belongs to the jump of the load and is the same with free ends. Rolling changes little of
+/// what is radiated.
+#[test]
+fn the_energy_that_the_ends_radiate_closes_the_balance() {
+    let (free, lost) = bounce(RailEnds::Free, 0.0);
+    let (quiet, taken) = bounce(RailEnds::Nonreflecting, 0.0);
+    let (radiated, differ) = (taken[0] - lost[0], deviation(&free, &quiet));
+    let missing = (taken[1] - lost[1]) / radiated;
+    println!("{radiated:.3e} J radiated, of which {missing:.1e} are missing; free against quiet force {differ:.1e}");
+    assert!(radiated > 0.5 * lost[0] && missing.abs() < 0.02);
+    let (_, rolling) = bounce(RailEnds::Nonreflecting, 30.0);
+    println!("rolling at 30 m/s: {:.4} of the energy", rolling[0] / taken[0]);
+    assert!((rolling[0] / taken[0] - 1.0).abs() < 0.05);
+}
+
+/// Fixed ends hold the rail; far from the contact they are as good as free ones.
+#[test]
+fn a_rail_with_fixed_ends_is_stiffer_than_a_free_one() {
+    let compliance = |ends: RailEnds, length: f64| {
+        let mut mesh = plate(length, 0.1, 1.0 / 30.0);
+        if ends == RailEnds::Fixed {
+            mesh.fix_ends();
+        }
+        let op = FullBody::new(system(&mesh, ends), false).unwrap().operator(0.0).unwrap();
+        let middle = op.surface.nrows() / 4 * 2 + 1;
+        1e12 * op.surface[(middle, middle)]
+    };
+    let short = [RailEnds::Free, RailEnds::Fixed].map(|ends| compliance(ends, 0.2));
+    let long = [RailEnds::Free, RailEnds::Fixed].map(|ends| compliance(ends, 1.0));
+    println!("short {short:.4?}, long {long:.8?} m/(TN/m)");
+    assert!(short[1] < 0.99 * short[0]);
+    assert!((long[1] / long[0] - 1.0).abs() < 1e-4 && long[1] < long[0]);
+}
