@@ -150,9 +150,9 @@ fn reflected_pressure_waves_follow_the_formula_for_plane_waves() {
                 let mut field = vec![0.0; dofs.len()];
                 for (node, [x, y]) in mesh.nodes.iter().enumerate() {
                     let phase = Complex::new(0.0, -(k * (x - 6.0 * h) + across * y)).exp();
-                    for c in 0..2 {
+                    for (c, amplitude) in direction.iter().enumerate() {
                         if let Some(i) = dofs.unknown(node, c) {
-                            field[i] = direction[c] * part(phase);
+                            field[i] = amplitude * part(phase);
                         }
                     }
                 }
