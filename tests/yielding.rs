@@ -23,12 +23,17 @@ fn standing(strength: f64, elements: usize) -> Config {
 
 /// Leads the load [N] of a standing wheel from the present value to another one in steps of 0.5 ms.
 fn press(simulation: &mut Simulation, inputs: &mut Inputs, to: f64) -> Outputs {
-    let from = inputs.drive.load;
-    for k in 1..=200 {
-        let load = |k: i32| from + (to - from) * f64::from(k) / 200.0;
+    press_in(200, simulation, inputs, to)
+}
+
+/// The same within 0.1 s in a number of steps.
+fn press_in(steps: i32, simulation: &mut Simulation, inputs: &mut Inputs, to: f64) -> Outputs {
+    let (from, h) = (inputs.drive.load, 0.1 / f64::from(steps));
+    for k in 1..=steps {
+        let load = |k: i32| from + (to - from) * f64::from(k) / f64::from(steps);
         inputs.drive.load = load(k - 1);
-        inputs.rate.load = (load(k) - load(k - 1)) / 5e-4;
-        simulation.advance(inputs, 5e-4).unwrap();
+        inputs.rate.load = (load(k) - load(k - 1)) / h;
+        simulation.advance(inputs, h).unwrap();
     }
     (inputs.drive.load, inputs.rate.load) = (to, 0.0);
     simulation.outputs().clone()
@@ -87,6 +92,26 @@ fn an_indented_line_contact_bears_the_plastic_pressure_and_keeps_its_flattening(
         means.push(full.flattening);
     }
     assert!((means[0] / means[1] - 1.0).abs() < 0.02, "{means:?}");
+}
+
+/// Between the wide nodes of the wings a dent keeps a little less than the overlap: the work is that of what it keeps. Counted
+/// with the whole overlap it would be 0.3 % too much on either mesh, however short the steps.
+#[test]
+fn a_dent_in_the_wings_of_the_zone_takes_the_energy_that_goes_missing() {
+    for elements in [10, 20] {
+        let mut config = standing(200e6, elements);
+        config.wheel.hub_mass = preset("railway", elements).wheel.hub_mass;
+        let model = model(config);
+        let mut inputs = locked(&model);
+        inputs.drive.load = 2e4;
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        press_in(200, &mut simulation, &mut inputs, 1.3e5);
+        let full = press_in(800, &mut simulation, &mut inputs, 2.6e5);
+        let closed = full.hub_work - full.stored_energy - full.damping_energy - full.friction_energy;
+        let error = closed / full.plastic_energy - 1.0;
+        println!("{elements} elements: half-width {:.2} mm, {error:+.1e}", 1e3 * full.contact_half_width);
+        assert!(full.contact_half_width > 15e-3 && error.abs() < 1.5e-3, "{error}");
+    }
 }
 
 #[test]

@@ -33,7 +33,6 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     if stands == [false; 2] {
         return;
     }
-    traction.plastic_work = work(&traction.overlap, &traction.pressure);
     let spacing = traction.overlap.x.windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
     let warmer = &state.weakening().warmer_wheel;
     for (body, at) in [place[1] * radius, place[0]].into_iter().enumerate() {
@@ -45,6 +44,10 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
             next.flattening[body].press(at, &by, spacing);
         }
     }
+    traction.plastic_work = work(&traction.overlap.x, &traction.pressure, |x| {
+        let deeper = |body: usize, at: f64| next.flattening[body].depth(at + x) - state.flattening[body].depth(at + x);
+        deeper(0, place[1] * radius) + deeper(1, place[0])
+    });
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
 }
 
@@ -59,9 +62,10 @@ fn share(body: usize, stands: [bool; 2], warmer_wheel: f64) -> f64 {
     if body == 0 { wheel } else { 1.0 - wheel }
 }
 
-/// Work of the pressure on the overlap [J/m], node by node.
-fn work(overlap: &Piecewise, pressure: &Piecewise) -> f64 {
-    let x = &overlap.x;
+/// Work of the pressure where the surfaces have become `deeper` \[m] at the nodes `x`, the first and the last of which bear
+/// nothing [J/m]. Where nodes lie between the lattice points of a dent it keeps a little less than the whole overlap, the more
+/// the wider the nodes: the rest springs back, and is no work.
+fn work(x: &[f64], pressure: &Piecewise, deeper: impl Fn(f64) -> f64) -> f64 {
     let width = |i: usize| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);
-    (0..x.len()).map(|i| width(i) * overlap.value[i] * pressure.at(x[i])).sum()
+    (0..x.len()).map(|i| width(i) * deeper(x[i]) * pressure.at(x[i])).sum()
 }

@@ -7,6 +7,7 @@
 use super::layout::Heat;
 use super::nodal::Known;
 use super::state::HeatState;
+use crate::heat::error::HeatError;
 use crate::heat::exchange::Exchange;
 
 /// How far a node may fall below the coldest datum before it is lifted \[K].
@@ -51,6 +52,27 @@ impl Heat {
         if !known {
             next.range = self.extremes(&next.field);
         }
+    }
+
+    /// The sum of temperature fields that hold at the same time, as if no step had led to it. Only the sum has to keep the
+    /// bounds: what a wheel loses in passing is far below its datum, and the bounds of the parts say little about it.
+    pub fn superposed(&self, parts: &[HeatState]) -> Result<HeatState, HeatError> {
+        let mut sum = HeatState { field: vec![0.0; self.wheel.size() + self.rail.size()], ..HeatState::default() };
+        for part in parts {
+            self.check_state(part)?;
+            sum.field.iter_mut().zip(&part.field).for_each(|(sum, value)| *sum += value);
+            sum.coldest += part.coldest;
+        }
+        self.bounded(sum)
+    }
+
+    /// A state found without a step, with its extremes, and lifted where it undershoots.
+    pub(super) fn bounded(&self, mut state: HeatState) -> Result<HeatState, HeatError> {
+        state.range = self.extremes(&state.field);
+        if self.undershoots(&state) {
+            self.lift(&mut state, &mut Vec::new())?;
+        }
+        Ok(state)
     }
 
     /// Lowest and highest value at the nodes of both bodies.

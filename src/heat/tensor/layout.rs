@@ -154,15 +154,6 @@ impl Heat {
         }))
     }
 
-    /// Sum of two temperature fields, as if no step had led to it.
-    pub fn sum(&self, a: &HeatState, b: &HeatState) -> Result<HeatState, HeatError> {
-        self.check_state(a)?;
-        self.check_state(b)?;
-        let range = std::array::from_fn(|i| a.range[i] + b.range[i]);
-        let field = a.field.iter().zip(&b.field).map(|(a, b)| a + b).collect();
-        Ok(HeatState { field, last: None, coldest: a.coldest + b.coldest, range })
-    }
-
     /// Whether a state has the dimensions of this model.
     pub fn fits(&self, state: &HeatState) -> bool {
         state.field.len() == self.wheel.size() + self.rail.size()

@@ -77,7 +77,8 @@ impl HeatModel for Heat {
     }
 
     fn stationary(&self, velocity: f64, omega: f64, exchange: &Exchange) -> Result<(HeatState, HeatFlows), HeatError> {
-        self.settle([velocity, omega], exchange)
+        let (state, flows) = self.settle([velocity, omega], exchange)?;
+        Ok((self.bounded(state)?, flows))
     }
 
     fn zone_x(&self) -> &[f64] {

@@ -154,8 +154,8 @@ impl Heat {
         Ok(flows)
     }
 
-    /// The stationary state of [`HeatModel::stationary`](crate::heat::HeatModel::stationary).
-    pub(super) fn settle(&self, speeds: [f64; 2], exchange: &Exchange) -> Result<(HeatState, HeatFlows), HeatError> {
+    /// The stationary state of [`HeatModel::stationary`](crate::heat::HeatModel::stationary), before undershoots are lifted.
+    pub fn settle(&self, speeds: [f64; 2], exchange: &Exchange) -> Result<(HeatState, HeatFlows), HeatError> {
         check_speeds(speeds)?;
         let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
         self.set_loads(exchange, &mut loads)?;
@@ -178,11 +178,7 @@ impl Heat {
         }
         let mut state = HeatState { field, last: Some(boundary(speeds, &loads)), ..HeatState::default() };
         state.coldest = self.coldest(&state, exchange);
-        let mut values = Vec::new();
         state.range = self.extremes(&state.field);
-        if self.undershoots(&state) {
-            self.lift(&mut state, &mut values)?;
-        }
         Ok((state, flows))
     }
 

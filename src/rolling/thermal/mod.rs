@@ -33,10 +33,6 @@ use weakening::WeakSteel;
 
 /// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
 const AT_REST: f64 = 1e-3;
-/// Excess temperature of a wheel up to which the start knows what it warms in passing [K]: the layers of a wheel hotter than
-/// any steel tear the stationary contact apart.
-const HOTTEST_PASSING: f64 = 1000.0;
-
 /// How far above the liquidus a molten contact may get \[K]: a step that gets there from below was too long.
 const OVERHEATING: f64 = 50.0;
 
@@ -184,25 +180,25 @@ impl ThermalModel {
     /// arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only the excess temperature.
     pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
         let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
-        let (fields, arrived) = (self.heat.initial(self.wheel_excess), touch.arrived);
-        let mut thermal = ThermalState { fields, arrived, ..ThermalState::default() };
+        let (start, arrived) = (self.heat.initial(self.wheel_excess), touch.arrived);
+        let mut thermal = ThermalState { arrived, ..ThermalState::default() };
+        let mut parts = vec![start];
         let moving = [v, omega * self.radius].map(|speed| speed.abs() > AT_REST);
         if moving != [false; 2] {
             let mut exchange = Exchange::default();
             touch.fill(&self.blocks, tread_heat, &mut exchange);
             // With which temperature the rail arrives belongs to what passes, not to what lasts.
             exchange.reversible.value.iter_mut().for_each(|t| *t += arrived);
-            let (stationary, flows) = self.heat.stationary(v, omega, &exchange)?;
-            thermal.fields = self.heat.sum(&stationary, &thermal.fields)?;
+            let (stationary, flows) = self.heat.settle([v, omega], &exchange)?;
+            parts.push(stationary);
             thermal.flows = flows;
             // Where one of both surfaces stays, it warms or cools for ever.
             let excess = self.wheel_excess - arrived;
-            let warm = excess != 0.0 && excess.abs() <= HOTTEST_PASSING;
-            if moving == [true; 2] && warm && !exchange.patches.is_empty() {
-                let passing = self.heat.passing([v, omega], &exchange, excess)?;
-                thermal.fields = self.heat.sum(&passing, &thermal.fields)?;
+            if moving == [true; 2] && excess != 0.0 && !exchange.patches.is_empty() {
+                parts.push(self.heat.passing([v, omega], &exchange, excess)?);
             }
         }
+        thermal.fields = self.heat.superposed(&parts)?;
         let mut sight = Sight::default();
         self.observe(touch, &mut thermal, &mut sight)?;
         thermal.damage = self.history.begin(&sight.seen);
