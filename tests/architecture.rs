@@ -20,6 +20,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("fem", &["linalg"]),
     ("mechanics", &["fem", "linalg", "multistep", "config", "analytic", "material"]),
     ("heat", &["fem", "linalg", "config", "piecewise"]),
+    ("surface", &["config", "piecewise"]),
     ("contact", &["linalg", "multistep", "piecewise"]),
     ("damage", &["fem"]),
     (
