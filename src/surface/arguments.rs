@@ -32,6 +32,11 @@ impl Arguments {
         Some(self.given.swap_remove(at).1)
     }
 
+    /// Whether a parameter is given and not yet taken.
+    pub fn has(&self, name: &str) -> bool {
+        self.given.iter().any(|(given, _)| given == name)
+    }
+
     /// A value that is not allowed.
     pub fn outside(&self, name: &'static str, value: impl ToString, range: impl ToString) -> ProfileError {
         ProfileError::Range { feature: self.feature, name, value: value.to_string(), range: range.to_string() }
@@ -40,6 +45,11 @@ impl Arguments {
     /// A parameter that is needed.
     pub fn missing(&self, name: &'static str, range: impl ToString) -> ProfileError {
         ProfileError::Missing { feature: self.feature, name, range: range.to_string() }
+    }
+
+    /// A feature on the wrong body.
+    pub fn owner(&self, owner: &'static str, body: &'static str, instead: &'static str) -> ProfileError {
+        ProfileError::Owner { feature: self.feature, owner, body, instead }
     }
 
     /// A number from `range[0]` to `range[1]`, if it is given.

@@ -6,7 +6,7 @@ pub enum ProfileError {
     /// A text that is no sum of features.
     #[error(
         "profile, column {column}: {expected} is expected, not {found}. Write features such as \
-         hole(position = 2, length = 0.005, depth = 0.001), joined by +, or the name of a .csv file"
+         hole(position = 2, length = 0.005, depth = 0.001), joined by +, or the name of a .csv file alone; within a sum that is file(\"name.csv\")"
     )]
     Syntax {
         /// Where in the text, from 1.

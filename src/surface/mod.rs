@@ -5,9 +5,11 @@
 //! is read from a text, which is either the name of a file of samples or a sum of features, see [`Profile::parse`].
 
 mod arguments;
+mod catalogue;
 mod defect;
 mod error;
 mod features;
+mod roughness;
 mod samples;
 mod text;
 mod wave;
@@ -58,7 +60,7 @@ impl Profile {
     /// Whatever has no meaning: the error names feature or line, value, allowed range and what to do.
     pub fn parse(text: &str, folder: Option<&Path>, body: Body) -> Result<Self, ProfileError> {
         let calls = text::calls(text)?;
-        let features = calls.into_iter().map(|call| features::build(call, folder, body)).collect::<Result<_, _>>()?;
+        let features = calls.into_iter().map(|call| catalogue::build(call, folder, body)).collect::<Result<_, _>>()?;
         Ok(Self { features })
     }
 
@@ -87,14 +89,14 @@ impl Profile {
     /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached where
     /// features do not overlap.
     pub fn range(&self) -> [f64; 2] {
-        let (everywhere, local): (Vec<_>, Vec<_>) = self.features.iter().partition(|feature| feature.is_everywhere());
+        let (covers, local): (Vec<_>, Vec<_>) = self.features.iter().partition(|feature| feature.is_cover());
         let bound = |side: usize, worse: fn(f64, f64) -> f64| {
             let together = |one: &&Feature| {
                 let met = local.iter().filter(|other| one.may_overlap(other));
                 met.map(|other| worse(other.range()[side], 0.0)).sum::<f64>()
             };
             let extreme = local.iter().map(together).fold(0.0, worse);
-            everywhere.iter().map(|feature| feature.range()[side]).sum::<f64>() + extreme
+            covers.iter().map(|feature| feature.range()[side]).sum::<f64>() + extreme
         };
         [bound(0, f64::min), bound(1, f64::max)]
     }

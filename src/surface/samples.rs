@@ -63,17 +63,20 @@ impl Samples {
         }
     }
 
-    /// Repeats them after `period`: the line from the last sample leads back to the first.
-    pub fn close(&mut self, period: f64) {
-        if let (Some(&x), Some(&height)) = (self.points.x.first(), self.points.value.first()) {
-            self.points.push(x + period, height);
+    /// Repeats them after `period` \[m]: the line from the last sample leads back to the first. The error says what is
+    /// wrong with the period.
+    pub fn close(&mut self, period: f64) -> Result<(), String> {
+        let last = self.points.x.len() - 1;
+        let (x, height) = (self.points.x[0] + period, self.points.value[0]);
+        if self.points.x[last] >= x - 1e-12 * period {
+            if self.points.value[last] != height {
+                return Err(format!("more, or the last height {} m as the first, {height} m", self.points.value[last]));
+            }
+            (self.points.x[last], self.points.value[last]) = (x, height);
+        } else {
+            self.points.push(x, height);
         }
-    }
-
-    /// Length from the first to the last sample \[m].
-    pub fn length(&self) -> f64 {
-        let [first, last] = self.reach();
-        last - first
+        Ok(())
     }
 
     /// Height at a position \[m].
