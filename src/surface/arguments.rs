@@ -1,6 +1,6 @@
 //! What a feature is given: taken by name, checked against a range.
 
-use super::ProfileError;
+use super::error::ProfileError;
 use super::text::{Call, Given};
 use crate::config::{display_number, display_outside, display_range, nearest};
 

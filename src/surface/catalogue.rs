@@ -1,13 +1,15 @@
 //! The features that a text can name, with their parameters, ranges and defaults.
 
 use super::arguments::Arguments;
+use super::body::Body;
 use super::defect::{Defect, Form, Place};
+use super::error::ProfileError;
 use super::features::Feature;
 use super::roughness::{self, EN_ISO_3095, LARGEST_TABLE, LONGEST_LIMIT, Spectrum};
 use super::samples::Samples;
 use super::text::Call;
 use super::wave::{Cover, Pattern, Wave, Window};
-use super::{Body, ProfileError};
+
 use crate::config::{display_number, nearest};
 use std::path::Path;
 

@@ -5,6 +5,7 @@
 //! is read from a text, which is either the name of a file of samples or a sum of features, see [`Profile::parse`].
 
 mod arguments;
+mod body;
 mod catalogue;
 mod defect;
 mod error;
@@ -14,33 +15,11 @@ mod samples;
 mod text;
 mod wave;
 
+pub use body::Body;
 pub use error::ProfileError;
 
 use features::Feature;
-use std::f64::consts::TAU;
 use std::path::Path;
-
-/// What carries a profile.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Body {
-    /// The rail: positions are distances along it, without end.
-    Rail,
-    /// The tread of the wheel: positions are angle times radius and repeat after the circumference.
-    Wheel {
-        /// Radius of the wheel \[m].
-        radius: f64,
-    },
-}
-
-impl Body {
-    /// Position after which the surface repeats \[m], if it does.
-    pub fn circumference(self) -> Option<f64> {
-        match self {
-            Self::Rail => None,
-            Self::Wheel { radius } => Some(TAU * radius),
-        }
-    }
-}
 
 /// Height of a surface over its ideal shape: a sum of features.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! Sampled profiles: a CSV file with the columns `position,height` in metres.
 
-use super::ProfileError;
+use super::error::ProfileError;
 use crate::piecewise::Piecewise;
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! Features against their formulas, repetition, spectra returned, and profiles that are refused.
 
 use super::*;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 const RADIUS: f64 = 0.46;
 const WHEEL: Body = Body::Wheel { radius: RADIUS };

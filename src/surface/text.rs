@@ -1,6 +1,6 @@
 //! The text of a profile: a sum of calls such as `hole(position = 2, length = 5e-3) + file("rail.csv", every = 1)`.
 
-use super::ProfileError;
+use super::error::ProfileError;
 
 /// A feature as it is written: its name and what it is given.
 #[derive(Clone, Debug, PartialEq)]
