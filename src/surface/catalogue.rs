@@ -50,10 +50,15 @@ const CATALOGUE: [(&str, Maker); 9] = [
     ("file", file),
 ];
 
+/// Names of all features.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    CATALOGUE.iter().map(|(name, _)| *name)
+}
+
 /// Makes the feature that a call names.
 pub fn build(call: Call, folder: Option<&Path>, body: Body) -> Result<Feature, ProfileError> {
     let Some((name, make)) = CATALOGUE.iter().find(|(name, _)| *name == call.name) else {
-        let nearest = nearest(&call.name, CATALOGUE.map(|(name, _)| name));
+        let nearest = nearest(&call.name, names());
         return Err(ProfileError::Feature { column: call.column, name: call.name, nearest });
     };
     let mut given = Arguments::new(name, call, "name")?;

@@ -380,3 +380,19 @@ fn files_without_meaning_are_refused_by_line_and_value() {
         assert!(message.contains("other.csv cannot be read") && message.contains("relative to"), "{message}");
     });
 }
+
+#[test]
+fn examples_of_the_documentation_are_profiles_and_it_names_every_feature() {
+    let text = include_str!("../../docs/profiles.md");
+    let mut parsed = 0;
+    for block in text.split("```profile").skip(1) {
+        let (kind, rest) = block.split_once('\n').unwrap();
+        let body = if kind.contains("wheel") { WHEEL } else { Body::Rail };
+        for line in rest.split("```").next().unwrap().lines().filter(|line| !line.is_empty()) {
+            assert!(!Profile::parse(line, None, body).unwrap().is_smooth(), "{line}");
+            parsed += 1;
+        }
+    }
+    assert_eq!(parsed, 7);
+    assert!(catalogue::names().all(|name| text.contains(&format!("| `{name}` |"))));
+}
