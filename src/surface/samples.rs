@@ -1,0 +1,112 @@
+//! Sampled profiles: a CSV file with the columns `position,height` in metres.
+
+use super::error::ProfileError;
+use crate::piecewise::Piecewise;
+use std::path::{Path, PathBuf};
+
+/// Linear between samples, constant before the first and after the last.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples {
+    points: Piecewise,
+}
+
+/// Columns of a file.
+const COLUMNS: [&str; 2] = ["position", "height"];
+
+impl Samples {
+    /// Reads a file; `factor` multiplies its heights.
+    pub fn read(path: &str, folder: Option<&Path>, factor: f64) -> Result<Self, ProfileError> {
+        let found = folder.map_or_else(|| PathBuf::from(path), |folder| folder.join(path));
+        let text = std::fs::read_to_string(&found).map_err(|error| ProfileError::Unreadable {
+            path: found.display().to_string(),
+            reason: error.to_string(),
+            folder: folder.map_or_else(|| "the working directory".to_owned(), |folder| folder.display().to_string()),
+        })?;
+        Self::from_csv(&text, &found.display().to_string(), factor)
+    }
+
+    /// Reads the text of a file.
+    pub fn from_csv(text: &str, path: &str, factor: f64) -> Result<Self, ProfileError> {
+        let wrong = |line: u64, problem: String| ProfileError::File { path: path.to_owned(), line, problem };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
+        let mut columns = [0; 2];
+        for (column, name) in columns.iter_mut().zip(COLUMNS) {
+            let found = header.iter().position(|given| given.trim_start_matches('\u{feff}') == name);
+            let given = header.iter().collect::<Vec<_>>().join(",");
+            let problem = || format!("column {name} is missing; the header must be position,height [m], not {given}");
+            *column = found.ok_or_else(|| wrong(1, problem()))?;
+        }
+        let mut points = Piecewise::default();
+        for record in reader.records() {
+            let record =
+                record.map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let mut numbers = [0.0; 2];
+            for ((number, column), name) in numbers.iter_mut().zip(columns).zip(COLUMNS) {
+                let given = record.get(column).unwrap_or_default();
+                let finite = given.parse().ok().filter(|value: &f64| value.is_finite());
+                let problem = || format!("{name} = {given:?} is no finite number [m]; correct or leave out the line");
+                *number = finite.ok_or_else(|| wrong(line, problem()))?;
+            }
+            let [position, height] = numbers;
+            if let Some(&before) = points.x.last().filter(|before| **before >= position) {
+                let problem =
+                    format!("position = {position} m must be larger than {before} m before it; sort the lines");
+                return Err(wrong(line, problem));
+            }
+            points.push(position, factor * height);
+        }
+        match points.x.len() {
+            0 | 1 => Err(wrong(1, format!("{} sample, at least 2 are needed", points.x.len()))),
+            _ => Ok(Self { points }),
+        }
+    }
+
+    /// Repeats them after `period` \[m]: the line from the last sample leads back to the first. The error says what is
+    /// wrong with the period.
+    pub fn close(&mut self, period: f64) -> Result<(), String> {
+        let last = self.points.x.len() - 1;
+        let (x, height) = (self.points.x[0] + period, self.points.value[0]);
+        if self.points.x[last] >= x - 1e-12 * period {
+            if self.points.value[last] != height {
+                return Err(format!("more, or the last height {} m as the first, {height} m", self.points.value[last]));
+            }
+            (self.points.x[last], self.points.value[last]) = (x, height);
+        } else {
+            self.points.push(x, height);
+        }
+        Ok(())
+    }
+
+    /// Height at a position \[m].
+    pub fn height(&self, at: f64) -> f64 {
+        crate::piecewise::interpolate(&self.points.x, &self.points.value, at)
+    }
+
+    /// Slope at a position.
+    pub fn slope(&self, at: f64) -> f64 {
+        let (x, height) = (&self.points.x, &self.points.value);
+        match x.partition_point(|&node| node <= at) {
+            0 => 0.0,
+            next if next == x.len() => 0.0,
+            next => (height[next] - height[next - 1]) / (x[next] - x[next - 1]),
+        }
+    }
+
+    /// First and last position \[m].
+    pub fn reach(&self) -> [f64; 2] {
+        [self.points.x[0], self.points.x[self.points.x.len() - 1]]
+    }
+
+    /// Lowest and highest sample \[m].
+    pub fn range(&self) -> [f64; 2] {
+        let heights = || self.points.value.iter().copied();
+        [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// Shortest wavelength that they can hold \[m]: twice their smallest distance.
+    pub fn wavelength(&self) -> f64 {
+        2.0 * self.points.x.windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min)
+    }
+}
