@@ -1,4 +1,5 @@
-"""Draws docs/model.png, the icon of the FMU: wheel, rail and contact patch with pressure and temperature.
+"""Draws docs/model.png, the picture of the FMU (wheel, rail and contact patch with pressure and temperature), docs/icon.png,
+the same without details, and docs/terminal.png, the mark of a terminal.
 
     .venv/bin/python docs/model_png.py
 """
@@ -77,16 +78,38 @@ def magnifier(axis):
         axis.plot([start[0], end[0]], [start[1], end[1]], color=EDGE, linewidth=0.7, zorder=5)
 
 
-def main():
-    figure = plt.figure(figsize=(4.0, 3.0), dpi=100)
+def canvas(width, height):
+    """A figure of a size [inch] without frame."""
+    figure = plt.figure(figsize=(width, height), dpi=100)
     axis = figure.add_axes([0.0, 0.0, 1.0, 1.0])
     axis.set_axis_off()
+    return figure, axis
+
+
+def save(figure, name):
+    """Writes a picture beside this file, without a date."""
+    figure.savefig(Path(__file__).parent / name, metadata={"Software": None}, transparent=name == "terminal.png")
+
+
+def main():
+    figure, axis = canvas(4.0, 3.0)
     rail(axis)
     wheel(axis)
     heat(axis)
     axis.set(xlim=(-1.1, 2.4), ylim=(-0.6, 2.025))
     magnifier(axis)
-    figure.savefig(Path(__file__).parent / "model.png", metadata={"Software": None})
+    save(figure, "model.png")
+
+    figure, axis = canvas(1.28, 1.28)
+    rail(axis)
+    wheel(axis)
+    axis.set(xlim=(-1.32, 1.32), ylim=(-0.6, 2.04))
+    save(figure, "icon.png")
+
+    figure, axis = canvas(0.32, 0.32)
+    axis.add_patch(Circle((0.0, 0.0), 0.8, facecolor="#0072B2", edgecolor=EDGE))
+    axis.set(xlim=(-1.0, 1.0), ylim=(-1.0, 1.0))
+    save(figure, "terminal.png")
 
 
 if __name__ == "__main__":

@@ -160,7 +160,7 @@ fn a_ramp_to_the_end_of_a_range_is_not_refused_for_rounding() {
 
 /// Declared knowns of each output by name, `None` for all, in a section of the model structure.
 fn declared(section: &str) -> Vec<(&'static str, Option<Vec<&'static str>>)> {
-    let description = wheelrail::fmi::v2::description::model_description().unwrap();
+    let description = wheelrail::fmi::v2::description::model_description(Default::default()).unwrap();
     let inside = description.split(&format!("<{section}>")).nth(1).unwrap();
     let inside = inside.split(&format!("</{section}>")).next().unwrap();
     let attribute = |line: &str, name: &str| {

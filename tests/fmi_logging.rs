@@ -70,7 +70,7 @@ fn strings_stay_readable_until_the_next_call() {
 fn every_message_carries_a_declared_category() {
     let dll = load();
     let declared = wheelrail::fmi::log::CATEGORIES.map(|(name, _)| name);
-    let description = wheelrail::fmi::v2::description::model_description().unwrap();
+    let description = wheelrail::fmi::v2::description::model_description(Default::default()).unwrap();
     for name in declared {
         assert!(description.contains(&format!("<Category name=\"{name}\"")), "{name}");
     }

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use wheelrail::fmi::package::{self, Binary, Contents};
+use wheelrail::fmi::v2::description::Extent;
 use zip::ZipArchive;
 
 /// An empty directory for one test.
@@ -18,7 +19,13 @@ fn workplace(name: &str) -> PathBuf {
 /// Contents with the given libraries, without precomputed bases.
 fn contents(binaries: Vec<Binary>) -> Contents {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    Contents { binaries, resources: root.join("resources"), bases: Vec::new() }
+    Contents {
+        extent: Extent::Full,
+        binaries,
+        resources: root.join("resources"),
+        reference: root.join("examples/reference"),
+        bases: Vec::new(),
+    }
 }
 
 /// A file that stands for the library of a platform, and its text.

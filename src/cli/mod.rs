@@ -21,7 +21,7 @@ pub use failure::Failure;
 use clap::{Parser, Subcommand};
 use std::io::{self, Write};
 use wheelrail::fmi::reference;
-use wheelrail::fmi::v2::description;
+use wheelrail::fmi::v2::description::{Extent, model_description};
 
 /// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
 ///
@@ -53,7 +53,7 @@ impl Arguments {
         match self.command {
             Command::Pack(pack) => pack.run(),
             Command::Describe { markdown } => {
-                let text = if markdown { reference::markdown() } else { description::model_description()? };
+                let text = if markdown { reference::markdown() } else { model_description(Extent::Full)? };
                 Ok(io::stdout().write_all(text.as_bytes())?)
             }
             Command::Simulate(simulate) => simulate.run(),

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use wheelrail::fmi::package::{self, Basis, Binary, Contents};
 use wheelrail::fmi::presets;
+use wheelrail::fmi::v2::description::Extent;
 
 /// Compute what every preset needs and write the FMU.
 #[derive(clap::Args)]
@@ -19,9 +20,15 @@ pub struct Pack {
     /// this machine takes the place of --library.
     #[arg(long = "binary", value_name = "PLATFORM=FILE")]
     binaries: Vec<Binary>,
+    /// Leave the points of profiles out of the model description; value references and library stay the same.
+    #[arg(long)]
+    no_profiles: bool,
     /// Directory with the presets.
     #[arg(long, default_value = "resources")]
     resources: PathBuf,
+    /// Directory with the run that users can compare theirs with.
+    #[arg(long, default_value = "examples/reference")]
+    reference: PathBuf,
     /// Directory that keeps computed bases for the next time, in its subdirectory `basis`.
     #[arg(long, default_value = "target")]
     cache: PathBuf,
@@ -39,14 +46,15 @@ impl Pack {
             fs::create_dir_all(parent)?;
         }
         let failed = |error: package::PackageError| Failure::Run(error.to_string());
-        let Pack { out, library, mut binaries, resources, .. } = self;
+        let extent = if self.no_profiles { Extent::WithoutProfiles } else { Extent::Full };
+        let Pack { out, library, mut binaries, resources, reference, .. } = self;
         match package::platform() {
             Ok(own) if binaries.iter().any(|binary| binary.platform() == own) => {}
             Ok(own) => binaries.insert(0, Binary::new(own, library).map_err(failed)?),
             Err(unnamed) if binaries.is_empty() => return Err(failed(unnamed)),
             Err(_) => {}
         }
-        package::write(&out, &Contents { binaries, resources, bases }).map_err(failed)?;
+        package::write(&out, &Contents { extent, binaries, resources, reference, bases }).map_err(failed)?;
         println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
         Ok(())
     }

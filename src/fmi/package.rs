@@ -2,7 +2,7 @@
 
 use super::MODEL_IDENTIFIER;
 use super::documentation::index_html;
-use super::v2::description::model_description;
+use super::v2::description::{Extent, model_description};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -16,17 +16,25 @@ pub type Basis = (String, Vec<u8>);
 /// What goes into an FMU besides what is made from the table of variables.
 #[derive(Clone, Debug)]
 pub struct Contents {
+    /// Which variables the model description lists.
+    pub extent: Extent,
     /// Shared libraries, one for each platform.
     pub binaries: Vec<Binary>,
     /// Directory with the presets (`*.json`).
     pub resources: PathBuf,
+    /// Directory with a run to compare with: inputs, results and their settings (`wheelrail_in.csv`, `_ref.csv`, `_ref.opt`).
+    pub reference: PathBuf,
     /// Precomputed bases, for `resources/basis/`.
     pub bases: Vec<Basis>,
 }
 
 /// Files that are the same in every FMU: picture and licence texts.
-const FIXED: [(&str, &[u8]); 4] = [
+const FIXED: [(&str, &[u8]); 8] = [
     ("model.png", include_bytes!("../../docs/model.png")),
+    ("terminalsAndIcons/terminalsAndIcons.xml", include_bytes!("../../docs/terminalsAndIcons.xml")),
+    ("terminalsAndIcons/icon.png", include_bytes!("../../docs/icon.png")),
+    ("terminalsAndIcons/terminal.png", include_bytes!("../../docs/terminal.png")),
+    ("documentation/licenses/license.txt", include_bytes!("../../docs/license.txt")),
     ("documentation/licenses/LICENSE-APACHE", include_bytes!("../../LICENSE-APACHE")),
     ("documentation/licenses/LICENSE-MIT", include_bytes!("../../LICENSE-MIT")),
     ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../docs/LICENSE-THIRD-PARTY")),
@@ -212,7 +220,7 @@ fn files(directory: &Path, wanted: impl Fn(&str) -> bool) -> Result<Vec<(String,
 /// Writes the FMU to `out`. Equal contents give equal bytes: entries are in a fixed order and carry a fixed date.
 pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     let mut entries = vec![
-        ("modelDescription.xml".to_owned(), model_description()?.into_bytes()),
+        ("modelDescription.xml".to_owned(), model_description(contents.extent)?.into_bytes()),
         ("documentation/index.html".to_owned(), index_html().into_bytes()),
     ];
     for (i, binary) in contents.binaries.iter().enumerate() {
@@ -224,6 +232,9 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     entries.extend(FIXED.into_iter().chain(THEORY).map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     for (name, path) in files(&contents.resources, |name| name.ends_with(".json"))? {
         entries.push((format!("resources/{name}"), read(&path)?));
+    }
+    for (name, path) in files(&contents.reference, |name| name.starts_with(MODEL_IDENTIFIER))? {
+        entries.push((format!("documentation/reference/{name}"), read(&path)?));
     }
     let mut bases = contents.bases.clone();
     bases.sort();

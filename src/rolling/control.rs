@@ -177,6 +177,9 @@ inputs! {
         205 displacement of "drive", in "m" as "mm", from -0.1 to 0.1, nominal 1e-4,
             "Hub height above just touching a rail of elevation 0, up positive (pressed: negative); unset: the height at which \
              the wheel carries drive.load at the start";
+        207 load_change of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
+            "Vertical load on the hub in addition to drive.load, pressing down positive: what a suspension adds to the static \
+             load. Masters whose connections are zero before the first step keep the load at the start";
         250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3,
             "Friction coefficient available now; unset: friction.coefficient";
         251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0,
@@ -214,6 +217,11 @@ pub struct InputError {
 }
 
 impl Drive {
+    /// All that presses the hub down \[N].
+    pub fn pressing(&self) -> f64 {
+        self.load + self.load_change
+    }
+
     /// `f` of the values of both, one by one.
     pub fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.values(), other.values());

@@ -156,7 +156,7 @@ outputs! {
         "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity; gravity \
          on a rail.slope acts besides";
     501 hub_force_y: real "hub.force_y", in "N" as "kN", nominal 1e5,
-        "Vertical force on the hub, prescribed or reaction, up positive (-drive.load)";
+        "Vertical force on the hub, prescribed or reaction, up positive (minus drive.load and drive.load_change)";
     502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,
         "Moment that drives the hub, prescribed (drive.moment + brake.torque_actual) or reaction, forward positive; \
          conjugate to wheel.omega";

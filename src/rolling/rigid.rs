@@ -55,7 +55,7 @@ impl RigidWheel {
                 Translation::Velocity => AxisDrive::Prescribed { target: target.velocity },
             },
             match inputs.vertical {
-                Vertical::Force => AxisDrive::Free { load: -target.load / self.width },
+                Vertical::Force => AxisDrive::Free { load: -target.pressing() / self.width },
                 Vertical::Displacement => AxisDrive::Prescribed { target: target.displacement },
             },
             match inputs.rotation {

@@ -62,6 +62,7 @@ fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
         velocity: speed,
         force: load,
         load,
+        load_change: load,
         displacement: approach,
         friction: 1.0,
         tread_heat: inputs.drive.tread_heat.abs().max(1e4),

@@ -97,7 +97,7 @@ impl Instance {
             Translation::Force => ("drive.force", outputs.hub_force_x),
         };
         let vertical = match next.vertical {
-            Vertical::Force => ("drive.load", -outputs.hub_force_y),
+            Vertical::Force => ("drive.load", -outputs.hub_force_y - now.drive.load_change),
             Vertical::Displacement => ("drive.displacement", outputs.hub_height),
         };
         for (switched, (name, present)) in [

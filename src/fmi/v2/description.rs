@@ -6,7 +6,7 @@ use crate::fmi::instance::derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIV
 use crate::fmi::log::CATEGORIES;
 use crate::fmi::presets;
 use crate::fmi::table::enumerations;
-use crate::fmi::units::{BASE_UNITS, UNITS};
+use crate::fmi::units::{BASE_UNITS, Measure, UNITS};
 use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
 use crate::fmi::variables::variables;
 use crate::simulation::Read;
@@ -25,21 +25,45 @@ const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an e
     a moving frame, exact Coulomb friction. x in travel direction, y up, omega > 0 rolls forward; contact forces act \
     on the wheel. Plane model: no lateral force, no spin.";
 
+/// When the interface was last changed. A date of the build would make equal builds unequal.
+const GENERATED: &str = "2026-11-22T00:00:00Z";
+
+const COPYRIGHT: &str = "Copyright 2026 The wheelrail authors";
+
+/// Which variables a description lists. Value references are the same in both, and so is the library.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Extent {
+    /// All variables.
+    #[default]
+    Full,
+    /// All but the points of profiles across the patch and into the tread, for masters that record everything they see.
+    WithoutProfiles,
+}
+
+impl Extent {
+    /// The variables that are listed, in the order of their indices.
+    pub fn variables(self) -> impl Iterator<Item = &'static Variable> + Clone {
+        let listed = move |v: &&Variable| self == Extent::Full || !matches!(v.access, Access::ProfilePoint(..));
+        variables().iter().filter(listed)
+    }
+}
+
 type Xml = Writer<Vec<u8>>;
 
-/// Name-based UUID of the description with an empty GUID: changes with the interface and only with it.
+/// Name-based UUID of the description with an empty GUID: changes with the interface and only with it. One without profiles
+/// says less of the same interface and has the GUID of the full one.
 pub fn guid() -> String {
     static GUID: OnceLock<Uuid> = OnceLock::new();
-    let compute = || Uuid::new_v5(&Uuid::NAMESPACE_OID, write("").unwrap_or_default().as_bytes());
+    let compute = || Uuid::new_v5(&Uuid::NAMESPACE_OID, write("", Extent::Full).unwrap_or_default().as_bytes());
     GUID.get_or_init(compute).to_string()
 }
 
 /// The model description as it stands in the FMU.
-pub fn model_description() -> io::Result<String> {
-    write(&guid())
+pub fn model_description(extent: Extent) -> io::Result<String> {
+    write(&guid(), extent)
 }
 
-fn write(guid: &str) -> io::Result<String> {
+fn write(guid: &str, extent: Extent) -> io::Result<String> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let root = xml.create_element("fmiModelDescription").with_attributes([
@@ -47,9 +71,12 @@ fn write(guid: &str) -> io::Result<String> {
         ("modelName", "Wheel on rail"),
         ("guid", guid),
         ("description", DESCRIPTION),
+        ("author", env!("CARGO_PKG_AUTHORS")),
         ("version", env!("CARGO_PKG_VERSION")),
+        ("copyright", COPYRIGHT),
         ("license", env!("CARGO_PKG_LICENSE")),
         ("generationTool", concat!("wheelrail ", env!("CARGO_PKG_VERSION"))),
+        ("generationDateAndTime", GENERATED),
         ("variableNamingConvention", "structured"),
     ]);
     root.write_inner_content(|xml| {
@@ -63,8 +90,8 @@ fn write(guid: &str) -> io::Result<String> {
         let tolerance = number(Config::default().tuning.tolerance);
         let attributes = [("startTime", "0.0"), ("stopTime", &*stop), ("tolerance", &*tolerance), ("stepSize", &*step)];
         empty(xml, "DefaultExperiment", &attributes)?;
-        list(xml, "ModelVariables", model_variables)?;
-        list(xml, "ModelStructure", model_structure)
+        list(xml, "ModelVariables", |xml| model_variables(xml, extent))?;
+        list(xml, "ModelStructure", |xml| model_structure(xml, extent))
     })?;
     let mut text = String::from_utf8(xml.into_inner()).map_err(io::Error::other)?;
     text.push('\n');
@@ -125,8 +152,44 @@ fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
     })
 }
 
+/// Units of the variables with the units in which they are shown, each pair once.
+fn measures() -> Vec<Measure> {
+    let mut found = Vec::new();
+    for variable in variables() {
+        if let Kind::Real { measure, .. } = variable.kind
+            && !found.contains(&measure)
+        {
+            found.push(measure);
+        }
+    }
+    found
+}
+
+/// The quantity of a measure.
+fn quantity(measure: Measure) -> &'static str {
+    UNITS.iter().find(|unit| unit.name == measure.unit).map_or("", |unit| unit.quantity)
+}
+
+/// Name of the declared type of a measure: its quantity, and the unit in which it is shown.
+fn type_name(measure: Measure) -> String {
+    match (quantity(measure), measure.display) {
+        (quantity, _) if measure.is_relative() => format!("{quantity}Difference"),
+        (quantity, Some(display)) => format!("{quantity} in {display}"),
+        (quantity, None) => quantity.to_owned(),
+    }
+}
+
+fn real_type(xml: &mut Xml, measure: Measure) -> io::Result<()> {
+    let mut attributes = vec![("quantity", quantity(measure)), ("unit", measure.unit)];
+    attributes.extend(measure.display.map(|display| ("displayUnit", display)));
+    attributes.extend(measure.is_relative().then_some(("relativeQuantity", "true")));
+    let element = xml.create_element("SimpleType").with_attribute(("name", type_name(measure).as_str()));
+    element.write_inner_content(|xml| empty(xml, "Real", &attributes)).map(drop)
+}
+
 fn type_definitions(xml: &mut Xml) -> io::Result<()> {
     list(xml, "TypeDefinitions", |xml| {
+        measures().into_iter().try_for_each(|measure| real_type(xml, measure))?;
         for list in enumerations() {
             let element = xml
                 .create_element("SimpleType")
@@ -165,8 +228,8 @@ pub fn variability(variable: &Variable) -> &'static str {
     }
 }
 
-fn model_variables(xml: &mut Xml) -> io::Result<()> {
-    variables().iter().try_for_each(|variable| {
+fn model_variables(xml: &mut Xml, extent: Extent) -> io::Result<()> {
+    extent.variables().try_for_each(|variable| {
         let reference = variable.reference.to_string();
         let (causality, initial) = match variable.causality() {
             Causality::Parameter => ("parameter", Some("exact")),
@@ -191,8 +254,10 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     let mut attributes: Vec<(&str, String)> = Vec::new();
     let element = match variable.kind {
         Kind::Real { measure, min, max, nominal } => {
+            attributes.push(("declaredType", type_name(measure)));
             attributes.push(("unit", measure.unit.to_owned()));
             attributes.extend(measure.display.map(|display| ("displayUnit", display.to_owned())));
+            attributes.extend(measure.is_relative().then(|| ("relativeQuantity", "true".to_owned())));
             attributes.extend(min.is_finite().then(|| ("min", number(min))));
             attributes.extend(max.is_finite().then(|| ("max", number(max))));
             attributes.extend((nominal != 1.0).then(|| ("nominal", number(nominal))));
@@ -219,9 +284,9 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
 /// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
 /// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
 /// outputs depend on everything, too, or are zero by definition.
-fn model_structure(xml: &mut Xml) -> io::Result<()> {
+fn model_structure(xml: &mut Xml, extent: Extent) -> io::Result<()> {
     let outputs: Vec<_> = (1usize..)
-        .zip(variables())
+        .zip(extent.variables())
         .filter(|(_, variable)| variable.causality() == Causality::Output)
         .map(|(index, variable)| (index.to_string(), variable.start))
         .collect();

@@ -57,7 +57,7 @@ impl Goal {
         let rotation = brake::at_start(&given, velocity, peripheral_velocity(velocity, creepage), radius);
         let drives = [given[0], given[1], rotation];
         let prescribed = |k: usize| target(drives[k]);
-        if prescribed(1).is_none() && drive.load <= 0.0 {
+        if prescribed(1).is_none() && drive.pressing() <= 0.0 {
             return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
         }
         let omega = prescribed(2);

@@ -41,7 +41,7 @@ pub(super) fn settle(
     thermal: Option<ThermalState>,
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
-    let load = goal.drive.load / model.wheel.width;
+    let load = goal.drive.pressing() / model.wheel.width;
     let [wheel, rail] = model.bodies.at_rest();
     let mut state = State {
         wheel,
