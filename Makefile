@@ -58,7 +58,7 @@ test-rust:
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(MASTERS) $(TRAIN)
-	$(PY) -m pytest fmpy_tests
+	$(PY) -m pytest --numprocesses logical fmpy_tests
 
 fmu: $(FMU)
 
