@@ -72,18 +72,76 @@ fn scatter(dofs: &[Option<usize>; 8], matrix: &ElementMatrix, triplets: &mut Vec
     }
 }
 
+/// Which unknowns share a cell: where the entries of element matrices go, the same for every matrix of a mesh.
+pub struct Pattern<'a> {
+    mesh: &'a Mesh,
+    /// Rows of the matrix: place of the first entry of each, and of the end of the last.
+    starts: Vec<usize>,
+    /// Columns, ascending within a row; both components of every node that shares a cell.
+    columns: Vec<usize>,
+    /// Unknown of the first component of the corners of each cell, `None` if they are fixed.
+    corners: Vec<[Option<usize>; 4]>,
+}
+
+impl<'a> Pattern<'a> {
+    /// Nodes next to each other on a mesh.
+    pub fn new(mesh: &'a Mesh, dofs: &DofMap) -> Self {
+        let corners: Vec<[Option<usize>; 4]> =
+            mesh.cells.iter().map(|nodes| nodes.map(|node| dofs.unknown(node, 0))).collect();
+        let mut neighbours: Vec<Vec<usize>> = vec![Vec::with_capacity(9); dofs.len() / 2];
+        for cell in &corners {
+            for row in cell.iter().flatten() {
+                let known = &mut neighbours[row / 2];
+                for column in cell.iter().flatten() {
+                    if let Err(place) = known.binary_search(column) {
+                        known.insert(place, *column);
+                    }
+                }
+            }
+        }
+        let (mut starts, mut columns) = (vec![0], Vec::new());
+        for neighbours in &neighbours {
+            for _ in 0..2 {
+                columns.extend(neighbours.iter().flat_map(|column| [*column, column + 1]));
+                starts.push(columns.len());
+            }
+        }
+        Self { mesh, starts, columns, corners }
+    }
+
+    /// Sums element matrices over all cells.
+    pub fn assemble(&self, element: impl Fn(&[Point; 4]) -> ElementMatrix) -> Result<CsrMatrix, FemError> {
+        let mut values = vec![0.0; self.columns.len()];
+        for (cell, corners) in self.corners.iter().enumerate() {
+            let matrix = element(&element::points(&self.mesh.corners(cell))?);
+            for (i, row) in corners.iter().enumerate() {
+                let Some(row) = *row else { continue };
+                let (start, width) = (self.starts[row], self.starts[row + 1] - self.starts[row]);
+                let columns = &self.columns[start..start + width];
+                for (j, column) in corners.iter().enumerate() {
+                    let Some(place) = column.and_then(|column| columns.iter().position(|c| *c == column)) else {
+                        continue;
+                    };
+                    for (a, line) in matrix[2 * i..2 * i + 2].iter().enumerate() {
+                        let at = start + a * width + place;
+                        values[at] += line[2 * j];
+                        values[at + 1] += line[2 * j + 1];
+                    }
+                }
+            }
+        }
+        let rows = self.starts.len() - 1;
+        Ok(CsrMatrix::from_pattern(rows, &self.starts, &self.columns, &values))
+    }
+}
+
 /// Sums element matrices over all cells.
 pub fn assemble(
     mesh: &Mesh,
     dofs: &DofMap,
     element: impl Fn(&[Point; 4]) -> ElementMatrix,
 ) -> Result<CsrMatrix, FemError> {
-    let mut triplets = Vec::with_capacity(64 * mesh.cells.len());
-    for (cell, nodes) in mesh.cells.iter().enumerate() {
-        let points = element::points(&mesh.corners(cell))?;
-        scatter(&dofs.cell(*nodes), &element(&points), &mut triplets);
-    }
-    Ok(CsrMatrix::from_triplets(dofs.len(), dofs.len(), &triplets)?)
+    Pattern::new(mesh, dofs).assemble(element)
 }
 
 /// Sums boundary matrices over the mesh's open ends.

@@ -217,6 +217,9 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
     }
     mesh.surface = (0..surface_x.len()).collect();
     mesh.fixed = ((rows - 1) * around..rows * around).collect();
+    // The surface nodes come first, then those of one side up to the top, and those of the other side back down.
+    let opposite = |j: usize| (around + surface_x.len() - 1 - j) % around;
+    mesh.mirror = (0..rows * around).map(|node| node - node % around + opposite(node % around)).collect();
     Ok(mesh)
 }
 
@@ -254,6 +257,7 @@ pub fn rail(length: f64, height: f64, largest: f64, zone: ContactZone) -> Result
     }
     mesh.surface = (first..first + surface_x.len()).collect();
     mesh.fixed = ((rows - 1) * along..rows * along).collect();
+    mesh.mirror = (0..rows * along).map(|node| node - node % along + (along - 1 - node % along)).collect();
     Ok(mesh)
 }
 
@@ -299,6 +303,21 @@ mod tests {
             // On the finest of them the cells grow by no less than 7 %.
             assert!(cells[0] < 12.0 / elements as f64 && (x[0] / zone.half_width + 5.5).abs() < 1e-12);
             assert!(x.iter().zip(x.iter().rev()).all(|(a, b)| a + b == 0.0));
+        }
+    }
+
+    #[test]
+    fn bodies_are_their_own_mirror_images() {
+        for (elements, reach) in [(5, 0.0), (8, 5.5 * 7.6e-4)] {
+            let zone = ContactZone { half_width: 7.6e-4, elements, reach };
+            for mesh in [wheel(0.5, 0.05, zone).unwrap(), rail(1.0, 0.1, 0.025, zone).unwrap()] {
+                for (node, &image) in mesh.mirror.iter().enumerate() {
+                    let ([x, y], [there_x, there_y]) = (mesh.nodes[node], mesh.nodes[image]);
+                    assert!((x + there_x).abs() < 1e-15 && (y - there_y).abs() < 1e-15);
+                    assert_eq!(mesh.mirror[image], node);
+                }
+                assert_eq!(mesh.mirror.len(), mesh.nodes.len());
+            }
         }
     }
 

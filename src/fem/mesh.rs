@@ -13,6 +13,8 @@ pub struct Mesh {
     pub fixed: Vec<usize>,
     /// Free faces through which material streams in or out.
     pub ends: Vec<Face>,
+    /// The node at the mirror image `(−x, y)` of each node's place; empty: the mesh is not its own mirror image.
+    pub mirror: Vec<usize>,
 }
 
 /// Edge `edge` of a cell, from corner `edge` to corner `edge + 1`; its outward normal lies to the right.

@@ -7,7 +7,7 @@ pub mod graded;
 pub mod grading;
 pub mod mesh;
 
-pub use assembly::{DofMap, assemble, assemble_faces, assemble_vector};
+pub use assembly::{DofMap, Pattern, assemble, assemble_faces, assemble_vector};
 pub use element::Point;
 pub use error::FemError;
 pub use graded::ContactZone;

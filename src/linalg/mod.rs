@@ -8,18 +8,23 @@
 
 pub mod anderson;
 mod blocks;
+pub mod cholesky;
 pub mod dense;
 mod error;
 pub mod gmres;
+mod krylov;
 mod lagrange;
 pub mod modes;
+pub mod parity;
 pub mod pencil;
 pub mod sparse;
 pub(crate) mod vectorised;
 
+pub use cholesky::{Cholesky, CholeskyPattern};
 pub use dense::DenseSystem;
 pub use error::LinalgError;
 pub use lagrange::{Lagrange, POINTS};
-pub use modes::{VibrationModes, lowest_modes};
-pub use sparse::{Cholesky, CholeskyPattern, CsrMatrix};
+pub use modes::{Oscillator, VibrationModes, lowest_modes, lowest_modes_of_parts};
+pub use parity::{Parity, Part, Reflection};
+pub use sparse::CsrMatrix;
 pub(crate) use vectorised::{Update, multiply_transposed};

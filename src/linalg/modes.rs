@@ -4,15 +4,13 @@
 //! space of blocks is built with full reorthogonalisation (Golub & Van Loan, *Matrix Computations*, 4th ed., 10.3.6),
 //! followed by one inverse iteration and a Rayleigh–Ritz projection on the pencil itself.
 
-use super::blocks::{apply, orthonormalise, solve};
+use super::blocks::{product, solved};
+use super::krylov::{Krylov, RitzPairs, dense_eigen, noise};
 use super::{Cholesky, CsrMatrix, LinalgError};
 use faer::Mat;
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
 
-/// Vectors added to the Krylov space at a time.
-const BLOCK: usize = 8;
-/// Accepted residual `‖T φ − θ φ‖_M / θ` before the final inverse iteration.
-const TOLERANCE: f64 = 1e-9;
+pub use super::krylov::{largest_space, usual_space};
 
 /// Modes `Φᵀ M Φ = 1`, `Φᵀ K Φ = diag(Ω²)`, ascending.
 #[derive(Clone, Debug)]
@@ -21,6 +19,17 @@ pub struct VibrationModes {
     pub squared_frequencies: DVector<f64>,
     /// One mode per column.
     pub shapes: DMatrix<f64>,
+}
+
+/// A body that vibrates, or a part of it that does so by itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Oscillator<'a> {
+    /// `K` [N/m per m].
+    pub stiffness: &'a CsrMatrix,
+    /// `M` [kg/m].
+    pub mass: &'a CsrMatrix,
+    /// Cholesky factor of `K`.
+    pub factor: &'a Cholesky,
 }
 
 /// The `count` lowest modes; `factor` is the Cholesky factor of `stiffness`.
@@ -34,131 +43,86 @@ pub fn lowest_modes(
     count: usize,
     progress: &mut dyn FnMut(f64),
 ) -> Result<VibrationModes, LinalgError> {
-    let n = factor.size();
-    if count > n {
-        return Err(LinalgError::TooManyModes { wanted: count, size: n });
+    let modes = lowest_modes_of_parts(&[Oscillator { stiffness, mass, factor }], count, progress)?;
+    modes.into_iter().next().ok_or(LinalgError::TooManyModes { wanted: count, size: 0 })
+}
+
+/// Those of the `count` lowest modes of several oscillators together that belong to each.
+pub fn lowest_modes_of_parts(
+    parts: &[Oscillator<'_>],
+    count: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Vec<VibrationModes>, LinalgError> {
+    let size: usize = parts.iter().map(|part| part.factor.size()).sum();
+    if count > size {
+        return Err(LinalgError::TooManyModes { wanted: count, size });
     }
-    if mass.rows() != n || stiffness.rows() != n {
-        return Err(LinalgError::SizeMismatch { left: n, right: mass.rows() });
+    for Oscillator { stiffness, mass, factor } in parts {
+        if mass.rows() != factor.size() || stiffness.rows() != factor.size() {
+            return Err(LinalgError::SizeMismatch { left: factor.size(), right: mass.rows() });
+        }
     }
-    let mut ritz = krylov(factor, mass, count, progress)?;
+    let mut spaces: Vec<Krylov> = parts.iter().map(|part| Krylov::new(*part)).collect();
+    let (pairs, counts) = lowest_ritz_pairs(&mut spaces, parts, count, progress)?;
+    let modes = (parts.iter().zip(&spaces).zip(pairs.iter().zip(counts)))
+        .map(|((part, space), (pairs, count))| polished(part, space.vectors(pairs, count)));
+    let modes = modes.collect();
+    progress(1.0);
+    modes
+}
+
+/// Ritz pairs of every part, and how many of each belong to the `count` lowest of all.
+fn lowest_ritz_pairs(
+    spaces: &mut [Krylov<'_>],
+    parts: &[Oscillator<'_>],
+    count: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<(Vec<RitzPairs>, Vec<usize>), LinalgError> {
+    // Of several parts, one may have more than its share; its last known mode must not be among the lowest.
+    let several = usize::from(parts.len() > 1);
+    let mut wanted: Vec<usize> =
+        parts.iter().map(|part| (count.div_ceil(parts.len()) + several).min(part.factor.size())).collect();
+    let expected = 3.2 * wanted.iter().sum::<usize>() as f64 + 20.0;
+    let mut vectors = vec![0; parts.len()];
+    let mut converged = |k: usize, wanted: usize| {
+        spaces[k].converge(wanted, &mut |size| {
+            vectors[k] = size;
+            progress(0.9 * (vectors.iter().sum::<usize>() as f64 / expected).min(1.0));
+        })
+    };
+    let pairs: Result<Vec<RitzPairs>, LinalgError> = (0..parts.len()).map(|k| converged(k, wanted[k])).collect();
+    let mut pairs = pairs?;
+    loop {
+        let all = pairs.iter().enumerate().flat_map(|(k, pairs)| pairs.values.iter().map(move |value| (*value, k)));
+        let mut lowest: Vec<(f64, usize)> = all.collect();
+        lowest.sort_by(|a, b| b.0.total_cmp(&a.0));
+        lowest.truncate(count);
+        let counts: Vec<usize> = (0..parts.len()).map(|k| lowest.iter().filter(|pair| pair.1 == k).count()).collect();
+        let short = |k: &usize| several > 0 && counts[*k] == wanted[*k] && wanted[*k] < parts[*k].factor.size();
+        let Some(k) = (0..parts.len()).find(short) else { return Ok((pairs, counts)) };
+        wanted[k] = (wanted[k] + 2).min(parts[k].factor.size());
+        pairs[k] = converged(k, wanted[k])?;
+    }
+}
+
+/// Modes from Ritz vectors.
+fn polished(part: &Oscillator<'_>, ritz: Mat<f64>) -> Result<VibrationModes, LinalgError> {
+    let n = part.factor.size();
+    if ritz.ncols() == 0 {
+        return Ok(VibrationModes { squared_frequencies: DVector::zeros(0), shapes: DMatrix::zeros(n, 0) });
+    }
     // One inverse iteration removes rough error, which K would magnify.
-    apply(mass, &mut ritz);
-    solve(factor, &mut ritz);
-    let (squared_frequencies, mut shapes) = rayleigh_ritz(stiffness, mass, &ritz)?;
-    let mut reference = DMatrix::from_column_slice(n, 1, &noise(n, 0));
-    reference = mass.multiply_columns(&reference);
+    let ritz = solved(part.factor, product(part.mass, &ritz).as_ref());
+    let (squared_frequencies, mut shapes) = rayleigh_ritz(part.stiffness, part.mass, &ritz)?;
+    let mut reference = vec![0.0; n];
+    part.mass.multiply(&noise(n, 0), &mut reference);
+    let reference = DVector::from_vec(reference);
     for mut shape in shapes.column_iter_mut() {
-        if shape.dot(&reference.column(0)) < 0.0 {
+        if shape.dot(&reference) < 0.0 {
             shape.neg_mut();
         }
     }
-    progress(1.0);
     Ok(VibrationModes { squared_frequencies, shapes })
-}
-
-/// Number of vectors in the Krylov space that suffices for `count` modes of bodies as long as they are high, or ten times
-/// as long.
-pub fn usual_space(count: usize) -> usize {
-    6 * count + 60
-}
-
-/// Largest number of vectors in the Krylov space for `count` modes.
-///
-/// A long body on a fixed base has a cut-off frequency, above which its modes crowd: their distance falls with the square of
-/// the length, and the space has to grow with the length to tell them apart, however few of them are wanted. A rail of
-/// 100 m with a height of 0.1 m took 384 vectors for one mode and 848 for 200.
-pub fn largest_space(count: usize) -> usize {
-    usual_space(count) + 800
-}
-
-/// `count` Ritz vectors of `T` with residuals below [`TOLERANCE`], largest eigenvalue first.
-fn krylov(
-    factor: &Cholesky,
-    mass: &CsrMatrix,
-    count: usize,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Mat<f64>, LinalgError> {
-    let n = factor.size();
-    let limit = largest_space(count).min(n);
-    let mut next_check = (3 * count + 3 * BLOCK).min(limit);
-    let mut basis = Mat::<f64>::zeros(n, usual_space(count).min(n) + BLOCK);
-    let mut projected = DMatrix::<f64>::zeros(limit + BLOCK, limit + BLOCK);
-    let (mut block, _) = orthonormalise(mass, &basis, 0, start_block(factor, mass, 0));
-    let (mut size, mut restarts) = (0, 0);
-    loop {
-        let width = block.ncols().min(limit - size);
-        let columns = size..size + width;
-        if columns.end > basis.ncols() {
-            basis = enlarged(&basis, (basis.ncols() + basis.ncols() / 2).min(limit + BLOCK));
-        }
-        basis.subcols_mut(size, width).copy_from(block.subcols(0, width));
-        size += width;
-        let mut image = block.subcols(0, width).to_owned();
-        apply(mass, &mut image);
-        solve(factor, &mut image);
-        let (next, coefficients) = orthonormalise(mass, &basis, size, image);
-        for (j, column) in columns.clone().enumerate() {
-            for i in 0..size + next.ncols() {
-                projected[(i, column)] = coefficients[(i, j)];
-            }
-        }
-        progress(0.9 * (size as f64 / (3.2 * count as f64 + 20.0)).min(1.0));
-        let exhausted = next.ncols() == 0;
-        if size >= next_check || size == limit || (exhausted && size >= count) {
-            next_check = (size + 4 * BLOCK).min(limit);
-            let (vectors, residuals) = ritz_pairs(&projected, size, width, next.ncols())?;
-            let kept = count.min(size);
-            let converged = residuals.iter().take(kept).take_while(|r| **r <= TOLERANCE).count();
-            if converged == count {
-                return Ok(basis.subcols(0, size) * vectors.subcols(0, count));
-            }
-            if size == limit {
-                let residual = residuals.get(converged).copied().unwrap_or(f64::NAN);
-                return Err(LinalgError::ModesNotConverged { wanted: count, converged, space: size, residual });
-            }
-        }
-        block = next;
-        while block.ncols() == 0 && restarts < limit {
-            restarts += 1;
-            block = orthonormalise(mass, &basis, size, start_block(factor, mass, restarts)).0;
-        }
-        if block.ncols() == 0 {
-            let residual = f64::NAN;
-            return Err(LinalgError::ModesNotConverged { wanted: count, converged: 0, space: size, residual });
-        }
-    }
-}
-
-/// The same columns with room for more, `columns` in all.
-fn enlarged(basis: &Mat<f64>, columns: usize) -> Mat<f64> {
-    let mut larger = Mat::zeros(basis.nrows(), columns);
-    larger.subcols_mut(0, basis.ncols()).copy_from(basis);
-    larger
-}
-
-/// Eigenvectors of the projected operator, largest eigenvalue first, and the relative residuals of the Ritz pairs.
-fn ritz_pairs(
-    projected: &DMatrix<f64>,
-    size: usize,
-    last: usize,
-    next: usize,
-) -> Result<(Mat<f64>, Vec<f64>), LinalgError> {
-    let symmetric = Mat::from_fn(size, size, |i, j| if i <= j { projected[(i, j)] } else { projected[(j, i)] });
-    let (values, vectors) = dense_eigen(&symmetric)?;
-    let reversed = Mat::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]);
-    let residuals = (0..size)
-        .map(|k| {
-            let squared: f64 = (0..next)
-                .map(|i| {
-                    let row = size + i;
-                    (size - last..size).map(|j| projected[(row, j)] * reversed[(j, k)]).sum::<f64>().powi(2)
-                })
-                .sum();
-            squared.sqrt() / values[size - 1 - k].abs().max(f64::MIN_POSITIVE)
-        })
-        .collect();
-    Ok((reversed, residuals))
 }
 
 /// Rayleigh–Ritz projection of the pencil `(K, M)` on the columns of `x`: ascending `Ω²` and `M`-orthonormal modes.
@@ -167,10 +131,7 @@ fn rayleigh_ritz(
     mass: &CsrMatrix,
     x: &Mat<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), LinalgError> {
-    let mut mx = x.clone();
-    apply(mass, &mut mx);
-    let mut kx = x.clone();
-    apply(stiffness, &mut kx);
+    let (mx, kx) = (product(mass, x), product(stiffness, x));
     let m = x.ncols();
     let gram = x.transpose() * &mx;
     // Whitening of the (nearly diagonal) Gram matrix, after scaling by its diagonal.
@@ -185,98 +146,12 @@ fn rayleigh_ritz(
     Ok((DVector::from_vec(squared), shapes))
 }
 
-/// Eigenvalues (ascending) and eigenvectors of a dense symmetric matrix.
-///
-/// nalgebra's QR iteration: on the projected operators the divide and conquer of faer 0.24.4 leaves relative residuals of
-/// 1e-6, nine digits more than round-off (see also faer-rs issue 273).
-fn dense_eigen(a: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
-    let size = a.nrows();
-    let dense = DMatrix::from_fn(size, size, |i, j| a[(i, j)]);
-    let eigen = SymmetricEigen::try_new(dense, f64::EPSILON, 100 * size).ok_or(LinalgError::Eigen { size })?;
-    let mut order: Vec<usize> = (0..size).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    let values = order.iter().map(|&i| eigen.eigenvalues[i]).collect();
-    Ok((values, Mat::from_fn(size, size, |i, j| eigen.eigenvectors[(i, order[j])])))
-}
-
-/// Smoothed pseudo-random start vectors, the same in every run.
-fn start_block(factor: &Cholesky, mass: &CsrMatrix, seed: usize) -> Mat<f64> {
-    let n = factor.size();
-    let width = BLOCK.min(n);
-    let columns: Vec<Vec<f64>> = (0..width).map(|j| noise(n, seed * BLOCK + j + 1)).collect();
-    let mut block = Mat::from_fn(n, width, |i, j| columns[j][i]);
-    apply(mass, &mut block);
-    solve(factor, &mut block);
-    block
-}
-
-/// Uniform pseudo-random numbers in (−1, 1) (linear congruential generator of Knuth's MMIX).
-fn noise(n: usize, seed: usize) -> Vec<f64> {
-    let mut state = 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(seed as u64 + 1);
-    (0..n)
-        .map(|_| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mechanics::testing::paper_d;
     use crate::mechanics::{BodySystem, rail_system};
-    use faer::MatRef;
     use std::f64::consts::PI;
-
-    /// The operator `K⁻¹ M` in a Krylov space of `size` vectors: what [`krylov`] hands to [`dense_eigen`].
-    fn projected_operator(k: &CsrMatrix, m: &CsrMatrix, size: usize) -> Mat<f64> {
-        let n = k.rows();
-        let factor = Cholesky::new(k).unwrap();
-        let mut basis = Mat::<f64>::zeros(n, size + BLOCK);
-        let mut projected = Mat::<f64>::zeros(size, size);
-        let (mut block, _) = orthonormalise(m, &basis, 0, start_block(&factor, m, 0));
-        for first in (0..size).step_by(BLOCK) {
-            basis.subcols_mut(first, BLOCK).copy_from(&block);
-            let mut image = block.clone();
-            apply(m, &mut image);
-            solve(&factor, &mut image);
-            let (next, coefficients) = orthonormalise(m, &basis, first + BLOCK, image);
-            for j in 0..BLOCK {
-                for i in 0..first + BLOCK {
-                    projected[(i, first + j)] = coefficients[(i, j)];
-                    projected[(first + j, i)] = coefficients[(i, j)];
-                }
-            }
-            block = next;
-        }
-        projected
-    }
-
-    /// Largest relative residual `‖A v − λ v‖/‖A‖` of the eigenpairs.
-    fn residual(a: &Mat<f64>, values: &[f64], vectors: MatRef<'_, f64>) -> f64 {
-        let image = a * vectors;
-        let norm = values.iter().fold(0.0_f64, |norm, value| norm.max(value.abs()));
-        let pairs = values.iter().enumerate();
-        pairs
-            .map(|(j, value)| (image.col(j) - vectors.col(j) * faer::Scale(*value)).norm_l2() / norm)
-            .fold(0.0, f64::max)
-    }
-
-    /// Why [`dense_eigen`] is nalgebra's: on the projected operator of a rail faer loses digits. Once this test fails because
-    /// faer is accurate, its own eigenvalue solver can take over.
-    #[test]
-    fn dense_eigenpairs_are_accurate_to_round_off_where_divide_and_conquer_loses_digits() {
-        let system = rail_system(&paper_d(5)).unwrap();
-        let a = projected_operator(&system.stiffness, &system.mass, 264);
-        let (values, vectors) = dense_eigen(&a).unwrap();
-        let ours = residual(&a, &values, vectors.as_ref());
-        let other = a.self_adjoint_eigen(faer::Side::Lower).unwrap();
-        let values: Vec<f64> = other.S().column_vector().iter().copied().collect();
-        let theirs = residual(&a, &values, other.U());
-        println!("relative residual: nalgebra {ours:.1e}, faer {theirs:.1e}");
-        assert!(ours < 1e-13 && theirs > 1e-12);
-    }
 
     /// Fixed string of `n` unit masses and unit springs.
     fn chain(n: usize) -> (CsrMatrix, CsrMatrix) {

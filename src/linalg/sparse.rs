@@ -1,10 +1,7 @@
-//! Sparse matrices by rows, and the Cholesky factorisation `A = L Lᵀ` of symmetric positive definite ones (faer).
+//! Sparse matrices by rows.
 
 use super::LinalgError;
-use faer::linalg::solvers::SolveCore;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Side};
+use faer::sparse::SymbolicSparseColMatRef;
 use nalgebra::DMatrix;
 
 /// Sparse matrix by rows, columns ascending within a row.
@@ -37,24 +34,45 @@ impl CsrMatrix {
             sorted[next[row]] = (column, value);
             next[row] += 1;
         }
-        let (mut starts, mut indices, mut values) = (vec![0], Vec::new(), Vec::new());
+        Ok(Self::from_rows(rows, columns, |i, row| row.extend_from_slice(&sorted[ends[i]..ends[i + 1]])))
+    }
+
+    /// A matrix whose rows are given one after the other: `fill` appends the entries of a row to an empty list, in any order;
+    /// equal columns add up in the order given.
+    pub(super) fn from_rows(rows: usize, columns: usize, mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>)) -> Self {
+        let (mut starts, mut indices, mut values) = (vec![0], Vec::<usize>::new(), Vec::<f64>::new());
+        let mut row = Vec::new();
         for i in 0..rows {
-            let row = &mut sorted[ends[i]..ends[i + 1]];
+            row.clear();
+            fill(i, &mut row);
             row.sort_by_key(|entry| entry.0);
             let first = indices.len();
-            for &(column, value) in row.iter() {
-                if indices.len() > first && indices.last() == Some(&column) {
-                    if let Some(last) = values.last_mut() {
-                        *last += value;
+            for &(column, value) in &row {
+                match values.last_mut().filter(|_| indices.len() > first && indices.last() == Some(&column)) {
+                    Some(last) => *last += value,
+                    None => {
+                        indices.push(column);
+                        values.push(value);
                     }
-                } else {
-                    indices.push(column);
-                    values.push(value);
                 }
             }
             starts.push(indices.len());
         }
-        Ok(Self { rows, columns, starts, indices, values })
+        Self { rows, columns, starts, indices, values }
+    }
+
+    /// A square matrix with the columns `columns[starts[i]..starts[i + 1]]` in row `i`, ascending; zeros are left out.
+    pub fn from_pattern(rows: usize, starts: &[usize], columns: &[usize], values: &[f64]) -> Self {
+        let stored = values.iter().filter(|value| **value != 0.0).count();
+        let (mut indices, mut kept, mut ends) = (Vec::with_capacity(stored), Vec::with_capacity(stored), vec![0]);
+        for row in starts.windows(2) {
+            for at in (row[0]..row[1]).filter(|&at| values[at] != 0.0) {
+                indices.push(columns[at]);
+                kept.push(values[at]);
+            }
+            ends.push(indices.len());
+        }
+        Self { rows, columns: rows, starts: ends, indices, values: kept }
     }
 
     /// Number of rows.
@@ -101,12 +119,22 @@ impl CsrMatrix {
     /// `A X` for a block of columns.
     pub fn multiply_columns(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
         let mut y = DMatrix::zeros(self.rows, x.ncols());
-        if self.rows > 0 && self.columns > 0 {
-            for (xj, yj) in x.as_slice().chunks(self.columns).zip(y.as_mut_slice().chunks_mut(self.rows)) {
-                self.multiply(xj, yj);
-            }
-        }
+        self.multiply_into(x.as_slice(), y.as_mut_slice());
         y
+    }
+
+    /// `Y ← A X` for columns one after the other.
+    pub(super) fn multiply_into(&self, x: &[f64], y: &mut [f64]) {
+        if self.rows == 0 || self.columns == 0 {
+            return y.fill(0.0);
+        }
+        let mut lines = vec![[0.0; TOGETHER]; self.columns];
+        for (x, y) in x.chunks(TOGETHER * self.columns).zip(y.chunks_mut(TOGETHER * self.rows)) {
+            for (k, column) in x.chunks(self.columns).enumerate() {
+                lines.iter_mut().zip(column).for_each(|(line, value)| line[k] = *value);
+            }
+            pulp::Arch::new().dispatch(BlockProduct { matrix: self, lines: &lines, y });
+        }
     }
 
     /// `xᵀ A y`.
@@ -149,74 +177,45 @@ impl CsrMatrix {
         Ok(Self { rows: a.rows, columns: a.columns, starts, indices, values })
     }
 
+    /// The stored values, row by row.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// The stored pattern read by columns: for a symmetric matrix the same thing as by rows.
-    fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
+    pub(super) fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
         SymbolicSparseColMatRef::new_checked(self.rows, self.columns, &self.starts, None, &self.indices)
     }
 }
 
-/// Fill-reducing ordering and pattern of a Cholesky factor, shared by all matrices of one pattern.
-#[derive(Clone, Debug)]
-pub struct CholeskyPattern {
-    size: usize,
-    symbolic: SymbolicLlt<usize>,
+/// Columns that are multiplied at a time, for which their entries are put side by side.
+const TOGETHER: usize = 8;
+
+/// The product of a matrix with some columns.
+struct BlockProduct<'a> {
+    matrix: &'a CsrMatrix,
+    /// Entries of the columns, side by side.
+    lines: &'a [[f64; TOGETHER]],
+    /// Columns of the product, one after the other, as many as wanted.
+    y: &'a mut [f64],
 }
 
-impl CholeskyPattern {
-    /// Analyses the pattern of a symmetric matrix.
-    pub fn new(a: &CsrMatrix) -> Result<Self, LinalgError> {
-        let size = a.rows;
-        if a.rows != a.columns {
-            return Err(LinalgError::SizeMismatch { left: a.rows, right: a.columns });
+impl pulp::WithSimd for BlockProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { matrix: CsrMatrix { rows, starts, indices, values, .. }, lines, y } = self;
+        for (i, window) in starts.windows(2).enumerate() {
+            let mut sum = [0.0; TOGETHER];
+            let range = window[0]..window[1];
+            for (&j, a) in indices[range.clone()].iter().zip(&values[range]) {
+                sum.iter_mut().zip(&lines[j]).for_each(|(sum, x)| *sum += a * x);
+            }
+            for (column, sum) in y.chunks_mut(*rows).zip(sum) {
+                column[i] = sum;
+            }
         }
-        let symbolic = SymbolicLlt::try_new(a.pattern(), Side::Lower)
-            .map_err(|e| LinalgError::Symbolic { size, reason: format!("{e:?}") })?;
-        Ok(Self { size, symbolic })
-    }
-
-    /// Factorises a symmetric positive definite matrix of this pattern.
-    pub fn factorise(&self, a: &CsrMatrix) -> Result<Cholesky, LinalgError> {
-        let size = self.size;
-        if a.rows != size || a.columns != size {
-            return Err(LinalgError::SizeMismatch { left: size, right: a.rows });
-        }
-        let matrix = SparseColMatRef::new(a.pattern(), a.values.as_slice());
-        let factor = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower)
-            .map_err(|e| LinalgError::NotPositiveDefinite { size, reason: format!("{e:?}") })?;
-        Ok(Cholesky { size, factor })
-    }
-}
-
-/// Factor `L` of a symmetric positive definite matrix.
-#[derive(Clone, Debug)]
-pub struct Cholesky {
-    size: usize,
-    factor: Llt<usize, f64>,
-}
-
-impl Cholesky {
-    /// Analyses and factorises.
-    pub fn new(a: &CsrMatrix) -> Result<Self, LinalgError> {
-        CholeskyPattern::new(a)?.factorise(a)
-    }
-
-    /// Number of unknowns.
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
-    /// Replaces each column of length `size` in `columns` by `A⁻¹` times it.
-    pub fn solve_in_place(&self, columns: &mut [f64]) {
-        if self.size > 0 && !columns.is_empty() {
-            let count = columns.len() / self.size;
-            let view = MatMut::from_column_major_slice_mut(columns, self.size, count);
-            self.factor.solve_in_place_with_conj(Conj::No, view);
-        }
-    }
-
-    /// `X ← A⁻¹ X`.
-    pub fn solve_columns(&self, x: &mut DMatrix<f64>) {
-        self.solve_in_place(x.as_mut_slice());
     }
 }
 
@@ -224,34 +223,25 @@ impl Cholesky {
 mod tests {
     use super::*;
 
-    fn laplacian(n: usize) -> CsrMatrix {
-        let mut t = Vec::new();
-        for i in 0..n {
-            t.push((i, i, 1.0));
-            t.push((i, i, 1.0 + 1.0 / n as f64));
-            if i > 0 {
-                t.push((i, i - 1, -1.0));
-                t.push((i - 1, i, -1.0));
-            }
-        }
-        CsrMatrix::from_triplets(n, n, &t).unwrap()
-    }
-
     #[test]
-    fn cholesky_solution_satisfies_the_equations() {
-        let a = laplacian(50);
-        let x = DMatrix::from_fn(50, 3, |i, j| ((i * 7 + j * 3) % 11) as f64 - 5.0);
-        let mut b = a.multiply_columns(&x);
-        Cholesky::new(&a).unwrap().solve_columns(&mut b);
-        assert!((b - x).amax() < 1e-10);
-    }
-
-    #[test]
-    fn indefinite_and_ill_addressed_matrices_are_refused() {
-        let a = CsrMatrix::from_triplets(2, 2, &[(0, 0, 1.0), (1, 1, -1.0)]).unwrap();
-        assert!(matches!(Cholesky::new(&a), Err(LinalgError::NotPositiveDefinite { size: 2, .. })));
+    fn entries_outside_the_matrix_are_refused() {
         let outside = CsrMatrix::from_triplets(2, 2, &[(0, 2, 1.0)]);
         assert!(matches!(outside, Err(LinalgError::OutOfRange { column: 2, .. })));
+    }
+
+    #[test]
+    fn products_with_many_columns_are_those_with_each() {
+        let triplets: Vec<_> = (0..35).map(|k| ((5 * k) % 7, (3 * k) % 9, f64::from(k as u32) - 11.0)).collect();
+        let a = CsrMatrix::from_triplets(7, 9, &triplets).unwrap();
+        for columns in [1, 8, 19] {
+            let x = DMatrix::from_fn(9, columns, |i, j| (3 * i + j) as f64 - 4.0);
+            let product = a.multiply_columns(&x);
+            for j in 0..columns {
+                let mut y = [0.0; 7];
+                a.multiply(&x.as_slice()[9 * j..9 * (j + 1)], &mut y);
+                assert_eq!(product.column(j).as_slice(), y);
+            }
+        }
     }
 
     #[test]

@@ -6,9 +6,10 @@
 //! modes alone. Theory: `docs/theory/damping.md`.
 
 use super::MechanicsError;
+use super::shapes::{Shapes, StaticPart};
 use super::system::BodySystem;
 use crate::config::Config;
-use crate::linalg::{Cholesky, lowest_modes};
+use crate::linalg::Parity;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -82,21 +83,14 @@ pub struct ModeCharacter {
 }
 
 impl ModeCharacter {
-    /// Of mass-normalised modes, the columns of `phi`.
-    pub(super) fn new(system: &BodySystem, phi: &DMatrix<f64>) -> Self {
-        let transport = phi.tr_mul(&system.transport.multiply_columns(phi));
-        let squares = |matrix: Option<&crate::linalg::CsrMatrix>| {
-            let square = |column: nalgebra::DVectorView<f64>| {
-                matrix.map_or(0.0, |matrix| matrix.bilinear(column.as_slice(), column.as_slice()).max(0.0))
-            };
-            DVector::from_iterator(phi.ncols(), phi.column_iter().map(|column| square(column.as_view())))
+    /// Of mass-normalised modes.
+    pub(super) fn new(system: &BodySystem, modes: &Shapes) -> Self {
+        let squares = |which: usize| match &system.circles {
+            Some(circles) => modes.squares(&circles[which]),
+            None => DVector::zeros(modes.count()),
         };
-        let circles = system.circles.as_ref();
-        Self {
-            transport,
-            diameters: squares(circles.map(|c| &c[0])).map(f64::sqrt),
-            circumferential: squares(circles.map(|c| &c[1])),
-        }
+        let transport = modes.project(&system.transport, Parity::Odd);
+        Self { transport, diameters: squares(0).map(f64::sqrt), circumferential: squares(1) }
     }
 
     /// Group of mode `i` among the ratios of [`BodyDamping`].
@@ -133,13 +127,12 @@ pub(super) struct DampedModes {
 impl DampedModes {
     /// The `count` lowest modes of a body.
     pub fn compute(system: &BodySystem, count: usize, damping: &BodyDamping) -> Result<Self, MechanicsError> {
-        let factor = Cholesky::new(&system.stiffness)?;
-        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, count, &mut |_| {})?;
-        let character = ModeCharacter::new(system, &modes.shapes);
+        let (squared_frequencies, modes) = Shapes::lowest(&StaticPart::all(system)?, count, &mut |_| {})?;
+        let character = ModeCharacter::new(system, &modes);
         Ok(Self {
-            rates: damping.modal(&modes.squared_frequencies, &character),
-            shapes: Arc::new(modes.shapes),
-            squared_frequencies: modes.squared_frequencies,
+            rates: damping.modal(&squared_frequencies, &character),
+            shapes: Arc::new(modes.rows(0..system.unknowns())),
+            squared_frequencies,
             transport: character.transport,
         })
     }
@@ -148,6 +141,7 @@ impl DampedModes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::{Cholesky, lowest_modes};
     use crate::mechanics::testing::{committed, exact_torsion, free, paper_d};
     use crate::mechanics::{
         BodyResponse, BodyState, Convection, FullBody, ReducedBasis, ReducedBody, rail_system, wheel_system,
@@ -196,13 +190,13 @@ mod tests {
         let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 12, &mut |_| {}).unwrap();
         let squares = &modes.squared_frequencies;
         let first = (0..11).find(|&i| squares[i + 1] / squares[i] < 1.0 + 1e-3).unwrap();
-        let expected = ModeCharacter::new(&system, &modes.shapes);
+        let expected = ModeCharacter::new(&system, &Shapes::whole(modes.shapes.clone()));
         for angle in [0.3_f64, 1.1, 2.7] {
             let mut phi = modes.shapes.clone();
             let (a, b) = (modes.shapes.column(first), modes.shapes.column(first + 1));
             phi.set_column(first, &(a * angle.cos() + b * angle.sin()));
             phi.set_column(first + 1, &(b * angle.cos() - a * angle.sin()));
-            let turned = ModeCharacter::new(&system, &phi);
+            let turned = ModeCharacter::new(&system, &Shapes::whole(phi));
             assert!((&turned.diameters - &expected.diameters).amax() < 1e-2);
             assert!((0..12).all(|i| turned.group(i) == expected.group(i)));
         }

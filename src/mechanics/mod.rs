@@ -16,6 +16,7 @@ pub mod reduced;
 pub mod reduction;
 pub mod response;
 pub mod retarded;
+mod shapes;
 pub mod size;
 pub mod smooth;
 pub mod solver;

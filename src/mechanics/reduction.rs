@@ -2,9 +2,10 @@
 
 use super::MechanicsError;
 use super::damping::ModeCharacter;
+use super::shapes::{Shapes, StaticPart};
 use super::system::BodySystem;
+use crate::linalg::Parity;
 use crate::linalg::dense::symmetrise;
-use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -40,38 +41,38 @@ pub struct ReducedBasis {
 impl ReducedBasis {
     /// Reduces a body to its `count` lowest modes; `progress` receives the share of the work done.
     pub fn compute(system: &BodySystem, count: usize, progress: &mut dyn FnMut(f64)) -> Result<Self, MechanicsError> {
-        let factor = Cholesky::new(&system.stiffness)?;
-        let mut modes_progress = |share: f64| progress(0.8 * share);
-        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, count, &mut modes_progress)?;
-        let phi = &modes.shapes;
-        let flexibility = modes.squared_frequencies.map(f64::recip);
-        let shapes = system.rows_on_surface(phi);
+        let parts = StaticPart::all(system)?;
+        let (squared_frequencies, modes) = Shapes::lowest(&parts, count, &mut |share| progress(0.9 * share))?;
+        let flexibility = squared_frequencies.map(f64::recip);
+        let shapes = modes.rows(system.surface.iter().copied());
         let weighted = scale_columns(&shapes, &flexibility);
-        let mut residual = system.surface_compliance(&factor);
+        let (n, ports) = (system.unknowns(), system.surface.len());
+        let mut residual = DMatrix::zeros(ports, ports);
+        let mut rigid_static = DMatrix::zeros(ports, 3);
+        let mut centrifugal_static = DMatrix::zeros(ports, 1);
+        let centrifugal_load = DMatrix::from_column_slice(n, 1, system.centrifugal.as_slice());
+        for part in &parts {
+            part.add_surface_compliance(system, &mut residual);
+            part.add_surface_answer(system, &system.rigid, &mut rigid_static);
+            part.add_surface_answer(system, &centrifugal_load, &mut centrifugal_static);
+        }
         residual.gemm(-1.0, &weighted, &shapes.transpose(), 1.0);
         symmetrise(&mut residual);
-        let rigid = phi.tr_mul(&system.rigid);
-        let centrifugal = phi.tr_mul(&system.centrifugal);
-        let mut rigid_static = system.rigid.clone();
-        factor.solve_columns(&mut rigid_static);
-        let mut centrifugal_static = system.centrifugal.clone();
-        factor.solve_in_place(centrifugal_static.as_mut_slice());
-        let projected = |matrix: &CsrMatrix| {
-            let phi_t = phi.transpose();
-            &phi_t * matrix.multiply_columns(phi)
-        };
+        let rigid = modes.project_loads(&system.rigid);
+        let centrifugal = modes.project_loads(&centrifugal_load).column(0).into_owned();
         let basis = Self {
-            rigid_residual: system.rows_on_surface(&rigid_static) - &weighted * &rigid,
-            centrifugal_residual: system.on_surface(&centrifugal_static) - &weighted * &centrifugal,
-            gyroscopic: projected(&system.gyroscopic),
-            ale_inertia: projected(&system.ale_inertia),
+            rigid_residual: rigid_static - &weighted * &rigid,
+            centrifugal_residual: centrifugal_static.column(0) - &weighted * &centrifugal,
+            gyroscopic: modes.project(&system.gyroscopic, Parity::Odd),
+            ale_inertia: modes.project(&system.ale_inertia, Parity::Even),
             damping: system.damping.as_ref().map(|damping| {
-                let mut damping = projected(damping);
+                let whole = Shapes::whole(modes.rows(0..n));
+                let mut damping = whole.project(damping, Parity::Even);
                 symmetrise(&mut damping);
                 damping
             }),
-            character: ModeCharacter::new(system, phi),
-            squared_frequencies: modes.squared_frequencies,
+            character: ModeCharacter::new(system, &modes),
+            squared_frequencies,
             shapes,
             residual,
             rigid,

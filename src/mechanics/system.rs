@@ -3,9 +3,9 @@
 use super::ale::Stream;
 use super::elasticity::{self, Lame};
 use crate::config::Material;
-use crate::fem::{DofMap, FemError, Mesh, assemble, assemble_vector};
+use crate::fem::{DofMap, FemError, Mesh, Pattern, assemble_vector};
 use crate::linalg::dense::symmetrise;
-use crate::linalg::{Cholesky, CsrMatrix};
+use crate::linalg::{Cholesky, CsrMatrix, Part, Reflection};
 use nalgebra::{DMatrix, DVector};
 
 /// Matrices of one body on its free degrees of freedom, per metre of width.
@@ -34,12 +34,16 @@ pub struct BodySystem {
     pub centrifugal: DVector<f64>,
     /// Unknown of each surface component, `2·node + component`.
     pub surface: Vec<usize>,
+    /// The reflection at the vertical line through the contact point that leaves the body as it is; `None`: there is none.
+    /// [`Self::damping`] need not follow it.
+    pub reflection: Option<Reflection>,
 }
 
 impl BodySystem {
     /// Integrates all matrices of a body whose material streams as `stream`, without those of its [ends](super::ends).
     pub fn assemble(mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
         let dofs = DofMap::new(mesh);
+        let pattern = Pattern::new(mesh, &dofs);
         let (lame, density) = (Lame::from(material), material.density);
         let mass = |p: &_| elasticity::mass(p, density);
         let load = |field: fn([f64; 2]) -> [f64; 2]| assemble_vector(mesh, &dofs, mass, field);
@@ -50,24 +54,33 @@ impl BodySystem {
         let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, turning(|[x, y]| [y, -x])?];
         let circles = match stream {
             Stream::Rotation => Some([
-                assemble(mesh, &dofs, |p| Stream::squared_diameters(p, density))?,
-                assemble(mesh, &dofs, |p| Stream::circumferential_mass(p, density))?,
+                pattern.assemble(|p| Stream::squared_diameters(p, density))?,
+                pattern.assemble(|p| Stream::circumferential_mass(p, density))?,
             ]),
             Stream::Translation => None,
         };
         let unknowns = |&node: &usize| [dofs.unknown(node, 0), dofs.unknown(node, 1)];
         Ok(Self {
-            stiffness: assemble(mesh, &dofs, |p| elasticity::stiffness(p, lame))?,
-            mass: assemble(mesh, &dofs, mass)?,
+            stiffness: pattern.assemble(|p| elasticity::stiffness(p, lame))?,
+            mass: pattern.assemble(mass)?,
             damping: None,
-            gyroscopic: assemble(mesh, &dofs, |p| stream.gyroscopic(p, density))?,
-            transport: assemble(mesh, &dofs, |p| stream.transport(p, density))?,
+            gyroscopic: pattern.assemble(|p| stream.gyroscopic(p, density))?,
+            transport: pattern.assemble(|p| stream.transport(p, density))?,
             circles,
-            ale_inertia: assemble(mesh, &dofs, |p| stream.ale_inertia(p, density))?,
+            ale_inertia: pattern.assemble(|p| stream.ale_inertia(p, density))?,
             rigid: DMatrix::from_columns(&rigid),
             centrifugal: turning(|x| x)?,
             surface: mesh.surface.iter().flat_map(unknowns).flatten().collect(),
+            reflection: reflection(mesh, &dofs),
         })
+    }
+
+    /// Even and odd displacements, which do not know of each other; or all of them.
+    pub fn parts(&self) -> Vec<Part> {
+        match &self.reflection {
+            Some(reflection) => Part::halves(reflection).into(),
+            None => vec![Part::whole(self.unknowns())],
+        }
     }
 
     /// Number of unknowns.
@@ -103,6 +116,17 @@ impl BodySystem {
         symmetrise(&mut compliance);
         compliance
     }
+}
+
+/// What mirroring a mesh does to its unknowns: x components change their sign.
+fn reflection(mesh: &Mesh, dofs: &DofMap) -> Option<Reflection> {
+    let image = |k: usize| -> Option<(usize, f64)> {
+        let (node, component) = (k / 2, k % 2);
+        let image = dofs.unknown(*mesh.mirror.get(node)?, component)?;
+        Some((image, if component == 0 { -1.0 } else { 1.0 }))
+    };
+    let free = (0..2 * mesh.nodes.len()).filter(|k| dofs.unknown(k / 2, k % 2).is_some());
+    free.map(image).collect::<Option<Vec<_>>>().map(|images| Reflection { images })
 }
 
 #[cfg(test)]
