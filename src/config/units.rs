@@ -52,7 +52,7 @@ pub const BASE_UNITS: [&str; 5] = ["kg", "m", "s", "rad", "K"];
 pub const UNITS: &[Unit] = &[
     Unit { name: "1", quantity: "Dimensionless", exponents: [0, 0, 0, 0, 0], displays: &[times("%", 100.0)] },
     Unit { name: "m", quantity: "Length", exponents: [0, 1, 0, 0, 0], displays: &[times("mm", 1e3)] },
-    Unit { name: "s", quantity: "Time", exponents: [0, 0, 1, 0, 0], displays: &[] },
+    Unit { name: "s", quantity: "Time", exponents: [0, 0, 1, 0, 0], displays: &[times("ms", 1e3)] },
     Unit { name: "kg", quantity: "Mass", exponents: [1, 0, 0, 0, 0], displays: &[times("t", 1e-3)] },
     Unit {
         name: "rad",
@@ -75,6 +75,7 @@ pub const UNITS: &[Unit] = &[
     },
     Unit { name: "rad/s2", quantity: "AngularAcceleration", exponents: [0, 0, -2, 1, 0], displays: &[] },
     Unit { name: "N", quantity: "Force", exponents: [1, 1, -2, 0, 0], displays: &[times("kN", 1e-3)] },
+    Unit { name: "N.s", quantity: "Impulse", exponents: [1, 1, -1, 0, 0], displays: &[] },
     Unit { name: "N/m", quantity: "Stiffness", exponents: [1, 0, -2, 0, 0], displays: &[times("MN/m", 1e-6)] },
     Unit { name: "N.s/m", quantity: "Damping", exponents: [1, 0, -1, 0, 0], displays: &[times("kN.s/m", 1e-3)] },
     Unit { name: "N.m", quantity: "Moment", exponents: [1, 2, -2, 0, 0], displays: &[times("kN.m", 1e-3)] },
