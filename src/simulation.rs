@@ -101,6 +101,7 @@ impl Model {
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
         rolling::Model::check_size(&config)?;
+        let surfaces = rolling::surfaces::surfaces(&config, store.resources())?;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
         if config.solver.response == Response::Reduced {
             let (found, bytes) = match store.find(&config)? {
@@ -115,7 +116,7 @@ impl Model {
             (basis, file) = (Some(found), Some(Arc::new((basis_file_name(&config), bytes))));
         }
         let bodies = mechanics::bodies(&config, basis, progress)?;
-        let rolling = rolling::Model::new(config, bodies)?;
+        let rolling = rolling::Model::new(config, bodies, surfaces)?;
         Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default() }))
     }
 

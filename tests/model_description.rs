@@ -124,6 +124,7 @@ fn parameters_are_the_fields_of_the_configuration() {
             Value::Real(v) => Value::Real(v + 1e-3),
             Value::Integer(v) => Value::Integer(v + 1),
             Value::Boolean(v) => Value::Boolean(!v),
+            Value::String(text) => Value::String(text + "another"),
             other => other,
         };
         variable.set_parameter(&mut config, &value);

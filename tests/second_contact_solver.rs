@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Scratch, SolverState, Traction,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Scratch, SolverState, Surfaces, Traction,
 };
 use wheelrail::mechanics::{Basis, Pair, bodies, contact_modulus};
 use wheelrail::piecewise::{Interval, Piecewise};
@@ -210,7 +210,9 @@ fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
     let (toys, grids) = (pair(&config), pair(&config));
     let place = Arc::default();
     let toy = Hertz { x: toys.surface_x.clone(), modulus: contact_modulus(&config), place: Arc::clone(&place) };
-    let models = [Model::with_solver(config.clone(), toys, Box::new(toy)).unwrap(), Model::new(config, grids).unwrap()];
+    let smooth = || Surfaces::smooth(config.wheel.radius);
+    let toys = Model::with_solver(config.clone(), toys, smooth(), Box::new(toy)).unwrap();
+    let models = [toys, Model::new(config.clone(), grids, smooth()).unwrap()];
     (models, place)
 }
 

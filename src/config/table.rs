@@ -25,6 +25,9 @@ parameters! {
             1021 hub_radius: f64 = 0.046, in "m", from 2e-4 to 9.0,
                 "Radius of the rigid hub, 0.02 to 0.9 of wheel.radius";
             1022 hub_mass: f64 = 250.0, in "kg", from 0.0 to 1e6, "Unsprung mass fixed to the hub, moving in x and y";
+            1190 profile: String = String::new(),
+                "Shape of the tread besides the circle, fixed to the wheel and closed after a turn: shapes with parameters, or \
+                 the name of a file, see docs/profiles.md; empty: round";
             1023 hub_inertia: f64 = 15.0, in "kg.m2", from 0.0 to 1e6, "Moment of inertia of that mass about the axle";
         }
         /// What the wheel pulls along; the suspension carries it vertically.
@@ -40,6 +43,9 @@ parameters! {
                 "Modelled length of the rail, at least 0.2 wheel.radius";
             1041 height: f64 = 0.1, in "m", from 2e-4 to 10.0,
                 "Height of the rail, at least 0.02 wheel.radius; its base is a rigid line";
+            1191 profile: String = String::new(),
+                "Shape of the rail head besides the plane, fixed to the rail: shapes with parameters, or the name of a file, see \
+                 docs/profiles.md; empty: plane";
             1042 support_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,
                 "Vertical stiffness of the track below the rail base; 0: rigid";
             1043 support_damping: f64 = 0.0, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
@@ -204,8 +210,9 @@ parameters! {
                 "Share of the friction coefficient that remains in a hot contact";
             1065 memory_length: f64 = 0.0, of "friction", in "m" as "mm", from 0.0 to 1e3,
                 "Sliding distance over which the coefficient follows the law of slip and temperature; 0: at once";
-            1095 max_step: f64 = 0.1, of "solver", in "s", from 1e-6 to 500.0,
-                "Largest internal time step; longer communication steps are divided evenly";
+            1095 max_step: f64 = 0.1, of "solver", in "s", from 0.0 to 500.0,
+                "Largest internal time step; longer communication steps are divided evenly; 0: 0.1 s, and a fortieth of the \
+                 time in which the shortest wave of wheel.profile and rail.profile near the contact passes";
             1096 tolerance: f64 = 0.002, of "solver", from 0.0 to 1.0,
                 "Error that halves an internal step: contact force over load, moment over load times radius, slip over \
                  that of a sliding patch, temperature over its rise or 100 K; 0: no error control";

@@ -43,7 +43,7 @@ pub const BASE_UNITS: [&str; 5] = ["kg", "m", "s", "rad", "K"];
 pub const UNITS: &[Unit] = &[
     Unit { name: "1", exponents: [0, 0, 0, 0, 0], displays: &[times("%", 100.0)] },
     Unit { name: "m", exponents: [0, 1, 0, 0, 0], displays: &[times("mm", 1e3)] },
-    Unit { name: "s", exponents: [0, 0, 1, 0, 0], displays: &[] },
+    Unit { name: "s", exponents: [0, 0, 1, 0, 0], displays: &[times("ms", 1e3)] },
     Unit { name: "kg", exponents: [1, 0, 0, 0, 0], displays: &[times("t", 1e-3)] },
     Unit { name: "rad", exponents: [0, 0, 0, 1, 0], displays: &[times("deg", 180.0 / std::f64::consts::PI)] },
     Unit { name: "m/s", exponents: [0, 1, -1, 0, 0], displays: &[times("km/h", 3.6), times("mm/s", 1e3)] },
@@ -51,6 +51,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "rad/s", exponents: [0, 0, -1, 1, 0], displays: &[times("rpm", 30.0 / std::f64::consts::PI)] },
     Unit { name: "rad/s2", exponents: [0, 0, -2, 1, 0], displays: &[] },
     Unit { name: "N", exponents: [1, 1, -2, 0, 0], displays: &[times("kN", 1e-3)] },
+    Unit { name: "N.s", exponents: [1, 1, -1, 0, 0], displays: &[] },
     Unit { name: "N/m", exponents: [1, 0, -2, 0, 0], displays: &[times("MN/m", 1e-6)] },
     Unit { name: "N.s/m", exponents: [1, 0, -1, 0, 0], displays: &[times("kN.s/m", 1e-3)] },
     Unit { name: "N.m", exponents: [1, 2, -2, 0, 0], displays: &[times("kN.m", 1e-3)] },

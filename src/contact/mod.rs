@@ -23,5 +23,5 @@ pub use friction::{Friction, FrictionLaw, Heating};
 pub use limits::Limits;
 pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
 pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
-pub use surface::{Placement, Surfaces};
+pub use surface::{Placement, Relief, Surfaces};
 pub use traction::Traction;

@@ -2,16 +2,35 @@
 
 use super::flattening::Flattening;
 use crate::piecewise::Piecewise;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// A deviation from the ideal shape that is fixed to the material.
+pub trait Relief: Debug + Send + Sync {
+    /// Height \[m] of the material added at the position `s` \[m] along the surface.
+    fn height(&self, s: f64) -> f64;
+
+    /// Shortest wavelength \[m] of what lies between two positions \[m]; infinite where nothing is known of it.
+    fn wavelength(&self, _low: f64, _high: f64) -> f64 {
+        f64::INFINITY
+    }
+}
+
+impl Relief for Piecewise {
+    fn height(&self, s: f64) -> f64 {
+        self.at(s)
+    }
+}
 
 /// Undeformed surfaces of wheel and rail.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Surfaces {
     /// Radius of the round wheel \[m].
     pub radius: f64,
-    /// Material-fixed deviation of the wheel from the circle over the angle \[rad], outward positive \[m].
-    pub wheel: Piecewise,
-    /// Material-fixed deviation of the rail from the plane over the distance \[m], upward positive \[m].
-    pub rail: Piecewise,
+    /// Deviation of the wheel from the circle over angle times radius \[m]; none: round.
+    pub wheel: Option<Arc<dyn Relief>>,
+    /// Deviation of the rail from the plane over the distance \[m]; none: plane.
+    pub rail: Option<Arc<dyn Relief>>,
 }
 
 /// Where the wheel stands on its surfaces, and how heat has changed them.
@@ -39,28 +58,51 @@ impl Surfaces {
 
     /// Distance \[m] at `x` \[m] from the contact point between the bodies, undeformed and with the hub at the height at which
     /// the cold, smooth bodies just touch: `r − √(r² − x²)` less everything that has grown into it.
+    pub fn gap(&self, x: f64, at: &Placement) -> f64 {
+        let [wheel, rail] = self.depth(x, at);
+        self.even_gap(x, at) + wheel + rail
+    }
+
+    /// The same between circle and plane, as heat and elevation leave them.
+    pub fn even_gap(&self, x: f64, at: &Placement) -> f64 {
+        // The form of r − √(r² − x²) without cancellation.
+        let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
+        circle - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>() - at.growth - at.elevation
+    }
+
+    /// Depths \[m] by which the material of wheel and rail that lies at `x` \[m] is missing from circle and plane.
     ///
     /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below its
     /// centre at the start) and the distance `distance + x` of the rail.
-    pub fn gap(&self, x: f64, at: &Placement) -> f64 {
-        // The form of r − √(r² − x²) without cancellation.
-        let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
-        let mut gap = circle - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>() - at.growth - at.elevation;
-        if !self.wheel.x.is_empty() {
-            let turn = std::f64::consts::TAU;
-            gap -= self.wheel.at((at.angle + x / self.radius).rem_euclid(turn));
-        }
-        if !self.rail.x.is_empty() {
-            gap -= self.rail.at(at.distance + x);
-        }
-        let [wheel, rail] = at.flattening;
-        if !wheel.is_empty() {
-            gap += wheel.depth(at.angle * self.radius + x);
-        }
-        if !rail.is_empty() {
-            gap += rail.depth(at.distance + x);
-        }
-        gap
+    pub fn depth(&self, x: f64, at: &Placement) -> [f64; 2] {
+        let place = [at.angle * self.radius + x, at.distance + x];
+        let [wheel, rail] = self.heights(place);
+        let depth = |flattening: &Flattening, s: f64| if flattening.is_empty() { 0.0 } else { flattening.depth(s) };
+        [depth(at.flattening[0], place[0]) - wheel, depth(at.flattening[1], place[1]) - rail]
+    }
+
+    /// Heights \[m] of the reliefs of wheel and rail at positions \[m] along their surfaces.
+    pub fn heights(&self, place: [f64; 2]) -> [f64; 2] {
+        let height = |relief: &Option<Arc<dyn Relief>>, s: f64| relief.as_ref().map_or(0.0, |relief| relief.height(s));
+        [height(&self.wheel, place[0]), height(&self.rail, place[1])]
+    }
+
+    /// Shortest wavelength \[m] within `reach` \[m] of positions \[m] along the surfaces of wheel and rail; infinite without any.
+    pub fn wavelength(&self, place: [f64; 2], reach: f64) -> f64 {
+        let shortest = |relief: &Option<Arc<dyn Relief>>, s: f64| {
+            relief.as_ref().map_or(f64::INFINITY, |relief| relief.wavelength(s - reach, s + reach))
+        };
+        shortest(&self.wheel, place[0]).min(shortest(&self.rail, place[1]))
+    }
+
+    /// Whether both are circle and plane while nothing has flattened them.
+    pub fn is_smooth(&self) -> bool {
+        self.wheel.is_none() && self.rail.is_none()
+    }
+
+    /// Whether wheel or rail departs from circle and plane anywhere.
+    pub fn is_uneven(&self, at: &Placement) -> bool {
+        !self.is_smooth() || at.flattening.iter().any(|flattening| !flattening.is_empty())
     }
 }
 
@@ -97,21 +139,18 @@ mod tests {
     }
 
     #[test]
-    fn a_bump_on_the_rail_is_met_where_it_lies_and_one_on_the_wheel_once_a_turn() {
+    fn a_bump_is_met_where_its_material_lies() {
         let bump = |at: f64| Piecewise { x: vec![at - 0.01, at, at + 0.01], value: vec![0.0, 1e-4, 0.0] };
         let none = Piecewise::default();
-        let rail = Surfaces { rail: bump(2.0), ..Surfaces::smooth(0.5) };
+        let rail = Surfaces { rail: Some(Arc::new(bump(2.0))), ..Surfaces::smooth(0.5) };
         assert!((rail.gap(0.0, &place(2.0, 0.0, 0.0, &none)) + 1e-4).abs() < 1e-15);
         assert!(
             (rail.gap(0.005, &place(1.995, 0.0, 0.0, &none)) - rail.gap(0.005, &place(0.0, 0.0, 0.0, &none))).abs()
                 > 9e-5
         );
         assert_eq!(rail.gap(0.0, &place(1.9, 0.0, 0.0, &none)), 0.0);
-        let wheel = Surfaces { wheel: bump(1.0), ..Surfaces::smooth(0.5) };
-        for turns in [0.0, 3.0] {
-            let angle = std::f64::consts::TAU * turns + 1.0;
-            assert!((wheel.gap(0.0, &place(0.0, angle, 0.0, &none)) + 1e-4).abs() < 1e-12);
-        }
+        let wheel = Surfaces { wheel: Some(Arc::new(bump(0.5))), ..Surfaces::smooth(0.5) };
+        assert!((wheel.gap(0.0, &place(0.0, 1.0, 0.0, &none)) + 1e-4).abs() < 1e-12);
         assert_eq!(wheel.gap(0.0, &place(0.0, 2.0, 0.0, &none)), 0.0);
         assert!((wheel.gap(0.01, &place(0.0, 0.98, 0.0, &none)) + 1e-4 - 0.01 * 0.01).abs() < 1e-7);
     }

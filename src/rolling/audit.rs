@@ -34,7 +34,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
-    let pressed = [state, next].map(|state| state.contact.traction.resultant[1]);
+    let forces = [state, next].map(|state| state.contact.traction.resultant[1]);
     let damping_power = dissipation(model, next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
     Audit {
@@ -43,7 +43,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         work: before.work + work,
         gravity: before.gravity
             + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * 0.5 * (from[0] + to[0]),
-        lift: before.lift + 0.5 * (next.elevation - state.elevation) * (pressed[0] + pressed[1]),
+        lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
         brake: before.brake - next.brake.impulse * 0.5 * (from[2] + to[2]),
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
@@ -52,6 +52,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         throughput: before.throughput + work.abs(),
         damping_power,
         impulse,
+        pressed: td.impulse(forces[1], forces[0], before.pressed),
         damped,
     }
 }

@@ -60,9 +60,8 @@ pub struct ContactStep<'a> {
 }
 
 impl ContactModel {
-    /// A round wheel on a plane rail, which may touch up to `reach` \[m] from the contact point.
-    pub fn new(config: &Config, solver: Box<dyn ContactSolver>, reach: f64) -> Self {
-        let surfaces = Surfaces::smooth(config.wheel.radius);
+    /// Contact of surfaces that may touch up to `reach` \[m] from the contact point.
+    pub fn new(config: &Config, surfaces: Surfaces, solver: Box<dyn ContactSolver>, reach: f64) -> Self {
         Self {
             surfaces,
             solver,

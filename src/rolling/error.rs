@@ -4,6 +4,7 @@ use super::control::InputError;
 use crate::contact::ContactError;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
+use crate::surface::ProfileError;
 
 /// Why a step or a stationary state could not be computed; the state before it is kept.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -137,4 +138,12 @@ pub enum ModelError {
     /// The heat model.
     #[error("heat model: {0}")]
     Heat(#[from] HeatError),
+    /// A surface that is none.
+    #[error("{parameter}: {source}")]
+    Profile {
+        /// Parameter that describes it.
+        parameter: &'static str,
+        /// What is wrong with it.
+        source: ProfileError,
+    },
 }

@@ -7,6 +7,7 @@
 //! | [`state`], [`control`], [`error`] | data of a restart; inputs; failures |
 //! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
+//! | [`surfaces`] | shapes of wheel and rail as the parameters describe them |
 //! | [`zones`] | how much of the surfaces the contact sees |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
@@ -32,6 +33,7 @@ pub mod step;
 pub mod substeps;
 pub mod suggested_step;
 pub mod support;
+pub mod surfaces;
 pub mod thermal;
 pub mod zones;
 

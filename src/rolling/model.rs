@@ -11,7 +11,7 @@ use crate::analytic;
 use crate::config::{Config, ContactMethod, TimeScheme};
 use crate::contact::grid::{ContactGrid, GridSolver};
 use crate::contact::patch::{HalfPlane, PatchSolver};
-use crate::contact::{self, ContactSolver};
+use crate::contact::{self, ContactSolver, Surfaces};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
 use crate::mechanics::{self, Pair};
@@ -59,8 +59,8 @@ impl Model {
         Ok(())
     }
 
-    /// Builds the model on given bodies, with contact on the grid of their surface nodes.
-    pub fn new(config: Config, bodies: Pair) -> Result<Self, ModelError> {
+    /// Builds the model on given bodies with given surfaces, with contact on the grid of their surface nodes.
+    pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
         let modulus = Isotropic::from(&config.material).contact_modulus();
@@ -68,28 +68,38 @@ impl Model {
         if let Some(wide) = &bodies.wide {
             solver = solver.with_wider(grid(wide));
         }
-        let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies) {
+        let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies, &surfaces) {
             Some((half_plane, reach)) => {
                 let only = config.solver.contact == ContactMethod::Patch;
                 Box::new(PatchSolver::new(solver, half_plane, reach, only))
             }
             None => Box::new(solver),
         };
-        Self::with_solver(config, bodies, solver)
+        Self::with_solver(config, bodies, surfaces, solver)
     }
 
     /// What the solver on a single patch needs to know of the bodies, where it is asked for and no parameter rules it out: the
     /// half-plane that they lack, and how far they are known \[m].
-    fn patch_reach(config: &Config, bodies: &Pair) -> Option<(HalfPlane, f64)> {
+    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlane, f64)> {
         let expansion = config.thermal.enabled && config.physics.thermal_expansion;
         let rates = config.solver.time_scheme == TimeScheme::Theta;
-        let smooth = bodies.smooth.as_ref().filter(|_| config.solver.contact != ContactMethod::Grid)?;
+        let sought = match config.solver.contact {
+            ContactMethod::Grid => false,
+            ContactMethod::Auto => surfaces.is_smooth(),
+            ContactMethod::Patch => true,
+        };
+        let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
         let mechanics::HalfPlane { kernel, coupling } = smooth.half_plane;
         (!expansion && !rates).then_some((HalfPlane { kernel, coupling }, smooth.reach))
     }
 
-    /// Builds the model on given bodies and a contact solver that belongs to their ports.
-    pub fn with_solver(config: Config, bodies: Pair, solver: Box<dyn ContactSolver>) -> Result<Self, ModelError> {
+    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
+    pub fn with_solver(
+        config: Config,
+        bodies: Pair,
+        surfaces: Surfaces,
+        solver: Box<dyn ContactSolver>,
+    ) -> Result<Self, ModelError> {
         let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
         let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
         let shear = Isotropic::from(&config.material).shear_wave_speed();
@@ -100,7 +110,7 @@ impl Model {
         Ok(Self {
             wheel: RigidWheel::new(&config),
             bodies: Bodies::new(bodies, TrackSupport::new(&config), &*solver),
-            contact: ContactModel::new(&config, solver, zone.max(reach)),
+            contact: ContactModel::new(&config, surfaces, solver, zone.max(reach)),
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
             zone,

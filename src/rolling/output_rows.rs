@@ -138,6 +138,20 @@ outputs! {
         "Peak contact pressure";
     311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,
         "Approach of hub and rail base since just touching, pressed positive: rail.elevation - hub.height";
+    314 contact_force_min: real "contact.force_y_min", in "N" as "kN", nominal 1e5,
+        "Smallest contact.force_y within the last communication step, at the ends of its internal steps";
+    315 contact_force_max: real "contact.force_y_max", in "N" as "kN", nominal 1e5,
+        "Largest contact.force_y within the last communication step";
+    316 contact_impulse: real "contact.impulse_y", in "N.s", nominal 1e2, start zero,
+        "Impulse of contact.force_y over the last communication step";
+    317 contact_lost_time: real "contact.lost_time", in "s" as "ms", from 0.0, nominal 1e-3, start zero,
+        "Time without contact since the start";
+    318 contact_patches: count "contact.patches",
+        "Number of contact patches; contact.half_width reaches from the first to the last";
+    257 rail_profile_height: real "rail.profile_height", in "m" as "mm", nominal 1e-5,
+        "Height of rail.profile below the wheel centre, up positive";
+    408 wheel_profile_height: real "wheel.profile_height", in "m" as "mm", nominal 1e-5,
+        "Height of wheel.profile below the wheel centre, outward positive";
     400 wheel_velocity: real "wheel.velocity", in "m/s" as "km/h", nominal 30.0,
         "Travel velocity V of the wheel centre, positive in x";
     401 wheel_omega: real "wheel.omega", in "rad/s" as "rpm", nominal 60.0,

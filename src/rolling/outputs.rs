@@ -15,6 +15,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
     let [force_x, force_y, moment] = traction.resultant.map(|force| force * width);
     let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
     let v_c = model.rolling_radius(state) * omega;
+    let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
     let points = profile_points(model.zone);
     let sampled = |profile: &Piecewise| points.iter().map(|&x| profile.at(x)).collect();
     Outputs {
@@ -30,6 +31,13 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         contact_half_width: traction.half_width(),
         contact_pressure_max: traction.pressure_max,
         contact_approach: state.elevation - state.motion.height.now,
+        contact_force_min: state.pressing.lowest * width,
+        contact_force_max: state.pressing.highest * width,
+        contact_impulse: state.pressing.impulse * width,
+        contact_lost_time: state.pressing.lost,
+        contact_patches: traction.patches.len() as u64,
+        wheel_profile_height: wheel_height,
+        rail_profile_height: rail_height,
         friction: traction.friction,
         contact_tread_slip: traction.tread_slip,
         wheel_velocity: v,

@@ -61,11 +61,19 @@ pub struct State {
     pub iterations: u64,
     /// Mean power of friction over the last communication step; at the start the stationary one [W/m].
     pub friction_power: f64,
+    /// Vertical contact force over the last communication step.
+    pub pressing: Pressing,
     /// Energy balance.
     pub audit: Audit,
 }
 
 impl State {
+    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre. That of
+    /// the wheel goes by the rim, which torsion turns against the hub.
+    pub fn place(&self, radius: f64) -> [f64; 2] {
+        [(self.angle - self.contact.turn()) * radius, self.distance]
+    }
+
     /// Thermal deformation that acts on the contact.
     pub fn deformation(&self) -> &ThermalDeformation {
         static NONE: ThermalDeformation = ThermalDeformation::NONE;
@@ -76,6 +84,40 @@ impl State {
     pub fn weakening(&self) -> &Weakening {
         static NONE: Weakening = Weakening::NONE;
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
+    }
+}
+
+/// Vertical contact force between two communication points, so that what happens between them is not lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pressing {
+    /// Smallest force at the end of an internal step [N/m]; at the start the stationary one.
+    pub lowest: f64,
+    /// Largest one [N/m].
+    pub highest: f64,
+    /// Impulse of the force over the communication step [N s/m].
+    pub impulse: f64,
+    /// Time without contact since the start \[s].
+    pub lost: f64,
+}
+
+impl Pressing {
+    /// Under a constant force [N/m].
+    pub fn constant(force: f64) -> Self {
+        Self { lowest: force, highest: force, ..Self::default() }
+    }
+
+    /// That of a communication step that begins after this one.
+    pub fn begun(&self) -> Self {
+        Self { lowest: f64::INFINITY, highest: f64::NEG_INFINITY, impulse: 0.0, lost: self.lost }
+    }
+
+    /// Takes note of an internal step of `dt` seconds that ended in `state`.
+    pub fn add(&mut self, state: &State, dt: f64) {
+        let traction = &state.contact.traction;
+        self.lowest = self.lowest.min(traction.resultant[1]);
+        self.highest = self.highest.max(traction.resultant[1]);
+        self.impulse += state.audit.pressed;
+        self.lost += if traction.patches.is_empty() { dt } else { 0.0 };
     }
 }
 
@@ -266,6 +308,8 @@ pub struct Audit {
     pub damping_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
     pub impulse: [f64; 3],
+    /// Impulse of the vertical contact force in it [N s/m].
+    pub pressed: f64,
     /// Energy lost to damping and radiation in it [J/m].
     pub damped: f64,
 }

@@ -17,7 +17,7 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         config.tuning.max_step, config.tuning.tolerance
     );
     let advice = match error {
-        StepError::ZoneExceeded { load, .. } => zone(*load, config).unwrap_or(shorter),
+        StepError::ZoneExceeded { load, .. } => zone(*load, config).or_else(|| uneven(config)).unwrap_or(shorter),
         StepError::Contact { .. } | StepError::NotFinite { .. } => shorter,
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
@@ -39,7 +39,7 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
 /// The message of a stationary start that failed, with advice.
 pub fn failed_start(error: &StepError, config: &Config) -> String {
     let advice = match error {
-        StepError::ZoneExceeded { load, .. } => zone(*load, config).unwrap_or_else(|| {
+        StepError::ZoneExceeded { load, .. } => zone(*load, config).or_else(|| uneven(config)).unwrap_or_else(|| {
             format!(
                 "the load is one that the zone carries, so a higher model.nominal_load does not help: check \
                  drive.displacement, initial.creepage (now {}), thermal.wheel_excess (now {:?} K) and rail.length (now \
@@ -71,6 +71,20 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
         _ => return error.to_string(),
     };
     format!("{error}: {advice}")
+}
+
+/// Advice where the surfaces may touch beyond the zone because of their profiles; `None` for smooth ones.
+fn uneven(config: &Config) -> Option<String> {
+    let profiles = [("wheel.profile", &config.wheel.profile), ("rail.profile", &config.rail.profile)];
+    let set: Vec<_> = profiles.iter().filter(|(_, text)| !text.is_empty()).map(|(name, _)| *name).collect();
+    (!set.is_empty()).then(|| {
+        format!(
+            "{} is too deep or too long for it: the surfaces touch beyond; make it shallower or shorter, or raise \
+             model.nominal_load (now {:?} N), which widens the zone, and set drive.load",
+            set.join(" or "),
+            config.model.nominal_load
+        )
+    })
 }
 
 /// The initial creepage in words.

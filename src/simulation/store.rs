@@ -20,6 +20,8 @@ pub struct BasisStore {
     cache: Option<PathBuf>,
     /// Largest number of bases in the cache.
     capacity: Option<usize>,
+    /// Directory of presets and profiles.
+    resources: Option<PathBuf>,
 }
 
 /// A stored basis that is not one.
@@ -43,7 +45,7 @@ impl BasisStore {
 
     /// Reads and keeps bases in `<directory>/basis`.
     pub fn within(directory: &Path) -> Self {
-        Self { packed: Vec::new(), cache: Some(directory.join(FOLDER)), capacity: None }
+        Self { packed: Vec::new(), cache: Some(directory.join(FOLDER)), capacity: None, resources: None }
     }
 
     /// Keeps bases in the user's cache: `$WHEELRAIL_CACHE/basis`, else `wheelrail/basis` in `$XDG_CACHE_HOME` or
@@ -60,13 +62,19 @@ impl BasisStore {
             Some(own) => (Some(own).filter(|directory| directory.is_dir()), None),
             None => (usual(), Some(KEPT_BASES)),
         };
-        Self { packed: Vec::new(), cache: directory.map(|directory| directory.join(FOLDER)), capacity }
+        Self { packed: Vec::new(), cache: directory.map(|directory| directory.join(FOLDER)), capacity, resources: None }
     }
 
-    /// Reads bases in `<directory>/basis`, too, and before all others.
+    /// Reads bases in `<directory>/basis`, too, and before all others; files of profiles are looked for in `directory`.
     pub fn with_packed(mut self, directory: Option<&Path>) -> Self {
         self.packed.extend(directory.map(|directory| directory.join(FOLDER)));
+        self.resources = directory.map(Path::to_path_buf).or(self.resources);
         self
+    }
+
+    /// Directory in which files of profiles are looked for.
+    pub fn resources(&self) -> Option<&Path> {
+        self.resources.as_deref()
     }
 
     /// The stored basis of a configuration, with its file; a file of the cache that is damaged counts as none.

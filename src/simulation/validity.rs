@@ -23,18 +23,24 @@ pub enum Limit {
     Melting,
     /// Internal step that resolves what falling friction excites.
     StickSlip,
+    /// Wavelength of the surfaces that the contact grid resolves.
+    Waves,
+    /// Internal step that resolves the shortest wave of the surfaces.
+    Sampling,
 }
 
 impl Limit {
     /// All of them.
-    const ALL: [Self; 8] = {
+    const ALL: [Self; 10] = {
         use Limit::*;
-        [Speed, ThermalLoad, Patch, Zone, Yield, Softening, Melting, StickSlip]
+        [Speed, ThermalLoad, Patch, Zone, Yield, Softening, Melting, StickSlip, Waves, Sampling]
     };
 }
 
 /// Elements per half-width of the patch below which traction profiles are no more than a hint.
 const FEWEST_ELEMENTS: f64 = 2.0;
+/// Elements, and internal steps, per wavelength of a surface below which it is not resolved.
+const FEWEST_PER_WAVE: f64 = 4.0;
 /// Load that the candidate zone carries in any case, over the nominal load.
 pub(super) const ZONE_LOAD: f64 = 2.0;
 /// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
@@ -47,8 +53,10 @@ impl Simulation {
         Limit::ALL.into_iter().filter(|limit| {
             let (value, bound) = self.against(*limit);
             match limit {
-                Limit::Speed | Limit::Zone | Limit::Yield | Limit::Melting | Limit::StickSlip => value > bound,
-                Limit::ThermalLoad | Limit::Patch | Limit::Softening => value > 0.0 && value < bound,
+                Limit::Speed | Limit::Zone | Limit::Yield | Limit::Melting | Limit::StickSlip | Limit::Sampling => {
+                    value > bound
+                }
+                Limit::ThermalLoad | Limit::Patch | Limit::Softening | Limit::Waves => value > 0.0 && value < bound,
             }
         })
     }
@@ -82,7 +90,18 @@ impl Simulation {
                 (stays_solid * hottest, config.material.solidus)
             }
             Limit::StickSlip => (self.unresolved_phase(), RESOLVED_PHASE),
+            Limit::Waves => {
+                let element = nominal_half_width(config) / config.mesh.elements_per_half_width as f64;
+                (self.shortest_wave(), FEWEST_PER_WAVE * element)
+            }
+            Limit::Sampling => (speed * self.state().last_step, self.shortest_wave() / FEWEST_PER_WAVE),
         }
+    }
+
+    /// Shortest wavelength of the surfaces in the contact zone \[m]; infinite on smooth ones.
+    fn shortest_wave(&self) -> f64 {
+        let rolling = &self.model().rolling;
+        rolling.contact.surfaces.wavelength(self.state().place(rolling.wheel.radius), rolling.zone)
     }
 
     /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding contact
@@ -142,6 +161,20 @@ impl Simulation {
                  lower solver.max_step to {:.1e} s to see it",
                 self.model().rolling.torsion,
                 0.9 * bound / self.model().rolling.torsion
+            ),
+            Limit::Waves => format!(
+                "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
+                 contact, {:.2} mm: forces are inexact; raise mesh.elements_per_half_width, or leave such waves out, which \
+                 the patch evens out",
+                1e3 * value,
+                1e3 * bound
+            ),
+            Limit::Sampling => format!(
+                "an internal step takes the wheel {:.2} mm on, more than a quarter, {:.2} mm, of the shortest wave of \
+                 wheel.profile and rail.profile here: forces are inexact; lower solver.max_step, or set it to 0, which \
+                 chooses it by the profile",
+                1e3 * value,
+                1e3 * bound
             ),
         }
     }

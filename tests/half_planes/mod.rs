@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::grid::{ContactGrid, GridSolver, GridState};
 use wheelrail::contact::{
@@ -72,7 +73,7 @@ impl HalfPlanes {
     pub fn with_gap(mut self, gap: impl Fn(f64) -> f64) -> Self {
         let circle = |x: f64| x * x / (RADIUS + (RADIUS * RADIUS - x * x).sqrt());
         let value = self.grid.x.iter().map(|&x| circle(x) - gap(x)).collect();
-        self.surfaces.rail = Piecewise { x: self.grid.x.clone(), value };
+        self.surfaces.rail = Some(Arc::new(Piecewise { x: self.grid.x.clone(), value }));
         self
     }
 

@@ -381,14 +381,4 @@ impl Iterate<'_> {
             (None, None) => self.founding_state(),
         }
     }
-
-    fn check_zone(&self) -> Result<(), ContactError> {
-        let ends = [self.state.status.first(), self.state.status.last()];
-        if ends.iter().flatten().any(|s| s.is_active()) {
-            let zone = self.grid.x.last().copied().unwrap_or(0.0);
-            let load = self.traction.port_forces.iter().skip(1).step_by(2).sum();
-            return Err(ContactError::ZoneExceeded { zone, load });
-        }
-        Ok(())
-    }
 }

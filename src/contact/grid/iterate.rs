@@ -23,8 +23,11 @@ pub struct GridScratch {
     pub(super) film: Vec<f64>,
     /// Depth by which yielding nodes have given way in the step; zero elsewhere [m].
     pub(super) overlap: Vec<f64>,
-    /// Rise of the gap along the material by flattening of wheel and rail, at the candidates [1]; empty without any.
-    pub(super) dents: [Vec<f64>; 2],
+    /// Slope of the depth by which the rail lies below its plane, at the candidates [1]; empty without any.
+    pub(super) dents: Vec<f64>,
+    /// Depths by which the surfaces of wheel and rail lie below circle and plane, at the candidates and one node beyond on
+    /// each side [m].
+    pub(super) depth: Vec<[f64; 2]>,
     pub(super) stuck: Vec<usize>,
     pub(super) axes: Vec<usize>,
     /// Undeformed gap at the candidates [m].

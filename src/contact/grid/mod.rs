@@ -2,7 +2,7 @@
 //!
 //! [`rows`] writes gap, slip and balance as rows of a linear system, [`streamline`] gives the slip its upwind
 //! differences, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, [`brake`] those of brakes, [`kernel`] corrects the
-//! compliance at grid scale, [`observe`] reads the traction off the solution, and [`power`] balances its power. Theory: `docs/theory/contact.md`.
+//! compliance at grid scale, [`observe`] reads the traction off the solution, [`power`] balances its power, and [`zone`] watches the ends of the grid. Theory: `docs/theory/contact.md`.
 
 mod active_set;
 mod brake;
@@ -19,6 +19,7 @@ mod rows;
 mod solver;
 pub(super) mod state;
 pub mod streamline;
+mod zone;
 
 pub use active_set::MAX_ITERATIONS;
 pub use candidates::ContactGrid;

@@ -22,9 +22,8 @@ const MARGIN: f64 = 1e-3;
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
 /// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
-/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²). What
-/// streams through the patch is the elastic displacement: its slope is that of the round wheel and of the flattened tread,
-/// `dents`, together.
+/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²). Where
+/// the rail is uneven the pressure acts across its slope, and that part of it, which `dents` gives, at the arm `r`.
 /// Derivation: `docs/theory/lever-arms.md`.
 pub(super) fn lever_arms(
     grid: &ContactGrid,
@@ -103,7 +102,7 @@ pub(super) fn resultant(
     radius: f64,
     frame: &RimFrame,
     state: &GridState,
-    dents: &[Vec<f64>; 2],
+    dents: &[f64],
     traction: &Traction,
 ) -> [f64; 3] {
     let wheel = (radius, frame, &traction.surface[0]);
@@ -111,8 +110,8 @@ pub(super) fn resultant(
     for i in 0..grid.len() {
         let port = grid.port(i);
         let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
-        let [arm_t, arm_n] = lever_arms(grid, wheel, &state.gap, &dents[0], i);
-        sum[0] += t + n * dents[1].get(i).copied().unwrap_or(0.0);
+        let [arm_t, arm_n] = lever_arms(grid, wheel, &state.gap, dents, i);
+        sum[0] += t + n * dents.get(i).copied().unwrap_or(0.0);
         sum[1] += n;
         sum[2] -= arm_t * t + arm_n * n;
     }

@@ -135,7 +135,7 @@ impl Iterate<'_> {
             match axis {
                 0 => {
                     forces[port] -= 1.0;
-                    forces[port + 1] -= self.scratch.dents[1].get(i).copied().unwrap_or(0.0);
+                    forces[port + 1] -= self.scratch.dents.get(i).copied().unwrap_or(0.0);
                 }
                 1 => forces[port + 1] -= 1.0,
                 _ => {
@@ -172,14 +172,14 @@ impl Iterate<'_> {
             self.scratch.known[0].axpy(motion.known_acceleration(), &problem.bodies.inertial.column(k), 1.0);
         }
         self.scratch.gap.clear();
-        self.scratch.gap.extend(grid.x.iter().map(|&x| problem.surfaces.gap(x, &problem.placement)));
+        self.scratch.gap.extend(grid.x.iter().map(|&x| problem.surfaces.even_gap(x, &problem.placement)));
         self.scratch.slip_offset.clear();
         self.scratch.slip_offset.extend(self.state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
         self.scratch.row.resize(grid.ports(), 0.0);
         self.scratch.overlap.clear();
         self.scratch.overlap.resize(grid.len(), 0.0);
         self.limit();
-        self.dent();
+        self.carve();
         self.scratch.centred_slip.resize(grid.len(), 0.0);
     }
 
@@ -200,19 +200,19 @@ impl Iterate<'_> {
         }
     }
 
-    /// Slopes of the flattened surfaces at the candidates.
-    fn dent(&mut self) {
-        let (grid, placement) = (self.grid, &self.problem.placement);
-        let places = [placement.angle * self.problem.surfaces.radius, placement.distance];
-        for ((slopes, flattening), place) in self.scratch.dents.iter_mut().zip(placement.flattening).zip(places) {
-            slopes.clear();
-            if flattening.is_empty() {
-                continue;
-            }
-            let depth = |x: f64| flattening.depth(place + x);
-            let slope = |x: &f64| (depth(x + grid.spacing) - depth(x - grid.spacing)) / (2.0 * grid.spacing);
-            slopes.extend(grid.x.iter().map(slope));
+    /// Adds what wheel and rail lack from circle and plane to the gap, and takes the slope of the rail.
+    fn carve(&mut self) {
+        let (grid, surfaces, placement) = (self.grid, self.problem.surfaces, &self.problem.placement);
+        let GridScratch { gap, dents, depth, .. } = &mut *self.scratch;
+        dents.clear();
+        if !surfaces.is_uneven(placement) {
+            return;
         }
+        let around = &grid.nodes()[grid.guard - 1..=grid.guard + grid.len()];
+        depth.clear();
+        depth.extend(around.iter().map(|&x| surfaces.depth(x, placement)));
+        gap.iter_mut().zip(&depth[1..]).for_each(|(gap, [wheel, rail])| *gap += wheel + rail);
+        dents.extend((0..grid.len()).map(|i| (depth[i + 2][1] - depth[i][1]) / grid.span(i)));
     }
 
     /// Thermal displacement of one body: swelling at the candidates, and what the gradients of the membrane force cause.
@@ -287,7 +287,7 @@ impl Iterate<'_> {
     fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { turn: self.turn_of_surface, ..self.frame };
         let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
-        observe::lever_arms(self.grid, wheel, &self.state.gap, &self.scratch.dents[0], i)
+        observe::lever_arms(self.grid, wheel, &self.state.gap, &self.scratch.dents, i)
     }
 }
 

@@ -42,7 +42,7 @@ impl PatchSolver {
     fn check(&self, problem: &ContactProblem, before: &PatchState) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (problem.surfaces, &problem.placement, &problem.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
-        if !(surfaces.wheel.is_empty() && surfaces.rail.is_empty()) {
+        if surfaces.wheel.is_some() || surfaces.rail.is_some() {
             return refuse("the surfaces have profiles");
         }
         if placement.flattening.iter().any(|flattening| !flattening.is_empty()) {

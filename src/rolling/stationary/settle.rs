@@ -5,7 +5,7 @@ use super::super::contact_model::{ContactStep, friction_law};
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::model::{Model, Workspace};
-use super::super::state::{Brake, Motion, State, ThermalState, Weakening};
+use super::super::state::{Brake, Motion, Pressing, State, ThermalState, Weakening};
 use super::super::substeps;
 use super::super::zones;
 use super::goal::{Goal, Trial};
@@ -130,7 +130,7 @@ impl Pass<'_> {
             rigid: goal.motions(model, trial, self.sought, state.contact.traction.rigid[1], free[0].momentum),
             time: td,
             duration: 0.0,
-            place: [0.0; 2],
+            place: [0.0, -state.contact.turn()],
             elevation: goal.drive.elevation,
             deformation: state.deformation(),
             flattening: &state.flattening,
@@ -209,5 +209,6 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
     state.control = substeps::unlimited(&state);
     state.friction_power = state.contact.traction.friction_power;
     state.audit = audit::start(model, &state);
+    state.pressing = Pressing::constant(state.contact.traction.resultant[1]);
     state
 }

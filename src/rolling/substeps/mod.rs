@@ -35,6 +35,11 @@ pub const SHORTEST_STEP: f64 = 5e-7;
 /// Most internal steps into which `solver.max_step` may divide a communication step: the longest one in tenths of a second,
 /// and some. They take less than half a minute.
 const MOST_PIECES: u64 = 40_000;
+/// Longest internal step on smooth surfaces where it is chosen automatically \[s].
+const AUTOMATIC: f64 = 0.1;
+/// Internal steps in which the wheel passes the shortest wave of a profile, where they are chosen automatically: the
+/// second-order formula then sees it within a percent.
+const STEPS_PER_WAVE: f64 = 40.0;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Control of a stationary start: the errors do not limit the step yet.
@@ -113,6 +118,14 @@ impl Ramp<'_> {
     }
 }
 
+/// Longest internal step that resolves the surfaces which the wheel meets in the coming `h` seconds \[s].
+fn resolving_step(model: &Model, state: &State, h: f64) -> f64 {
+    let (radius, [velocity, _, omega]) = (model.wheel.radius, state.motion.values());
+    let speed = velocity.abs().max((radius * omega).abs());
+    let wave = model.contact.surfaces.wavelength(state.place(radius), model.zone + speed * h);
+    (wave / (STEPS_PER_WAVE * speed)).min(AUTOMATIC)
+}
+
 /// Takes all internal steps; `now` is the state after the last one, `next` a buffer.
 fn march(
     model: &Model,
@@ -123,9 +136,10 @@ fn march(
     now: &mut State,
     next: &mut State,
 ) -> Result<(), StepError> {
-    let fewest = (ramp.h / tuning.max_step - 1e-9).ceil().max(1.0) as u64;
+    let longest = if tuning.max_step > 0.0 { tuning.max_step } else { resolving_step(model, state, ramp.h) };
+    let fewest = (ramp.h / longest - 1e-9).ceil().max(1.0) as u64;
     if fewest > MOST_PIECES {
-        let (step, max_step) = (ramp.h, tuning.max_step);
+        let (step, max_step) = (ramp.h, longest);
         return Err(StepError::TooManySteps { step, max_step, pieces: fewest, most: MOST_PIECES });
     }
     let mut place = Place { done: 0, pieces: fewest };
@@ -134,7 +148,7 @@ fn march(
         place.halve();
     }
     let (mut last_step, mut failures, mut begun, mut counts) = (state.last_step, 0, false, [0, 0]);
-    let mut flows = HeatFlows::default();
+    let (mut flows, mut pressing) = (HeatFlows::default(), state.pressing.begun());
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
@@ -171,11 +185,12 @@ fn march(
         if let Some(thermal) = &next.thermal {
             flows.add(dt / ramp.h, &thermal.flows);
         }
+        pressing.add(next, dt);
         last_step = next.last_step;
         begun = true;
         std::mem::swap(now, next);
     }
-    now.control = control.memory;
+    (now.control, now.pressing) = (control.memory, pressing);
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
     now.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
     if let Some(thermal) = &mut now.thermal {
