@@ -63,9 +63,8 @@ def figures(table):
         "depth above Ac1": ([1e3 * float(column(table, "ac1_depth", k)[-1]) for k in axles], "mm"),
         "air used": (1e3 * float(column(table, "air")[-1]), "l"),
         "sand used": (float(column(table, "sand")[-1]), "kg"),
-        "load, smallest to largest": (
-            [f"{column(running, 'load', k).min() / 1e3:.0f}-{column(running, 'load', k).max() / 1e3:.0f}" for k in axles], "kN",
-        ),
+        "smallest load": ([1e-3 * float(column(running, "load", k).min()) for k in axles], "kN"),
+        "largest load": ([1e-3 * float(column(running, "load", k).max()) for k in axles], "kN"),
         **couplers(table),
         "force on a standing axle, last 0.5 s": (standing(table), "kN"),
     }  # fmt: skip
@@ -123,7 +122,9 @@ def lines(stops):
 
 
 def _cell(value):
-    """One entry: a number, or one per axle."""
+    """One entry: a number, or one per axle; of a set of coaches the smallest and the largest."""
+    if isinstance(value, list) and len(value) > AXLES:
+        return f"{_cell(min(value))} to {_cell(max(value))}"
     if isinstance(value, list):
         return " ".join(f"{_cell(entry):>7}" for entry in value)
     return value if isinstance(value, str) else f"{value:.4g}"
