@@ -1,6 +1,9 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
 # make test      every test, Rust and fmpy
 # make fmu       target/wheelrail.fmu
+#                make fmu PROFILES=no leaves the points of profiles out of its description (target/wheelrail-slim.fmu)
+# make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
+# make reference the run in examples/reference that users can compare theirs with
 # make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
 # make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
 # make python-wheel  the Python package with the FMU inside: target/wheelrail-*.whl
@@ -31,6 +34,8 @@ TARGET := $(or $(CARGO_TARGET_DIR),target)
 BINARY := $(TARGET)/release/wheelrail
 LIBRARY := $(TARGET)/release/libwheelrail.so
 FMU := target/wheelrail.fmu
+SLIM := target/wheelrail-slim.fmu
+COACH := $(TARGET)/release/.coach
 FMU_ALL := target/wheelrail-all.fmu
 CACHE := target
 VENV := .venv
@@ -41,12 +46,14 @@ BUILT := $(TARGET)/release/.built
 INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
 TRAIN := $(VENV)/.train
+NOTEBOOK := $(VENV)/.notebook
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
-	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
+	docs/fmu.html docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
+	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -58,10 +65,16 @@ test-rust:
 	$(CARGO) test --release --locked
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(MASTERS) $(TRAIN)
+test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 
-fmu: $(FMU)
+fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
+
+ssp: $(FMU) $(COACH) $(INSTALLED)
+	$(PY) -m wheelrail ssp $(SCENARIO) --fmu $(FMU) --coach $(TARGET)/release --out target
+
+reference: $(BUILT)
+	$(PYTHON) examples/reference/make.py --binary $(BINARY)
 
 fmu-all: $(FMU_ALL)
 
@@ -143,7 +156,16 @@ clean:
 	rm -rf target $(VENV) results modelDescription.xml.new docs/reference.md.new .pytest_cache
 
 $(FMU): $(BUILT)
+	cp examples/reference/wheelrail_* $(dir $@)
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
+
+$(SLIM): $(BUILT)
+	$(BINARY) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
+
+# Together with the product, whose dependencies then keep their features and are not compiled anew.
+$(COACH): $(BUILT) $(shell find coach -type f)
+	$(CARGO) build --release --locked -p wheelrail -p wheelrail-coach
+	touch $@
 
 # Exported functions, version of glibc and size are checked before the archive gets its name.
 $(FMU_ALL): $(BUILT) $(PLATFORMS) packaging/build packaging/mingw-linker packaging/rustc-wrapper
@@ -169,6 +191,10 @@ $(MASTERS): requirements-masters.txt $(INSTALLED)
 	touch $@
 
 $(TRAIN): requirements-train.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 

@@ -2,6 +2,7 @@
 
 from copy import deepcopy
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -102,3 +103,24 @@ def test_an_unknown_parameter_of_the_wheel_is_named(coach, fmu):
     coach.wheel["friction.faling_ratio"] = 0.5
     with pytest.raises(Refused, match="no variable friction.faling_ratio; did you mean friction.falling_ratio?"):
         Stop(coach, fmu)
+
+
+def test_wheels_in_the_fmu_follow_the_height_profile_of_the_rail(coach, fmu):
+    coach.speed, coach.demand, coach.step = 20.0, 0.0, 0.005
+    coach.track.profile = SimpleNamespace(position=[0.0, 1.0, 2.0], elevation=[0.0, 1e-3, 1e-3])
+    run = Stop(coach, fmu, dry=0.3)
+    wheel = run.contacts.wheelsets[0].wheel
+    before, heights, loads, pressed = wheel.get("hub.height"), [], [], []
+    for _ in range(40):
+        run.step(coach.step)
+        heights.append(wheel.get("hub.height") - before)
+        loads.append(wheel.get("contact.force_y"))
+        pressed.append(run.coach.forces()[1][0])
+    run.close()
+    static, lift = run.coach.static_load, coach.vehicle.primary.vertical_stiffness * 1e-3
+    print(f"{heights[-1] * 1e3:.4f} mm, {max(pressed) - static:.0f} N of {lift:.0f} N; {np.mean(loads[-20:]) - np.mean(pressed[-20:]):.0f} N")
+    # It climbs 1 mm within 50 ms, squeezes the primary suspension before the bogie follows, and carries what that presses with.
+    assert heights[-1] == pytest.approx(1e-3, abs=5e-6) and heights[3] == pytest.approx(4e-4, rel=0.1)
+    assert 0.3 * lift < max(pressed) - static < lift
+    # The contact still rings by 20 kN from the kinks.
+    assert np.mean(loads[-20:]) == pytest.approx(np.mean(pressed[-20:]), rel=0.01)

@@ -57,11 +57,11 @@ def test_package_is_complete(packed):
         names = set(archive.namelist())
         description = archive.read("modelDescription.xml")
     presets = {f"resources/{path.name}" for path in (ROOT / "resources").glob("*.json")}
-    texts = [*ROOT.glob("LICENSE*"), *ROOT.glob("docs/LICENSE*")]
+    texts = [*ROOT.glob("LICENSE*"), *ROOT.glob("docs/LICENSE*"), ROOT / "docs" / "license.txt"]
     licences = {f"documentation/licenses/{path.name}" for path in texts}
     theory = {f"documentation/theory/{path.name}" for path in (ROOT / "docs" / "theory").glob("*.md")}
     expected = {"binaries/linux64/wheelrail.so", "documentation/index.html", "model.png"} | presets | licences | theory
-    assert len(licences) == 3 and expected <= names
+    assert len(licences) == 4 and expected <= names
     assert description == (ROOT / "modelDescription.xml").read_bytes()
     assert packed.stat().st_size < LARGEST
 

@@ -198,3 +198,52 @@ fn tunable_parameters_are_those_that_nothing_computed_in_advance_depends_on() {
         assert_eq!(start.tuned_like(&changed) == changed, variable.tunable, "{}", variable.name);
     }
 }
+
+#[test]
+fn a_description_without_profiles_says_less_of_the_same_interface() {
+    let [full, slim] = [Extent::Full, Extent::WithoutProfiles].map(|extent| model_description(extent).unwrap());
+    let names = |text: &str| {
+        let parts: Vec<_> =
+            text.split("<ScalarVariable ").skip(1).map(|part| part.split('>').next().unwrap()).collect();
+        parts.into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (all, listed) = (names(&full), names(&slim));
+    assert!(listed.iter().all(|head| all.contains(head) && !head.contains("profile.")));
+    let profiles: usize = table().iter().filter_map(|row| row.dimension).sum();
+    assert_eq!(all.len() - listed.len(), profiles);
+    assert!(profiles >= 366, "{profiles}");
+    // Indices of outputs count the variables that are listed.
+    let unknowns: Vec<usize> = slim
+        .split("<Outputs>")
+        .nth(1)
+        .unwrap()
+        .split("</Outputs>")
+        .next()
+        .unwrap()
+        .split("index=\"")
+        .skip(1)
+        .map(|part| part.split('"').next().unwrap().parse().unwrap())
+        .collect();
+    let outputs: Vec<usize> =
+        (1..).zip(&listed).filter(|(_, head)| head.contains("causality=\"output\"")).map(|(index, _)| index).collect();
+    assert_eq!(unknowns, outputs);
+    let guid = |text: &str| text.split("guid=\"").nth(1).unwrap()[..36].to_owned();
+    assert_eq!(guid(&full), guid(&slim));
+}
+
+#[test]
+fn terminals_name_variables_that_exist_and_only_differences_of_temperature_are_relative() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/terminalsAndIcons.xml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let members: Vec<_> = text.split("variableName=\"").skip(1).map(|part| part.split('"').next().unwrap()).collect();
+    assert!(members.len() > 20);
+    for name in members {
+        assert!(variables().iter().any(|variable| variable.name == name), "{name}");
+    }
+    let relative: Vec<_> = variables()
+        .iter()
+        .filter(|v| matches!(v.kind, Kind::Real { measure, .. } if measure.is_relative()))
+        .map(|v| v.name)
+        .collect();
+    assert_eq!(relative, ["thermal.wheel_excess", "damage.threshold"]);
+}

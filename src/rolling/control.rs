@@ -173,7 +173,7 @@ inputs! {
         203 force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
             "Horizontal driving force on the hub, positive in x";
         204 load of "drive", in "N" as "kN", from 0.0 to 1e9, nominal 1e5,
-            "Vertical load on the hub, pressing down positive; unset: model.nominal_load";
+            "Vertical load on the hub, pressing down positive, the weight of wheel and axle included; unset: model.nominal_load";
         205 displacement of "drive", in "m" as "mm", from -0.1 to 0.1, nominal 1e-4,
             "Hub height above just touching a rail of elevation 0, up positive (pressed: negative); unset: the height at which \
              the wheel carries drive.load at the start";

@@ -168,7 +168,8 @@ outputs! {
         "Moment of inertia of the wheel about its axle: wheel.hub_inertia and that of the elastic annulus";
     500 hub_force_x: real "hub.force_x", in "N" as "kN", nominal 1e4,
         "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity; gravity \
-         on a rail.slope acts besides";
+         on a rail.slope acts besides. The wheel's inertia is between it and contact.force_x, which a master that owns the \
+         wheel's mass takes";
     501 hub_force_y: real "hub.force_y", in "N" as "kN", nominal 1e5,
         "Vertical force on the hub, prescribed or reaction, up positive (minus drive.load and drive.load_change)";
     502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,

@@ -1,4 +1,4 @@
-"""Command line: `python -m wheelrail train SCENARIO`, `sweep SCENARIO`, `schema KIND`; what results say: see `analysis`."""
+"""Command line: `python -m wheelrail train|sweep|ssp SCENARIO`, `schema KIND`; what results say: see `analysis`."""
 
 import argparse
 import json
@@ -27,6 +27,14 @@ def arguments(argv=None):
     sweep = commands.choices["sweep"]
     sweep.add_argument("--scheduler", help="address of a dask scheduler; default: workers on this machine")
     sweep.add_argument("--workers", type=int, default=2, help="on this machine, default %(default)s")
+    sweep.add_argument("--limit", type=float, default=1800.0, help="wall time of one stop [s], 0: none; default %(default)g")
+    ssp = commands.add_parser("ssp", help="system packages (SSP, OSP) of a coach and its wheels")
+    ssp.add_argument("scenario", type=Path, help="as of train")
+    ssp.add_argument("--out", type=Path, default=Path("target"), help="directory, default %(default)s")
+    ssp.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
+    ssp.add_argument("--coach", type=Path, default=Path("target/release"), help="where the coach was built, default %(default)s")
+    ssp.add_argument("--step", type=float, default=1e-3, help="communication step [s], default %(default)g")
+    ssp.add_argument("--stop", type=float, default=10.0, help="end of the default experiment [s], default %(default)g")
     schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
     analysis.add_commands(commands)
@@ -63,6 +71,20 @@ def train(options, scenario):
     print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written: {', '.join(map(str, written))}")
 
 
+def packages(options, scenario):
+    """Writes coach.fmu and the packages."""
+    from . import ssp
+    from .fmu import Fmu
+
+    options.out.mkdir(parents=True, exist_ok=True)
+    coach = options.out / "coach.fmu"
+    texts = [path for path in map(Path, ("LICENSE-MIT", "LICENSE-APACHE", "docs/LICENSE-THIRD-PARTY")) if path.is_file()]
+    ssp.pack_coach(options.coach / "coach", options.coach / "libcoach.so", coach, texts)
+    with Fmu(options.fmu) as wheel, Fmu(coach) as opened:
+        written = ssp.write(scenario, wheel, opened, (options.fmu, coach), options.out, options.stop, options.step)
+    print("written:", ", ".join(map(str, (coach, *written))))
+
+
 def main(argv=None):
     """Runs a command; errors of files and of the FMU become one line."""
     options = arguments(argv)
@@ -74,6 +96,9 @@ def main(argv=None):
             analysis.run(options)
             return
         scenario = scenarios.load(options.scenario)
+        if options.command == "ssp":
+            packages(options, scenario)
+            return
         if options.step is not None:
             wrong = scenarios.SCENARIO["step"].check(options.step)
             if wrong:

@@ -21,7 +21,7 @@ class MultibodyCoach:
 
         self.exudyn, self.items = exudyn, itemInterface
         self.values = values
-        self.axle_positions = Coach(values).axle_positions
+        self.axle_positions, self.count, self.axles = Coach(values).axle_positions, 1, AXLES
         self.body_mass = values.body.mass + values.body.payload
         self.mass = self.body_mass + 2 * values.bogie.mass + AXLES * values.wheelset.mass
         self.static_load = self.mass * GRAVITY / AXLES
@@ -134,8 +134,15 @@ class MultibodyCoach:
         found = np.array(found)
         return found[:, 0], weight - found[:, 1]
 
-    def advance(self, h, torques, slope, wheel_masses, wheel_forces):
-        """As `Coach.advance`."""
+    def coupler_forces(self):
+        """There are no couplers: a single coach."""
+        return np.zeros(0)
+
+    def advance(self, h, torques, slope, wheel_masses, wheel_forces, lifted=None):
+        """As `Coach.advance`, on smooth rails."""
+        if lifted is not None and np.any(lifted):
+            raise ValueError("the coach in exudyn runs on smooth rails: leave profile out of the track")
+        slope = float(np.mean(slope))
         mbs, r = self.mbs, self.values.resistance
         speed = self.speed()
         resistance = (r.constant * np.tanh(speed / 0.01) + r.quadratic * speed * abs(speed)) * self.mass * GRAVITY

@@ -3,8 +3,7 @@
 import numpy as np
 
 from .brake import Valve
-from .report import CELSIUS, column, slide
-from .train import AXLES
+from .report import CELSIUS, axles_of, column, slide
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 GREY = "#777777"
@@ -45,16 +44,16 @@ def draw_stops(path, stops):
 def _speeds(axis, table, _rail):
     """Speed of travel and of the four treads."""
     time = column(table, "time")
-    for k in range(AXLES):
-        axis.plot(time, 3.6 * column(table, "peripheral", k), color=COLOURS[k], label=f"axle {k + 1}", linewidth=0.7)
+    for k in axles_of(table):
+        axis.plot(time, 3.6 * column(table, "peripheral", k), color=COLOURS[k % len(COLOURS)], label=f"axle {k + 1}" if k < len(COLOURS) else None, linewidth=0.7)
     axis.plot(time, 3.6 * column(table, "speed"), color="black", label="coach")
     axis.set(ylabel="speed [km/h]", xlabel="time [s]")
 
 
 def _slides(axis, table, _rail):
     """Slide of every axle."""
-    for k in range(AXLES):
-        axis.plot(column(table, "time"), 100.0 * slide(table, k)[0], color=COLOURS[k], linewidth=0.7)
+    for k in axles_of(table):
+        axis.plot(column(table, "time"), 100.0 * slide(table, k)[0], color=COLOURS[k % len(COLOURS)], linewidth=0.7)
     axis.set(ylabel="slide [%]", xlabel="time [s]")
 
 
@@ -62,40 +61,41 @@ def _brakes(axis, table, _rail):
     """Cylinder pressures; venting is marked."""
     time = column(table, "time")
     axis.plot(time, column(table, "control_pressure") / 1e5, ":", color=GREY)
-    for k in range(AXLES):
+    for k in axles_of(table):
         pressure = column(table, "pressure", k) / 1e5
         venting = column(table, "valve", k) == Valve.VENT.value
-        axis.plot(time, pressure, color=COLOURS[k], linewidth=0.7)
-        axis.plot(time[venting], pressure[venting], ".", color=COLOURS[k], markersize=1.5)
+        axis.plot(time, pressure, color=COLOURS[k % len(COLOURS)], linewidth=0.7)
+        axis.plot(time[venting], pressure[venting], ".", color=COLOURS[k % len(COLOURS)], markersize=1.5)
     axis.set(ylabel="pressure [bar]", xlabel="time [s]")
 
 
 def _adhesion(axis, table, _rail):
     """Adhesion used by every axle."""
-    for k in range(AXLES):
+    for k in axles_of(table):
         used = -column(table, "force", k) / column(table, "load", k)
-        axis.plot(column(table, "time"), used, color=COLOURS[k], linewidth=0.7)
+        axis.plot(column(table, "time"), used, color=COLOURS[k % len(COLOURS)], linewidth=0.7)
     axis.set(ylabel="adhesion used [1]", xlabel="time [s]")
 
 
 def _temperatures(axis, table, _rail):
     """Hottest point of the contact."""
-    for k in range(AXLES):
+    for k in axles_of(table):
         hottest = column(table, "hottest", k)
         if np.any(hottest > 0.0):
-            axis.plot(column(table, "time"), hottest - CELSIUS, color=COLOURS[k], linewidth=0.7)
+            axis.plot(column(table, "time"), hottest - CELSIUS, color=COLOURS[k % len(COLOURS)], linewidth=0.7)
     axis.set(ylabel="contact [°C]", xlabel="time [s]")
 
 
-def _rail(axis, _table, rail):
-    """Friction that each axle met along the track, and what a fifth one would."""
+def _rail(axis, table, rail):
+    """Friction that each axle met along the track, and what another one would."""
     place = rail.centres()
-    for axle in range(AXLES + 1):
+    axles = len(axles_of(table))
+    for axle in range(axles + 1):
         energy = rail.energy[:axle].sum(axis=0) / rail.cell
         sand = rail.sand[: axle + 1].sum(axis=0) / rail.cell
         met = rail.law.friction(rail.degraded, rail.recovered, energy, sand)
-        colour = COLOURS[axle] if axle < AXLES else "black"
-        axis.plot(place, met, color=colour, linewidth=0.8, linestyle="-" if axle < AXLES else ":")
+        colour = COLOURS[axle % len(COLOURS)] if axle < axles else "black"
+        axis.plot(place, met, color=colour, linewidth=0.8, linestyle="-" if axle < axles else ":")
     used = np.flatnonzero(rail.energy[0])
     axis.set(ylabel="friction met [1]", xlabel="position [m]", xlim=(0, place[used[-1]] if len(used) else place[-1]))
 

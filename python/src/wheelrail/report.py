@@ -4,19 +4,28 @@ import csv
 
 import numpy as np
 
-from .train import AT_REST, AXLES, columns
+from .train import AT_REST, AXLES, OF_AXLE, OF_VEHICLE, columns
 
 MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
 SLIDING = 0.01  # slide from which an axle counts as sliding
 LOCKED_BELOW = 0.1  # m/s, of the periphery
 LOCKED_ABOVE = 3.0  # m/s, of travel
 CELSIUS = 273.15  # K at 0 °C
-NAMES = columns()
+
+
+def coaches_of(table):
+    """How many coaches a table of `Stop.run` is of."""
+    return (table.shape[1] - len(OF_VEHICLE) + 1) // (AXLES * len(OF_AXLE) + 1)
+
+
+def axles_of(table):
+    """The axles of a table, counted from 0."""
+    return range(AXLES * coaches_of(table))
 
 
 def column(table, name, axle=None):
     """A column of a table of `Stop.run`, of an axle (from 0) if one is given."""
-    return table[:, NAMES.index(name if axle is None else f"{name}_{axle + 1}")]
+    return table[:, columns(coaches_of(table)).index(name if axle is None else f"{name}_{axle + 1}")]
 
 
 def slide(table, axle):
@@ -31,7 +40,7 @@ def figures(table):
     time, speed = column(table, "time"), column(table, "speed")
     rest = int(np.argmax(speed < AT_REST)) if np.any(speed < AT_REST) else len(table) - 1
     running, step = table[: rest + 1], time[1] - time[0]
-    axles = range(AXLES)
+    axles = axles_of(table)
     slides = [slide(running, k) for k in axles]
     sliding = [values[moving & (values > SLIDING)] for values, moving in slides]
     share = lambda values, q: float(np.percentile(values, q)) if len(values) else 0.0
@@ -54,12 +63,23 @@ def figures(table):
         "depth above Ac1": ([1e3 * float(column(table, "ac1_depth", k)[-1]) for k in axles], "mm"),
         "air used": (1e3 * float(column(table, "air")[-1]), "l"),
         "sand used": (float(column(table, "sand")[-1]), "kg"),
-        "load, smallest to largest": (
-            [f"{column(running, 'load', k).min() / 1e3:.0f}-{column(running, 'load', k).max() / 1e3:.0f}" for k in axles], "kN",
-        ),
+        "smallest load": ([1e-3 * float(column(running, "load", k).min()) for k in axles], "kN"),
+        "largest load": ([1e-3 * float(column(running, "load", k).max()) for k in axles], "kN"),
+        **couplers(table),
         "force on a standing axle, last 0.5 s": (standing(table), "kN"),
     }  # fmt: skip
     return found
+
+
+def couplers(table):
+    """Largest forces of the couplers, if there are any."""
+    forces = [column(table, f"coupler_{k + 1}") for k in range(coaches_of(table) - 1)]
+    if not forces:
+        return {}
+    return {
+        "largest coupler push": ([-1e-3 * float(force.min()) for force in forces], "kN"),
+        "largest coupler pull": ([1e-3 * float(force.max()) for force in forces], "kN"),
+    }
 
 
 def mean(values):
@@ -84,7 +104,7 @@ def longest(flags):
 def standing(table):
     """Half the swing of the suspension's force on each axle in the last half second [kN]."""
     late = column(table, "time") > column(table, "time")[-1] - 0.5
-    return [0.5e-3 * float(np.ptp(column(table, "pull", k)[late])) for k in range(AXLES)]
+    return [0.5e-3 * float(np.ptp(column(table, "pull", k)[late])) for k in axles_of(table)]
 
 
 def lines(stops):
@@ -102,7 +122,9 @@ def lines(stops):
 
 
 def _cell(value):
-    """One entry: a number, or one per axle."""
+    """One entry: a number, or one per axle; of a set of coaches the smallest and the largest."""
+    if isinstance(value, list) and len(value) > AXLES:
+        return f"{_cell(min(value))} to {_cell(max(value))}"
     if isinstance(value, list):
         return " ".join(f"{_cell(entry):>7}" for entry in value)
     return value if isinstance(value, str) else f"{value:.4g}"
@@ -112,5 +134,5 @@ def write_csv(path, table):
     """Writes a table with a line of names."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(NAMES)
+        writer.writerow(columns(coaches_of(table)))
         writer.writerows([f"{value:.9g}" for value in row] for row in table)

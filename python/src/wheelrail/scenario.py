@@ -47,6 +47,12 @@ VEHICLE = {
         "damping": Real(0, 1e8, "N s/m", "of its bushes"),
         "height": Real(0, 5, "m", "above the rail"),
     },
+    "length": Real(1, 100, "m", "over couplers", 26.0),
+    "coupler": {
+        "stiffness": Real(1e3, 1e10, "N/m", "of the draft gears between two bodies", 10e6),
+        "damping": Real(0, 1e8, "N s/m", "of the draft gears between two bodies", 250e3),
+        "height": Real(0, 5, "m", "above the rail", 1.05),
+    },
     "resistance": {
         "constant": Real(0, 0.1, "1", "running resistance over weight", 0.0),
         "quadratic": Real(0, 0.01, "s2/m2", "running resistance over weight and speed squared", 0.0),
@@ -92,6 +98,7 @@ CONDITION = {
 TRACK = {
     "name": Text("what it is"),
     "sections": Text("CSV file with position, condition, slope, temperature"),
+    "profile": Text("CSV file with position, elevation: height profile of the rail for irregularities; none if empty", ""),
     "length": Real(10, 1e6, "m", "of the map ahead of the first axle"),
     "cell": Real(0.01, 100, "m", "of the map", 0.25),
     "conditions": Named(CONDITION, "conditions by name"),
@@ -111,9 +118,15 @@ SECTIONS = {
     "temperature": Real(-100, 500, "K", "of the rail over the reference", 0.0),
 }
 
+PROFILE = {
+    "position": Real(-1e6, 1e6, "m", "along the track"),
+    "elevation": Real(-0.1, 0.1, "m", "of the rail, linear between positions and level beyond"),
+}
+
 SCENARIO = {
     "name": Text("what it shows"),
     "vehicle": Text("file"),
+    "coaches": Real(1, 20, "", "coupled to a set", 1, whole=True),
     "brake": Text("file"),
     "track": Text("file"),
     "speed": Real(0.5, 60, "m/s", "at the start"),
@@ -146,6 +159,10 @@ def load(path):
     track.path = path.parent / track.sections
     track.sections = SimpleNamespace(**read_csv(track.path, SECTIONS))
     check_sections(track)
+    if track.profile:
+        profile = path.parent / track.profile
+        track.profile = SimpleNamespace(**read_csv(profile, PROFILE))
+        check_profile(track.profile, profile)
     settle(scenario)
     return scenario
 
@@ -171,6 +188,27 @@ def check_sections(track):
             raise BadFile(f"{track.path}:{line}: condition {condition!r} is none of {known}")
         if line > 2 and position <= s.position[line - 3]:
             raise BadFile(f"{track.path}:{line}: position {position:g} m is not beyond {s.position[line - 3]:g} m")
+
+
+def check_profile(profile, path):
+    """Positions rise."""
+    pairs = zip(profile.position, profile.position[1:])
+    for line, (before, position) in enumerate(pairs, start=3):
+        if position <= before:
+            raise BadFile(f"{path}:{line}: position {position:g} m is not beyond {before:g} m")
+
+
+def elevation(track, positions, velocities):
+    """Height [m] of the rail at positions [m], and its rate [m/s] for who moves there."""
+    if not track.profile:
+        return np.zeros((2, len(positions)))
+    place, height = np.array(track.profile.position), np.array(track.profile.elevation)
+    if len(place) < 2:
+        return np.array([np.full(len(positions), height[0]), np.zeros(len(positions))])
+    piece = np.clip(np.searchsorted(place, positions, side="right") - 1, 0, len(place) - 2)
+    inside = (np.asarray(positions) >= place[0]) & (np.asarray(positions) < place[-1])
+    rise = np.where(inside, (np.diff(height) / np.diff(place))[piece], 0.0)
+    return np.array([np.interp(positions, place, height), rise * velocities])
 
 
 def section(track, position):

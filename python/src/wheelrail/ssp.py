@@ -32,6 +32,8 @@ TO_COACH = {
 }  # fmt: skip
 # Outputs that are connectors so that masters record them.
 WATCHED = ("coach.speed", "coach.distance", "brake.control_pressure", "brake.reference_speed")
+# What a single coach on rails without sand does not need.
+LEFT_OUT = ("sander.", "coupler.", "length")
 SPACES = {
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
@@ -47,7 +49,7 @@ def coach_values(scenario):
     if scenario.brake.sander.active:
         raise BadFile("the coach of a system package has no sander: set sander.active to false")
     for prefix, group in (("", scenario.vehicle), ("brake.", scenario.brake)):
-        values |= {prefix + name: value for name, value in _flat(group) if not name.startswith("sander.")}
+        values |= {prefix + name: value for name, value in _flat(group) if not name.startswith(LEFT_OUT)}
     return values
 
 
@@ -239,6 +241,8 @@ def pack_coach(program, library, out, licences=()):
     """Writes coach.fmu; `program` prints its model description."""
     described = subprocess.run([str(program)], check=True, capture_output=True).stdout
     texts = {f"documentation/licenses/{path.name}": path.read_bytes() for path in map(Path, licences)}
+    # Some masters name a directory of resources that does not exist unless something is in it.
+    texts["resources/README.txt"] = b"The coach has no resources.\n"
     archive(out, {"modelDescription.xml": described, "binaries/linux64/coach.so": Path(library).read_bytes()} | texts)
 
 

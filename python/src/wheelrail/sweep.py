@@ -2,11 +2,14 @@
 
 Every stop is a task of its own; its row is written as soon as it is there. A sweep that was stopped goes on where it was: rows
 that are in the file already are not computed again. A worker that dies loses nothing: its tasks go to others.
+A stop that fails, or computes for longer than a limit, is named with its reason in a file of its own, and the next run tries it
+again; the others go on.
 """
 
 import csv
 import hashlib
 import json
+import time
 from contextlib import nullcontext
 from copy import deepcopy
 from itertools import product
@@ -14,7 +17,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from .files import BadFile
-from .fmu import Fmu
+from .fmu import Fmu, Refused
 from .report import figures
 from .scenario import settle
 from .train import Stop
@@ -24,6 +27,11 @@ RESULTS = (
     "stopping distance", "stopping time", "slide while sliding, p95", "longest lock", "mean adhesion",
     "energy into rail and tread", "peak temperature", "depth above Ac1", "air used",
 )  # fmt: skip
+REASON = "reason"  # why a stop has no results
+
+
+# What a row does not depend on: swept values, and the time after which a stop is given up.
+APART = ("sweep", "speed", "adhesion", "payload", "longest")
 
 
 def header():
@@ -39,14 +47,40 @@ def points(scenario):
 
 def fingerprint(scenario, rigid):
     """Names what a sweep is of, the swept values apart, so that rows of another one are not taken for its own."""
-    rest = {k: v for k, v in vars(scenario).items() if k not in ("sweep", "speed", "adhesion", "payload")}
+    rest = {k: v for k, v in vars(scenario).items() if k not in APART}
     text = json.dumps([rest, rigid], default=lambda v: vars(v) if isinstance(v, SimpleNamespace) else str(v), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
-def one(scenario, point, path):
-    """One stop: the point with its results. `path` of the FMU; None takes rigid wheelsets; a bare name is looked for where
-    dask puts files that were sent to its workers."""
+class TooSlow(Exception):
+    """A stop that computes for longer than it may."""
+
+
+def watch(limit):
+    """A progress function that ends a stop after `limit` seconds of wall time, 0: never. It is asked after every step."""
+    began = time.monotonic()
+
+    def check(run):
+        if limit and time.monotonic() - began > limit:
+            raise TooSlow(
+                f"computed for more than {limit:g} s: at {run.contacts.time:.2f} s, {run.coach.speed():.2f} m/s after "
+                f"{run.coach.travelled():.0f} m"
+            )
+
+    return check
+
+
+def one(scenario, point, path, limit=0.0):
+    """One stop: the point with its results, or with why there are none, under `REASON`. `path` of the FMU; None takes rigid
+    wheelsets; a bare name is looked for where dask puts files that were sent to its workers; `limit` as in `watch`."""
+    try:
+        return point | results(scenario, point, path, limit)
+    except (TooSlow, TimeoutError, Refused, ValueError) as error:
+        return point | {REASON: " ".join(str(error).split())}
+
+
+def results(scenario, point, path, limit):
+    """Key figures of one stop."""
     scenario = deepcopy(scenario)
     scenario.speed, scenario.adhesion, scenario.payload = point["speed"], point["adhesion"], point["payload"]
     scenario.brake.wsp.slide_high = point["slide_high"]
@@ -58,12 +92,12 @@ def one(scenario, point, path):
     with Fmu(path) if path else nullcontext() as fmu:
         run = Stop(scenario, fmu)
         try:
-            found = figures(run.run())
+            found = figures(run.run(watch(limit)))
         finally:
             run.close()
     worst = lambda name: min if name == "mean adhesion" else max
     values = {name: found[name][0] for name in RESULTS}
-    return point | {name: float(worst(name)(v) if isinstance(v, list) else v) for name, v in values.items()}
+    return {name: float(worst(name)(v) if isinstance(v, list) else v) for name, v in values.items()}
 
 
 def done(path, name):
@@ -84,8 +118,15 @@ def done(path, name):
     return [{key: float(value) for key, value in row.items() if key != "scenario"} for row in rows]
 
 
-def sweep(client, scenario, fmu, path, progress=lambda row: None):
-    """Computes what is missing in the file at `path` and returns all rows. `fmu` None takes rigid wheelsets."""
+def unfinished(path):
+    """Where stops without results are named: beside the results."""
+    path = Path(path)
+    return path.with_name(f"{path.stem}_unfinished.csv")
+
+
+def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
+    """Computes what is missing in the file at `path`; returns all rows with results, and the points without, with their
+    reasons. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none."""
     from distributed import as_completed
     from distributed.diagnostics.plugin import UploadFile
 
@@ -97,17 +138,40 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None):
         client.register_plugin(UploadFile(str(fmu)))
         fmu = Path(fmu).name
     # Whoever kills a worker may hit the same task several times.
-    futures = client.map(lambda point: one(scenario, point, fmu), missing, pure=False, retries=3)
+    futures = client.map(lambda point: one(scenario, point, fmu, limit), missing, pure=False, retries=3)
+    point_of, failed = dict(zip((future.key for future in futures), missing)), []
     with open(path, "a", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, header())
         if not rows and file.tell() == 0:
             writer.writeheader()
-        for _, row in as_completed(futures, with_results=True):
+        for future in as_completed(futures):
+            error = future.exception()
+            row = future.result() if error is None else point_of[future.key] | {REASON: f"{type(error).__name__}: {error}"}
+            progress(row)
+            if REASON in row:
+                failed.append(row)
+                continue
             writer.writerow({"scenario": name} | {key: repr(value) for key, value in row.items()})
             file.flush()
             rows.append(row)
-            progress(row)
-    return rows
+    write_unfinished(unfinished(path), name, failed)
+    return rows, failed
+
+
+def write_unfinished(path, name, failed):
+    """Names stops without results in a file; without any there is no file."""
+    if not failed:
+        path.unlink(missing_ok=True)
+        return
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, ["scenario", *KEYS, REASON])
+        writer.writeheader()
+        writer.writerows({"scenario": name} | row for row in failed)
+
+
+def described(row):
+    """A point in words."""
+    return ", ".join(f"{key} {row[key]:g}" for key in KEYS)
 
 
 def run(options, scenario):
@@ -124,6 +188,12 @@ def run(options, scenario):
     local = lambda: LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None)
     with nullcontext() if options.scheduler else local() as cluster, Client(options.scheduler or cluster) as client:
         with tqdm(total=len(points(scenario)), initial=known, desc="stops", unit="stop") as bar:
-            rows = sweep(client, scenario, fmu, path, lambda row: bar.update())
+            rows, failed = sweep(client, scenario, fmu, path, lambda row: bar.update(), options.limit)
+    for row in failed:
+        print(f"no result: {described(row)}: {row[REASON]}")
+    if not rows:
+        raise TimeoutError(f"no stop came to its end; see {unfinished(path)}")
     draw_sweep(options.out / "sweep.png", rows)
+    if failed:
+        print(f"{len(failed)} stops without results, named in {unfinished(path)}; the next run tries them again")
     print(f"{len(rows)} stops, {known} of them known before; written: {path}, {options.out / 'sweep.png'}")

@@ -1,4 +1,4 @@
-"""One stop, step by step: the vehicle moves, its brakes act, its wheelsets roll or slide, the rail remembers.
+"""One stop, step by step: the vehicle (a coach, or a set of them) moves, its brakes act, its wheelsets roll or slide, the rail remembers.
 
 The wheelsets own their inertia (force and moment control); a step of `h` goes like this:
 
@@ -34,9 +34,10 @@ OF_AXLE = (
 )  # fmt: skip
 
 
-def columns():
-    """Names of all columns."""
-    return [*OF_VEHICLE, *(f"{name}_{axle + 1}" for axle in range(AXLES) for name in OF_AXLE)]
+def columns(coaches=1):
+    """Names of all columns: of the vehicle, of every axle, and the force of every coupler, tension positive."""
+    axles = [f"{name}_{axle + 1}" for axle in range(coaches * AXLES) for name in OF_AXLE]
+    return [*OF_VEHICLE, *axles, *(f"coupler_{k + 1}" for k in range(coaches - 1))]
 
 
 class Contacts:
@@ -51,11 +52,12 @@ class Contacts:
         # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not.
         self.pool = ThreadPoolExecutor(len(wheelsets)) if isinstance(wheelsets[0], FmuWheelset) else None
 
-    def step(self, h, forces, loads, torques, sand):
-        """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle."""
+    def step(self, h, forces, loads, torques, sand, lifted):
+        """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle, `lifted` is height
+        and rate of the rail below each at the end."""
         self.met = [self._rail(axle) for axle in range(len(self.wheelsets))]
         drives = [
-            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k])
+            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k], lifted[0, k])
             for k in range(len(self.wheelsets))
         ]
         before = self.seen
@@ -69,6 +71,11 @@ class Contacts:
     def slope(self, axle):
         """Slope of the track below an axle."""
         return self.track.sections.slope[scenarios.section(self.track, self.places[axle])]
+
+    def lifted(self, h, speed):
+        """Height [m] of the rail below the axles in `h` [s], and its rate [m/s]; `speed` [m/s] before the first step."""
+        velocities = np.array([w.velocity for w in self.seen]) if self.seen else np.full(len(self.places), speed)
+        return scenarios.elevation(self.track, self.places + h * velocities, velocities)
 
     def _rail(self, axle):
         """Friction and excess temperature that an axle meets."""
@@ -100,14 +107,14 @@ def fmu_wheelsets(fmu, scenario, coach):
     make = lambda: FmuWheelset(
         fmu, scenario.vehicle.wheelset, coach.static_load, scenario.speed, damping, dict(scenario.wheel)
     )
-    return [make() for _ in range(AXLES)]
+    return [make() for _ in range(coach.axles)]
 
 
-def rigid_wheelsets(scenario):
+def rigid_wheelsets(scenario, coach):
     """Rigid wheelsets with the friction law of the scenario's wheels."""
     law = scenario.wheel
     falling = law.get("friction.falling_ratio", 1.0), law.get("friction.falling_decay", 0.0)
-    return [RigidWheelset(scenario.vehicle.wheelset, scenario.speed, 4e-3, *falling) for _ in range(AXLES)]
+    return [RigidWheelset(scenario.vehicle.wheelset, scenario.speed, 4e-3, *falling) for _ in range(coach.axles)]
 
 
 class Stop:
@@ -116,14 +123,15 @@ class Stop:
 
     def __init__(self, scenario, fmu=None, dry=None, coach=None):
         self.scenario = scenario
-        self.coach = coach or Coach(scenario.vehicle)
+        self.coach = coach or Coach(scenario.vehicle, scenario.coaches)
+        self.axles = self.coach.axles
         self.coach.start(scenario.speed)
         ahead = self.coach.axle_positions - self.coach.axle_positions[0]
-        rail = scenarios.rail_map(scenario.track, -ahead[-1], AXLES, dry)
-        wheelsets = fmu_wheelsets(fmu, scenario, self.coach) if fmu else rigid_wheelsets(scenario)
+        rail = scenarios.rail_map(scenario.track, -ahead[-1], self.axles, dry)
+        wheelsets = fmu_wheelsets(fmu, scenario, self.coach) if fmu else rigid_wheelsets(scenario, self.coach)
         self.contacts = Contacts(wheelsets, ahead, rail, scenario.track)
-        self.brakes = Brakes(scenario.brake, [scenario.speed] * AXLES)
-        self.torques = np.zeros(AXLES)
+        self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES) for _ in range(self.coach.count)]
+        self.torques = np.zeros(self.axles)
         self.radius = scenario.vehicle.wheelset.radius
         self.rows = []
 
@@ -148,32 +156,45 @@ class Stop:
     def step(self, h):
         """One step of all parts."""
         seen, mass = self.contacts.seen, self.scenario.vehicle.wheelset.mass
-        omegas = [w.omega for w in seen] if seen else [self.scenario.speed / self.radius] * AXLES
-        torques, sand = self.brakes.step(h, self.scenario.demand, [self.radius * omega for omega in omegas])
+        omegas = [w.omega for w in seen] if seen else [self.scenario.speed / self.radius] * self.axles
+        torques, sand = self._brake(h, [self.radius * omega for omega in omegas])
         pulls, loads = self.coach.forces()
-        weight = -mass * GRAVITY * np.array([self.contacts.slope(k) for k in range(AXLES)])
-        masses, others = np.full(AXLES, mass), np.zeros(AXLES)
+        slopes = np.array([self.contacts.slope(k) for k in range(self.axles)])
+        weight = -mass * GRAVITY * slopes
+        masses, others = np.full(self.axles, mass), np.zeros(self.axles)
         if seen:
             contact = np.array([w.force for w in seen])
             masses, others = predicted(h, self.scenario.vehicle.wheelset, seen, pulls, contact + weight)
-        reaction = [w.torque for w in seen] if seen else [0.0] * AXLES
-        new_pulls, new_loads = self.coach.advance(h, reaction, self.contacts.slope(0), masses, others)
+        reaction = [w.torque for w in seen] if seen else [0.0] * self.axles
+        lifted = self.contacts.lifted(h, self.scenario.speed)
+        new_pulls, new_loads = self.coach.advance(h, reaction, slopes[::AXLES], masses, others, lifted)
         forces, torques = np.array([pulls, new_pulls]) + weight, np.array(torques)
-        seen = self.contacts.step(h, forces, np.array([loads, new_loads]), np.array([self.torques, torques]), sand)
+        loads, torques_of = np.array([loads, new_loads]), np.array([self.torques, torques])
+        seen = self.contacts.step(h, forces, loads, torques_of, sand, lifted)
         self.coach.correct([w.position for w in seen], [w.velocity for w in seen])
         self.torques = torques
         self.rows.append(self.row(new_pulls))
 
+    def _brake(self, h, speeds):
+        """Torques and sand of all axles; every coach has brakes of its own, which know the speeds of its axles only."""
+        torques, sand = [], []
+        for k, brakes in enumerate(self.brakes):
+            of = brakes.step(h, self.scenario.demand, speeds[k * AXLES : (k + 1) * AXLES])
+            torques += of[0]
+            sand += of[1]
+        return torques, sand
+
     def row(self, pulls):
-        """Values of `columns()` now."""
-        brakes, contacts = self.brakes, self.contacts
-        row = [contacts.time, self.coach.speed(), self.coach.travelled(), brakes.distributor.pressure]
-        row += [brakes.protection.reference, brakes.air(), brakes.sander.used]
+        """Values of `columns()` now: pressure and reference speed are those of the leading coach, air and sand of all."""
+        leading, contacts = self.brakes[0], self.contacts
+        row = [contacts.time, self.coach.speed(), self.coach.travelled(), leading.distributor.pressure]
+        row += [leading.protection.reference, sum(b.air() for b in self.brakes), sum(b.sander.used for b in self.brakes)]
         for k, w in enumerate(contacts.seen):
+            brakes, own = self.brakes[k // AXLES], k % AXLES
             row += [w.velocity, self.radius * w.omega, w.force, w.load, pulls[k], w.torque]
-            row += [brakes.cylinders[k].pressure, brakes.valves[k].value, *contacts.met[k], w.friction_energy]
+            row += [brakes.cylinders[own].pressure, brakes.valves[own].value, *contacts.met[k], w.friction_energy]
             row += [w.hottest, w.peak, w.ac1_depth]
-        return row
+        return [*row, *self.coach.coupler_forces()]
 
     def close(self):
         """Frees the wheelsets."""

@@ -1,4 +1,5 @@
-"""A four-axle coach in the plane as linear equations: body, two bogies, four wheelsets, springs and dampers.
+"""Four-axle coaches in the plane as linear equations: body, two bogies, four wheelsets, springs and dampers; couplers between
+them.
 
 Positions are counted from the static state: x along the track, y up, pitch counter-clockwise, so that a nose that dips
 turns negatively. Wheelsets move in x only: they stay on the rail, and the FMU does the rest. Every spring and damper joins
@@ -6,7 +7,11 @@ two bodies at one point of each; with b, the row that maps all coordinates to it
 
     M q'' + C q' + K q = f,     K = sum k b^T b,     C = sum c b^T b                              [N], [N m]
 
-which `Coach.advance` integrates implicitly (Newmark). Gravity acts through the slope and through the static loads.
+which `Coach.advance` integrates implicitly (Newmark). Gravity acts through the slope and through the static loads. Rails that
+are not smooth lift the wheelsets, whose height is that of the rail, and with them the lower ends of the primary suspension.
+
+A set has as many coordinates per coach, coach after coach from the front. Couplers join the ends of neighbouring bodies by a
+spring and a damper along the track (draft gear without slack); the coordinates of each coach count from its own place.
 """
 
 from dataclasses import dataclass
@@ -15,13 +20,14 @@ import numpy as np
 
 GRAVITY = 9.81  # m/s2
 AXLES = 4
-# Bodies that pitch, in order: car body, leading bogie, trailing bogie; three coordinates each, then x of the wheelsets.
+# Of one coach: bodies that pitch, in order: car body, leading bogie, trailing bogie; three coordinates each, then x of the
+# wheelsets.
 BODY, LEADING, TRAILING = 0, 3, 6
-WHEELSETS = slice(9, 9 + AXLES)
 SIZE = 9 + AXLES
 # Newmark's beta: bodies move by the trapezoidal rule; accelerations of wheelsets change linearly, as under the ramping forces
 # of the FMU, so that what is predicted is what they do.
 SHARE_AFTER = np.array([0.25] * 9 + [1.0 / 6.0] * AXLES)
+KEPT = 200  # inverted matrices, one for every pattern of rolling and sliding wheelsets
 
 
 @dataclass(frozen=True)
@@ -59,93 +65,144 @@ def wheelset(axle):
 
 
 class Coach:
-    """Equations of a coach; `v` are the values of a vehicle file."""
+    """Equations of a coach, or of a set of `count` equal ones; `v` are the values of a vehicle file."""
 
-    def __init__(self, v):
-        self.values = v
+    def __init__(self, v, count=1):
+        self.values, self.count, self.axles = v, count, count * AXLES
         self.body_mass = v.body.mass + v.body.payload
         inertia = v.body.pitch_inertia * self.body_mass / v.body.mass
         bogie = [v.bogie.mass, v.bogie.mass, v.bogie.pitch_inertia]
-        self.masses = np.array([self.body_mass, self.body_mass, inertia, *bogie, *bogie, *AXLES * [v.wheelset.mass]])
-        self.mass = self.body_mass + 2 * v.bogie.mass + AXLES * v.wheelset.mass
+        one = [self.body_mass, self.body_mass, inertia, *bogie, *bogie, *AXLES * [v.wheelset.mass]]
+        self.masses = np.array(count * one)
+        self.mass = self.body_mass + 2 * v.bogie.mass + AXLES * v.wheelset.mass  # kg, of one coach
         front, wheel = v.bogie_half_distance, v.axle_half_distance
-        self.axle_positions = np.array([front + wheel, front - wheel, -front + wheel, -front - wheel])
+        axles = np.array([front + wheel, front - wheel, -front + wheel, -front - wheel])
+        self.axle_positions = np.concatenate([axles - k * v.length for k in range(count)])
         self.static_load = self.mass * GRAVITY / AXLES  # N, of one wheelset
-        self._build(v, front, wheel)
-        self.links = [*self.secondary, *self.pull, *self.lift]
+        self.places = SIZE * np.arange(count)  # of the coaches among the coordinates
+        self.wheelsets = (self.places[:, None] + 9 + np.arange(AXLES)).ravel()
+        self.share_after = np.tile(SHARE_AFTER, count)
+        self.secondary, self.pull, self.lift = [], [], []
+        for place in self.places:
+            self._build(v, front, wheel, place)
+        self.pull_rows, self.lift_rows = (np.array([link.row for link in links]) for links in (self.pull, self.lift))
+        self.couplers = [self._coupler(v, place) for place in self.places[:-1]]
+        self.links = [*self.secondary, *self.pull, *self.lift, *self.couplers]
         rows = np.array([link.row for link in self.links])
         self.K = rows.T @ (np.array([link.stiffness for link in self.links])[:, None] * rows)
         self.C = rows.T @ (np.array([link.damping for link in self.links])[:, None] * rows)
         self._solvers = {}
 
-    def _build(self, v, front, wheel):
-        """Secondary suspension and traction rods; per axle the primary suspension along (`pull`) and upward (`lift`)."""
+    def _at(self, place, row):
+        """The row of one coach among those of all."""
+        whole = np.zeros(self.count * SIZE)
+        whole[place : place + SIZE] = row
+        return whole
+
+    def _coupler(self, v, place):
+        """Between the coach at a place among the coordinates and the next one; longer is positive."""
+        end = along(BODY, v.coupler.height - v.body.height)
+        row = self._at(place, end) - self._at(place + SIZE, end)
+        return Link(row, v.coupler.stiffness, v.coupler.damping)
+
+    def _build(self, v, front, wheel, place):
+        """One coach: secondary suspension and traction rods; per axle the primary suspension along (`pull`) and upward
+        (`lift`)."""
         s, rod, p = v.secondary, v.traction_rod, v.primary
-        self.secondary, self.pull, self.lift = [], [], []
+        link = lambda row, stiffness, damping: Link(self._at(place, row), stiffness, damping)
         for bogie, ahead in ((LEADING, front), (TRAILING, -front)):
             lift = upward(bogie, 0.0) - upward(BODY, ahead)
             shear = along(bogie, s.height - v.bogie.height) - along(BODY, s.height - v.body.height)
             tow = along(bogie, rod.height - v.bogie.height) - along(BODY, rod.height - v.body.height)
             self.secondary += [
-                Link(lift, s.vertical_stiffness, s.vertical_damping),
-                Link(shear, s.longitudinal_stiffness, s.longitudinal_damping),
-                Link(tow, rod.stiffness, rod.damping),
+                link(lift, s.vertical_stiffness, s.vertical_damping),
+                link(shear, s.longitudinal_stiffness, s.longitudinal_damping),
+                link(tow, rod.stiffness, rod.damping),
             ]
         for axle in range(AXLES):
             bogie, ahead = (LEADING if axle < 2 else TRAILING), (wheel if axle % 2 == 0 else -wheel)
             row = wheelset(axle) - along(bogie, v.wheelset.radius - v.bogie.height)
-            self.pull.append(Link(row, p.longitudinal_stiffness, p.longitudinal_damping))
-            self.lift.append(Link(-upward(bogie, ahead), p.vertical_stiffness, p.vertical_damping))
+            self.pull.append(link(row, p.longitudinal_stiffness, p.longitudinal_damping))
+            self.lift.append(link(-upward(bogie, ahead), p.vertical_stiffness, p.vertical_damping))
 
     def start(self, speed):
         """All bodies move at a speed [m/s], springs as under their own weight."""
-        self.position, self.velocity = np.zeros(SIZE), np.zeros(SIZE)
-        self.velocity[[BODY, LEADING, TRAILING]] = speed
-        self.velocity[WHEELSETS] = speed
+        self.position, self.velocity = np.zeros(self.count * SIZE), np.zeros(self.count * SIZE)
+        self.velocity[self._along()] = speed
+        self.lifted = np.zeros((2, self.axles))
+
+    def _along(self):
+        """Coordinates along the track."""
+        bodies = (self.places[:, None] + [BODY, LEADING, TRAILING]).ravel()
+        return np.concatenate([bodies, self.wheelsets])
 
     def speed(self):
-        """Of the car body [m/s]."""
+        """Of the car body, the leading one of a set [m/s]."""
         return self.velocity[BODY]
 
     def travelled(self):
-        """Way of the car body since the start [m]."""
+        """Way of the car body, the leading one of a set, since the start [m]."""
         return self.position[BODY]
 
     def forces(self):
         """What the primary suspension does to each wheelset: along the track [N], and load on the rail [N]."""
-        pulls = np.array([link.force(self.position, self.velocity) for link in self.pull])
-        lifts = np.array([link.force(self.position, self.velocity) for link in self.lift])
-        return pulls, self.static_load - lifts
+        p = self.values.primary
+        pulls = -p.longitudinal_stiffness * (self.pull_rows @ self.position)
+        pulls -= p.longitudinal_damping * (self.pull_rows @ self.velocity)
+        lifts = -p.vertical_stiffness * (self.lift_rows @ self.position)
+        lifts -= p.vertical_damping * (self.lift_rows @ self.velocity)
+        # The damper's share of a rail that lifts the wheelset is the wheelset's own (`vehicle.damping` of the FMU).
+        return pulls, self.static_load - lifts + p.vertical_stiffness * self.lifted[0]
 
-    def advance(self, h, torques, slope, wheel_masses, wheel_forces):
+    def coupler_forces(self):
+        """Of the couplers from the front, tension positive [N]."""
+        return np.array([-link.force(self.position, self.velocity) for link in self.couplers])
+
+    def advance(self, h, torques, slope, wheel_masses, wheel_forces, lifted=None):
         """Moves on by `h` [s] as if wheelsets were masses [kg] under the suspension and constant forces [N]; returns
-        `forces()` then. `torques` [N m] are those of the brakes on the wheels, forward positive."""
+        `forces()` then. `torques` [N m] are those of the brakes on the wheels, forward positive; `slope` that of the track, one
+        or one per coach; `lifted` height [m] and its rate [m/s] of the rail below each wheelset at the end of the step."""
         masses, f = self.masses.copy(), self._external(torques, slope)
-        masses[WHEELSETS] = wheel_masses
-        before = (f - self.C @ self.velocity - self.K @ self.position) / self.masses
-        f[WHEELSETS] = wheel_forces
-        before[WHEELSETS] = ((f - self.C @ self.velocity - self.K @ self.position) / masses)[WHEELSETS]
+        masses[self.wheelsets], f[self.wheelsets] = wheel_masses, wheel_forces
+        lifted = np.zeros((2, self.axles)) if lifted is None else lifted
+        now, then = f + self._ground(self.lifted), f + self._ground(lifted)
+        before = (now - self.C @ self.velocity - self.K @ self.position) / masses
         key = (h, *wheel_masses)
         if key not in self._solvers:
-            self._solvers[key] = np.linalg.inv(np.diag(masses) + 0.5 * h * self.C + h * h * self.K * SHARE_AFTER)
+            if len(self._solvers) >= KEPT:
+                self._solvers.clear()
+            self._solvers[key] = np.linalg.inv(np.diag(masses) + 0.5 * h * self.C + h * h * self.K * self.share_after)
         half = self.velocity + 0.5 * h * before
-        there = self.position + h * self.velocity + h * h * (0.5 - SHARE_AFTER) * before
-        after = self._solvers[key] @ (f - self.C @ half - self.K @ there)
-        self.position, self.velocity = there + h * h * SHARE_AFTER * after, half + 0.5 * h * after
+        there = self.position + h * self.velocity + h * h * (0.5 - self.share_after) * before
+        after = self._solvers[key] @ (then - self.C @ half - self.K @ there)
+        self.position, self.velocity = there + h * h * self.share_after * after, half + 0.5 * h * after
+        self.lifted = lifted
         return self.forces()
+
+    def _ground(self, lifted):
+        """Forces on the coordinates of wheelsets that are lifted: of the lower ends of the primary suspension."""
+        if not np.any(lifted):
+            return 0.0
+        p = self.values.primary
+        carried = p.vertical_stiffness * lifted[0] + p.vertical_damping * lifted[1]
+        return -carried @ self.lift_rows
 
     def correct(self, positions, velocities):
         """Wheelsets are where they are found [m, m/s]."""
-        self.position[WHEELSETS], self.velocity[WHEELSETS] = positions, velocities
+        self.position[self.wheelsets], self.velocity[self.wheelsets] = positions, velocities
 
     def _external(self, torques, slope):
         """Forces from outside on all but the wheelsets: slope, resistance, and the brakes' reaction on the frames."""
-        f = np.zeros(SIZE)
-        f[[BODY, LEADING, TRAILING]] = -GRAVITY * slope * self.masses[[BODY, LEADING, TRAILING]]
-        r, speed = self.values.resistance, self.speed()
-        share = r.constant * np.tanh(speed / 0.01) + r.quadratic * speed * abs(speed)
-        f[BODY] -= share * self.mass * GRAVITY
-        f[LEADING + 2], f[TRAILING + 2] = torques[0] + torques[1], torques[2] + torques[3]
+        f, slopes = np.zeros(self.count * SIZE), np.broadcast_to(slope, self.count)
+        r = self.values.resistance
+        for k, place in enumerate(self.places):
+            bodies = place + np.array([BODY, LEADING, TRAILING])
+            f[bodies] = -GRAVITY * slopes[k] * self.masses[bodies]
+            speed = self.velocity[place + BODY]
+            share = r.constant * np.tanh(speed / 0.01) + r.quadratic * speed * abs(speed)
+            f[place + BODY] -= share * self.mass * GRAVITY
+            of = torques[k * AXLES : (k + 1) * AXLES]
+            f[place + LEADING + 2], f[place + TRAILING + 2] = of[0] + of[1], of[2] + of[3]
         return f
 
     def energy(self):
