@@ -3,6 +3,7 @@
 
 mod common;
 
+use rayon::prelude::*;
 use std::path::Path;
 use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, Response, presets};
@@ -72,13 +73,11 @@ fn unexplained(name: &str, value: f64, config: &Config) -> Option<String> {
 #[test]
 fn the_default_rolls_with_every_parameter_at_each_end_of_its_range_or_names_the_other_parameter() {
     common::model(coarse("railway"));
-    let mut wrong = Vec::new();
-    for (name, value, config) in ends(&coarse("railway")) {
-        match config.validate() {
-            Ok(()) => wrong.extend(rolls(&config).err().map(|why| format!("{name} = {value}: {why}"))),
-            Err(_) => wrong.extend(unexplained(name, value, &config)),
-        }
-    }
+    let wrong = ends(&coarse("railway")).into_par_iter().filter_map(|(name, value, config)| match config.validate() {
+        Ok(()) => rolls(&config).err().map(|why| format!("{name} = {value}: {why}")),
+        Err(_) => unexplained(name, value, &config),
+    });
+    let wrong: Vec<String> = wrong.collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

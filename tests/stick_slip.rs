@@ -123,12 +123,12 @@ fn falling_friction_excites_the_torsion_at_half_its_slope_over_the_mass_and_risi
     let model = heavy_hub();
     let exact = torsion(model.config()).frequency;
     assert!((exact / 1777.3 - 1.0).abs() < 1e-3, "{exact}");
-    for h in [2e-5, 1e-5] {
+    for (h, slopes) in [(2e-5, &[-0.2, -0.4, -0.8, 0.4][..]), (1e-5, &[-0.4])] {
         // Constant friction neither damps nor excites; what is left is the energy that streams out with the rail, and the
         // damping of the time formula.
         let [constant, ..] = grown(&model, 0.0, h);
         assert!(constant < 0.0 && constant > -0.1, "{constant}");
-        for slope in [-0.2, -0.4, -0.8, 0.4] {
+        for &slope in slopes {
             let [rate, frequency, expected] = grown(&model, slope, h);
             assert!(rate.signum() == -slope.signum(), "{rate}");
             assert!((rate / expected - 1.0).abs() < 0.05, "{rate} for {expected}");
@@ -168,17 +168,18 @@ fn stick_slip_sets_in_where_the_slope_of_friction_equals_the_modal_damping() {
             );
             assert!(below > 0.0 && above < 0.0);
         }
-        // Rising friction damps on top.
-        let (rate, _) = small_swings(&damped(1e-3), &law_of_slope(heavy_hub().config(), 0.4), h);
-        assert!(rate < -7.0, "{rate}");
     }
+    // Rising friction damps on top.
+    let (rate, _) = small_swings(&damped(1e-3), &law_of_slope(heavy_hub().config(), 0.4), 2e-5);
+    assert!(rate < -7.0, "{rate}");
 }
 
-/// Smallest and largest slip, and frequency [rad/s], of the last 0.3 s of stick–slip that has grown for 1.2 s.
+/// Smallest and largest slip, and frequency [rad/s], of the last quarter of stick–slip that has grown for 0.8 s from a moment
+/// without friction.
 fn limit_cycle(h: f64) -> [f64; 3] {
     let config = heavy_hub().config().clone();
     let model = damped(0.2 * ratio_of_onset(&config, -0.4));
-    let slips = rings(&model, &law_of_slope(&config, -0.4), h, 1.2, 0.5);
+    let slips = rings(&model, &law_of_slope(&config, -0.4), h, 0.8, 0.0);
     let last = &slips[slips.len() * 3 / 4..];
     let (low, high) = range(last);
     let [rate, frequency] = <[f64; 2]>::from(growth(last, h));

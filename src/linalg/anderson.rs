@@ -16,6 +16,8 @@ pub struct Anderson {
     /// Differences of points and of changes between consecutive iterations.
     points: Vec<Vec<f64>>,
     changes: Vec<Vec<f64>>,
+    /// Scalar products of the remembered differences of changes.
+    products: SMatrix<f64, MEMORY, MEMORY>,
     /// Iterations since the start.
     count: usize,
 }
@@ -40,6 +42,10 @@ impl Anderson {
             dx.extend(x.iter().zip(&self.point).map(|(now, before)| now - before));
             df.clear();
             df.extend(x.iter().zip(image).zip(&self.change).map(|((x, g), before)| g - x - before));
+            for k in 0..self.count.min(MEMORY) {
+                let product = product(&self.changes[slot], &self.changes[k]);
+                (self.products[(slot, k)], self.products[(k, slot)]) = (product, product);
+            }
         }
         self.point.clear();
         self.point.extend_from_slice(x);
@@ -58,13 +64,11 @@ impl Anderson {
 
     /// Shares of the remembered differences that make the change smallest; zero where they depend on each other.
     fn shares(&self, kept: usize) -> [f64; MEMORY] {
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let mut matrix = SMatrix::<f64, MEMORY, MEMORY>::zeros();
         let mut rhs = SVector::<f64, MEMORY>::zeros();
         for i in 0..kept {
-            for j in 0..=i {
-                matrix[(i, j)] = product(&self.changes[i], &self.changes[j]);
-                matrix[(j, i)] = matrix[(i, j)];
+            for j in 0..kept {
+                matrix[(i, j)] = self.products[(i, j)];
             }
             rhs[i] = product(&self.changes[i], &self.change);
         }
@@ -75,6 +79,16 @@ impl Anderson {
         }
         matrix.cholesky().map_or([0.0; MEMORY], |factors| factors.solve(&rhs).into())
     }
+}
+
+/// Scalar product with sums in four lanes, the same on every machine.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for (a, b) in a.iter().zip(b) {
+        (0..4).for_each(|l| sums[l] += a[l] * b[l]);
+    }
+    sums.iter().sum::<f64>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -42,7 +42,38 @@ pub(super) struct Melt {
     /// Heat content at the end of the step.
     content: Vec<f64>,
     search: Search,
-    mixing: Anderson,
+    mixing: Mixing,
+}
+
+/// Mixing of the columns in which steel melts; most have no latent part before and after.
+#[derive(Clone, Debug, Default)]
+struct Mixing {
+    /// Their coefficients, counted in both bodies.
+    places: Vec<usize>,
+    latent: Vec<f64>,
+    image: Vec<f64>,
+    anderson: Anderson,
+}
+
+impl Mixing {
+    /// Starts with the coefficients that do not vanish before or after the first iteration.
+    fn begin(&mut self, latent: &[f64], image: &[f64]) {
+        self.anderson.restart();
+        self.places.clear();
+        self.places.extend((0..latent.len()).filter(|&i| latent[i] != 0.0 || image[i] != 0.0));
+    }
+
+    /// Moves the latent part on; what melts later than in the first iteration takes its image.
+    fn mix(&mut self, latent: &mut [f64], image: &[f64]) {
+        let Self { places, latent: few, image: few_images, anderson } = self;
+        for (few, all) in [(&mut *few, &*latent), (&mut *few_images, image)] {
+            few.clear();
+            few.extend(places.iter().map(|&i| all[i]));
+        }
+        anderson.mix(few, few_images);
+        latent.copy_from_slice(image);
+        places.iter().zip(few).for_each(|(&i, value)| latent[i] = *value);
+    }
 }
 
 /// Memory of a look at one column.
@@ -82,7 +113,6 @@ impl Heat {
         // Where columns are too coarse for a front, what is molten may jump between both ways to find it.
         for (by_nodes, most) in [false, true].into_iter().zip(ITERATIONS) {
             search.by_nodes = by_nodes;
-            mixing.restart();
             self.set_latent(melting, before, latent, search);
             for iteration in 1..=most {
                 rate.clone_from(base);
@@ -94,6 +124,9 @@ impl Heat {
                 change = self.largest_difference(latent, image, search);
                 if change <= TOLERANCE || (iteration == most && change <= ACCEPTED) {
                     return Ok(iteration);
+                }
+                if iteration == 1 {
+                    mixing.begin(latent, image);
                 }
                 mixing.mix(latent, image);
             }
