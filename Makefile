@@ -11,6 +11,7 @@
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
 # make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
+# make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
@@ -45,7 +46,7 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
 	docs/fmu.html docs/signs.svg docs/model.png docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-rust test-fmpy fmu fmu-all platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -92,6 +93,9 @@ eight-wheels: $(FMU) $(INSTALLED)
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
+
+surfaces: $(FMU) $(INSTALLED)
+	$(PY) examples/ex10_surfaces.py --fmu $(FMU) --out results
 
 locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results

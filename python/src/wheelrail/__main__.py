@@ -1,4 +1,4 @@
-"""Command line: `python -m wheelrail train SCENARIO`, `sweep SCENARIO`, `schema KIND`."""
+"""Command line: `python -m wheelrail train SCENARIO`, `sweep SCENARIO`, `schema KIND`; what results say: see `analysis`."""
 
 import argparse
 import json
@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+from . import analysis
 from . import scenario as scenarios
 from .files import BadFile, json_schema
 from .fmu import Refused, default_path
@@ -13,7 +14,7 @@ from .fmu import Refused, default_path
 
 def arguments(argv=None):
     """Command line."""
-    parser = argparse.ArgumentParser(prog="wheelrail", description="A train brakes.")
+    parser = argparse.ArgumentParser(prog="wheelrail", description="A train brakes; what results say.")
     commands = parser.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
         command = commands.add_parser(name, help=about)
@@ -28,6 +29,7 @@ def arguments(argv=None):
     sweep.add_argument("--workers", type=int, default=2, help="on this machine, default %(default)s")
     schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
+    analysis.add_commands(commands)
     return parser.parse_args(argv)
 
 
@@ -68,6 +70,9 @@ def main(argv=None):
         print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))
         return
     try:
+        if options.command in analysis.COMMANDS:
+            analysis.run(options)
+            return
         scenario = scenarios.load(options.scenario)
         if options.step is not None:
             wrong = scenarios.SCENARIO["step"].check(options.step)

@@ -1,0 +1,240 @@
+"""Example 10: irregular surfaces. What force does this rail, this hole, this flat make?
+
+    make surfaces
+
+1. Corrugation (Paper A, Fig. 11 and 12): waves of 5 um and 5 cm; amplitude of the force over the frequency of excitation beside
+   the closed form of `wheelrail.surfaces`.
+2. A sharp hole of 5 mm (Paper A, Fig. 13) at three speeds, without the paper's Rayleigh damping, under which shorter and shorter
+   steps find more and more force at the edges. The paper does not give its depth: 0.1 mm is ASSUMED.
+3. Probability density of the force on a rough rail over speed, load and unsprung mass (Paper A, Fig. 8 to 10). The spectrum is
+   our own, seeded, with peaks at 5 and 8 cm as the paper describes its measured one: TRENDS, not values. More mass widens the
+   density while the resonance moves towards a peak of the spectrum; twice the mass of the wheel would leave it again.
+4. A wheel flat of 40 mm, fresh and rounded: largest force and loss of contact over speed.
+5. Roughness by the limit of EN ISO 3095: what the wheel met, analysed in one-third octaves.
+6. The contact filter, from a wheel that stands on waves, beside the Bessel function and the table of CNOSSOS-EU.
+
+Runs are independent and share two threads. Results become a table, a CSV and a picture.
+"""
+
+import argparse
+import csv
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+from tqdm import tqdm
+
+from wheelrail import Fmu, Wheel, signals, surfaces
+from wheelrail.plots import COLOURS, GREY, pyplot
+
+KMH = 1.0 / 3.6
+LOAD = 4.7e6  # N, of Paper A on a width of 1 m
+PAPER = {"preset": "paper_a", "thermal.enabled": False, "damping.rayleigh_stiffness": 1e-4}
+RAILWAY = {"preset": "railway", "thermal.enabled": False}
+# First natural frequency of the wheel of Paper A on its contact [rad/s], from an independent eigenvalue analysis.
+RESONANCE = 2922.0
+MASS = 8000.0 * np.pi * (0.46**2 - 0.046**2)  # kg, of 1 m of width
+WAVE, WAVELENGTH = 5e-6, 0.05  # m
+# dB re 1 um in the one-third octaves from 12.5 cm to 4 cm: 3.9 um root mean square, peaks at 8 and 5 cm.
+ROUGH = "roughness(levels = [0, 2, 7, 2, 7, 0], longest = 0.125, seed = 3, length = 40, from = 0.1, blend = 0.2)"
+ROUGH_WAY, SHORTEST = 8.3, 0.035  # m; the way of the paper
+FLAT, FLAT_AT = 0.04, 0.1  # m
+PERIOD, SAMPLES = 8.0, 3200  # m of rail that is analysed, and samples of it
+FILTERED = (0.1, 0.08, 0.063, 0.05, 0.04, 0.0315, 0.025, 0.02)  # m
+
+
+def roll(fmu, parameters, speed, way, step, outputs, load=None):
+    """Rolls at a held speed over a way, in equal steps; table of time, distance and outputs at all communication points."""
+    inputs = {"control.translation": "velocity", "drive.velocity": speed}
+    if load is not None:
+        inputs["drive.load"] = load
+    with Wheel(fmu, parameters | {"initial.velocity": speed}, inputs) as wheel:
+        names, rows = ("wheel.distance", *outputs), []
+        for _ in range(int(np.ceil(way / speed / step - 1e-9))):
+            wheel.step(step)
+            rows.append([wheel.time, *wheel.get(*names)])
+    return np.array(rows)
+
+
+def corrugation(fmu, speed):
+    """Amplitude of the force over waves, after the start has died away."""
+    parameters = PAPER | {"rail.profile": f"sinusoid(amplitude = {WAVE}, wavelength = {WAVELENGTH})"}
+    step, settled = WAVELENGTH / speed / 40, 0.015
+    table = roll(fmu, parameters, speed, settled * speed + 5 * WAVELENGTH, step, ("contact.force_y",))
+    kept = table[-200:]
+    return signals.harmonic(kept[:, 0], kept[:, 2], speed / WAVELENGTH)[0]
+
+
+def hole(fmu, speed):
+    """Force on the way over a hole: distance from its middle and force."""
+    parameters = PAPER | {"rail.profile": "hole(position = 0.03, length = 5e-3, depth = 1e-4)", "damping.rayleigh_stiffness": 0.0}
+    table = roll(fmu, parameters, speed, 0.12, 1e-4 / speed, ("contact.force_y",))
+    return table[:, 1] - 0.03, table[:, 2]
+
+
+def rough(fmu, speed, load, mass):
+    """Time and force on a rough rail, without the start."""
+    parameters = PAPER | {"rail.profile": ROUGH, "wheel.hub_mass": mass}
+    table = roll(fmu, parameters, speed, 0.6 + ROUGH_WAY, SHORTEST / 16 / speed, ("contact.force_y",), load)
+    kept = table[table[:, 1] > 0.6]
+    return kept[:, 0], kept[:, 2]
+
+
+def flat(fmu, shape, speed):
+    """Largest force and time without contact when a flat has passed."""
+    parameters = RAILWAY | {"wheel.profile": f"flat(position = {FLAT_AT}, length = {FLAT}, shape = {shape})"}
+    outputs = ("contact.force_y_max", "contact.lost_time")
+    table = roll(fmu, parameters, speed, FLAT_AT + FLAT + 0.012 * speed, 2.5e-5, outputs)
+    return table[:, 2].max(), table[-1, 3]
+
+
+def spectrum(fmu):
+    """One-third octaves of what the wheel met on one period of a rail by EN ISO 3095."""
+    parameters = RAILWAY | {"rail.profile": f"roughness(spectrum = EN_ISO_3095, shortest = 0.02, length = {PERIOD}, seed = 1)"}
+    speed = 100.0 * KMH
+    table = roll(fmu, parameters, speed, PERIOD, PERIOD / SAMPLES / speed, ("rail.profile_height",))
+    frequency, level = signals.octaves(table[:, 1], table[:, 2], 1e-6, "none")
+    known = [(1.0 / f, l) for f, l in zip(frequency, level) if 0.018 < 1.0 / f < 0.45]
+    return np.array(known)
+
+
+def standing(fmu, wavelength, phase):
+    """Height of the hub on a wave, and half-width of the contact, of a wheel that stands."""
+    wave = f"sinusoid(amplitude = 2e-6, wavelength = {wavelength}, phase = {phase})"
+    with Wheel(fmu, RAILWAY | {"rail.profile": wave, "initial.velocity": 0.0}) as wheel:
+        return wheel.get("hub.height", "contact.half_width")
+
+
+def cases(fmu):
+    """Everything to compute: key to function and arguments."""
+    speeds = np.array([30, 45, 60, 68, 75, 80, 84, 88, 92, 100, 110, 125, 150]) * KMH
+    tasks = {("corrugation", speed): (corrugation, speed) for speed in speeds}
+    tasks |= {("hole", speed): (hole, speed) for speed in np.array([50, 100, 150]) * KMH}
+    base = (100.0 * KMH, LOAD, 0.0)
+    varied = {"speed": [(v * KMH, *base[1:]) for v in (50, 75, 100)]}
+    varied["load"] = [(base[0], share * LOAD, 0.0) for share in (0.5, 1.0, 1.5)]
+    varied["unsprung mass"] = [(*base[:2], mass) for mass in (0.0, 1e3, 2e3)]
+    tasks |= {("rough", *case): (rough, *case) for group in varied.values() for case in group}
+    flats = np.arange(20, 141, 10) * KMH
+    tasks |= {("flat", shape, speed): (flat, shape, speed) for shape in ("fresh", "rounded") for speed in flats}
+    tasks |= {("spectrum",): (spectrum,)}
+    for phase in (0.5 * np.pi, -0.5 * np.pi):
+        tasks |= {("standing", length, phase): (standing, length, phase) for length in FILTERED}
+    return tasks, {"speeds": speeds, "flats": flats, "varied": varied}
+
+
+def compute(fmu):
+    """Results of all cases on two threads."""
+    tasks, axes = cases(fmu)
+    with ThreadPoolExecutor(2) as pool:
+        running = {key: pool.submit(function, fmu, *arguments) for key, (function, *arguments) in tasks.items()}
+        found = {key: future.result() for key, future in tqdm(running.items(), desc="surfaces", disable=None)}
+    return found, axes
+
+
+def closed_form(speeds, half_width):
+    """Amplitude over waves of a mass on the contact spring [N]."""
+    stiffness = MASS * RESONANCE**2
+    return surfaces.corrugation_force(speeds, WAVE, WAVELENGTH, half_width, stiffness, MASS, 1e-4)
+
+
+def report(found, axes, half_width):
+    """Rows of the table: what, unit, found, expected or none."""
+    speeds, rows = axes["speeds"], []
+    for speed, exact in zip(speeds, closed_form(speeds, half_width)):
+        rows.append((f"waves at {speed / KMH:.0f} km/h: amplitude of the force", "N", found["corrugation", speed], exact))
+    for key in (key for key in found if key[0] == "hole"):
+        force = found[key][1]
+        rows += [(f"hole at {key[1] / KMH:.0f} km/h: {name} over load", "1", value / LOAD, None) for name, value in (("least", force.min()), ("largest", force.max()))]
+    for name, group in axes["varied"].items():
+        for k, case in enumerate(group):
+            about = signals.statistics(*found["rough", *case])
+            label = f"rough rail, {name} {k + 1} of 3"
+            rows += [(f"{label}: mean", "N", about.mean, case[1]), (f"{label}: standard deviation", "N", about.deviation, None)]
+    for key in (key for key in found if key[0] == "flat"):
+        rows.append((f"{key[1]} flat at {key[2] / KMH:.0f} km/h: largest force", "N", found[key][0], None))
+        rows.append((f"{key[1]} flat at {key[2] / KMH:.0f} km/h: without contact", "s", found[key][1], None))
+    for length, level in found["spectrum",]:
+        rows.append((f"roughness met at {length:.3g} m", "dB", level, surfaces.EN_ISO_3095[round(10 * np.log10(length))]))
+    for length, level, exact in filtered(found):
+        rows.append((f"contact filter at {length:.3g} m", "dB", level, exact))
+    return rows
+
+
+def filtered(found):
+    """Wavelength, level of what lifts a standing wheel, and the Bessel function [dB]."""
+    for length in FILTERED:
+        (crest, width), (trough, _) = (found["standing", length, sign * 0.5 * np.pi] for sign in (1.0, -1.0))
+        level = 20.0 * np.log10(abs(crest - trough) / 4e-6)
+        yield length, level, float(surfaces.contact_filter_level(width, length))
+
+
+def draw(path, found, axes, half_width):
+    """The gallery."""
+    plt = pyplot()
+    figure, ((a, b, c), (d, e, f), (g, h, i)) = plt.subplots(3, 3, figsize=(13.5, 10.5), layout="constrained")
+    speeds = axes["speeds"]
+    fine = np.linspace(speeds[0], speeds[-1], 300)
+    omega = lambda speed: 2.0 * np.pi * speed / WAVELENGTH
+    a.plot(omega(fine), closed_form(fine, half_width) / 1e6, color=GREY, label="closed form")
+    a.plot(omega(speeds), [found["corrugation", v] / 1e6 for v in speeds], "o", color=COLOURS[0], label="simulated")
+    a.set(title="waves, 5 µm and 5 cm", xlabel="excitation [rad/s]", ylabel="amplitude of the force [MN]")
+    for key, colour in zip((key for key in found if key[0] == "hole"), COLOURS):
+        x, force = found[key]
+        b.plot(1e3 * x, force / LOAD, color=colour, label=f"{key[1] / KMH:.0f} km/h")
+    b.set(title="sharp hole, 5 mm", xlabel="distance from its middle [mm]", ylabel="force over load [1]")
+    labels = {"speed": lambda k: f"{k[0] / KMH:.0f} km/h", "load": lambda k: f"{k[1] / 1e6:.2f} MN", "unsprung mass": lambda k: f"{(MASS + k[2]) / 1e3:.1f} t"}
+    for axis, (name, group) in zip((d, e, f), axes["varied"].items()):
+        for case, colour in zip(group, COLOURS):
+            edges, share = signals.density(*found["rough", *case], classes=40)
+            axis.plot(0.5 * (edges[1:] + edges[:-1]) / 1e6, 1e6 * share, color=colour, label=labels[name](case))
+        axis.set(title=f"rough rail: {name}", xlabel="force [MN]", ylabel="probability density [1/MN]")
+    for shape, colour in zip(("fresh", "rounded"), COLOURS):
+        g.plot(axes["flats"] / KMH, [found["flat", shape, v][0] / 1e3 for v in axes["flats"]], "o-", color=colour, label=shape)
+        c.plot(axes["flats"] / KMH, [1e3 * found["flat", shape, v][1] for v in axes["flats"]], "o-", color=colour, label=shape)
+    g.set(title="flat, 40 mm", xlabel="speed [km/h]", ylabel="largest force [kN]")
+    c.set(title="flat, 40 mm", xlabel="speed [km/h]", ylabel="time without contact [ms]")
+    met = found["spectrum",]
+    h.semilogx(1e3 * met[:, 0], [surfaces.EN_ISO_3095[round(10 * np.log10(x))] for x in met[:, 0]], "--", color=GREY, label="EN ISO 3095")
+    h.semilogx(1e3 * met[:, 0], met[:, 1], "o", color=COLOURS[0], label="met by the wheel")
+    h.set(title="roughness", xlabel="wavelength [mm]", ylabel="level [dB re 1 µm]")
+    lengths, levels, exact = np.array(list(filtered(found))).T
+    i.semilogx(1e3 * lengths, exact, color=GREY, label="Bessel function")
+    i.semilogx(1e3 * lengths, levels, "o", color=COLOURS[0], label="standing wheel")
+    i.semilogx(1e3 * lengths, surfaces.cnossos_filter(lengths), "x", color=COLOURS[1], label="CNOSSOS-EU, 100 kN, 920 mm")
+    i.set(title="contact filter", xlabel="wavelength [mm]", ylabel="level [dB]")
+    for axis in (h, i):
+        axis.set_xticks([20, 50, 100, 200, 400] if axis is h else [20, 30, 50, 100])
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_minor_formatter("")
+    for axis in figure.axes:
+        axis.legend(fontsize=7)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def main():
+    """Computes, prints, draws."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--fmu", default="target/wheelrail.fmu")
+    parser.add_argument("--out", type=Path, default=Path("results"))
+    options = parser.parse_args()
+    began = perf_counter()
+    with Fmu(options.fmu) as fmu:
+        with Wheel(fmu, PAPER) as wheel:
+            half_width = wheel.get("contact.half_width")
+        found, axes = compute(fmu)
+    rows = report(found, axes, half_width)
+    for name, unit, value, exact in rows:
+        beside = "" if exact is None else f"   {exact:12.5g}   {value - exact:+9.3g}" if unit == "dB" else f"   {exact:12.5g}   {100 * (value / exact - 1):+8.2f} %"
+        print(f"{name:58} {value:12.5g} {unit:4}{beside}")
+    options.out.mkdir(parents=True, exist_ok=True)
+    with open(options.out / "surfaces.csv", "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([("name", "unit", "found", "expected"), *rows])
+    draw(options.out / "surfaces.png", found, axes, half_width)
+    print(f"{perf_counter() - began:.0f} s; written: {options.out / 'surfaces.csv'}, {options.out / 'surfaces.png'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,220 @@
+"""Commands that answer questions about results: `python -m wheelrail force | spectrum | octaves | flat | filter`.
+
+Results are CSV files with a header, such as `wheelrail simulate --out run.csv` writes; profiles of rail and wheel as well.
+"""
+
+import csv
+import difflib
+from pathlib import Path
+
+import numpy as np
+
+from . import signals, surfaces
+from .files import BadFile
+
+FORCE = "contact.force_y"
+SHARES = (0.5, 0.9, 0.99, 0.999)  # of time, of which the level that is not exceeded is printed
+
+
+def read_columns(path, names):
+    """Columns of a CSV file by name, as arrays."""
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as file:
+            rows = list(csv.reader(file))
+    except OSError as error:
+        raise BadFile(f"{path}: cannot be read ({error.strerror})") from error
+    if len(rows) < 2:
+        raise BadFile(f"{path}: {len(rows)} lines; a header and rows are needed")
+    header = [name.strip() for name in rows[0]]
+    for name in names:
+        if name not in header:
+            near = difflib.get_close_matches(name, header, n=3) or header[:8]
+            raise BadFile(f"{path}:1: column {name} is missing; nearest: {', '.join(near)}")
+    columns = [header.index(name) for name in names]
+    table = np.empty((len(names), len(rows) - 1))
+    for i, row in enumerate(rows[1:]):
+        for k, column in enumerate(columns):
+            try:
+                table[k, i] = float(row[column])
+            except (ValueError, IndexError):
+                found = row[column] if column < len(row) else "missing"
+                raise BadFile(f"{path}:{i + 2}: {names[k]} is {found!r}, not a number") from None
+    return list(table)
+
+
+def add_commands(commands):
+    """Declares the commands."""
+    about = {
+        "force": "statistics of a column over time: moments, probability density, exceedance",
+        "spectrum": "amplitude of a column against frequency",
+        "octaves": "one-third octaves of a column, or of a profile with the columns position,height",
+        "flat": "largest force of every turn of the wheel against speed",
+        "filter": "contact filter of a Hertzian line contact beside that of CNOSSOS-EU",
+    }
+    made = {name: commands.add_parser(name, help=text, description=text) for name, text in about.items()}
+    for name in ("force", "spectrum", "octaves", "flat"):
+        made[name].add_argument("file", type=Path, help="CSV file with a header")
+        made[name].add_argument("--column", default=FORCE, help="default: %(default)s")
+        made[name].add_argument("--over", default="time", help="column of time or position, default: %(default)s")
+        made[name].add_argument("--begin", type=float, default=-np.inf, help="time or position from which on it counts")
+    for name in ("spectrum", "octaves"):
+        made[name].add_argument("--step", type=float, help="resample at this distance first")
+    made["octaves"].add_argument("--reference", type=float, help="of 0 dB; default: 1e-6 for heights, 1 otherwise")
+    made["octaves"].add_argument("--periodic", action="store_true", help="the file holds one whole period: no window")
+    made["filter"].add_argument("--half-width", type=float, default=7.16e-3, help="of the contact [m], default: %(default)s")
+    for command in made.values():
+        command.add_argument("--out", type=Path, default=Path("results"), help="directory, default: %(default)s")
+    return tuple(made)
+
+
+def run(options):
+    """Runs a command: a table on the screen, a CSV and a picture."""
+    try:
+        name, header, rows, lines, draw = COMMANDS[options.command](options)
+    except signals.BadSignal as error:
+        raise BadFile(f"{options.file}: {error}") from error
+    print("\n".join(lines))
+    options.out.mkdir(parents=True, exist_ok=True)
+    table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
+    with open(table, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([header, *([f"{value:.9g}" for value in row] for row in rows)])
+    save(picture, draw)
+    print(f"written: {table}, {picture}")
+
+
+def save(path, draw):
+    """A picture of one diagram."""
+    from .plots import pyplot
+
+    plt = pyplot()
+    figure, axis = plt.subplots(figsize=(6.4, 4.0), layout="constrained")
+    draw(axis)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def _signal(options):
+    """Column of time or position and column of values, from where they count."""
+    if options.command == "octaves" and options.over == "time" and options.column == FORCE:
+        with open(options.file, encoding="utf-8-sig") as file:
+            if {"position", "height"} <= {name.strip() for name in file.readline().split(",")}:
+                options.over, options.column = "position", "height"
+    over, values = read_columns(options.file, (options.over, options.column))
+    kept = over >= options.begin
+    over, values = signals.checked(over[kept], values[kept])
+    return (over, values) if getattr(options, "step", None) is None else signals.resampled(over, values, options.step)
+
+
+def _force(options):
+    """Statistics, density and exceedance."""
+    time, values = _signal(options)
+    found = signals.statistics(time, values)
+    edges, density = signals.density(time, values)
+    levels, above = signals.exceedance(time, values)
+    lines = [f"{options.column} over {time[-1] - time[0]:.4g} s, {len(time)} samples", ""]
+    words = {"deviation": "standard deviation", "least": "smallest", "at_zero": "share of time at or below zero"}
+    lines += [f"{words.get(name, name):32s} {value:14.6g}" for name, value in vars(found).items()]
+    lines += [f"{f'not exceeded {100 * q:g} % of the time':32s} {_quantile(levels, above, q):14.6g}" for q in SHARES]
+    rows = [(0.5 * (low + high), share, np.interp(0.5 * (low + high), levels, above)) for low, high, share in zip(edges, edges[1:], density)]
+
+    def draw(axis):
+        axis.stairs(density, edges, fill=True, alpha=0.3)
+        axis.set(xlabel=options.column, ylabel="probability density", yscale="linear")
+        other = axis.twinx()
+        other.semilogy(levels, np.maximum(above, 0.5 / len(levels)), color="#D55E00")
+        other.set(ylabel="share of time above")
+        other.grid(False)
+
+    return "force", (options.column, "density", "exceedance"), rows, lines, draw
+
+
+def _quantile(levels, above, share):
+    """Level that is not exceeded for a share of the time."""
+    return levels[min(int(np.searchsorted(-above, share - 1.0)), len(levels) - 1)]
+
+
+def _spectrum(options):
+    """Amplitude against frequency."""
+    frequency, amplitude = signals.amplitudes(*_signal(options))
+    largest = np.argsort(amplitude[1:])[::-1]
+    peaks = [k + 1 for k in largest if amplitude[k + 1] >= max(amplitude[k], amplitude[min(k + 2, len(amplitude) - 1)])][:8]
+    lines = [f"largest amplitudes of {options.column}", "", f"{'frequency':>14s} {'amplitude':>14s}"]
+    lines += [f"{frequency[k]:14.6g} {amplitude[k]:14.6g}" for k in peaks]
+
+    def draw(axis):
+        axis.loglog(frequency[1:], amplitude[1:])
+        axis.set(xlabel=f"frequency [1/unit of {options.over}]", ylabel=f"amplitude of {options.column}")
+
+    return "spectrum", ("frequency", "amplitude"), list(zip(frequency, amplitude)), lines, draw
+
+
+def _octaves(options):
+    """One-third octaves; of a profile beside the limit of EN ISO 3095."""
+    over, values = _signal(options)
+    profile = options.over == "position"
+    reference = options.reference or (1e-6 if profile else 1.0)
+    if options.periodic:
+        # A file of one whole period may repeat its first place at the end.
+        if len(values) > 3 and np.isclose(values[0], values[-1], rtol=1e-9, atol=0.0):
+            over, values = over[:-1], values[:-1]
+    frequency, level = signals.octaves(over, values, reference, "none" if options.periodic else "hann")
+    if profile:
+        limit = [surfaces.EN_ISO_3095.get(round(-10.0 * np.log10(f)), np.nan) for f in frequency]
+        lines = [f"{'wavelength [m]':>14s} {'level [dB]':>12s} {'EN ISO 3095':>12s}"]
+        rows = list(zip(1.0 / frequency, level, limit))[::-1]
+    else:
+        lines, rows = [f"{'frequency':>14s} {'level [dB]':>12s}"], list(zip(frequency, level))
+    lines += [f"{row[0]:14.4g} " + " ".join(f"{value:12.2f}" for value in row[1:]) for row in rows]
+
+    def draw(axis):
+        x = np.array([row[0] for row in rows])
+        axis.semilogx(x, [row[1] for row in rows], "o-", label=options.column)
+        if profile:
+            axis.semilogx(x, [row[2] for row in rows], "k--", label="EN ISO 3095:2013")
+            axis.invert_xaxis()
+            axis.legend()
+        axis.set(xlabel="wavelength [m]" if profile else "frequency", ylabel=f"level [dB re {reference:g}]")
+
+    return "octaves", ("wavelength", "level", "limit") if profile else ("frequency", "level"), rows, lines, draw
+
+
+def _flat(options):
+    """Largest force of every turn against speed."""
+    over, omega, velocity, force = read_columns(options.file, (options.over, "wheel.omega", "wheel.velocity", options.column))
+    kept = over >= options.begin
+    rows = signals.of_turns(*(column[kept] for column in (over, omega, velocity, force)))
+    lines = [f"{'speed [km/h]':>14s} {'largest':>14s} {'smallest':>14s} {'no contact':>12s}"]
+    lines += [f"{3.6 * v:14.2f} {most:14.6g} {least:14.6g} {100 * off:10.2f} %" for v, most, least, off in rows]
+
+    def draw(axis):
+        axis.plot(3.6 * rows[:, 0], rows[:, 1], "o-", label="largest")
+        axis.plot(3.6 * rows[:, 0], rows[:, 2], "o-", label="smallest")
+        axis.set(xlabel="speed [km/h]", ylabel=f"{options.column} of a turn")
+        axis.legend()
+
+    return "flat", ("speed", "largest", "smallest", "share_without_contact"), rows, lines, draw
+
+
+def _filter(options):
+    """Contact filter."""
+    if not 1e-5 <= options.half_width <= 0.1:
+        raise BadFile(f"--half-width = {options.half_width:g} m is outside 1e-05 to 0.1 m")
+    table = np.array(surfaces.CNOSSOS)
+    level = surfaces.contact_filter_level(options.half_width, table[:, 0])
+    rows = list(zip(table[:, 0], level, table[:, 1]))
+    null = options.half_width / surfaces.FIRST_NULL
+    lines = [f"half-width {options.half_width:g} m, first null at a wavelength of {null:.4g} m", ""]
+    lines += [f"{'wavelength [m]':>14s} {'J0 [dB]':>10s} {'CNOSSOS [dB]':>13s}"]
+    lines += [f"{x:14.4g} {a:10.2f} {b:13.2f}" for x, a, b in rows]
+
+    def draw(axis):
+        x = np.geomspace(0.5 * null, 0.2, 600)
+        axis.semilogx(x, np.maximum(surfaces.contact_filter_level(options.half_width, x), -40.0), label="J0 of a line contact")
+        axis.semilogx(table[:, 0], table[:, 1], "ko", label="CNOSSOS-EU, 100 kN, 920 mm")
+        axis.set(xlabel="wavelength [m]", ylabel="contact filter [dB]")
+        axis.legend()
+
+    return "filter", ("wavelength", "filter", "cnossos"), rows, lines, draw
+
+
+COMMANDS = {"force": _force, "spectrum": _spectrum, "octaves": _octaves, "flat": _flat, "filter": _filter}

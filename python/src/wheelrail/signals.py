@@ -1,0 +1,178 @@
+"""What a sampled result says: distribution, exceedance, amplitudes against frequency, one-third octaves."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# Coefficients of windows, sum of a_k (-1)^k cos(2 pi k n/N). The flat top (D'Antona and Ferrero, Digital Signal Processing
+# for Measurement Systems, 2006) returns the amplitude of a sine wherever it lies between two lines.
+WINDOWS = {
+    "none": (1.0,),
+    "hann": (0.5, 0.5),
+    "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368),
+}
+UNEVEN = 1e-6  # relative deviation of steps from their mean up to which they count as equal
+
+
+class BadSignal(Exception):
+    """A signal that cannot be analysed; the text says what is wrong, where, and what to do."""
+
+
+def checked(positions, values):
+    """Both as arrays of finite numbers, positions ascending."""
+    positions, values = np.asarray(positions, float), np.asarray(values, float)
+    if positions.shape != values.shape or positions.ndim != 1 or len(positions) < 2:
+        raise BadSignal(f"{positions.shape} positions and {values.shape} values: two columns of 2 or more rows are needed")
+    bad = np.flatnonzero(~(np.isfinite(positions) & np.isfinite(values)))
+    if len(bad):
+        raise BadSignal(f"row {bad[0] + 1}: {positions[bad[0]]}, {values[bad[0]]} are no finite numbers; cut such rows out")
+    back = np.flatnonzero(np.diff(positions) <= 0.0)
+    if len(back):
+        i = back[0] + 1
+        raise BadSignal(f"row {i + 1}: {positions[i]:g} follows {positions[i - 1]:g}; time or position must ascend")
+    return positions, values
+
+
+def spacing(positions):
+    """Distance of samples, which must be equal."""
+    step = (positions[-1] - positions[0]) / (len(positions) - 1)
+    worst = int(np.argmax(np.abs(np.diff(positions) / step - 1.0)))
+    # Positions written with few digits deviate by their rounding.
+    if abs(positions[worst + 1] - positions[worst] - step) > UNEVEN * step + 4e-16 * np.max(np.abs(positions)):
+        raise BadSignal(
+            f"samples are {positions[worst + 1] - positions[worst]:g} apart behind {positions[worst]:g}, on average {step:g}; "
+            "spectra need equal distances: `resampled` makes them"
+        )
+    return step
+
+
+def resampled(positions, values, step):
+    """The signal at equal distances, straight between samples."""
+    positions, values = checked(positions, values)
+    count = int((positions[-1] - positions[0]) / step * (1.0 + 1e-12)) + 1
+    if count < 2:
+        raise BadSignal(f"step = {step:g} is longer than the signal, {positions[-1] - positions[0]:g}")
+    even = positions[0] + step * np.arange(count)
+    return even, np.interp(even, positions, values)
+
+
+def durations(time):
+    """How long each sample stands for: half of the way to its neighbours."""
+    steps = np.diff(time)
+    return 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Moments over time of a signal, its extremes, and the share of time at or below zero."""
+
+    mean: float
+    deviation: float
+    skewness: float
+    kurtosis: float
+    least: float
+    largest: float
+    at_zero: float
+
+
+def statistics(time, values):
+    """`Statistics`, every sample weighed by its duration; kurtosis is 3 for normal deviates."""
+    time, values = checked(time, values)
+    share = durations(time) / (time[-1] - time[0])
+    mean = float(share @ values)
+    moment = lambda power: float(share @ (values - mean) ** power)
+    deviation = moment(2) ** 0.5
+    shape = lambda power: moment(power) / deviation**power if deviation > 0.0 else 0.0
+    zero = float(share @ (values <= 0.0))
+    return Statistics(mean, deviation, shape(3), shape(4), float(values.min()), float(values.max()), zero)
+
+
+def density(time, values, classes=60, limits=None):
+    """Probability density over time: edges of equal classes and the density [1/unit] in each; its integral is one.
+
+    `limits` of the classes default to the extremes; what lies outside is left out of the classes, not of the whole.
+    """
+    time, values = checked(time, values)
+    low, high = limits or (values.min(), values.max())
+    if not high > low:
+        low, high = low - 0.5, low + 0.5
+    time_in, edges = np.histogram(values, classes, (low, high), weights=durations(time))
+    return edges, time_in / np.diff(edges) / (time[-1] - time[0])
+
+
+def exceedance(time, values):
+    """Levels, ascending, and the share of time in which the signal is above each."""
+    time, values = checked(time, values)
+    order = np.argsort(values, kind="stable")
+    share = durations(time)[order] / (time[-1] - time[0])
+    return values[order], np.clip(1.0 - np.cumsum(share), 0.0, 1.0)
+
+
+def window(name, count):
+    """Values of a window."""
+    if name not in WINDOWS:
+        raise BadSignal(f"window = {name!r} is none of {', '.join(WINDOWS)}")
+    turn = 2.0 * np.pi * np.arange(count) / count
+    return sum((-1.0) ** k * a * np.cos(k * turn) for k, a in enumerate(WINDOWS[name]))
+
+
+def amplitudes(positions, values, taper="flattop"):
+    """Amplitude of the sinusoids in a signal against frequency [1/unit of positions], without its mean."""
+    positions, values = checked(positions, values)
+    step, shape = spacing(positions), window(taper, len(values))
+    lines = np.abs(np.fft.rfft((values - np.mean(values)) * shape)) * 2.0 / shape.sum()
+    lines[0] *= 0.5
+    if len(values) % 2 == 0:
+        lines[-1] *= 0.5
+    return np.fft.rfftfreq(len(values), step), lines
+
+
+def harmonic(positions, values, frequency):
+    """Amplitude and phase [rad] of `A cos(2 pi f x + phase)` of a known frequency, by least squares beside a straight line."""
+    positions, values = checked(positions, values)
+    x = positions - positions[0]
+    terms = [np.cos(2 * np.pi * frequency * positions), -np.sin(2 * np.pi * frequency * positions), np.ones_like(x), x]
+    (real, imaginary, *_), *_ = np.linalg.lstsq(np.stack(terms, axis=1), values, rcond=None)
+    return float(np.hypot(real, imaginary)), float(np.arctan2(imaginary, real))
+
+
+def octaves(positions, values, reference=1.0, taper="hann"):
+    """Levels in one-third octaves (IEC 61260-1, base ten): mid-band frequencies and 20 lg(rms/reference) [dB].
+
+    A line at the border of two bands is shared between them. Bands of less than two lines and bands beyond half the
+    sampling rate are left out. For a profile over metres, frequencies are 1/wavelength and `reference` is 1e-6 m. A signal
+    that repeats exactly after its length needs no window: `taper="none"`.
+    """
+    positions, values = checked(positions, values)
+    count, step, shape = len(values), spacing(positions), window(taper, len(values))
+    squares = 2.0 * np.abs(np.fft.rfft((values - np.mean(values)) * shape)) ** 2 / (count * np.sum(shape**2))
+    squares[0] *= 0.5
+    if count % 2 == 0:
+        squares[-1] *= 0.5
+    width = 1.0 / (count * step)
+    low, high = 10.0 * np.log10(2.0 * width), 10.0 * np.log10(0.5 / step)
+    numbers = np.arange(np.floor(low), np.ceil(high) + 1.0)
+    below, above = 10.0 ** (0.1 * numbers - 0.05), 10.0 ** (0.1 * numbers + 0.05)
+    kept = (above - below >= 2.0 * width) & (above <= 0.5 / step * (1.0 + 1e-12))
+    # Energy below a frequency, linear within the width of each line.
+    edges = np.append((np.arange(len(squares)) - 0.5) * width, 0.5 / step + 0.5 * width)
+    energy = np.append(0.0, np.cumsum(squares))
+    total = np.interp(above[kept], edges, energy) - np.interp(below[kept], edges, energy)
+    with np.errstate(divide="ignore"):
+        return 10.0 ** (0.1 * numbers[kept]), 10.0 * np.log10(total / reference**2)
+
+
+def of_turns(time, omega, velocity, force):
+    """Turn by turn of a wheel: mean speed of travel [m/s], largest and smallest force and share of time without it."""
+    time, omega = checked(time, omega)
+    velocity, force = checked(time, velocity)[1], checked(time, force)[1]
+    angle = np.append(0.0, np.cumsum(0.5 * (omega[1:] + omega[:-1]) * np.diff(time)))
+    turn = np.floor(np.abs(angle) / (2.0 * np.pi)).astype(int)
+    rows = []
+    for number in range(turn[-1]):
+        inside = turn == number
+        if np.count_nonzero(inside) > 1:
+            rows.append((np.abs(velocity[inside]).mean(), force[inside].max(), force[inside].min(), np.mean(force[inside] <= 0.0)))
+    if not rows:
+        raise BadSignal(f"the wheel turns by {abs(angle[-1]):.3g} rad only; at least one whole turn is needed")
+    return np.array(rows)

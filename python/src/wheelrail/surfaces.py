@@ -1,0 +1,75 @@
+"""Closed forms for irregular surfaces: contact filter, corrugation, flats, kinks. SI units, forces of the whole wheel."""
+
+import numpy as np
+
+# Contact filter of CNOSSOS-EU for 100 kN and a wheel of 920 mm: wavelength [m] and level [dB]. Directive (EU) 2015/996 as
+# amended by (EU) 2021/1226, Table G-2.
+CNOSSOS = (
+    (0.1, -0.3), (0.08, -0.6), (0.063, -1.0), (0.05, -1.8), (0.04, -3.2), (0.0315, -5.4), (0.025, -8.7), (0.02, -12.2),
+)  # fmt: skip
+# First zero of J0 over 2 pi: the wavelength of the first null is the half-width over this.
+FIRST_NULL = 2.404825557695773 / (2.0 * np.pi)
+# Limit of rail roughness of EN ISO 3095:2013 [dB re 1e-6 m] by number of the one-third octave, 10 lg(wavelength/1 m): as in the
+# profiles of the FMU (Directive (EU) 2015/996 as amended by (EU) 2021/1226, Table G-1, network E).
+EN_ISO_3095 = dict(
+    zip(
+        range(3, -32, -1),
+        (17.1,) * 8
+        + (15.0, 13.0, 11.0, 9.0, 7.0, 4.9, 2.9, 0.9, -1.1, -3.2, -5.0, -5.6, -6.2, -6.8, -7.4, -8.0, -8.6, -9.2, -9.8)
+        + (-10.4, -11.0, -11.6, -12.2, -12.8, -13.4, -14.0, -14.0),
+    )
+)
+
+
+def bessel_j0(x):
+    """Bessel function J0: the mean of cos(x sin t) over a turn, with so many points that it is exact to rounding."""
+    x = np.abs(np.asarray(x, float))
+    count = 2 * int(np.max(x, initial=0.0)) + 64
+    turn = np.pi * (np.arange(count) + 0.5) / count
+    return np.cos(x[..., None] * np.sin(turn)).mean(axis=-1)
+
+
+def contact_filter(half_width, wavelength):
+    """Share of a sinusoid that a Hertzian line contact of this half-width feels, of first order: J0(2 pi a/lambda)."""
+    return bessel_j0(2.0 * np.pi * half_width / np.asarray(wavelength, float))
+
+
+def contact_filter_level(half_width, wavelength):
+    """The same as level [dB]."""
+    with np.errstate(divide="ignore"):
+        return 20.0 * np.log10(np.abs(contact_filter(half_width, wavelength)))
+
+
+def cnossos_filter(wavelength):
+    """Contact filter of CNOSSOS-EU [dB], between the entries of its table by the logarithm of the wavelength."""
+    lengths, levels = np.array(CNOSSOS[::-1]).T
+    wavelength = np.asarray(wavelength, float)
+    inside = (wavelength >= lengths[0]) & (wavelength <= lengths[-1])
+    return np.where(inside, np.interp(np.log(wavelength), np.log(lengths), levels), np.nan)
+
+
+def corrugation_force(speed, amplitude, wavelength, half_width, stiffness, mass, retardation=0.0):
+    """Amplitude of the force [N] of a mass that rolls on its contact spring over a sinusoid.
+
+    `A J0 |K* m w2/(K* - m w2)|` with `K* = K (1 + i w retardation)`: first order in the amplitude, rail on a fixed base.
+    """
+    omega = 2.0 * np.pi * np.asarray(speed, float) / wavelength
+    spring, inertia = stiffness * (1.0 + 1j * omega * retardation), mass * omega**2
+    return amplitude * np.abs(contact_filter(half_width, wavelength) * spring * inertia / (spring - inertia))
+
+
+def flat_depth(length, radius, shape="fresh"):
+    """Depth [m] of a wheel flat: of the chord `r (1 - cos)`, close to L2/8r, or of a rounded one, L2/16r."""
+    if shape not in ("fresh", "rounded"):
+        raise ValueError(f"shape = {shape!r} is neither fresh nor rounded")
+    fresh = radius * (1.0 - np.sqrt(1.0 - (0.5 * np.asarray(length) / radius) ** 2))
+    return fresh if shape == "fresh" else np.asarray(length) ** 2 / (16.0 * radius)
+
+
+def kink_force(speed, angle, stiffness, mass):
+    """Additional force [N] at a kink of the path: `v angle sqrt(K m)`, a mass on its contact spring that changes direction.
+
+    The P1 force of a dipped joint on a rigid track (Jenkins 1974) with the angle between both ends; of a wheel that follows a
+    fresh flat of length L, with the angle L/r.
+    """
+    return np.asarray(speed) * angle * np.sqrt(stiffness * mass)
