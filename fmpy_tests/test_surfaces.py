@@ -1,12 +1,10 @@
 """What results and profiles say: signals of known content, closed forms, and the commands that print them."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 from wheelrail import analysis, signals, surfaces
+from wheelrail.__main__ import main
 from wheelrail.files import BadFile
 
 SECOND = np.arange(20000) / 2000.0  # 10 s at 2 kHz
@@ -128,12 +126,13 @@ def test_turns_of_a_wheel_have_their_own_peaks():
     assert np.all(rows[:, 3] == 0.0)
 
 
-def command(*arguments):
-    """Runs `python -m wheelrail`."""
-    return subprocess.run([sys.executable, "-m", "wheelrail", *map(str, arguments)], capture_output=True, text=True)
+def command(capsys, *arguments):
+    """What `python -m wheelrail` prints."""
+    main([str(argument) for argument in arguments])
+    return capsys.readouterr().out
 
 
-def test_commands_write_table_and_picture(tmp_path):
+def test_commands_write_table_and_picture(tmp_path, capsys):
     time = np.arange(0.0, 4.0, 1e-3)
     columns = {"time": time, "wheel.omega": 40 + 0 * time, "wheel.velocity": 18.4 + 0 * time}
     columns["contact.force_y"] = 1e5 + 2e4 * np.sin(2 * np.pi * 50 * time)
@@ -148,13 +147,13 @@ def test_commands_write_table_and_picture(tmp_path):
         ("octaves", profile, ["EN ISO 3095", "0.1", "20.0", "4.90"]),
         ("flat", file, ["66.24", "120000", "80000"]),
     ):
-        done = command(name, source, "--out", tmp_path)
-        assert done.returncode == 0 and all(word in done.stdout for word in words), (name, done.stdout, done.stderr)
+        printed = command(capsys, name, source, "--out", tmp_path)
+        assert all(word in printed for word in words), (name, printed)
         assert (tmp_path / f"{name}.png").stat().st_size > 5000 and (tmp_path / f"{name}.csv").stat().st_size > 100
-    done = command("filter", "--out", tmp_path)
-    assert done.returncode == 0 and "CNOSSOS" in done.stdout and "-1.80" in done.stdout
-    done = command("force", file, "--column", "contact.force_z", "--out", tmp_path)
-    assert done.returncode == 1 and "contact.force_z is missing; nearest: contact.force_y" in done.stderr
+    printed = command(capsys, "filter", "--out", tmp_path)
+    assert "CNOSSOS" in printed and "-1.80" in printed
+    with pytest.raises(SystemExit, match="contact.force_z is missing; nearest: contact.force_y"):
+        command(capsys, "force", file, "--column", "contact.force_z", "--out", tmp_path)
 
 
 def test_bad_files_are_refused_by_line_and_name(tmp_path):

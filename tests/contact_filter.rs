@@ -2,11 +2,15 @@
 //! half-width a. By reciprocity with the flat punch, whose pressure `1/(π√(a² − x²))` per unit force says how much each place
 //! of the profile lifts the wheel: `∫ cos(2πx/λ)/(π√(a² − x²)) dx = J₀(2πa/λ)`.
 
+mod common;
 mod half_planes;
 
+use common::{model, preset};
 use half_planes::{HalfPlanes, NOMINAL, RADIUS, modulus};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use wheelrail::analytic::hertz_half_width;
+use wheelrail::mechanics::contact_modulus;
+use wheelrail::simulation::{Inputs, Simulation};
 use wheelrail::surface::{Body, Profile};
 
 /// Contact filter of CNOSSOS-EU for 100 kN and a wheel of 920 mm: wavelength over half-width, 7.16 mm, and level \[dB].
@@ -76,4 +80,40 @@ fn a_static_contact_evens_out_waves_by_the_bessel_function() {
     let wavelength = 5.0 * hertz_half_width(NOMINAL, RADIUS, modulus());
     let even = height(20, NOMINAL, wavelength, 0.0) - height(20, NOMINAL, wavelength, PI);
     assert!(even.abs() < 1e-4 * AMPLITUDE, "{even}");
+}
+
+/// The same with elastic wheel and rail: a wheel that stands on waves of its rail under loads that let the edges wander.
+#[test]
+fn a_standing_wheel_is_lifted_by_what_the_contact_leaves_of_waves() {
+    let elements = 20;
+    let amplitude = 1e-7;
+    for wavelength in [0.05, 0.025] {
+        let heights = |phase: f64| -> Vec<f64> {
+            let mut config = preset("railway", elements);
+            config.thermal.enabled = false;
+            config.initial.velocity = 0.0;
+            config.rail.profile =
+                format!("sinusoid(amplitude = {amplitude:?}, wavelength = {wavelength:?}, phase = {phase:?})");
+            let model = model(config);
+            let height = |k: i32| {
+                let mut inputs = Inputs::rolling(model.config());
+                inputs.drive.load *= (1.0 + f64::from(k) / 8.0 / elements as f64).powi(2);
+                Simulation::new(model.clone(), &inputs).unwrap().outputs().hub_height
+            };
+            (-3..=4).map(height).collect()
+        };
+        let [crest, trough] = [FRAC_PI_2, -FRAC_PI_2].map(heights);
+        let shares: Vec<f64> = crest.iter().zip(&trough).map(|(c, t)| (c - t) / (2.0 * amplitude)).collect();
+        let config = preset("railway", elements);
+        let line = config.model.nominal_load / config.model.contact_width;
+        let half_width = |k: i32| {
+            let load = line * (1.0 + f64::from(k) / 8.0 / elements as f64).powi(2);
+            hertz_half_width(load, config.wheel.radius, contact_modulus(&config))
+        };
+        let exact = mean(&(-3..=4).map(|k| bessel(TAU * half_width(k) / wavelength)).collect::<Vec<_>>());
+        let level = |share: f64| 20.0 * share.abs().log10();
+        let (found, exact) = (level(mean(&shares)), level(exact));
+        println!("standing wheel, {wavelength} m: {found:.3} dB, J0 {exact:.3} dB");
+        assert!((found - exact).abs() < 0.2, "{found} {exact}");
+    }
 }

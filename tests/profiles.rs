@@ -116,7 +116,33 @@ fn nothing_of_a_flat_is_lost_between_communication_points() {
     let supported = seen.contact_impulse - 1e-2 * inputs.drive.load;
     let momentum = seen.wheel_mass * seen.hub_vertical_velocity;
     println!("impulse beyond the load {supported:.2} N s, momentum {momentum:.2} N s");
-    assert!((supported / momentum - 1.0).abs() < 0.01, "{supported} {momentum}");
+    // The rest is in the deformation of the wheel, 72 kg of which move by centimetres a second.
+    assert!((supported - momentum).abs() < 2.5e-3 * impulse, "{supported} {momentum}");
+}
+
+/// Largest force [N] and time without contact [s] as a wheel with a flat of 40 mm rolls over it.
+fn impact(shape: &str, speed: f64, elements: usize, step: f64) -> (f64, f64) {
+    let mut config = cold(preset("railway", elements));
+    config.physics.yielding = false;
+    config.wheel.profile = format!("flat(length = 0.04, shape = {shape}, position = 0.08)");
+    let model = model(config);
+    let inputs = without_friction(&model, speed * KMH);
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let steps = (0.14 / (speed * KMH) + 5e-3) / step;
+    let outputs = run(&mut simulation, &inputs, step, steps as usize);
+    let largest = outputs.iter().map(|o| o.contact_force_max).fold(0.0, f64::max);
+    (largest, outputs.last().unwrap().contact_lost_time)
+}
+
+#[test]
+fn a_flat_hits_hardest_at_a_moderate_speed_and_throws_the_wheel_off_the_rail() {
+    for (shape, speeds) in [("fresh", [20.0, 40.0, 100.0]), ("rounded", [20.0, 40.0, 140.0])] {
+        let found = speeds.map(|speed| impact(shape, speed, 6, 2e-5));
+        println!("{shape}, {speeds:?} km/h: {found:.4?}");
+        assert!(found[1].0 > 1.2 * found[0].0.max(found[2].0) && found[1].1 > 1e-3, "{found:?}");
+        let (finer, lost) = impact(shape, speeds[1], 10, 1e-5);
+        assert!((found[1].0 / finer - 1.0).abs() < 0.02 && (found[1].1 / lost - 1.0).abs() < 0.02, "{finer} {lost}");
+    }
 }
 
 #[test]
