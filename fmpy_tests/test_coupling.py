@@ -72,3 +72,22 @@ def test_explicit_masters_are_stable_with_the_step_that_the_fmu_suggests(fmu, ma
     split.close()
     assert 1e-6 < suggested < 1e-4
     assert slip_growth(fmu, master, speed, suggested) < 0.99
+
+
+def test_a_change_of_load_counts_beside_the_load(start):
+    whole = start({"initial.velocity": 20.0}, {"drive.load": 1.05e5})
+    parts = start({"initial.velocity": 20.0}, {"drive.load": 9.5e4, "drive.load_change": 1e4})
+    names = ("contact.force_y", "contact.force_x", "wheel.omega", "hub.force_y")
+    assert parts.get(*names) == pytest.approx(whole.get(*names), rel=1e-12, abs=1e-9)
+    for _ in range(20):
+        whole.set({"drive.load": 1.1e5, "brake.torque": 3000.0})
+        parts.set({"drive.load_change": 1.5e4, "brake.torque": 3000.0})
+        whole.step(1e-3)
+        parts.step(1e-3)
+    assert parts.get(*names) == pytest.approx(whole.get(*names), rel=1e-9)
+    # A load that was never set takes over what presses when it is switched to, less the change of load.
+    unset = start({"initial.velocity": 20.0}, {"drive.load_change": 1e4, "control.vertical": "displacement"})
+    unset.step(1e-3)
+    pressed = -unset.get("hub.force_y")
+    unset.set({"control.vertical": "force"})
+    assert unset.get("drive.load") == pytest.approx(pressed - 1e4, rel=1e-12) and pressed > 1.05e5

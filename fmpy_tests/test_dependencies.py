@@ -14,6 +14,7 @@ VALUES = {
     "drive.velocity": (V, 1.0005 * V),
     "drive.force": (0.0, 2000.0),
     "drive.load": (1e5, 1.1e5),
+    "drive.load_change": (0.0, 5e3),
     "drive.displacement": (-1.78e-4, -1.80e-4),
     "drive.tread_heat": (0.0, 1e3),
     "rail.friction": (0.3, 0.05),
@@ -91,7 +92,7 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
             acted.add(name)
     wheel.forget(here)
     prescribed = {
-        "forces": {"drive.moment", "drive.force", "drive.load", "brake.torque"},
+        "forces": {"drive.moment", "drive.force", "drive.load", "drive.load_change", "brake.torque"},
         "motion": {"drive.omega", "drive.velocity", "drive.displacement"},
     }["forces" if control is DEFAULT else "motion"]
     assert acted >= prescribed | set(DEFAULT) | ALWAYS

@@ -1,6 +1,7 @@
 """System packages: fmpy runs the SSP, libcosim the SSP and the OSP system structure, all with the numbers of `parallel.py`."""
 
 import os
+import subprocess
 import zipfile
 from pathlib import Path
 
@@ -151,6 +152,16 @@ def test_packages_follow_their_schemas_and_hold_every_preset(packages, fmu):
     assert wet["friction.falling_ratio"] == ("Real", "0.4") and "wheel.radius" not in wet
     paper = {p.name: (p.type, p.value) for p in read_ssv(str(package), resource=sets["paper_d"]).parameters}
     assert paper["wheel.radius"] == ("Real", "0.5") and paper["thermal.cross_section"] == ("Enumeration", "contact")
+
+
+def test_the_coach_exports_the_functions_of_the_standard_and_no_others():
+    built = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release"
+    both = [
+        subprocess.run(["nm", "-D", "--defined-only", built / library], check=True, capture_output=True, text=True).stdout
+        for library in ("libcoach.so", "libwheelrail.so")
+    ]
+    coach, wheel = ({line.split()[-1] for line in text.splitlines()} for text in both)
+    assert coach == wheel and len(coach) == 34
 
 
 def test_the_coach_keeps_the_rules_of_the_standard(packages):
