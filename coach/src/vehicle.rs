@@ -154,7 +154,7 @@ impl Coach {
     /// Primary suspension upward, per axle.
     fn lifts(p: &Parameters) -> Vec<Link> {
         let link = |axle: usize| {
-            let ahead = if axle % 2 == 0 { p.wheel } else { -p.wheel };
+            let ahead = if axle.is_multiple_of(2) { p.wheel } else { -p.wheel };
             let row = difference([0.0; SIZE], upward(BOGIES[axle / 2], ahead));
             Link { row, stiffness: p.lift_stiffness, damping: p.lift_damping }
         };

@@ -72,7 +72,7 @@ pub fn variables() -> Vec<Variable> {
     };
     let demand = "Share of the full brake pressure";
     let mut all = vec![row(1, "demand".to_owned(), "1", [0.0, 1.0], 1.0, demand, Access::Demand)];
-    for axle in 0..AXLES {
+    for (axle, read) in PRESSURES.into_iter().enumerate() {
         let named = |name: &str| format!("axle{}.{name}", axle + 1);
         let first = 100 * (axle as Reference + 1);
         for (k, (name, unit, field, text)) in (0..).zip(SEEN) {
@@ -83,7 +83,7 @@ pub fn variables() -> Vec<Variable> {
         }
         let (pressure, valve) =
             ("Pressure in the cylinder over ambient", "0: follows the control pressure, 1: holds, 2: vents");
-        all.push(row(first + 60, named("pressure"), "Pa", WIDE, 0.0, pressure, Access::Output(PRESSURES[axle])));
+        all.push(row(first + 60, named("pressure"), "Pa", WIDE, 0.0, pressure, Access::Output(read)));
         all.push(row(first + 61, named("valve"), "", [0.0, 2.0], 0.0, valve, Access::Valve(axle)));
     }
     for (k, (name, unit, read, text)) in (10..).zip(OUTPUTS) {
