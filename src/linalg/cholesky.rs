@@ -21,14 +21,14 @@ use std::sync::Arc;
 pub struct CholeskyPattern {
     size: usize,
     symbolic: Arc<SymbolicCholesky<usize>>,
-    /// Number of unknowns that were asked to come last.
-    last: usize,
+    /// The unknowns that were asked to come last.
+    last: Arc<[usize]>,
 }
 
 impl CholeskyPattern {
     /// Analyses the pattern of a symmetric matrix.
     pub fn new(a: &CsrMatrix) -> Result<Self, LinalgError> {
-        Self::analyse(a, 0, SymmetricOrdering::Amd, SupernodalThreshold::AUTO)
+        Self::analyse(a, &[], SymmetricOrdering::Amd, SupernodalThreshold::AUTO)
     }
 
     /// The same with an order in which the unknowns `last` come last, one after the other. They must be different.
@@ -37,12 +37,12 @@ impl CholeskyPattern {
         let mut inverse = vec![0; order.len()];
         order.iter().enumerate().for_each(|(place, &unknown)| inverse[unknown] = place);
         let order = PermRef::new_checked(&order, &inverse, inverse.len());
-        Self::analyse(a, last.len(), SymmetricOrdering::Custom(order), SupernodalThreshold::FORCE_SUPERNODAL)
+        Self::analyse(a, last, SymmetricOrdering::Custom(order), SupernodalThreshold::FORCE_SUPERNODAL)
     }
 
     fn analyse(
         a: &CsrMatrix,
-        last: usize,
+        last: &[usize],
         order: SymmetricOrdering<'_, usize>,
         threshold: SupernodalThreshold,
     ) -> Result<Self, LinalgError> {
@@ -53,7 +53,7 @@ impl CholeskyPattern {
         let params = CholeskySymbolicParams { supernodal_flop_ratio_threshold: threshold, ..Default::default() };
         let symbolic = factorize_symbolic_cholesky(a.pattern(), Side::Lower, order, params)
             .map_err(|e| LinalgError::Symbolic { size, reason: format!("{e:?}") })?;
-        Ok(Self { size, symbolic: Arc::new(symbolic), last })
+        Ok(Self { size, symbolic: Arc::new(symbolic), last: last.into() })
     }
 
     /// Factorises a symmetric positive definite matrix of this pattern.
@@ -118,6 +118,11 @@ impl Cholesky {
         CholeskyPattern::with_last(a, last)?.factorise(a)
     }
 
+    /// The unknowns that were asked to come last.
+    pub fn last(&self) -> &[usize] {
+        &self.pattern.last
+    }
+
     /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.pattern.size
@@ -143,17 +148,15 @@ impl Cholesky {
                     solve_together::<4>(factor, order, rest, &mut Vec::new());
                 }
             }
-            _ => self.solve_by_faer(columns),
+            // Of one column, the library makes more.
+            _ => {
+                let (symbolic, count) = (&self.pattern.symbolic, columns.len() / n);
+                let view = MatMut::from_column_major_slice_mut(columns, n, count);
+                let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(count, Par::Seq));
+                let factor = LltRef::<'_, usize, f64>::new(symbolic, &self.values);
+                factor.solve_in_place_with_conj(Conj::No, view, Par::Seq, MemStack::new(&mut memory));
+            }
         }
-    }
-
-    fn solve_by_faer(&self, columns: &mut [f64]) {
-        let (n, symbolic) = (self.size(), &self.pattern.symbolic);
-        let count = columns.len() / n;
-        let view = MatMut::from_column_major_slice_mut(columns, n, count);
-        let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(count, Par::Seq));
-        let factor = LltRef::<'_, usize, f64>::new(symbolic, &self.values);
-        factor.solve_in_place_with_conj(Conj::No, view, Par::Seq, MemStack::new(&mut memory));
     }
 
     /// `X ← A⁻¹ X`.
@@ -165,7 +168,8 @@ impl Cholesky {
     /// `L_ss` at the end of the factor. `None` if no order was asked for.
     pub fn last_block_of_inverse(&self) -> Option<DMatrix<f64>> {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.pattern.symbolic.raw() else { return None };
-        let (count, first) = (self.pattern.last, self.size() - self.pattern.last);
+        let count = self.pattern.last.len();
+        let first = self.size() - count;
         let factor = SupernodalLltRef::new(symbolic, &self.values);
         let mut triangle = DMatrix::zeros(count, count);
         for s in 0..symbolic.n_supernodes() {

@@ -5,7 +5,7 @@
 //! followed by one inverse iteration and a Rayleigh–Ritz projection on the pencil itself.
 
 use super::blocks::{product, solved};
-use super::krylov::{Krylov, RitzPairs, dense_eigen, noise};
+use super::krylov::{Krylov, Oscillator, RitzPairs, dense_eigen, noise};
 use super::{Cholesky, CsrMatrix, LinalgError};
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
@@ -19,17 +19,6 @@ pub struct VibrationModes {
     pub squared_frequencies: DVector<f64>,
     /// One mode per column.
     pub shapes: DMatrix<f64>,
-}
-
-/// A body that vibrates, or a part of it that does so by itself.
-#[derive(Clone, Copy, Debug)]
-pub struct Oscillator<'a> {
-    /// `K` [N/m per m].
-    pub stiffness: &'a CsrMatrix,
-    /// `M` [kg/m].
-    pub mass: &'a CsrMatrix,
-    /// Cholesky factor of `K`.
-    pub factor: &'a Cholesky,
 }
 
 /// The `count` lowest modes; `factor` is the Cholesky factor of `stiffness`.

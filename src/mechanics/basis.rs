@@ -1,4 +1,4 @@
-//! Reduced bodies as data that can be stored: what takes seconds to compute is packed once.
+//! Reduced bodies as data that can be stored: what takes a second to compute is packed once.
 //!
 //! Layout of the bytes: 8 of magic, 16 of checksum (UUID version 5 of the rest), then the postcard form of [`Basis`],
 //! whose first field is its key.
@@ -87,7 +87,7 @@ fn reduced(
 }
 
 impl Basis {
-    /// Meshes, assembles and reduces both bodies (seconds); `progress` receives the activity and its share done.
+    /// Meshes, assembles and reduces both bodies (about a second); `progress` receives the activity and its share done.
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
         check_size(config)?;
         let (parameter, modes) = ("solver.modes_wheel", config.solver.modes_wheel);
