@@ -25,6 +25,8 @@ const SMALLEST_HALF_WIDTH: f64 = 1e-6;
 /// Largest half-width relative to the wheel radius and to the length of the rail.
 const WHEEL_SHARE: f64 = 0.095;
 const RAIL_SHARE: f64 = 0.12;
+/// Smallest limit of the internal step [s].
+const SHORTEST_LIMIT: f64 = 1e-6;
 /// Largest way of the wheel during the retardation of stiffness-proportional damping [m].
 const LARGEST_RETARDATION: f64 = 0.01;
 
@@ -238,6 +240,14 @@ impl Config {
         }
     }
 
+    /// Internal steps are not too short to be computed, or chosen by the profiles.
+    fn internal_step(&self) -> Dependent {
+        let value = self.tuning.max_step;
+        let (low, high) = if value > 0.0 { (SHORTEST_LIMIT, f64::INFINITY) } else { (0.0, 0.0) };
+        let others = "0 as the choice by wheel.profile and rail.profile".to_owned();
+        Dependent { name: "solver.max_step", value, unit: "s", low, high, others }
+    }
+
     /// Melting takes place within a range of temperatures.
     fn melting_range(&self) -> Dependent {
         let solidus = self.material.solidus;
@@ -283,6 +293,7 @@ impl Config {
             },
             self.start_temperature(),
             self.melting_range(),
+            self.internal_step(),
             velocity,
             creepage,
             self.contact_zone(),
@@ -354,6 +365,7 @@ mod tests {
                 "rail.length = 1 m",
             ],
         );
+        refused(|c| c.tuning.max_step = 5e-7, &["solver.max_step = 5e-7 ", "at least 1e-6 s with 0 as the choice"]);
         refused(|c| c.initial.creepage = Some(f64::NAN), &["initial.creepage = NaN", "-1.99 to 2"]);
         refused(
             |c| (c.initial.velocity, c.damping.rayleigh_stiffness) = (150.0, 1e-4),
