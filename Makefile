@@ -108,7 +108,7 @@ flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
 
 surfaces: $(FMU) $(INSTALLED)
-	$(PY) examples/ex10_surfaces.py --fmu $(FMU) --out results
+	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out results
 
 locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
