@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use wheelrail::config::{Config, presets};
 use wheelrail::contact::Traction;
-use wheelrail::heat::Temperatures;
+use wheelrail::heat::{TemperatureField, Temperatures};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// What is read off a stationary state.
@@ -95,6 +95,15 @@ impl Run {
     /// Temperatures over the reference.
     pub fn warmth(&self) -> Temperatures {
         self.simulation.state().thermal.as_ref().map(|thermal| thermal.temperatures).unwrap_or_default()
+    }
+
+    /// Temperatures over the reference \[K] at all nodes of wheel (about its centre) and rail.
+    pub fn fields(&self) -> Result<[TemperatureField; 2], String> {
+        let fields = self.simulation.temperature_fields().map_err(|error| error.to_string())?;
+        let mut fields = fields.ok_or("no temperatures are computed")?;
+        let reference = self.simulation.model().config().thermal.reference;
+        fields.iter_mut().flat_map(|field| &mut field.temperature).for_each(|t| *t -= reference);
+        Ok(fields)
     }
 
     /// Tractions in the contact.

@@ -9,6 +9,7 @@ mod plate;
 mod ramps;
 mod rolling;
 mod tread_heat;
+mod tread_map;
 
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
@@ -110,6 +111,7 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("B 5", annulus::galerkin),
     ("B 6", annulus::supg),
     ("B 7", annulus::bubble),
+    ("B 12", tread_map::map),
     ("B 13", tread_heat::pressure),
     ("B 14", tread_heat::velocity),
     ("B 15", tread_heat::conductance),
@@ -133,7 +135,7 @@ pub const ALL: &[(&str, Recipe)] = &[
 
 /// What is not recomputed yet.
 pub const MISSING: &[&str] =
-    &["A T1", "A T2", "A T3", "A 7", "A 8–10", "A 11", "A 13–14", "B 11", "B 12", "B 18–19", "C 6", "D 19–21"];
+    &["A T1", "A T2", "A T3", "A 7", "A 8–10", "A 11", "A 13–14", "B 11", "B 18–19", "C 6", "D 19–21"];
 
 /// A statement and whether it holds.
 fn must(says: impl Into<String>, holds: bool) -> Predicate {

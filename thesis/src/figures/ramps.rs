@@ -21,6 +21,9 @@ const REFERENCES: [(usize, [f64; 10]); 3] = [
     (4, [0.3034, 0.5891, 0.7975, 0.9326, 0.9949, 1.0, 1.0, 1.0, 1.0, 1.0]),
 ];
 
+/// A quantity over the share of the duration.
+type Points = Vec<[f64; 2]>;
+
 /// Paper D without centrifugal load, as the references.
 fn paper_d() -> Result<Product, String> {
     Product::with("paper_d", |config| {
@@ -55,7 +58,7 @@ fn utilisation(product: &Product, duration: f64, steps: usize) -> Result<Vec<[f6
 }
 
 /// All six ramps, and stationary rolling at the same creepages, at every fortieth of the duration.
-fn forces(product: &Product) -> Result<(Vec<Vec<[f64; 2]>>, Vec<[f64; 2]>), String> {
+fn forces(product: &Product) -> Result<(Vec<Points>, Points), String> {
     let all = DURATIONS.iter().map(|te| utilisation(product, *te, STEPS)).collect::<Result<Vec<_>, _>>()?;
     let shares = (0..=40).map(|i| f64::from(i) / 40.0);
     let slow = |share: f64| product.stationary(creepage(share), None).map(|state| [share, state.utilisation]);
@@ -179,7 +182,7 @@ pub fn profiles() -> Result<Figure, String> {
         let (mut curves, mut join, mut failed) = (Vec::new(), 1.0, None);
         let (mut before, mut joined) = (0.0, false);
         ramp(&product, DURATIONS[sim - 1], 200, |share, run| {
-            if (share * 200.0).round() as usize % 10 != 0 {
+            if !((share * 200.0).round() as usize).is_multiple_of(10) {
                 return;
             }
             match product.rolling(SPEED, creepage(share), |_| ()) {

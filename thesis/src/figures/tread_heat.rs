@@ -10,16 +10,16 @@ use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure
 use wheelrail::config::Config;
 
 /// Heat into the tread [W/m], load [N/m], velocity [m/s], steps of the mesh across half a contact.
-const HEAT: f64 = 60.0;
-const LOAD: f64 = 10e3;
-const SPEED: f64 = 50.0 / 3.6;
+pub(super) const HEAT: f64 = 60.0;
+pub(super) const LOAD: f64 = 10e3;
+pub(super) const SPEED: f64 = 50.0 / 3.6;
 const MESH: usize = 10;
 /// Heat capacity of steel by volume [J/(m³ K)], length and height of the rail [m].
-const CAPACITY: f64 = 8000.0 * 460.0;
+pub(super) const CAPACITY: f64 = 8000.0 * 460.0;
 const HEIGHT: f64 = 0.1;
 
 /// Paper B on a coarser mesh, with changes.
-fn paper_b(change: impl FnOnce(&mut Config)) -> Result<Product, String> {
+pub(super) fn paper_b(change: impl FnOnce(&mut Config)) -> Result<Product, String> {
     Product::with("paper_b", |config| {
         config.mesh.elements_per_half_width = MESH;
         change(config);
@@ -27,7 +27,7 @@ fn paper_b(change: impl FnOnce(&mut Config)) -> Result<Product, String> {
 }
 
 /// Stationary rolling with the tread heated.
-fn heated(product: &Product, velocity: f64, load: f64) -> Result<Run, String> {
+pub(super) fn heated(product: &Product, velocity: f64, load: f64) -> Result<Run, String> {
     product.rolling(velocity, 0.0, |inputs| (inputs.drive.tread_heat, inputs.drive.load) = (HEAT, load))
 }
 
