@@ -1,106 +1,19 @@
 //! Ends of the rail: free, fixed, or such that waves leave (Paper A, section 4.3 and figures 5 and 6).
 
 mod common;
+#[path = "../thesis/src/waves.rs"]
+mod waves;
 
 use common::*;
-use nalgebra::{Complex, DVector, Matrix2, Vector2};
-use std::f64::consts::{FRAC_PI_2, PI};
-use wheelrail::config::{Config, Material, RailEnds, TimeScheme};
-use wheelrail::fem::{DofMap, Face, Mesh, assemble};
+use nalgebra::{Complex, Matrix2, Vector2};
+use std::f64::consts::PI;
+use waves::{Push, deviation, plate, steel, system};
+use wheelrail::config::{RailEnds, TimeScheme};
+use wheelrail::fem::DofMap;
 use wheelrail::linalg::CsrMatrix;
 use wheelrail::material::Isotropic;
-use wheelrail::mechanics::ale::Stream;
-use wheelrail::mechanics::elasticity::{self, Lame};
-use wheelrail::mechanics::{BodyResponse, BodyState, BodySystem, Convection, FreeResponse, FullBody};
-use wheelrail::multistep::TimeDerivative;
+use wheelrail::mechanics::{BodyResponse, FullBody};
 use wheelrail::simulation::Simulation;
-
-/// The steel of Paper A.
-fn steel() -> Material {
-    Material { youngs_modulus: 200e9, density: 8000.0, ..Config::default().material }
-}
-
-/// Plate `|x| ≤ length/2`, `−height ≤ y ≤ 0` of square cells of the size `h` \[m] on a fixed base; all of its top are ports.
-fn plate(length: f64, height: f64, h: f64) -> Mesh {
-    let [along, up] = [length, height].map(|size| (size / h).round() as usize);
-    let mut mesh = Mesh::default();
-    for i in 0..=up {
-        let y = -height * (1.0 - i as f64 / up as f64);
-        mesh.nodes.extend((0..=along).map(|j| [length * (j as f64 / along as f64 - 0.5), y]));
-    }
-    for i in 0..up {
-        for j in 0..along {
-            let (cell, below) = (mesh.cells.len(), i * (along + 1) + j);
-            mesh.cells.push([below, below + 1, below + along + 2, below + along + 1]);
-            if j == 0 {
-                mesh.ends.push(Face { cell, edge: 3 });
-            }
-            if j == along - 1 {
-                mesh.ends.push(Face { cell, edge: 1 });
-            }
-        }
-    }
-    mesh.fixed = (0..=along).collect();
-    mesh.surface = (up * (along + 1)..(up + 1) * (along + 1)).collect();
-    mesh
-}
-
-fn system(mesh: &Mesh, ends: RailEnds) -> BodySystem {
-    let (material, stream) = (steel(), Stream::Translation);
-    let system = BodySystem::assemble(mesh, &material, stream).unwrap();
-    match ends {
-        RailEnds::Fixed => system,
-        RailEnds::Free => system.with_free_ends(mesh, &material, stream).unwrap(),
-        RailEnds::Nonreflecting => system.with_quiet_ends(mesh, &material, stream).unwrap(),
-    }
-}
-
-/// Mass and stiffness of the cells within half a metre of the middle.
-fn central(mesh: &Mesh) -> [CsrMatrix; 2] {
-    let (material, dofs) = (steel(), DofMap::new(mesh));
-    let within = |cell: &[usize; 4]| cell.iter().all(|&node| mesh.nodes[node][0].abs() < 0.5 + 1e-9);
-    let part = Mesh { cells: mesh.cells.iter().copied().filter(within).collect(), ..mesh.clone() };
-    [
-        assemble(&part, &dofs, |p| elasticity::mass(p, material.density)).unwrap(),
-        assemble(&part, &dofs, |p| elasticity::stiffness(p, Lame::from(&material))).unwrap(),
-    ]
-}
-
-/// Energy in the central metre [J/m] over time, from the end of a quarter period of a point load of 5·10⁴ rad/s at the middle
-/// of the top, which takes `quarter` steps, to eleven times that. Elements of the size `h` \[m], trapezoidal rule, stream at
-/// `speed` \[m/s].
-fn energies(length: f64, ends: RailEnds, speed: f64, h: f64, quarter: i32) -> Vec<f64> {
-    let mesh = plate(length, 0.1, h);
-    let [mass, stiffness] = central(&mesh);
-    let body = FullBody::new(system(&mesh, ends), false).unwrap();
-    let frequency = 5e4;
-    let dt = FRAC_PI_2 / frequency / f64::from(quarter);
-    let td = TimeDerivative { a0: 2.0 / dt, a1: -2.0 / dt, a2: 0.0, b1: -1.0 };
-    let op = body.operator(td.a0).unwrap();
-    let middle = 2 * (mesh.surface.len() / 2) + 1;
-    let (mut state, mut next) = (BodyState::zeros(body.state_len()), BodyState::zeros(0));
-    let mut known = FreeResponse::default();
-    let mut history = Vec::new();
-    for k in 1..=11 * quarter {
-        let mut forces = DVector::zeros(op.surface.nrows());
-        if k < quarter {
-            forces[middle] = -1e5 * (frequency * f64::from(k) * dt).sin();
-        }
-        body.free_response(&op, &state, &td, Convection { speed, acceleration: 0.0 }, &mut known);
-        body.commit(&op, &known, &forces, [0.0; 3], &td, &state, &mut next);
-        std::mem::swap(&mut state, &mut next);
-        let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
-        if k >= quarter {
-            history.push(0.5 * (stiffness.bilinear(y, y) + mass.bilinear(v, v)));
-        }
-    }
-    history
-}
-
-/// Largest difference of two histories over the first value of the second.
-fn deviation(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / b[0]
-}
 
 /// Paper A, figures 5 and 6: the energy that a quarter period of load leaves in the central metre, 31 to 345 µs.
 #[test]
@@ -109,7 +22,7 @@ fn a_metre_with_quiet_ends_loses_energy_as_the_middle_of_four_metres_does() {
     for (h, quarter) in [(1.0 / 30.0, 3), (1.0 / 60.0, 8)] {
         let mut at_rest = f64::NAN;
         for speed in [0.0, 100.0 * KMH, -100.0 * KMH] {
-            let run = |length: f64, ends: RailEnds| energies(length, ends, speed, h, quarter);
+            let run = |length: f64, ends: RailEnds| Push { length, ends, speed, size: h, quarter }.energies().unwrap();
             let four = run(4.0, RailEnds::Free);
             let off = deviation(&run(1.0, RailEnds::Nonreflecting), &four);
             let kept = [&four, &run(1.0, RailEnds::Free)].map(|energy| energy[energy.len() - 1] / energy[0]);
@@ -133,7 +46,7 @@ fn reflected_pressure_waves_follow_the_formula_for_plane_waves() {
     let wavelength = 0.2;
     let omega = 2.0 * PI * pressure / wavelength;
     let mesh = plate(12.0 * h, 100.0 * h, h);
-    let (system, dofs) = (system(&mesh, RailEnds::Nonreflecting), DofMap::new(&mesh));
+    let (system, dofs) = (system(&mesh, RailEnds::Nonreflecting).unwrap(), DofMap::new(&mesh));
     // Nodes of the right end without the corners.
     let end: Vec<usize> = (0..mesh.nodes.len())
         .filter(|&k| mesh.nodes[k][0] > 5.9 * h && (mesh.nodes[k][1] + 50.0 * h).abs() < 48.5 * h)
@@ -236,7 +149,7 @@ fn a_rail_with_fixed_ends_is_stiffer_than_a_free_one() {
         if ends == RailEnds::Fixed {
             mesh.fix_ends();
         }
-        let op = FullBody::new(system(&mesh, ends), false).unwrap().operator(0.0).unwrap();
+        let op = FullBody::new(system(&mesh, ends).unwrap(), false).unwrap().operator(0.0).unwrap();
         let middle = op.surface.nrows() / 4 * 2 + 1;
         1e12 * op.surface[(middle, middle)]
     };

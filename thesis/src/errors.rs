@@ -34,6 +34,12 @@ pub const ALL: &[Mistake] = &[
                 into the wheel. Recomputed under C 12; figures B 5 to B 7 show how elements lose temperature.",
     },
     Mistake {
+        place: "C, text to Fig. 12",
+        says: "mean rail temperature 4.45e-9 K",
+        right: "1.11e-8 K, 2.5 times as much",
+        proof: "What the rail takes, 0.114 W/m, leaves with its stream: its mean is that over twice ρc V H. Recomputed under C 14.",
+    },
+    Mistake {
         place: "D 6.2.2",
         says: "creepage 1.9e-4 means 48 % of the limit",
         right: "52.7 % after Carter on half-planes, 53.1 % with wheel and rail of this size",
@@ -80,7 +86,8 @@ pub const ALL: &[Mistake] = &[
     Mistake {
         place: "B, text to Fig. 15",
         says: "thermal contact is perfect above k_c = 1e7",
-        right: "9 % are left there",
-        proof: "Independent solution of the specification, converged; not recomputed here yet.",
+        right: "9 % of the wheel's temperature are left there, 5 % at 2e7",
+        proof: "The wheel's mean temperature is a sum of the contact's resistance and the chill by the rail; the first is 9 % of it \
+                there. Recomputed under B 15.",
     },
 ];

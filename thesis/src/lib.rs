@@ -27,6 +27,7 @@ pub mod rolling;
 pub mod sparse;
 pub mod stabilise;
 pub mod triangle;
+pub mod waves;
 pub mod wheel;
 
 /// Why a computation has no result.

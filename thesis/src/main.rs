@@ -47,11 +47,7 @@ fn run() -> Result<(), String> {
         std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
         println!("{}", file.display());
     }
-    let mut wrong: Vec<String> = Vec::new();
-    for (figure, _) in &figures {
-        let broken = figure.predicates.iter().filter(|predicate| !predicate.holds);
-        wrong.extend(broken.map(|predicate| format!("{}: {} does not hold", figure.item, predicate.says)));
-    }
+    let mut wrong: Vec<String> = figures.iter().flat_map(|(figure, _)| figure.flaws()).collect();
     if wanted.is_empty() {
         for entry in &quoted {
             if !entry.holds(&values)? {

@@ -1,28 +1,37 @@
 //! The report as a whole.
 
 use std::collections::{BTreeMap, BTreeSet};
-use wheelrail_thesis::figures::{ALL, Figure, MISSING};
+use wheelrail_thesis::figures::{ALL, Figure, ITEMS, MISSING};
+use wheelrail_thesis::quoted::Status;
 use wheelrail_thesis::{errors, quoted, report};
 
-/// All figures, each with a time.
+/// Figures that are computed here; `make thesis` computes all of them.
+const QUICK: [&str; 13] =
+    ["I 4.2", "I 5.1", "A text", "A 12", "A 5–6", "B 5", "B 6", "B 7", "B 13", "C 7", "C 12", "D 6", "D 18"];
+
+/// The quick figures, each with a time.
 fn figures() -> Vec<(Figure, f64)> {
-    ALL.iter().map(|(_, recipe)| (recipe().unwrap(), 0.0)).collect()
+    let quick = ALL.iter().filter(|(name, _)| QUICK.contains(name));
+    quick.map(|(_, recipe)| (recipe().unwrap(), 0.0)).collect()
 }
 
 #[test]
 fn every_figure_shows_what_it_must_and_every_quoted_number_has_its_status() {
     let figures = figures();
-    for ((name, _), (figure, _)) in ALL.iter().zip(&figures) {
-        assert_eq!(*name, figure.item);
-        assert!(!figure.predicates.is_empty(), "{name} tests nothing");
-        println!("{name}: {}", figure.finding);
+    assert_eq!(figures.len(), QUICK.len());
+    for (figure, _) in &figures {
+        assert!(QUICK.contains(&figure.item));
+        println!("{}: {}", figure.item, figure.finding);
         for predicate in &figure.predicates {
             println!("    {}: {}", predicate.says, predicate.holds);
         }
     }
-    assert!(figures.iter().flat_map(|(figure, _)| &figure.predicates).all(|predicate| predicate.holds));
+    assert_eq!(figures.iter().flat_map(|(figure, _)| figure.flaws()).collect::<Vec<_>>(), [""; 0]);
     let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
-    for entry in quoted::all().unwrap() {
+    let known = |entry: &quoted::Quoted| entry.computed.as_ref().is_none_or(|name| values.contains_key(name));
+    let compared: Vec<_> = quoted::all().unwrap().into_iter().filter(known).collect();
+    assert!(compared.iter().filter(|entry| entry.computed.is_some()).count() >= 9);
+    for entry in &compared {
         assert_eq!(entry.holds(&values), Ok(true), "{} {}", entry.item, entry.quantity);
     }
     let page = report::html(&figures, &quoted::all().unwrap());
@@ -36,12 +45,38 @@ fn every_figure_shows_what_it_must_and_every_quoted_number_has_its_status() {
     assert_eq!(report::csv(&figures).lines().count(), 1 + values.len());
 }
 
+/// Every item of the thesis is either recomputed or said to be missing, and none is both.
 #[test]
-fn what_is_recomputed_is_not_called_missing_and_open_numbers_belong_to_what_is_missing() {
+fn every_item_is_in_exactly_one_list() {
+    let done = ALL.iter().map(|(name, _)| *name);
+    let mut listed: Vec<&str> = done.chain(MISSING.iter().copied()).collect();
+    let mut items = ITEMS.to_vec();
+    listed.sort_unstable();
+    items.sort_unstable();
+    assert_eq!(listed, items);
+}
+
+#[test]
+fn a_figure_that_nothing_tests_is_refused() {
+    let mut figure = ALL[0].1().unwrap();
+    assert!(figure.flaws().is_empty());
+    figure.predicates[0].holds = false;
+    assert_eq!(figure.flaws().len(), 1);
+    figure.predicates.clear();
+    assert_eq!(figure.flaws(), ["I 4.2: nothing tests it"]);
+}
+
+/// A number is open only where its item, or a part of it that is named here, is not recomputed.
+#[test]
+fn quoted_numbers_belong_to_items_and_open_ones_to_what_is_missing() {
     let done: BTreeSet<&str> = ALL.iter().map(|(name, _)| *name).collect();
-    assert!(MISSING.iter().all(|name| !done.contains(name)));
+    // Sentences and a mesh whose contact is not recomputed, though their item is.
+    let partly = ["A text", "A 12", "B text"];
     for entry in quoted::all().unwrap() {
-        let known = done.contains(entry.item.as_str()) || MISSING.contains(&entry.item.as_str());
-        assert!(known || entry.item == "B text", "{}", entry.item);
+        let item = entry.item.as_str();
+        assert!(ITEMS.contains(&item) || item == "B text", "{item}");
+        let open = entry.status == Status::Open;
+        assert!(!(open && done.contains(item)) || partly.contains(&item), "{item} {}", entry.quantity);
+        assert!(open || done.contains(item), "{item} {}", entry.quantity);
     }
 }

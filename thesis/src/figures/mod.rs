@@ -1,11 +1,17 @@
 //! Figures and tables of the thesis, one function each: the thesis's method, ours, the closed form and the quoted number.
 
 mod annulus;
+mod braking;
 mod closed_forms;
+mod friction_heat;
 mod introduction;
+mod plate;
+mod ramps;
 mod rolling;
+mod tread_heat;
+mod tread_map;
 
-use crate::plot::Plot;
+use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 
 /// Something that a figure must show; if it does not, the run fails.
@@ -38,34 +44,34 @@ pub struct Figure {
     pub predicates: Vec<Predicate>,
 }
 
-/// Computes one figure, or says why not.
-pub type Recipe = fn() -> Result<Figure, String>;
+impl Figure {
+    /// What is wrong with it: nothing that tests it, or something that does not hold.
+    pub fn flaws(&self) -> Vec<String> {
+        if self.predicates.is_empty() {
+            return vec![format!("{}: nothing tests it", self.item)];
+        }
+        let broken = self.predicates.iter().filter(|predicate| !predicate.holds);
+        broken.map(|predicate| format!("{}: {} does not hold", self.item, predicate.says)).collect()
+    }
+}
 
-/// What is recomputed so far, with the items that each function covers.
-pub const ALL: &[(&str, Recipe)] = &[
-    ("I 4.2", introduction::rod),
-    ("I 5.1", introduction::schemes),
-    ("A text", closed_forms::hertz),
-    ("A 12", closed_forms::corrugation),
-    ("B 5", annulus::galerkin),
-    ("B 6", annulus::supg),
-    ("B 7", annulus::bubble),
-    ("C 7", rolling::paper_c),
-    ("C 12", rolling::temperature),
-    ("D 6", rolling::paper_d),
-    ("D 18", closed_forms::braking),
-];
-
-/// What is not recomputed yet.
-pub const MISSING: &[&str] = &[
+/// Every figure and table of the thesis that computes something, and the sentences with numbers, in the thesis's order.
+pub const ITEMS: &[&str] = &[
+    "I 4.2",
+    "I 5.1",
     "A T1",
     "A T2",
     "A T3",
     "A 5–6",
+    "A text",
     "A 7",
     "A 8–10",
     "A 11",
+    "A 12",
     "A 13–14",
+    "B 5",
+    "B 6",
+    "B 7",
     "B 11",
     "B 12",
     "B 13",
@@ -75,20 +81,68 @@ pub const MISSING: &[&str] = &[
     "B 17",
     "B 18–19",
     "C 6",
+    "C 7",
     "C 8–11",
+    "C 12",
     "C 13",
     "C 14",
     "C 15",
+    "D 6",
     "D T1",
     "D 7–8",
     "D 9",
     "D 10",
     "D 11–15",
     "D 16–17",
+    "D 18",
     "D 19–21",
 ];
+
+/// Computes one figure, or says why not.
+pub type Recipe = fn() -> Result<Figure, String>;
+
+/// What is recomputed so far, with the items that each function covers.
+pub const ALL: &[(&str, Recipe)] = &[
+    ("I 4.2", introduction::rod),
+    ("I 5.1", introduction::schemes),
+    ("A text", closed_forms::hertz),
+    ("A 12", closed_forms::corrugation),
+    ("A 5–6", plate::energy),
+    ("B 5", annulus::galerkin),
+    ("B 6", annulus::supg),
+    ("B 7", annulus::bubble),
+    ("B 12", tread_map::map),
+    ("B 13", tread_heat::pressure),
+    ("B 14", tread_heat::velocity),
+    ("B 15", tread_heat::conductance),
+    ("B 16", tread_heat::load),
+    ("B 17", tread_heat::transient),
+    ("C 7", rolling::paper_c),
+    ("C 8–11", friction_heat::profiles),
+    ("C 12", rolling::temperature),
+    ("C 13", friction_heat::locked),
+    ("C 14", friction_heat::velocity),
+    ("C 15", friction_heat::conductance),
+    ("D 6", rolling::paper_d),
+    ("D T1", ramps::table),
+    ("D 7–8", ramps::force),
+    ("D 9", ramps::profiles),
+    ("D 10", ramps::temperature),
+    ("D 11–15", braking::velocities),
+    ("D 16–17", braking::moment),
+    ("D 18", closed_forms::braking),
+];
+
+/// What is not recomputed yet.
+pub const MISSING: &[&str] =
+    &["A T1", "A T2", "A T3", "A 7", "A 8–10", "A 11", "A 13–14", "B 11", "B 18–19", "C 6", "D 19–21"];
 
 /// A statement and whether it holds.
 fn must(says: impl Into<String>, holds: bool) -> Predicate {
     Predicate { says: says.into(), holds }
+}
+
+/// A curve of given points.
+fn curve(source: Source, name: impl Into<String>, points: Vec<[f64; 2]>) -> Curve {
+    Curve { source, name: name.into(), points }
 }
