@@ -42,7 +42,7 @@
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
-//! | [`mechanics`] | elasticity and convection; full and reduced bodies behind [`mechanics::BodyResponse`] | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md) |
+//! | [`mechanics`] | elasticity and convection; full and reduced bodies behind [`mechanics::BodyResponse`] | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md), [rail-ends](../../../docs/theory/rail-ends.md) |
 //! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, modal direct solver | [heat](../../../docs/theory/heat.md) |
 //! | [`surface`] | what rail and wheel carry on top of their ideal shapes: files, waves, roughness, holes, joints, flats | |
 //! | [`contact`] | exact Coulomb contact behind [`contact::ContactSolver`], seen by everyone else as its [`contact::Traction`]; friction laws | [contact](../../../docs/theory/contact.md), [edge-consistent-rows](../../../docs/theory/edge-consistent-rows.md), [kernel-correction](../../../docs/theory/kernel-correction.md), [patch-contact](../../../docs/theory/patch-contact.md) |

@@ -48,7 +48,7 @@ macro_rules! theory {
 }
 
 /// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 17] = theory![
+const THEORY: [(&str, &[u8]); 19] = theory![
     "README.md",
     "ale-balance.md",
     "condensation.md",
@@ -63,6 +63,8 @@ const THEORY: [(&str, &[u8]); 17] = theory![
     "limits-of-steel.md",
     "material-history.md",
     "patch-contact.md",
+    "profiles.md",
+    "rail-ends.md",
     "time-formula.md",
     "track-support.md",
     "width-of-conduction.md",
