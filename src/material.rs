@@ -109,6 +109,8 @@ impl Isotropic {
 pub const INDENTATION: f64 = (2.0 + std::f64::consts::PI) / SQRT_3;
 /// Largest friction traction of yielding steel over its largest pressure: its yield strength in shear \[1].
 pub const SHEAR: f64 = 1.0 / (2.0 + std::f64::consts::PI);
+/// Yield strength in shear over that in tension (von Mises) \[1].
+pub const YIELD_IN_SHEAR: f64 = 1.0 / SQRT_3;
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
 /// Share of its cold yield strength that steel keeps over the temperature \[K].

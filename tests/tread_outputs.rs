@@ -125,3 +125,29 @@ fn nothing_is_lost_per_metre_at_standstill() {
     assert_eq!(o.contact_creepage, -2.0);
     assert!((o.t_gamma * 0.02 / o.friction_power - 1.0).abs() < 1e-12 && o.friction_power > 1e3);
 }
+
+/// A line contact of 100 kN has a peak of some 755 MPa: with 550 MPa yield strength the surface is fatigued from 0.42 of the
+/// load on. Wear follows from the energy that the contact itself reports.
+#[test]
+fn fatigue_and_wear_follow_from_the_other_outputs() {
+    let model = model(preset("railway", 10));
+    let width = model.config().model.contact_width;
+    for (creepage, friction) in [(0.0, 0.3), (2e-3, 0.3), (0.02, 0.6)] {
+        let mut inputs = prescribed(&model, 20.0, creepage);
+        inputs.drive.friction = friction;
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let found = simulation.outputs();
+        let utilised = found.contact_force_x.abs() / found.contact_force_y;
+        let index = utilised - 550e6 / 3f64.sqrt() / found.contact_pressure_max;
+        let pressed = 1e-6 * found.t_gamma / (2.0 * found.contact_half_width * width);
+        let per_area = if pressed < 10.4 { 5.3 * pressed } else { 55.0 };
+        let lost = 1e-3 * per_area * 2.0 * found.contact_half_width * width;
+        println!(
+            "creepage {creepage}: Tγ/A {pressed:.3} N/mm², index {:.3}, {:.2e} kg/m",
+            found.surface_fatigue, found.wear_rate
+        );
+        assert!((found.surface_fatigue - index).abs() < 1e-12 && (found.surface_fatigue > 0.0) == (utilised > 0.42));
+        assert!(pressed < 77.2 && (found.wear_rate - lost).abs() <= 0.02 * lost);
+    }
+}

@@ -87,6 +87,7 @@ pub const UNITS: &[Unit] = &[
     },
     Unit { name: "J", quantity: "Energy", exponents: [1, 2, -2, 0, 0], displays: &[times("kJ", 1e-3)] },
     Unit { name: "W", quantity: "Power", exponents: [1, 2, -3, 0, 0], displays: &[times("kW", 1e-3)] },
+    Unit { name: "kg/m", quantity: "MassPerLength", exponents: [1, -1, 0, 0, 0], displays: &[times("mg/m", 1e6)] },
     Unit { name: "kg/m3", quantity: "Density", exponents: [1, -3, 0, 0, 0], displays: &[] },
     Unit { name: "kg.m2", quantity: "MomentOfInertia", exponents: [1, 2, 0, 0, 0], displays: &[] },
     Unit {

@@ -10,12 +10,14 @@
 //! Temperatures given to this room are excess temperatures over the reference \[K], those it reports are absolute.
 
 mod conduction;
+mod indices;
 mod mesh;
 mod record;
 mod shared;
 mod spot;
 mod tread;
 
+pub use indices::{surface_fatigue, wear_rate};
 pub use mesh::{SpotLayout, SpotMesh};
 use record::Recorder;
 pub use record::{Criteria, Findings, Point};

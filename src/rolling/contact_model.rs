@@ -8,7 +8,7 @@ use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
     Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
-use crate::material::{INDENTATION, SHEAR};
+use crate::material::{INDENTATION, SHEAR, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
@@ -27,6 +27,8 @@ pub struct ContactModel {
     width: f64,
     /// Pressure at which cold steel yields [Pa]; infinite: never.
     yield_pressure: f64,
+    /// Yield strength of cold steel in shear \[Pa].
+    pub shear_yield: f64,
     /// Distance from the contact point up to which contact is looked for at all [m].
     reach: f64,
 }
@@ -72,6 +74,7 @@ impl ContactModel {
                 true => INDENTATION * config.material.yield_strength,
                 false => f64::INFINITY,
             },
+            shear_yield: YIELD_IN_SHEAR * config.material.yield_strength,
             reach,
         }
     }

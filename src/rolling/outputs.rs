@@ -6,6 +6,7 @@ use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
+use crate::damage::{surface_fatigue, wear_rate};
 use crate::piecewise::Piecewise;
 
 /// Observables of a state.
@@ -16,6 +17,8 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
     let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
     let v_c = model.rolling_radius(state) * omega;
     let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
+    let t_gamma = per_metre(state.friction_power * width, v, v_c);
+    let area = width * traction.edges.iter().map(|patch| patch.high - patch.low).sum::<f64>();
     let points = profile_points(model.zone);
     let sampled = |profile: &Piecewise| points.iter().map(|&x| profile.at(x)).collect();
     Outputs {
@@ -69,8 +72,14 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         flattening: state.flattening[0].deepest(),
         flattening_rail: state.flattening[1].deepest(),
         damping_energy: state.audit.damping * width,
-        t_gamma: per_metre(state.friction_power * width, v, v_c),
-        rail_energy: per_metre(state.friction_power * width, v, v_c),
+        t_gamma,
+        surface_fatigue: surface_fatigue(
+            ratio(force_x.abs(), force_y),
+            model.contact.shear_yield,
+            traction.pressure_max,
+        ),
+        wear_rate: wear_rate(t_gamma, area),
+        rail_energy: t_gamma,
         internal_steps: state.internal_steps,
         iterations: state.iterations,
         energy_residual: state.audit.residual(model.contact.nominal_energy()),
