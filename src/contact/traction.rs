@@ -78,6 +78,11 @@ impl Traction {
         hull(&self.edges).map_or(0.0, |edges| 0.5 * (edges.high - edges.low))
     }
 
+    /// Length that is in contact, all patches together \[m].
+    pub fn touching(&self) -> f64 {
+        self.edges.iter().map(|edges| edges.high - edges.low).sum()
+    }
+
     /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns the power
     /// for which the profile of dissipation stands. Friction never cools: where it is less than the errors of what hot material
     /// gives back, it heats nothing.

@@ -17,8 +17,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
     let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
     let v_c = model.rolling_radius(state) * omega;
     let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
-    let t_gamma = per_metre(state.friction_power * width, v, v_c);
-    let area = width * traction.edges.iter().map(|patch| patch.high - patch.low).sum::<f64>();
+    let (t_gamma, area) = (per_metre(state.friction_power * width, v, v_c), width * traction.touching());
     let points = profile_points(model.zone);
     let sampled = |profile: &Piecewise| points.iter().map(|&x| profile.at(x)).collect();
     Outputs {
