@@ -262,7 +262,7 @@ outputs! {
     714 surface_fatigue: real "damage.fi_surf", in "1", from -1.0, nominal 0.1,
         "Surface fatigue index: |contact.force_x| / contact.force_y less the yield strength in shear over contact.pressure_max; \
          fatigue of the surface is to be expected where it is positive; -1 without contact";
-    715 wear_rate: real "damage.wear_rate", in "kg/m" as "mg/m", from 0.0, nominal 1e-6, start zero,
+    715 wear_rate: real "damage.wear_rate", in "kg/m" as "mg/m", from 0.0, nominal 1e-6,
         "Mass that the wheel loses per distance rolled by wear (R8T steel, twin-disc tests): damage.t_gamma over the area of the \
          contact, in three regimes; the profile of the wheel does not change by it";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,
