@@ -140,6 +140,12 @@ fn starts(table: &mut Table, store: &BasisStore) {
     let inputs = Inputs::rolling(shared.config());
     let second = || drop(black_box(Simulation::new(shared.clone(), &inputs).expect("stationary state")));
     table.time("start of a further equal wheel", fastest(second));
+}
+
+/// What a wheel adds to the memory of the process. It has to come first: later there is memory of earlier work to spare.
+fn memory(table: &mut Table, store: &BasisStore) {
+    let shared = model(20, true, store);
+    drop(braking(&shared));
     let before = resident();
     let wheels: Vec<_> = (0..40).map(|_| braking(&shared)).collect();
     table.number("memory of a further equal wheel", (resident() - before) / wheels.len() as f64, "MB");
@@ -152,6 +158,7 @@ fn main() {
     let mut table = Table { reference, rows: Map::new() };
     table.time("reference: LU factors of a matrix of 120 rows", reference);
     let store = BasisStore::within(&std::env::temp_dir().join("wheelrail-bench"));
+    memory(&mut table, &store);
     steps(&mut table, &store);
     wheels(&mut table, &store);
     starts(&mut table, &store);
