@@ -294,7 +294,7 @@ outputs! {
     815 plastic_energy: real "energy.plastic", in "J" as "kJ", nominal 1e2, start zero,
         "Work of permanent flattening since the start";
     814 damping_energy: real "energy.damping", in "J" as "kJ", nominal 1e2, start zero,
-        "Energy dissipated by damping since the start";
+        "Energy dissipated by damping and radiated by quiet ends of the rail since the start";
     10000 profile_x: profile "profile.x", in "m" as "mm", nominal 5e-3,
         "Position across the contact patch, positive ahead of the wheel centre";
     11000 profile_pressure: profile "profile.pressure", in "Pa" as "MPa", nominal 1e9, "Contact pressure";

@@ -51,18 +51,22 @@ impl Instance {
     pub fn log(&self) -> &Log {
         &self.log
     }
+
     /// Status of the last step.
     pub fn last_step(&self) -> Status {
         self.last_step
     }
+
     /// Communication point up to which the instance has simulated \[s].
     pub fn last_successful_time(&self) -> f64 {
         self.time
     }
+
     /// No step fails.
     pub fn terminated(&self) -> bool {
         false
     }
+
     /// Marks the instance as beyond repair, after a panic.
     pub fn give_up(&mut self) {
         self.phase = Phase::Fatal;
