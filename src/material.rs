@@ -129,23 +129,23 @@ const CELSIUS_ZERO: f64 = 273.15;
 /// Temperature up to which steel keeps its yield strength \[K].
 pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 
-/// Share of the friction coefficient on a surface that may melt \[1], where the excess temperature over `reference` \[K] is
-/// the share times `heating` \[K].
+/// Share of the friction coefficient on a surface that may melt \[1], whose temperature is `rest` \[K] and the share times
+/// `heating` \[K].
 ///
 /// The share falls from 1 at the solidus to `material.film_friction` at the liquidus and to nothing [`FILM_GROWS`] above it,
 /// linear between; what is returned is the one that belongs to its own temperature. Molten steel of the asperities and then
 /// of a whole film is sheared instead of solid steel. With its viscosity of about 6 mPa s (literature), a film of 1 µm and
 /// 20 m/s carry 0.1 MPa, less than a thousandth of the contact pressure: what remains is a small number, and its size is
 /// judgement. A film that gets hotter melts more steel and thickens until its own friction no longer heats it.
-pub fn melted_share(heating: f64, reference: f64, material: &Material) -> f64 {
+pub fn melted_share(heating: f64, rest: f64, material: &Material) -> f64 {
     let &Material { solidus, liquidus, film_friction, .. } = material;
     let heating = heating.max(0.0);
     let fall = (1.0 - film_friction) / (liquidus - solidus);
-    let share = (1.0 + fall * (solidus - reference)) / (1.0 + fall * heating);
+    let share = (1.0 + fall * (solidus - rest)) / (1.0 + fall * heating);
     if share >= film_friction {
         return share.min(1.0);
     }
-    film_friction * (FILM_GROWS + liquidus - reference) / (FILM_GROWS + film_friction * heating)
+    (film_friction * (FILM_GROWS + liquidus - rest) / (FILM_GROWS + film_friction * heating)).max(0.0)
 }
 
 /// Excess over the liquidus at which the film under the contact no longer carries friction \[K].
@@ -175,6 +175,7 @@ mod tests {
             assert!((share - (1.0 - 0.9 * molten) * carried).abs() < 1e-12, "{heating}: {share}");
         }
         assert_eq!(melted_share(1400.0, 300.0, &material), 1.0);
+        assert_eq!(melted_share(100.0, 1841.0, &material), 0.0, "hotter than any film without friction");
         let alone = Material { film_friction: 1.0, ..material };
         assert_eq!(melted_share(1e6, 300.0, &alone), 1.0);
     }

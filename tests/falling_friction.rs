@@ -7,9 +7,10 @@ use std::sync::Arc;
 use wheelrail::config::Tuning;
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation};
 
-/// Polach's law on a dry rail, slip and heat of a dry-braked wheel.
+/// Polach's law on a dry rail without memory, slip and heat of a dry-braked wheel.
 fn polach(response_heat: bool) -> Arc<Model> {
     let mut config = preset("railway_dry", 8);
+    config.tuning.memory_length = 0.0;
     config.thermal.enabled = response_heat;
     model(config)
 }

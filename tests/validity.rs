@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use wheelrail::config::Config;
+use wheelrail::config::{Config, Tuning};
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Inputs, Rotation, Simulation};
 
@@ -72,4 +72,28 @@ fn falling_friction_in_steps_that_cannot_show_stick_slip_is_told_and_the_advice_
     let mut fine = Simulation::start(model, tuning, &inputs).unwrap();
     fine.advance(&inputs, 1e-3).unwrap();
     assert_eq!(limits(&fine), []);
+}
+
+#[test]
+fn falling_friction_without_memory_is_told_in_steps_in_which_it_has_no_definite_value() {
+    let mut config = preset("railway_dry", 8);
+    config.thermal.enabled = false;
+    let memory = config.tuning.memory_length;
+    config.initial.velocity = 2.0;
+    let model = model(config);
+    let mut inputs = prescribed(&model, 2.0, 0.0);
+    inputs.drive.omega = 1.0 / 0.46;
+    let told = |length: f64, step: f64| {
+        let tuning = Tuning { memory_length: length, ..model.config().tuning.clone() };
+        let mut simulation = Simulation::start(model.clone(), tuning, &inputs).unwrap();
+        simulation.advance(&inputs, step).unwrap();
+        let told = limits(&simulation).contains(&Limit::Chatter);
+        if told {
+            println!("{}", simulation.describe_limit(Limit::Chatter));
+        }
+        told
+    };
+    assert!(told(0.0, 5e-6));
+    assert!(!told(0.0, 2e-4), "in long steps the rest of the wheel answers");
+    assert!(!told(memory, 5e-6), "the memory of the preset is long enough");
 }

@@ -200,7 +200,7 @@ impl ThermalModel {
         }
         thermal.fields = self.heat.superposed(&parts)?;
         let mut sight = Sight::default();
-        self.observe(touch, &mut thermal, &mut sight)?;
+        self.observe(touch, f64::INFINITY, &mut thermal, &mut sight)?;
         thermal.damage = self.history.begin(&sight.seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
@@ -224,7 +224,7 @@ impl ThermalModel {
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(touch, &mut thermal, sight)?;
+        self.observe(touch, dt, &mut thermal, sight)?;
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
@@ -240,7 +240,7 @@ impl ThermalModel {
     }
 
     /// Fills all that follows from the temperature fields.
-    fn observe(&self, touch: &Touch, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
+    fn observe(&self, touch: &Touch, dt: f64, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
         let Sight { seen, smoothing } = sight;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
@@ -282,7 +282,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&self.heat, touch.traction, thermal, seen)?;
+        self.weakening.find(&self.heat, touch.traction, dt, thermal, seen)?;
         Ok(())
     }
 

@@ -7,6 +7,7 @@ use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
 use crate::piecewise::{Piecewise, interpolate, smear};
 use crate::rolling::error::StepError;
 use crate::rolling::state::ThermalState;
+use std::f64::consts::PI;
 
 /// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact is near
 /// its maximum, and a hotter but thinner skin does not yield on its own. Nor does a narrower strip: the steel that flows under
@@ -46,11 +47,13 @@ impl WeakSteel {
         (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
     }
 
-    /// Fills `thermal.weakening` from the temperatures `seen`; its film is still that of the step before.
+    /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s], infinite in the stationary state; its
+    /// film is still that of the step before.
     pub fn find(
         &self,
         heat: &Heat,
         traction: &Traction,
+        dt: f64,
         thermal: &mut ThermalState,
         seen: &mut Observation,
     ) -> Result<(), StepError> {
@@ -59,7 +62,7 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            self.melt(heat.zone_x(), hottest, seen, &mut weakening.film);
+            self.melt(heat.zone_x(), dt, hottest, traction, seen, &mut weakening.film);
         }
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
             return Ok(());
@@ -78,9 +81,8 @@ impl WeakSteel {
         Ok(())
     }
 
-    /// Factor by which the share of friction falls at least on a place at the excess temperature `hot` \[K]. Short steps are
-    /// over before the temperature has followed the share, and the share of [`melted_share`] changes by some percent a step
-    /// only: too slow where a place overheats within microseconds.
+    /// Factor by which the share of friction falls at least on a place at the excess temperature `hot` \[K]: a place that has
+    /// overheated carries little, whatever the prediction says.
     fn overheated(&self, hot: f64) -> f64 {
         match self.liquidus() {
             Some(liquidus) => 1.0 - CUT * ((self.reference + hot - liquidus) / FILM_GROWS).clamp(0.0, 1.0),
@@ -88,21 +90,26 @@ impl WeakSteel {
         }
     }
 
-    /// Share of friction on molten places in the coming step. The flash follows the friction at once, as in
-    /// [`crate::contact::Friction::local`]: the temperature at the end of the step is taken as proportional to the share, and
-    /// the share that belongs to its own temperature is found. A share from the temperature before would let the surface
-    /// overheat and freeze in turns.
-    fn melt(&self, x: &[f64], hottest: f64, seen: &Observation, film: &mut Piecewise) {
+    /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as linear in
+    /// the share, and the share that belongs to its own temperature is found; a share from the temperature before would let
+    /// the surface overheat and freeze in turns. In a long step the flash follows friction in full, as in
+    /// [`crate::contact::Friction::local`]; in a short one it rises by what the power warms a half-space, `q √(Δt/π)/√(kρc)` with
+    /// half of the power for each body.
+    fn melt(&self, zone: &[f64], dt: f64, hottest: f64, traction: &Traction, seen: &Observation, film: &mut Piecewise) {
         if film.is_empty() && hottest <= self.material.solidus {
             return;
         }
         let before = std::mem::take(film);
-        let [wheel, rail] = &seen.surface;
-        for ((&x, wheel), rail) in x.iter().zip(wheel).zip(rail) {
-            let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, x) };
-            let hot = wheel.max(*rail);
-            let found = melted_share(hot / share.max(LEAST), self.reference, &self.material);
-            film.push(x, found.min(share * self.overheated(hot)));
+        let Material { conductivity, density, specific_heat, .. } = self.material;
+        let warming = (dt / (PI * conductivity * density * specific_heat)).sqrt();
+        let (Piecewise { x, value: power }, [wheel, rail]) = (&traction.dissipation, &seen.surface);
+        for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
+            let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
+            let (hot, whole) = (wheel.max(*rail), 1.0 / share.max(LEAST));
+            let rise = whole * hot.min(warming * interpolate(x, power, at).max(0.0));
+            let rest = self.reference + hot - share * rise;
+            let found = melted_share(rise, rest, &self.material);
+            film.push(at, found.min(share * self.overheated(hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
