@@ -13,7 +13,7 @@ pub mod value;
 pub use table::{
     BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Hub, Initial, Material,
     MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, Thermal, TimeScheme, Tuning,
-    Vehicle, Wheel,
+    Vehicle, Wear, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 
@@ -261,6 +261,34 @@ impl Config {
         }
     }
 
+    /// Catastrophic wear begins beyond severe wear.
+    fn wear_regimes(&self) -> Dependent {
+        let from = self.damage.wear_severe_from;
+        Dependent {
+            name: "damage.wear_catastrophic_from",
+            value: self.damage.wear_catastrophic_from,
+            unit: "Pa",
+            low: from,
+            high: f64::INFINITY,
+            others: format!("damage.wear_severe_from = {} Pa", display_number(from)),
+        }
+    }
+
+    /// Worn surfaces are no smooth patch.
+    fn wear_contact(&self) -> Dependent {
+        let alone = self.solver.contact == ContactMethod::Patch;
+        let number = |off: bool| if off { 1.0 } else { 2.0 };
+        Dependent {
+            name: "damage.wear",
+            value: number(self.damage.wear == Wear::Off),
+            unit: "",
+            low: 1.0,
+            high: number(alone),
+            others: "solver.contact = patch, which knows smooth surfaces only (1: off; other contacts also 2: t_gamma)"
+                .to_owned(),
+        }
+    }
+
     /// Ranges that depend on other parameters.
     fn dependent(&self) -> Vec<Dependent> {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
@@ -293,6 +321,8 @@ impl Config {
             },
             self.start_temperature(),
             self.melting_range(),
+            self.wear_regimes(),
+            self.wear_contact(),
             self.internal_step(),
             velocity,
             creepage,

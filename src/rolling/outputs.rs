@@ -6,7 +6,8 @@ use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
-use crate::damage::{surface_fatigue, wear_rate};
+use super::wear;
+use crate::damage::surface_fatigue;
 use crate::piecewise::Piecewise;
 
 /// Observables of a state.
@@ -77,7 +78,10 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
             model.contact.shear_yield,
             traction.pressure_max,
         ),
-        wear_rate: wear_rate(t_gamma, area),
+        wear_rate: wear::law(&model.config).rate(t_gamma, area),
+        worn_mass: state.worn * width,
+        worn_depth: state.flattening[0].worn().deepest(),
+        worn_depth_rail: state.flattening[1].worn().deepest(),
         rail_energy: t_gamma,
         internal_steps: state.internal_steps,
         iterations: state.iterations,

@@ -1,0 +1,206 @@
+//! Wear that changes the wheel: what is taken off is what the wear rate says, it stays on the material, it makes a flat of a slide,
+//! and the profile that is left can be loaded again.
+
+mod common;
+
+use common::{model, prescribed, preset};
+use std::path::Path;
+use std::sync::Arc;
+use wheelrail::config::{Config, Wear};
+use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
+
+/// A cold wheel with wear.
+fn wearing(elements: usize) -> Config {
+    let mut config = preset("railway", elements);
+    config.thermal.enabled = false;
+    config.tuning.tolerance = 0.0;
+    config.damage.wear = Wear::TGamma;
+    config
+}
+
+fn run(simulation: &mut Simulation, inputs: &Inputs, step: f64, steps: usize) -> Vec<Outputs> {
+    let mut advance = || {
+        simulation.advance(inputs, step).unwrap();
+        simulation.outputs().clone()
+    };
+    (0..steps).map(|_| advance()).collect()
+}
+
+/// Mass of what is missing on the tread [kg].
+fn missing(simulation: &Simulation) -> f64 {
+    let config = simulation.model().config();
+    simulation.state().flattening[0].worn().volume() * config.material.density * config.model.contact_width
+}
+
+/// Mild and severe creepage forwards and backwards, several turns in long steps, and a slide.
+#[test]
+fn the_volume_taken_off_is_the_integrated_wear_rate() {
+    for (velocity, creepage, step, steps) in
+        [(20.0, 1e-3, 1e-3, 150), (-20.0, -0.02, 2.5e-4, 200), (40.0, 5e-3, 0.02, 60), (5.0, 2.0, 1e-3, 50)]
+    {
+        let model = model(wearing(6));
+        let mut inputs = prescribed(&model, velocity, creepage);
+        if creepage == 2.0 {
+            inputs.drive.omega = 0.0;
+        }
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let outputs = run(&mut simulation, &inputs, step, steps);
+        let rate: f64 = outputs.iter().map(|o| o.wear_rate * o.wheel_velocity.abs() * step).sum();
+        let last = &outputs[steps - 1];
+        let (mass, store) = (last.worn_mass, missing(&simulation));
+        println!(
+            "{velocity} m/s, creepage {creepage}: rate {rate:.6e} kg, worn {mass:.6e} kg, missing {store:.6e} kg, depth {:.3e} m",
+            last.worn_depth
+        );
+        assert!(mass > 0.0 && (store / mass - 1.0).abs() < 1e-12, "{store} {mass}");
+        assert!((rate / mass - 1.0).abs() < 1e-9 && last.worn_depth_rail == 0.0, "{rate} {mass}");
+        // A wheel that has turned round is worn evenly.
+        if step * steps as f64 * velocity.abs() > 10.0 {
+            let even = store / (7850.0 * 0.014 * std::f64::consts::TAU * 0.46);
+            assert!((last.worn_depth / even - 1.0).abs() < 0.1, "{} {even}", last.worn_depth);
+        }
+    }
+}
+
+#[test]
+fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
+    let worn = model(wearing(6));
+    let inputs = prescribed(&worn, 20.0, 0.02);
+    let mut simulation = Simulation::new(worn.clone(), &inputs).unwrap();
+    run(&mut simulation, &inputs, 5e-4, 20);
+    let saved = simulation.checkpoint().clone();
+    let first = run(&mut simulation, &inputs, 5e-4, 20);
+    let state = simulation.state().clone();
+    simulation.recall(saved.clone()).unwrap();
+    assert_eq!(run(&mut simulation, &inputs, 5e-4, 20), first);
+    assert!(*simulation.state() == state);
+    let mut other = Simulation::resume(worn.clone(), worn.config().tuning.clone(), saved).unwrap();
+    assert_eq!(run(&mut other, &inputs, 5e-4, 20), first);
+    // Without wear, and with a law that takes nothing.
+    let others = [|c: &mut Config| c.damage.wear = Wear::Off, |c: &mut Config| {
+        (c.damage.wear_mild, c.damage.wear_severe, c.damage.wear_catastrophic) = (0.0, 0.0, 0.0);
+    }];
+    let [off, none] = others.map(|change| {
+        let mut config = wearing(6);
+        change(&mut config);
+        let model = model(config);
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let outputs = run(&mut simulation, &inputs, 5e-4, 40);
+        outputs.into_iter().map(|o| Outputs { wear_rate: 0.0, ..o }).collect::<Vec<_>>()
+    });
+    assert!(off == none && first[19].worn_mass > 0.0 && off[39].worn_mass == 0.0);
+    assert!((first[19].contact_force_x / off[39].contact_force_x - 1.0).abs() < 1e-3);
+}
+
+/// A wheel that slides 2 m with severe wear, thirty times as fast as that of the tests, so that it grinds a flat.
+fn slide(elements: usize, step: f64) -> (Simulation, Inputs) {
+    let mut config = wearing(elements);
+    config.damage.wear_severe *= 30.0;
+    config.tuning.max_step = step;
+    config.physics.yielding = false;
+    let model = model(config);
+    let mut inputs = prescribed(&model, 10.0, 0.0);
+    inputs.drive.friction = 0.1;
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let rolling = inputs.drive.omega;
+    let count = (0.01 / step).round() as usize;
+    for k in 1..=count {
+        inputs.drive.omega = rolling * (1.0 - k as f64 / count as f64);
+        simulation.advance(&inputs, step).unwrap();
+    }
+    run(&mut simulation, &inputs, step, (0.2 / step).round() as usize);
+    (simulation, inputs)
+}
+
+/// Archard's sum: the whole contact wears by the same depth. Shorter steps and finer meshes give the same flat, and what the
+/// pressure does on the way of the steel that is gone is accounted for.
+#[test]
+fn a_slide_grinds_a_flat_that_does_not_depend_on_the_steps() {
+    let found = [(6, 1e-3), (6, 2.5e-4), (12, 1e-3)].map(|(elements, step)| {
+        let (simulation, _) = slide(elements, step);
+        let (o, store) = (simulation.outputs().clone(), missing(&simulation));
+        assert!((store / o.worn_mass - 1.0).abs() < 1e-12);
+        let lost = o.hub_work - o.stored_energy - o.damping_energy - o.friction_energy;
+        println!(
+            "{elements} elements, {step} s: {:.2} um deep, contact half-width {:.2} mm, peak pressure {:.1} MPa, work {:.4} J of \
+             {:.4} J, residual {:.1e}",
+            1e6 * o.worn_depth,
+            1e3 * o.contact_half_width,
+            1e-6 * o.contact_pressure_max,
+            o.plastic_energy,
+            lost,
+            o.energy_residual
+        );
+        assert!(o.energy_residual.abs() < 2e-3);
+        [o.worn_depth, o.contact_half_width, o.contact_pressure_max, o.worn_mass]
+    });
+    for other in &found[1..] {
+        for (quantity, (value, reference)) in other.iter().zip(&found[0]).enumerate() {
+            assert!((value / reference - 1.0).abs() < 0.04, "{quantity}: {value} {reference}");
+        }
+    }
+}
+
+/// Largest force [N] while the wheel rolls on by `way` at 10 m/s.
+fn strike(simulation: &mut Simulation, inputs: &mut Inputs, way: f64) -> f64 {
+    inputs.drive.omega = inputs.drive.velocity / simulation.model().config().wheel.radius;
+    inputs.drive.friction = 0.0;
+    let outputs = run(simulation, inputs, 1e-4, (way / 1e-3) as usize);
+    outputs.iter().map(|o| o.contact_force_max).fold(0.0, f64::max)
+}
+
+/// Slide, flat, and the force of rolling on it: from the run itself, and from the file that it leaves.
+#[test]
+fn a_flat_from_a_slide_strikes_and_does_so_from_its_file() {
+    let (mut simulation, mut inputs) = slide(6, 1e-3);
+    // A place that is far from the flat now, so that the wheel has come to rest on round tread before it strikes.
+    let flat = simulation.state().place(0.46)[0];
+    let depth = simulation.outputs().worn_depth;
+    strike(&mut simulation, &mut inputs, 1.5);
+    let force = strike(&mut simulation, &mut inputs, 1.6);
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("flat_from_a_slide.csv");
+    std::fs::write(&file, simulation.wheel_profile_file()).unwrap();
+    let loaded = |text: String| -> Arc<Model> {
+        let mut config = wearing(6);
+        (config.damage.wear, config.physics.yielding) = (Wear::Off, false);
+        config.wheel.profile = text;
+        model(config)
+    };
+    let model = loaded(format!("file({:?}, position = {:?})", file.to_str().unwrap(), 1.5 - flat));
+    let mut again = Simulation::new(model, &inputs).unwrap();
+    let strike_again = strike(&mut again, &mut inputs, 2.0);
+    println!("flat of {:.1} um at {flat:.4} m: {force:.0} N from the run, {strike_again:.0} N from its file", 1e6 * depth);
+    assert!(depth > 5e-5 && force > 1.2e5, "{depth} {force}");
+    assert!((strike_again / force - 1.0).abs() < 0.02, "{strike_again} {force}");
+    // Written and read again the file stays what it is.
+    let bare = loaded(file.to_str().unwrap().to_owned());
+    inputs.drive.load = 1e5;
+    let copy = Simulation::new(bare, &inputs).unwrap().wheel_profile();
+    let first = simulation.wheel_profile();
+    let error = copy.iter().map(|[s, height]| (height - at(&first, *s)).abs()).fold(0.0, f64::max);
+    println!("{} samples, copy within {error:.1e} m", first.len());
+    assert!(error < 1e-12 && first.len() < 200, "{error} {}", first.len());
+}
+
+/// Height of samples at a position, linear between them.
+fn at(samples: &[[f64; 2]], s: f64) -> f64 {
+    let next = samples.partition_point(|sample| sample[0] <= s).clamp(1, samples.len() - 1);
+    let [a, b] = [samples[next - 1], samples[next]];
+    a[1] + (b[1] - a[1]) * ((s - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0)
+}
+
+/// A wheel that spins on the spot burns a hollow into the rail, which a rolling one does not.
+#[test]
+fn a_wheel_that_spins_on_the_spot_wears_the_rail_as_well() {
+    let mut config = wearing(6);
+    config.initial.velocity = 0.0;
+    let model = model(config);
+    let mut inputs = prescribed(&model, 0.0, 0.0);
+    inputs.drive.omega = 4.0;
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    run(&mut simulation, &inputs, 1e-3, 100);
+    let outputs = simulation.outputs();
+    let rail = simulation.state().flattening[1].worn().volume() * 7850.0 * 0.014;
+    println!("wheel {:.3e} kg, rail {rail:.3e} kg, {:.3e} m deep", outputs.worn_mass, outputs.worn_depth_rail);
+    assert!((rail / outputs.worn_mass - 1.0).abs() < 1e-12 && outputs.worn_depth_rail > 5.0 * outputs.worn_depth);
+}
