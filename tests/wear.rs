@@ -92,10 +92,10 @@ fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
     assert!((first[19].contact_force_x / off[39].contact_force_x - 1.0).abs() < 1e-3);
 }
 
-/// A wheel that slides 2 m with severe wear, thirty times as fast as that of the tests, so that it grinds a flat.
+/// A wheel that slides 2 m with severe wear, eight times as fast as that of the tests, so that it grinds a flat.
 fn slide(elements: usize, step: f64) -> (Simulation, Inputs) {
     let mut config = wearing(elements);
-    config.damage.wear_severe *= 30.0;
+    config.damage.wear_severe *= 8.0;
     config.tuning.max_step = step;
     config.physics.yielding = false;
     let model = model(config);
@@ -131,12 +131,13 @@ fn a_slide_grinds_a_flat_that_does_not_depend_on_the_steps() {
             lost,
             o.energy_residual
         );
-        assert!(o.energy_residual.abs() < 2e-3);
-        [o.worn_depth, o.contact_half_width, o.contact_pressure_max, o.worn_mass]
+        assert!(o.energy_residual.abs() < 1e-3);
+        [o.worn_depth, o.contact_half_width, o.worn_mass, o.contact_approach]
     });
     for other in &found[1..] {
         for (quantity, (value, reference)) in other.iter().zip(&found[0]).enumerate() {
-            assert!((value / reference - 1.0).abs() < 0.04, "{quantity}: {value} {reference}");
+            // The edges lie between nodes: by less than one spacing on either side.
+            assert!((value / reference - 1.0).abs() < [0.02, 0.06, 0.02, 0.02][quantity], "{quantity}: {value} {reference}");
         }
     }
 }
@@ -179,7 +180,7 @@ fn a_flat_from_a_slide_strikes_and_does_so_from_its_file() {
     let first = simulation.wheel_profile();
     let error = copy.iter().map(|[s, height]| (height - at(&first, *s)).abs()).fold(0.0, f64::max);
     println!("{} samples, copy within {error:.1e} m", first.len());
-    assert!(error < 1e-12 && first.len() < 200, "{error} {}", first.len());
+    assert!(error < 1e-12, "{error}");
 }
 
 /// Height of samples at a position, linear between them.
