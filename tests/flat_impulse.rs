@@ -86,7 +86,7 @@ impl Lumped {
         let chord = |at: f64| {
             let angle = at / r;
             let half = 0.5 * LENGTH / r;
-            if angle.abs() < half.sin() { r - r * half.cos() / angle.cos() } else { 0.0 }
+            if angle.abs() < half { r - r * half.cos() / angle.cos() } else { 0.0 }
         };
         let at = |&x: &f64| x * x / (r + (r * r - x * x).sqrt()) + if flat { chord(s + x - MIDDLE) } else { 0.0 };
         self.x.iter().map(at).collect()
@@ -96,7 +96,8 @@ impl Lumped {
     fn force(&mut self, gap: &[f64], height: f64, give: f64) -> f64 {
         for _ in 0..50 {
             let active: Vec<usize> = (0..self.x.len()).filter(|&i| self.pressed[i]).collect();
-            let matrix = DMatrix::from_fn(active.len(), active.len(), |i, j| self.compliance[(active[i], active[j])] + give);
+            let matrix =
+                DMatrix::from_fn(active.len(), active.len(), |i, j| self.compliance[(active[i], active[j])] + give);
             let right = DVector::from_fn(active.len(), |i, _| -gap[active[i]] - height);
             let found = Cholesky::new(matrix).map(|factor| factor.solve(&right)).unwrap_or_default();
             let total = found.sum();
@@ -129,7 +130,14 @@ impl Lumped {
     }
 
     /// Forces [N] as in [`pass`], by the trapezoidal rule.
-    fn pass(&mut self, mass: f64, give: f64, [velocity, load]: [f64; 2], approach: f64, [step, after]: [f64; 2]) -> Vec<f64> {
+    fn pass(
+        &mut self,
+        mass: f64,
+        give: f64,
+        [velocity, load]: [f64; 2],
+        approach: f64,
+        [step, after]: [f64; 2],
+    ) -> Vec<f64> {
         let (mut height, mut speed, mut force) = (-approach, 0.0, load);
         let own = step * step / (4.0 * mass);
         let mut advance = |k: usize| {
@@ -150,13 +158,14 @@ fn largest(forces: &[f64]) -> f64 {
 }
 
 /// On a rigid base the spring of the formula is the contact itself. Its own approach under the strike blunts the kink, whatever
-/// speed, mass and stiffness: the force stays below the formula, by a share that half-planes with a mass say as well.
+/// speed, mass and stiffness: the force stays below the formula, by a share that half-planes with a mass say as well. Where the
+/// edges of the flat lie between nodes matters: with 10 elements per half-width the slowest strike comes out 25 % too hard.
 #[test]
 fn a_flat_on_its_contact_spring_strikes_as_a_mass_on_half_planes_does() {
     let load = 1e5;
-    let config = heavy(3000.0, 10);
+    let config = heavy(3000.0, 20);
     let (approach, stiffness) = spring(&model(config.clone()), load);
-    let mut lumped = Lumped::new(&config, 0.5e-3);
+    let mut lumped = Lumped::new(&config, 0.25e-3);
     let rest = lumped.rest(load, approach);
     for velocity in [0.3, 0.6, 1.2] {
         let [coarse, fine] = [1e-4, 5e-5].map(|step| pass(&config, velocity, load, step * (0.6 / velocity), 0.03));
@@ -190,7 +199,10 @@ fn a_flat_on_a_track_much_softer_than_its_contact_strikes_by_the_formula() {
         let (forces, mass) = pass(&config, velocity, load, 1e-3, after);
         let added = largest(&forces) - load;
         let formula = velocity * LENGTH / config.wheel.radius * (whole * mass).sqrt();
-        println!("track of {stiffness:.0e} N/m, K {whole:.3e} N/m, {velocity:.4} m/s: {added:.1} N, formula {formula:.1} N: {:.3}", added / formula);
+        println!(
+            "track of {stiffness:.0e} N/m, K {whole:.3e} N/m, {velocity:.4} m/s: {added:.1} N, formula {formula:.1} N: {:.3}",
+            added / formula
+        );
         assert!((added / formula - 1.0).abs() < tolerance, "{added} {formula}");
     }
 }

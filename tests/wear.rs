@@ -6,7 +6,11 @@ mod common;
 use common::{model, prescribed, preset};
 use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::{Config, Wear};
+use wheelrail::config::{Config, ContactMethod, Wear};
+use wheelrail::fmi::instance::Instance;
+use wheelrail::fmi::log::{CallError, Log};
+use wheelrail::fmi::variable::Value;
+use wheelrail::fmi::variables::variables;
 use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
 
 /// A cold wheel with wear.
@@ -77,9 +81,12 @@ fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
     let mut other = Simulation::resume(worn.clone(), worn.config().tuning.clone(), saved).unwrap();
     assert_eq!(run(&mut other, &inputs, 5e-4, 20), first);
     // Without wear, and with a law that takes nothing.
-    let others = [|c: &mut Config| c.damage.wear = Wear::Off, |c: &mut Config| {
-        (c.damage.wear_mild, c.damage.wear_severe, c.damage.wear_catastrophic) = (0.0, 0.0, 0.0);
-    }];
+    let others = [
+        |c: &mut Config| c.damage.wear = Wear::Off,
+        |c: &mut Config| {
+            (c.damage.wear_mild, c.damage.wear_severe, c.damage.wear_catastrophic) = (0.0, 0.0, 0.0);
+        },
+    ];
     let [off, none] = others.map(|change| {
         let mut config = wearing(6);
         change(&mut config);
@@ -137,7 +144,10 @@ fn a_slide_grinds_a_flat_that_does_not_depend_on_the_steps() {
     for other in &found[1..] {
         for (quantity, (value, reference)) in other.iter().zip(&found[0]).enumerate() {
             // The edges lie between nodes: by less than one spacing on either side.
-            assert!((value / reference - 1.0).abs() < [0.02, 0.06, 0.02, 0.02][quantity], "{quantity}: {value} {reference}");
+            assert!(
+                (value / reference - 1.0).abs() < [0.02, 0.06, 0.02, 0.02][quantity],
+                "{quantity}: {value} {reference}"
+            );
         }
     }
 }
@@ -170,7 +180,10 @@ fn a_flat_from_a_slide_strikes_and_does_so_from_its_file() {
     let model = loaded(format!("file({:?}, position = {:?})", file.to_str().unwrap(), 1.5 - flat));
     let mut again = Simulation::new(model, &inputs).unwrap();
     let strike_again = strike(&mut again, &mut inputs, 2.0);
-    println!("flat of {:.1} um at {flat:.4} m: {force:.0} N from the run, {strike_again:.0} N from its file", 1e6 * depth);
+    println!(
+        "flat of {:.1} um at {flat:.4} m: {force:.0} N from the run, {strike_again:.0} N from its file",
+        1e6 * depth
+    );
     assert!(depth > 5e-5 && force > 1.2e5, "{depth} {force}");
     assert!((strike_again / force - 1.0).abs() < 0.02, "{strike_again} {force}");
     // Written and read again the file stays what it is.
@@ -204,4 +217,64 @@ fn a_wheel_that_spins_on_the_spot_wears_the_rail_as_well() {
     let rail = simulation.state().flattening[1].worn().volume() * 7850.0 * 0.014;
     println!("wheel {:.3e} kg, rail {rail:.3e} kg, {:.3e} m deep", outputs.worn_mass, outputs.worn_depth_rail);
     assert!((rail / outputs.worn_mass - 1.0).abs() < 1e-12 && outputs.worn_depth_rail > 5.0 * outputs.worn_depth);
+}
+
+/// The FMU writes the profile when it is terminated, and reads it as that of another run; what could not be written is refused
+/// before the run.
+#[test]
+fn the_fmu_saves_the_profile_of_its_wheel_and_loads_it() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = folder.join("saved_by_the_fmu.csv");
+    let start = |settings: &[(&str, Value)]| -> Result<Instance, CallError> {
+        let mut instance = Instance::new(None, Log::new(Box::new(|_, _, _| {}), false))?;
+        let small = [("mesh.elements_per_half_width", Value::Integer(6)), ("thermal.enabled", Value::Boolean(false))];
+        for (name, value) in small.iter().chain(settings) {
+            let variable = variables().iter().find(|variable| variable.name == *name).unwrap();
+            instance.set(&[variable.reference], vec![value.clone()])?;
+        }
+        instance.offer_model(model(instance.config().clone()));
+        instance.enter_initialization()?;
+        instance.exit_initialization()?;
+        Ok(instance)
+    };
+    let text = |path: &Path| Value::String(path.to_str().unwrap().to_owned());
+    let settings = [
+        ("damage.wear", Value::Integer(2)),
+        ("wheel.profile", Value::String("flat(length = 0.02, position = 1)".to_owned())),
+        ("wheel.profile_save", text(&path)),
+        ("initial.creepage", Value::Real(0.01)),
+    ];
+    let mut first = start(&settings).unwrap();
+    for k in 0..20 {
+        first.do_step(1e-3 * f64::from(k), 1e-3).unwrap();
+    }
+    std::fs::remove_file(&path).ok();
+    first.terminate().unwrap();
+    let left = first.simulation().unwrap().wheel_profile();
+    assert!(left.iter().any(|sample| sample[1] < -1e-4) && left.iter().any(|s| s[1] < 0.0 && s[1] > -1e-7));
+    let mut second = start(&[("wheel.profile", text(&path))]).unwrap();
+    assert_eq!(second.simulation().unwrap().wheel_profile().len(), left.len());
+    for [s, height] in second.simulation().unwrap().wheel_profile() {
+        assert!((height - at(&left, s)).abs() < 1e-15, "{s} {height}");
+    }
+    for (name, words) in [("profile.txt", "must end in .csv"), ("nowhere/profile.csv", "folder that exists")] {
+        let refusal = start(&[("wheel.profile_save", text(&folder.join(name)))]).err().unwrap().message;
+        assert!(refusal.contains("wheel.profile_save = ") && refusal.contains(words), "{refusal}");
+    }
+}
+
+#[test]
+fn wear_that_makes_no_sense_is_refused_by_name() {
+    let refused = |change: fn(&mut Config), words: &[&str]| {
+        let mut config = wearing(6);
+        change(&mut config);
+        let message = config.validate().unwrap_err().to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+    };
+    refused(
+        |c| c.damage.wear_catastrophic_from = 1e6,
+        &["damage.wear_catastrophic_from = ", "damage.wear_severe_from"],
+    );
+    refused(|c| c.solver.contact = ContactMethod::Patch, &["damage.wear = 2", "solver.contact = patch"]);
+    refused(|c| c.damage.wear_mild = -1.0, &["damage.wear_mild = -1"]);
 }

@@ -241,7 +241,15 @@ mod tests {
         for circumference in [0.0, 1.3] {
             for even in [0.0, 4e-3] {
                 let mut worn = Worn::none(circumference);
-                let ways = [[0.1, 0.1], [0.1, 0.1 + 1e-9], [0.2, 0.203], [0.25, 0.31], [0.31, 0.0], [-0.1, 3.0], [4e5, 4e5 - 2e-3]];
+                let ways = [
+                    [0.1, 0.1],
+                    [0.1, 0.1 + 1e-9],
+                    [0.2, 0.203],
+                    [0.25, 0.31],
+                    [0.31, 0.0],
+                    [-0.1, 3.0],
+                    [4e5, 4e5 - 2e-3],
+                ];
                 for (count, way) in (1..).zip(ways.into_iter().take(if circumference > 0.0 { 7 } else { 6 })) {
                     worn.take(&Loss { way, spread: &spread, volume: 2e-6, even }, 3.1e-4);
                     let volume = f64::from(count) * 2e-6;
@@ -272,7 +280,8 @@ mod tests {
 
     #[test]
     fn evening_out_keeps_the_sum_and_takes_the_roughness() {
-        let mut values: Vec<f64> = (0..200).map(|k| if (80..120).contains(&k) { f64::from(k % 2) } else { 0.0 }).collect();
+        let mut values: Vec<f64> =
+            (0..200).map(|k| if (80..120).contains(&k) { f64::from(k % 2) } else { 0.0 }).collect();
         even_out(&mut values, 16.0);
         assert!((values.iter().sum::<f64>() - 20.0).abs() < 1e-12 && values.iter().all(|value| *value > 0.0));
         assert!((values[100] - values[101]).abs() < 0.02 && (values[100] - 0.5).abs() < 0.02, "{}", values[100]);
