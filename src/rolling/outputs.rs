@@ -69,8 +69,6 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         friction_energy: state.audit.friction * width,
         plastic_energy: state.audit.plastic * width,
         yielded: traction.yielding,
-        flattening: state.flattening[0].deepest(),
-        flattening_rail: state.flattening[1].deepest(),
         damping_energy: state.audit.damping * width,
         t_gamma,
         surface_fatigue: surface_fatigue(
@@ -79,9 +77,6 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
             traction.pressure_max,
         ),
         wear_rate: wear::law(&model.config).rate(t_gamma, area),
-        worn_mass: state.worn * width,
-        worn_depth: state.flattening[0].worn().deepest(),
-        worn_depth_rail: state.flattening[1].worn().deepest(),
         rail_energy: t_gamma,
         internal_steps: state.internal_steps,
         iterations: state.iterations,
@@ -91,6 +86,19 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         profile_shear: sampled(&traction.shear),
         profile_slip: sampled(&traction.slip),
         profile_x: points,
+        ..surface_outputs(model, state)
+    }
+}
+
+/// What the surfaces have lost, and the outputs about heat; everything else zero.
+fn surface_outputs(model: &Model, state: &State) -> Outputs {
+    let [wheel, rail] = &state.flattening;
+    Outputs {
+        flattening: wheel.deepest(),
+        flattening_rail: rail.deepest(),
+        worn_mass: state.worn * model.wheel.width,
+        worn_depth: wheel.worn().deepest(),
+        worn_depth_rail: rail.worn().deepest(),
         ..thermal_outputs(model, state)
     }
 }
