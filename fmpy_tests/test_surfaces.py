@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from wheelrail import analysis, signals, surfaces
+from wheelrail import Wheel, analysis, signals, surfaces
 from wheelrail.__main__ import main
 from wheelrail.files import BadFile
 
@@ -163,3 +163,21 @@ def test_bad_files_are_refused_by_line_and_name(tmp_path):
         analysis.read_columns(file, ("time", "contact.force_y"))
     with pytest.raises(BadFile, match="cannot be read"):
         analysis.read_columns(tmp_path / "other.csv", ("time",))
+
+
+def test_a_wheel_leaves_its_profile_for_another_one(fmu, tmp_path):
+    """Locked for 0.3 m it wears a flat; the file has it, and a wheel that loads the file is as deep there."""
+    file = tmp_path / "left.csv"
+    settings = {"thermal.enabled": False, "mesh.elements_per_half_width": 6, "initial.velocity": 10.0}
+    locked = {"control.rotation": "velocity", "control.translation": "velocity", "drive.velocity": 10.0, "drive.omega": 0.0}
+    with Wheel(fmu, settings | {"damage.wear": "t_gamma", "wheel.profile_save": str(file), "initial.creepage": 2.0 - 1e-9}, locked) as wheel:
+        for _ in range(30):
+            wheel.step(1e-3)
+        depth, worn = wheel.get("damage.worn_depth", "damage.worn_mass")
+    position, height = np.loadtxt(file, delimiter=",", skiprows=1).T
+    around = 2 * np.pi * 0.46
+    missing = -np.trapezoid(np.append(height, height[0]), np.append(position, around)) * 7850 * 0.014
+    assert depth > 5e-6 and -height.min() == pytest.approx(depth, rel=0.1) and missing == pytest.approx(worn, rel=0.01)
+    place = position[np.argmin(height)]
+    with Wheel(fmu, settings | {"wheel.profile": f'file("{file}", position = {-place})'}) as wheel:
+        assert wheel.get("wheel.profile_height") == pytest.approx(height.min(), rel=1e-4)

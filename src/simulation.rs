@@ -297,6 +297,17 @@ impl Simulation {
         fields::temperatures(&self.model.rolling, &self.checkpoint.state)
     }
 
+    /// The present profile of the wheel, worn and flattened as it is: positions around the tread, angle times radius, and heights
+    /// over the circle \[m].
+    pub fn wheel_profile(&self) -> Vec<[f64; 2]> {
+        rolling::surfaces::wheel_profile(&self.model.rolling, &self.checkpoint.state)
+    }
+
+    /// The same as the file that `wheel.profile` reads.
+    pub fn wheel_profile_file(&self) -> String {
+        rolling::surfaces::csv(&self.wheel_profile())
+    }
+
     /// The model this simulation runs on.
     pub fn model(&self) -> &Arc<Model> {
         &self.model

@@ -186,6 +186,25 @@ fn default_outputs_exist_and_the_summary_is_on_standard_error() {
 }
 
 #[test]
+fn the_profile_of_the_wheel_at_the_end_is_written_and_read_again() {
+    let path = directory("left_profile").join("left.csv");
+    let path = path.to_str().unwrap();
+    let mut arguments =
+        vec!["simulate", "--stop", "0.002", "--outputs", "wheel.profile_height", "--wheel-profile", path];
+    arguments.extend(SMALL);
+    arguments.extend(["--set", "wheel.profile=squat(position = 0, length = 0.01, depth = 1e-5)", "--set"]);
+    let first = succeed(&[&arguments[..], &["damage.wear=t_gamma"]].concat());
+    let profile = std::fs::read_to_string(path).unwrap();
+    assert!(profile.starts_with("position,height\n0.0,-1") && profile.lines().count() > 3, "{profile}");
+    let loaded = format!("wheel.profile={path}");
+    let again = Table::parse(&succeed(&[&arguments[..5], &SMALL, &["--set", &loaded]].concat()));
+    assert_close(again.column("wheel.profile_height")[0], -1e-5, 1e-3, "height of the squat");
+    assert_eq!(Table::parse(&first).column("wheel.profile_height").len(), 3);
+    let refused = wheelrail(&[&["simulate", "--wheel-profile", "profile.txt", "--stop", "0"], &SMALL[..]].concat());
+    assert!(!refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("must end in .csv"));
+}
+
+#[test]
 fn settings_take_the_place_of_the_preset_and_of_start_values_of_inputs() {
     let mut arguments = vec!["simulate", "--stop", "0", "--outputs"];
     arguments.push("wheel.radius,wheel.velocity,control.rotation,hub.moment,thermal.enabled");

@@ -151,3 +151,44 @@ fn creep_force_of_two_patches_reverses_with_the_creepage_and_converges() {
     assert!(worst[0] < 0.016, "{worst:?}");
     assert!(worst[1] < 0.6 * worst[0], "{worst:?}");
 }
+
+/// A cylinder over a sharp hole of the width 2b that it does not fill. On a grid the hole ends somewhere between
+/// two nodes. With `v = s²` the hole is an end of the interval at which
+/// the pressure is singular: `p = E*/(2R) |x| √((a² − x²)/(x² − b²))` and `a² = b² + 4PR/(πE*)`.
+#[test]
+fn a_cylinder_over_a_sharp_hole_has_the_edges_and_the_pressure_of_the_closed_solution() {
+    let unit = hertz_half_width(NOMINAL, half_planes::RADIUS, modulus());
+    let errors = [20, 40].map(|per_half_width| {
+        let spacing = unit / f64::from(per_half_width);
+        // The hole ends in the middle between two nodes.
+        let hole = ((0.25 * unit / spacing).round() + 0.5) * spacing;
+        let circle = |x: f64| x * x / (half_planes::RADIUS + (half_planes::RADIUS.powi(2) - x * x).sqrt());
+        let gap = |x: f64| circle(x) + if x.abs() < hole { 1e-3 } else { 0.0 };
+        let bodies = HalfPlanes::new(per_half_width as usize).with_gap(gap);
+        let (x, h) = (&bodies.grid.x, bodies.grid.spacing);
+        let (mut edge_error, mut pressure_error, mut ends) = (0.0f64, 0.0f64, [20, -20]);
+        for load in loads() {
+            let solution = bodies.roll(load, 0.0, &bodies.start()).unwrap();
+            let edges = &solution.traction.edges;
+            assert_eq!(edges.len(), 2, "load {load}");
+            let a = (hole * hole + hertz_half_width(load, half_planes::RADIUS, modulus()).powi(2)).sqrt();
+            edge_error = edge_error.max((edges[1].high - a).abs().max((edges[0].low + a).abs()) / a);
+            let place = |share: i32| hole + 0.5 * spacing * f64::from(share) / 20.0;
+            let scale = modulus() / (2.0 * half_planes::RADIUS);
+            let (force, peak) = (normal(&bodies, &solution), scale * a);
+            let error = |b: f64| {
+                let a = (b * b + hertz_half_width(load, half_planes::RADIUS, modulus()).powi(2)).sqrt();
+                let inside = (0..x.len()).filter(|&i| x[i].abs() > hole + 0.1 * unit && x[i].abs() < 0.95 * a);
+                let exact = |x: f64| scale * x.abs() * ((a * a - x * x) / (x * x - b * b)).sqrt();
+                inside.map(|i| (force[i] / h - exact(x[i])).abs() / peak).fold(0.0, f64::max)
+            };
+            let (end, least) = (-20..=20).map(|k| (k, error(place(k)))).min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            (pressure_error, ends) = (pressure_error.max(least), [ends[0].min(end), ends[1].max(end)]);
+            assert!((0..x.len()).all(|i| x[i].abs() > hole || force[i] == 0.0));
+        }
+        println!("a/{per_half_width}: error of the outer edge {edge_error:.2e} a, of the pressure {pressure_error:.2e} of its peak, the hole ends {ends:?} fortieths of a spacing from the middle");
+        [edge_error, pressure_error]
+    });
+    let [coarse, fine] = errors;
+    assert!(fine[0] < 5e-3 && fine[1] < 5e-3 && fine[0] < coarse[0] && fine[1] < coarse[1], "{errors:?}");
+}

@@ -83,6 +83,11 @@ impl Run {
         Ok(true)
     }
 
+    /// Ends the run: writes what is asked for at its end.
+    pub fn finish(&mut self) -> Result<(), Failure> {
+        self.instance.terminate().map_err(failed)
+    }
+
     /// Sets the inputs of the scenario for a step `h` [s] from now on, as ramps; for none yet if `h` is zero.
     fn prescribe(&mut self, h: f64) -> Result<(), Failure> {
         let time = self.time();

@@ -1,7 +1,7 @@
 //! `simulate`: a run over time to a CSV file.
 
 use super::run::{Course, Run};
-use super::setting::find;
+use super::setting::{Setting, find};
 use super::setup::Setup;
 use super::table::{self, Csv, significant};
 use super::{Failure, model};
@@ -38,13 +38,17 @@ pub struct Simulate {
     /// Write every Nth communication point only (first and last always).
     #[arg(long, value_name = "N", default_value = "1")]
     every: NonZeroUsize,
+    /// File for the profile of the wheel at the end of the run, worn and flattened as it is, for wheel.profile of another run.
+    #[arg(long, value_name = "FILE.csv")]
+    wheel_profile: Option<String>,
 }
 
 impl Simulate {
     /// Takes all steps; results go to the CSV, a summary to standard error.
     pub fn run(self) -> Result<(), Failure> {
         let columns = columns(&self.outputs)?;
-        let mut run = Run::start(&self.setup, &self.course, &[])?;
+        let saved = self.wheel_profile.iter().map(|file| Setting::new("wheel.profile_save", file));
+        let mut run = Run::start(&self.setup, &self.course, &saved.collect::<Result<Vec<_>, _>>()?)?;
         let mut csv = Csv::create(self.out.as_deref())?;
         csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name)))?;
         // A bar and results on the same terminal would overwrite each other.
@@ -65,12 +69,14 @@ impl Simulate {
                     // What has been computed is kept.
                     bar.abandon();
                     csv.finish()?;
+                    run.finish()?;
                     return Err(failure);
                 }
             }
         }
         bar.finish_and_clear();
         csv.finish()?;
+        run.finish()?;
         summary.print(&mut run)
     }
 }

@@ -13,7 +13,7 @@ pub mod value;
 pub use table::{
     BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Hub, Initial, Material,
     MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, Thermal, TimeScheme, Tuning,
-    Vehicle, Wheel,
+    Vehicle, Wear, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 
@@ -261,6 +261,28 @@ impl Config {
         }
     }
 
+    /// Catastrophic wear begins beyond severe wear.
+    fn wear_regimes(&self) -> Dependent {
+        let from = self.damage.wear_severe_from;
+        Dependent {
+            name: "damage.wear_catastrophic_from",
+            value: self.damage.wear_catastrophic_from,
+            unit: "Pa",
+            low: from,
+            high: f64::INFINITY,
+            others: format!("damage.wear_severe_from = {} Pa", display_number(from)),
+        }
+    }
+
+    /// Worn surfaces are no smooth patch.
+    fn wear_contact(&self) -> Dependent {
+        let number = |on: bool| if on { 2.0 } else { 1.0 };
+        let (value, high) =
+            (number(self.damage.wear != Wear::Off), number(self.solver.contact != ContactMethod::Patch));
+        let others = "solver.contact = patch, on smooth surfaces only (1: off, 2: t_gamma)".to_owned();
+        Dependent { name: "damage.wear", value, unit: "", low: 1.0, high, others }
+    }
+
     /// Ranges that depend on other parameters.
     fn dependent(&self) -> Vec<Dependent> {
         let (radius, infinity) = (self.wheel.radius, f64::INFINITY);
@@ -293,6 +315,8 @@ impl Config {
             },
             self.start_temperature(),
             self.melting_range(),
+            self.wear_regimes(),
+            self.wear_contact(),
             self.internal_step(),
             velocity,
             creepage,
@@ -371,6 +395,5 @@ mod tests {
             |c| (c.initial.velocity, c.damping.rayleigh_stiffness) = (150.0, 1e-4),
             &["damping.rayleigh_stiffness = 0.0001", "6.66667e-5 s with initial.velocity = 150 m/s"],
         );
-        refused(|c| c.initial.creepage = Some(f64::NAN), &["initial.creepage = NaN", "-1.99 to 2"]);
     }
 }

@@ -154,6 +154,19 @@ parameters! {
             1163 resolution: f64 = 1.0, from 0.25 to 4.0,
                 "Size of the elements and time steps in which hot places of the tread are followed, relative to the \
                  usual one";
+            1171 wear: Wear = Wear::Off, "Whether wear changes the profile of the wheel, and of the rail where the contact stays";
+            1172 wear_mild: f64 = 5.3e-9, in "kg/J" as "g/MJ", from 0.0 to 1.0,
+                "Mild wear: mass over friction energy. The defaults of these five are those of the wheel steel R8T on rails of \
+                 grade 900A, Braghin, Lewis, Dwyer-Joyce, Bruni, Wear 261 (2006); they do without wear and do not act on \
+                 anything but damage.wear_rate as long as damage.wear is off";
+            1173 wear_severe: f64 = 0.055, in "kg/m3", from 0.0 to 1e6,
+                "Severe wear: mass over distance rolled and area of the contact, whatever the energy";
+            1174 wear_catastrophic: f64 = 61.9e-9, in "kg/J" as "g/MJ", from 0.0 to 1.0,
+                "Catastrophic wear: mass over the energy beyond damage.wear_catastrophic_from";
+            1175 wear_severe_from: f64 = 10.4e6, in "Pa" as "MPa", from 0.0 to 1e12,
+                "Energy per distance rolled and area of the contact from which wear is severe";
+            1176 wear_catastrophic_from: f64 = 77.2e6, in "Pa" as "MPa", from 0.0 to 1e12,
+                "The same from which it is catastrophic, at least damage.wear_severe_from";
         }
         /// Switches for parts of the physics.
         physics: Physics fixed {
@@ -226,6 +239,9 @@ parameters! {
             1162 threshold: f64 = 300.0, of "damage", in "K", from 1.0 to 1e4,
                 "Excess temperature of the tread over the wheel's mean above which a place that the contact heats in \
                  one piece is followed";
+            1192 profile_save: String = String::new(), of "wheel",
+                "File to which the present profile of the wheel is written when the run is terminated, for wheel.profile of \
+                 another run: its path, absolute or from the working directory; empty: none";
         }
     }
 }
@@ -236,6 +252,14 @@ choice! {
         Free = "free", "reflect them as free surfaces";
         Fixed = "fixed", "reflect them as surfaces that cannot move";
         Nonreflecting = "nonreflecting", "let them pass: dashpots swallow plane waves";
+    }
+}
+
+choice! {
+    /// Wear of the surfaces.
+    pub enum Wear named "Wear", "Whether wear changes the profiles" {
+        Off = "off", "it does not";
+        TGamma = "t_gamma", "by the energy that friction dissipates per distance and area";
     }
 }
 

@@ -53,7 +53,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "1", quantity: "Dimensionless", exponents: [0, 0, 0, 0, 0], displays: &[times("%", 100.0)] },
     Unit { name: "m", quantity: "Length", exponents: [0, 1, 0, 0, 0], displays: &[times("mm", 1e3)] },
     Unit { name: "s", quantity: "Time", exponents: [0, 0, 1, 0, 0], displays: &[times("ms", 1e3)] },
-    Unit { name: "kg", quantity: "Mass", exponents: [1, 0, 0, 0, 0], displays: &[times("t", 1e-3)] },
+    Unit { name: "kg", quantity: "Mass", exponents: [1, 0, 0, 0, 0], displays: &[times("t", 1e-3), times("g", 1e3)] },
     Unit {
         name: "rad",
         quantity: "Angle",
@@ -89,6 +89,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "W", quantity: "Power", exponents: [1, 2, -3, 0, 0], displays: &[times("kW", 1e-3)] },
     Unit { name: "kg/m", quantity: "MassPerLength", exponents: [1, -1, 0, 0, 0], displays: &[times("mg/m", 1e6)] },
     Unit { name: "kg/m3", quantity: "Density", exponents: [1, -3, 0, 0, 0], displays: &[] },
+    Unit { name: "kg/J", quantity: "MassPerEnergy", exponents: [0, -2, 2, 0, 0], displays: &[times("g/MJ", 1e9)] },
     Unit { name: "kg.m2", quantity: "MomentOfInertia", exponents: [1, 2, 0, 0, 0], displays: &[] },
     Unit {
         name: "K",

@@ -1,9 +1,10 @@
-//! Permanent flattening of a surface: where it lies on the material, and how deep it is.
+//! What a surface has lost to yield and wear: where it lies on the material, and how deep it is.
 
+use super::worn::{Loss, Worn};
 use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
 
-/// Dents in the surface of a body, each on a lattice of its own that is fixed to the material.
+/// Dents in the surface of a body, each on a lattice of its own that is fixed to the material, and what is worn off.
 ///
 /// Positions `s` \[m] run along the material: `angle · r + x` on the wheel, `distance + x` on the rail.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -11,6 +12,8 @@ pub struct Flattening {
     dents: Vec<Dent>,
     /// Circumference of a wheel \[m]; zero: the surface is open.
     circumference: f64,
+    /// What wear has taken off.
+    worn: Worn,
 }
 
 /// One stretch of flattened surface.
@@ -27,12 +30,12 @@ struct Dent {
 impl Flattening {
     /// An undamaged surface: closed with a circumference \[m], or open with zero.
     pub fn none(circumference: f64) -> Self {
-        Self { dents: Vec::new(), circumference }
+        Self { dents: Vec::new(), circumference, worn: Worn::none(circumference) }
     }
 
     /// Whether the surface is undamaged.
     pub fn is_empty(&self) -> bool {
-        self.dents.is_empty()
+        self.dents.is_empty() && self.worn.is_empty()
     }
 
     /// Number of dents.
@@ -42,10 +45,20 @@ impl Flattening {
 
     /// Depth \[m] at the position `s` \[m].
     pub fn depth(&self, s: f64) -> f64 {
-        self.dents.iter().map(|dent| dent.at(self.nearest(s, dent))).sum()
+        self.dents.iter().map(|dent| dent.at(self.nearest(s, dent))).sum::<f64>() + self.worn.depth(s)
     }
 
-    /// Largest depth \[m].
+    /// What wear has taken off.
+    pub fn worn(&self) -> &Worn {
+        &self.worn
+    }
+
+    /// Takes off the wear of a step, on cells of about `spacing` \[m].
+    pub fn wear(&mut self, loss: &Loss, spacing: f64) {
+        self.worn.take(loss, spacing);
+    }
+
+    /// Largest depth of a dent \[m].
     pub fn deepest(&self) -> f64 {
         self.dents.iter().flat_map(|dent| &dent.depth).copied().fold(0.0, f64::max)
     }
@@ -71,9 +84,10 @@ impl Flattening {
         }
     }
 
-    /// Forgets dents that lie farther than `reach` \[m] from the position `s` \[m].
+    /// Forgets what lies farther than `reach` \[m] from the position `s` \[m].
     pub fn forget_beyond(&mut self, s: f64, reach: f64) {
         self.dents.retain(|dent| dent.last() > s - reach && dent.first < s + reach);
+        self.worn.forget_beyond(s, reach);
     }
 
     /// The position `s` in the turn of the wheel that is nearest to a dent.
@@ -83,7 +97,7 @@ impl Flattening {
 
     /// Whether all numbers are finite and the lattices are sound.
     pub fn is_sound(&self) -> bool {
-        self.circumference.is_finite() && self.dents.iter().all(Dent::is_sound)
+        self.circumference.is_finite() && self.dents.iter().all(Dent::is_sound) && self.worn.is_sound()
     }
 }
 

@@ -16,6 +16,7 @@ pub mod problem;
 pub mod solver;
 pub mod surface;
 pub mod traction;
+pub mod worn;
 
 pub use error::ContactError;
 pub use flattening::Flattening;
@@ -25,3 +26,4 @@ pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
 pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Relief, Surfaces};
 pub use traction::Traction;
+pub use worn::{Loss, Worn};

@@ -1,4 +1,4 @@
-//! Indices of damage that follow from the present contact alone: surface fatigue and wear.
+//! What follows for the surfaces from the present contact alone: fatigue and wear.
 
 /// Surface fatigue index `FI_surf = μ_util − k/p₀` \[1], not below −1: fatigue of the surface is to be expected where it is
 /// positive.
@@ -10,24 +10,39 @@ pub fn surface_fatigue(utilised: f64, shear_yield: f64, peak: f64) -> f64 {
     if peak > 0.0 { (utilised - shear_yield / peak).max(-1.0) } else { -1.0 }
 }
 
-/// Mass that a wheel loses per distance rolled [kg/m] where it dissipates the energy `t_gamma` \[N], Tγ, per distance over the
-/// contact area `area` \[m²].
+/// Mass that a wheel loses per distance rolled, by the energy that friction dissipates per distance and area, Tγ/A, in three
+/// regimes that need not join.
 ///
-/// Three regimes of the steel R8T against rails of grade 900A in twin-disc tests, over `Tγ/A`: mild to 10.4 N/mm², severe to
-/// 77.2 N/mm², and catastrophic. Source: F. Braghin, R. Lewis, R. S. Dwyer-Joyce, S. Bruni, *Wear* 261 (2006) 1253–1264; its
-/// coefficients are quoted from memory.
-pub fn wear_rate(t_gamma: f64, area: f64) -> f64 {
-    if area <= 0.0 {
-        return 0.0;
+/// Source of the form and of the usual numbers, twin-disc tests of the steel R8T against rails of grade 900A: F. Braghin, R. Lewis,
+/// R. S. Dwyer-Joyce, S. Bruni, *Wear* 261 (2006) 1253–1264, as they are quoted from memory: 5.3 µg/(m mm²) per N/mm², 55 µg/(m mm²)
+/// from 10.4 N/mm², and 61.9 µg/(m mm²) more per N/mm² from 77.2 N/mm².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WearLaw {
+    /// Mild wear: mass over energy [kg/J].
+    pub mild: f64,
+    /// Severe wear: mass over distance and area [kg/m³].
+    pub severe: f64,
+    /// Catastrophic wear: mass over the energy beyond its beginning [kg/J].
+    pub catastrophic: f64,
+    /// Tγ/A from which wear is severe \[Pa].
+    pub severe_from: f64,
+    /// Tγ/A from which it is catastrophic \[Pa].
+    pub catastrophic_from: f64,
+}
+
+impl WearLaw {
+    /// Mass per distance [kg/m] where the energy `t_gamma` \[N], Tγ, is dissipated per distance over the contact area `area` \[m²].
+    /// The same per metre of width.
+    pub fn rate(&self, t_gamma: f64, area: f64) -> f64 {
+        if area <= 0.0 {
+            return 0.0;
+        }
+        match t_gamma / area {
+            x if x < self.severe_from => self.mild * t_gamma,
+            x if x < self.catastrophic_from => self.severe * area,
+            x => (self.severe + self.catastrophic * (x - self.catastrophic_from)) * area,
+        }
     }
-    let x = 1e-6 * t_gamma / area;
-    // Micrograms per metre rolled and square millimetre of contact.
-    let per_area = match x {
-        x if x < 10.4 => 5.3 * x,
-        x if x < 77.2 => 55.0,
-        x => 55.0 + 61.9 * (x - 77.2),
-    };
-    1e-3 * per_area * area
 }
 
 #[cfg(test)]
@@ -48,6 +63,14 @@ mod tests {
     /// 5 and 40 N/mm² over 100 mm²: 26.5 and 55 µg per metre and mm²; the regimes join within 0.3 %.
     #[test]
     fn wear_has_three_regimes_that_join() {
+        let law = WearLaw {
+            mild: 5.3e-9,
+            severe: 0.055,
+            catastrophic: 61.9e-9,
+            severe_from: 10.4e6,
+            catastrophic_from: 77.2e6,
+        };
+        let wear_rate = |t_gamma: f64, area: f64| law.rate(t_gamma, area);
         let area = 1e-4;
         assert!((wear_rate(500.0, area) - 2.65e-6).abs() < 1e-15);
         assert!((wear_rate(4000.0, area) - 5.5e-6).abs() < 1e-15);

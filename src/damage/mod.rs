@@ -17,7 +17,7 @@ mod shared;
 mod spot;
 mod tread;
 
-pub use indices::{surface_fatigue, wear_rate};
+pub use indices::{WearLaw, surface_fatigue};
 pub use mesh::{SpotLayout, SpotMesh};
 use record::Recorder;
 pub use record::{Criteria, Findings, Point};

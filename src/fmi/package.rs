@@ -48,7 +48,7 @@ macro_rules! theory {
 }
 
 /// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 19] = theory![
+const THEORY: [(&str, &[u8]); 20] = theory![
     "README.md",
     "ale-balance.md",
     "condensation.md",
@@ -67,6 +67,7 @@ const THEORY: [(&str, &[u8]); 19] = theory![
     "rail-ends.md",
     "time-formula.md",
     "track-support.md",
+    "wear.md",
     "width-of-conduction.md",
 ];
 

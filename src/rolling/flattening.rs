@@ -7,7 +7,7 @@
 use super::model::Model;
 use super::state::State;
 use crate::contact::Flattening;
-use crate::piecewise::Piecewise;
+use crate::piecewise::{Interval, Piecewise};
 
 /// Time in which material has to pass the contact so that it keeps no dent [s].
 const PASSING: f64 = 0.01;
@@ -23,16 +23,14 @@ pub fn none(model: &Model) -> [Flattening; 2] {
 /// notes the work.
 pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening.clone_from(&state.flattening);
-    let traction = &mut next.contact.traction;
-    traction.plastic_work = 0.0;
+    next.contact.traction.plastic_work = 0.0;
+    let traction = &next.contact.traction;
     let Some(patch) = traction.extent().filter(|_| !traction.overlap.is_empty()) else { return };
-    let radius = model.contact.surfaces.radius;
-    let (velocity, omega) = (next.motion.velocity.now, next.motion.omega.now);
-    let slowest = (patch.high - patch.low) / PASSING.max(next.last_step);
-    let stands = [omega * radius, velocity].map(|speed| speed.abs() < slowest);
+    let stands = standing(model, next, patch);
     if stands == [false; 2] {
         return;
     }
+    let (traction, radius) = (&mut next.contact.traction, model.contact.surfaces.radius);
     let spacing = traction.overlap.x.windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
     let warmer = &state.weakening().warmer_wheel;
     for (body, at) in [place[1] * radius, place[0]].into_iter().enumerate() {
@@ -49,6 +47,18 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
         deeper(0, place[1] * radius) + deeper(1, place[0])
     });
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
+}
+
+/// Whether the contact of a state stays so long on the material of wheel and rail that it leaves its mark there.
+pub fn stands(model: &Model, state: &State) -> [bool; 2] {
+    state.contact.traction.extent().map_or([false; 2], |patch| standing(model, state, patch))
+}
+
+/// The same for a patch.
+fn standing(model: &Model, state: &State, patch: Interval) -> [bool; 2] {
+    let (velocity, omega) = (state.motion.velocity.now, state.motion.omega.now);
+    let slowest = (patch.high - patch.low) / PASSING.max(state.last_step);
+    [omega * model.contact.surfaces.radius, velocity].map(|speed| speed.abs() < slowest)
 }
 
 /// Share of the overlap that the wheel (0) or the rail (1) takes \[1], of those that stand the softer one.

@@ -8,6 +8,7 @@
 //! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`surfaces`] | shapes of wheel and rail as the parameters describe them |
+//! | [`flattening`], [`wear`] | what yield and friction change of them |
 //! | [`zones`] | how much of the surfaces the contact sees |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
@@ -35,6 +36,7 @@ pub mod suggested_step;
 pub mod support;
 pub mod surfaces;
 pub mod thermal;
+pub mod wear;
 pub mod zones;
 
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};

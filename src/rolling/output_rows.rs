@@ -263,8 +263,14 @@ outputs! {
         "Surface fatigue index: |contact.force_x| / contact.force_y less the yield strength in shear over contact.pressure_max; \
          fatigue of the surface is to be expected where it is positive; -1 without contact";
     715 wear_rate: real "damage.wear_rate", in "kg/m" as "mg/m", from 0.0, nominal 1e-6,
-        "Mass that the wheel loses per distance rolled by wear (R8T steel, twin-disc tests): damage.t_gamma over the area of the \
-         contact, in three regimes; the profile of the wheel does not change by it";
+        "Mass that the wheel loses per distance rolled by wear: the law of damage.wear_mild and the like for damage.t_gamma over the area of the \
+         contact, in three regimes; damage.wear says whether its profile changes by it";
+    716 worn_mass: real "damage.worn_mass", in "kg" as "g", from 0.0, nominal 1e-3, start zero,
+        "Mass that wear has taken off the wheel since the start; 0 with damage.wear = off";
+    717 worn_depth: real "damage.worn_depth", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+        "Depth to which the most worn place of the tread is worn off since the start";
+    718 worn_depth_rail: real "damage.worn_depth_rail", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
+        "The same of the modelled piece of rail, where the contact stayed";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,
         "Friction energy per metre travelled: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
          standstill";
@@ -292,7 +298,7 @@ outputs! {
     813 friction_energy: real "energy.friction", in "J" as "kJ", nominal 1e5, start zero,
         "Energy that friction has turned into heat since the start";
     815 plastic_energy: real "energy.plastic", in "J" as "kJ", nominal 1e2, start zero,
-        "Work of permanent flattening since the start";
+        "Work of permanent flattening since the start, and of the pressure on what wears off";
     814 damping_energy: real "energy.damping", in "J" as "kJ", nominal 1e2, start zero,
         "Energy dissipated by damping and radiated by quiet ends of the rail since the start";
     10000 profile_x: profile "profile.x", in "m" as "mm", nominal 5e-3,

@@ -6,7 +6,8 @@ use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
-use crate::damage::{surface_fatigue, wear_rate};
+use super::wear;
+use crate::damage::surface_fatigue;
 use crate::piecewise::Piecewise;
 
 /// Observables of a state.
@@ -68,8 +69,6 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         friction_energy: state.audit.friction * width,
         plastic_energy: state.audit.plastic * width,
         yielded: traction.yielding,
-        flattening: state.flattening[0].deepest(),
-        flattening_rail: state.flattening[1].deepest(),
         damping_energy: state.audit.damping * width,
         t_gamma,
         surface_fatigue: surface_fatigue(
@@ -77,7 +76,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
             model.contact.shear_yield,
             traction.pressure_max,
         ),
-        wear_rate: wear_rate(t_gamma, area),
+        wear_rate: wear::law(&model.config).rate(t_gamma, area),
         rail_energy: t_gamma,
         internal_steps: state.internal_steps,
         iterations: state.iterations,
@@ -87,6 +86,19 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         profile_shear: sampled(&traction.shear),
         profile_slip: sampled(&traction.slip),
         profile_x: points,
+        ..surface_outputs(model, state)
+    }
+}
+
+/// What the surfaces have lost, and the outputs about heat; everything else zero.
+fn surface_outputs(model: &Model, state: &State) -> Outputs {
+    let [wheel, rail] = &state.flattening;
+    Outputs {
+        flattening: wheel.deepest(),
+        flattening_rail: rail.deepest(),
+        worn_mass: state.worn * model.wheel.width,
+        worn_depth: wheel.worn().deepest(),
+        worn_depth_rail: rail.worn().deepest(),
         ..thermal_outputs(model, state)
     }
 }

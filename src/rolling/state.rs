@@ -32,8 +32,10 @@ pub struct State {
     pub base: BaseMotion,
     /// Contact: result of the last step and start of the next one.
     pub contact: ContactState,
-    /// Permanent flattening of wheel and rail.
+    /// What wheel and rail have lost to yield and wear.
     pub flattening: [Flattening; 2],
+    /// Mass that wear has taken off the wheel since the start [kg/m].
+    pub worn: f64,
     /// Temperatures, unless the thermal part is switched off.
     pub thermal: Option<ThermalState>,
     /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions, with gravity and the
@@ -298,7 +300,7 @@ pub struct Audit {
     pub brake: f64,
     /// Energy that friction has turned into heat [J/m].
     pub friction: f64,
-    /// Work of plastic flattening [J/m].
+    /// Work of plastic flattening, and of the pressure on what wears off [J/m].
     pub plastic: f64,
     /// Energy lost to damping and radiation [J/m].
     pub damping: f64,

@@ -9,6 +9,7 @@ use super::flattening;
 use super::model::{Model, Workspace};
 use super::state::{Brake, Motion, State, ThermalState};
 use super::thermal::{self, HeatStep};
+use super::wear;
 use super::zones;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, Heating};
@@ -225,6 +226,7 @@ fn solve_and_commit(
     next.available_friction = demand.target.friction;
     next.last_step = *dt;
     flattening::press(model, state, place, next);
+    wear::wear(model, state, *dt, next);
     next.restarted = plan.restarted;
     Ok(())
 }

@@ -17,6 +17,7 @@ mod wave;
 
 pub use body::Body;
 pub use error::ProfileError;
+pub use samples::csv;
 
 use features::Feature;
 use std::path::Path;

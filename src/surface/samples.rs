@@ -10,6 +10,12 @@ pub struct Samples {
     points: Piecewise,
 }
 
+/// The file of samples (position, height) \[m], which reads back to the same numbers.
+pub fn csv(samples: &[[f64; 2]]) -> String {
+    let rows = samples.iter().map(|[position, height]| format!("{position:?},{height:?}\n"));
+    std::iter::once(format!("{}\n", COLUMNS.join(","))).chain(rows).collect()
+}
+
 /// Columns of a file.
 const COLUMNS: [&str; 2] = ["position", "height"];
 

@@ -5,6 +5,7 @@
 pub mod derivatives;
 mod experiment;
 mod running;
+mod saving;
 mod values;
 
 use super::lifecycle::{Call, Phase};
@@ -148,6 +149,7 @@ impl Instance {
     /// Ends Initialization Mode. If parameters and inputs do not go together, it stays, so that they can be corrected.
     pub fn exit_initialization(&mut self) -> Outcome {
         self.allow(Call::ExitInitializationMode)?;
+        self.file_to_save()?;
         self.simulation()?;
         self.phase = Phase::StepComplete;
         self.warn_of_limits();
@@ -155,9 +157,10 @@ impl Instance {
         Ok(())
     }
 
-    /// Ends the run; outputs can still be read.
+    /// Ends the run and writes the profile of the wheel, if asked for; outputs can still be read.
     pub fn terminate(&mut self) -> Outcome {
         self.allow(Call::Terminate)?;
+        self.save_profile()?;
         self.phase = Phase::Terminated;
         self.log.report(Status::Ok, &format!("terminated at t = {} s", self.time));
         Ok(())

@@ -1,0 +1,144 @@
+//! Texts and files of profiles that somebody mistyped: never a panic, never a surface without heights.
+
+mod common;
+
+use common::Random;
+use std::path::Path;
+use wheelrail::surface::{Body, Profile};
+
+const TEXTS: [&str; 8] = [
+    "sinusoid(amplitude = 5e-6, wavelength = 0.05, phase = 1.5) + hole(position = 2, length = 5e-3, depth = 1e-3)",
+    "joint(position = 1.5, angle = 0.02, length = 1, gap = 6e-3)",
+    "squat(position = 3, length = 0.04, depth = 2e-4) + roughness(spectrum = EN_ISO_3095, seed = 7, from = 0.2, blend = 0.1)",
+    "hole(position = 2, length = 5e-3, depth = 1e-3, every = 0.05, count = 1000)",
+    "roughness(levels = [9, 7, 4.9, 2.9], longest = 0.16, seed = 3, length = 20)",
+    "flat(length = 0.04) + flat(position = 1, length = 0.02, shape = rounded)",
+    "polygon(order = 18, amplitude = 1e-5, phase = 0.3)",
+    "step(height = -1e-4, position = 0.5, length = 0.1) + file(\"rail.csv\", factor = 2, every = 3)",
+];
+const PIECES: [&str; 34] = [
+    "(",
+    ")",
+    "[",
+    "]",
+    "+",
+    "-",
+    "=",
+    ",",
+    "\"",
+    ".",
+    " ",
+    "e",
+    "1e309",
+    "-1e308",
+    "1e-320",
+    "nan",
+    "inf",
+    "0",
+    "-0",
+    "ü",
+    "\u{0}",
+    "\n",
+    "hole",
+    "step(",
+    "flat(length = ",
+    "position",
+    "levels = [",
+    "seed = ",
+    "every = 1e-9",
+    "count = 1e18",
+    "EN_ISO_3095",
+    "rounded",
+    ".csv",
+    "roughness(longest = 1e9, shortest = 1e-9, spectrum = EN_ISO_3095)",
+];
+
+/// Cut, with a piece put in or in the place of another, or with another text behind it; some changes one after the other.
+fn mistyped(random: &mut Random) -> String {
+    let mut text: Vec<char> = random.of(&TEXTS).chars().collect();
+    for _ in 0..=random.below(3) {
+        let numbers: Vec<usize> = (0..text.len()).filter(|&i| text[i].is_ascii_digit()).collect();
+        if !numbers.is_empty() && random.below(2) == 0 {
+            text[random.of(&numbers)] = char::from(b'0' + random.below(10) as u8);
+            continue;
+        }
+        let at = random.below(text.len() + 1);
+        let end = (at + random.below(12)).min(text.len());
+        match random.below(4) {
+            0 => drop(text.drain(at..end)),
+            1 => drop(text.splice(at..at, random.of(&PIECES).chars())),
+            2 => drop(text.splice(at..end, random.of(&PIECES).chars())),
+            _ => drop(text.splice(at.., random.of(&TEXTS).chars().skip(random.below(40)))),
+        }
+    }
+    text.into_iter().collect()
+}
+
+#[test]
+fn two_thousand_mistyped_profiles_are_surfaces_or_refused_by_name() {
+    let mut random = Random(5);
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    std::fs::write(folder.join("rail.csv"), "position,height\n0,0\n1,1e-5\n2,0\n").unwrap();
+    let (mut surfaces, mut refused) = (0, 0);
+    for _ in 0..2_000 {
+        let text = mistyped(&mut random);
+        for body in [Body::Rail, Body::Wheel { radius: 0.46 }] {
+            match Profile::parse(&text, Some(folder), body) {
+                Ok(profile) => {
+                    surfaces += 1;
+                    for s in [-3.0, 0.0, 0.499, 2.0, 1e4] {
+                        let [low, high] = profile.range();
+                        let (height, margin) = (profile.height(s), 1e-9 * (high - low) + 1e-12);
+                        assert!(height.is_finite() && profile.slope(s).is_finite(), "{text}: {height} at {s}");
+                        assert!(
+                            height >= low - margin && height <= high + margin,
+                            "{text}: {height} in {low} to {high}"
+                        );
+                    }
+                    assert!(profile.shortest_wavelength() > 0.0, "{text}");
+                }
+                Err(error) => {
+                    refused += 1;
+                    assert!(error.to_string().starts_with("profile"), "{text}: {error}");
+                }
+            }
+        }
+    }
+    println!("{surfaces} surfaces, {refused} refused");
+    assert!(surfaces > 250 && refused > 2000, "{surfaces} {refused}");
+}
+
+#[test]
+fn two_thousand_damaged_files_are_surfaces_or_refused_by_line() {
+    let mut random = Random(6);
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("damaged.csv");
+    let good: String = (0..30).map(|k| format!("{:?},{:?}\n", 0.1 * f64::from(k), 1e-6 * f64::from(k % 7))).collect();
+    let pieces =
+        ["", ",", "\n", "\n\n", "nan", "-inf", "1e400", "0", "-1", "\"", "position,height\n", "\u{feff}", ";", "x"];
+    let (mut surfaces, mut refused) = (0, 0);
+    for _ in 0..2000 {
+        let mut bytes = format!("position,height\n{good}").into_bytes();
+        for _ in 0..=random.below(3) {
+            let at = random.below(bytes.len());
+            let end = (at + random.below(6)).min(bytes.len());
+            match random.below(3) {
+                0 => drop(bytes.splice(at..end, random.of(&pieces).bytes())),
+                1 => bytes[at] = random.below(256) as u8,
+                _ => bytes.truncate(at + 1),
+            }
+        }
+        std::fs::write(&file, &bytes).unwrap();
+        match Profile::parse(file.to_str().unwrap(), None, Body::Rail) {
+            Ok(profile) => {
+                surfaces += 1;
+                assert!([-1.0, 0.05, 1.0, 9.0].iter().all(|&s| profile.height(s).is_finite()));
+            }
+            Err(error) => {
+                refused += 1;
+                assert!(error.to_string().contains("damaged.csv"), "{error}");
+            }
+        }
+    }
+    println!("{surfaces} surfaces, {refused} refused");
+    assert!(surfaces > 100 && refused > 500);
+}
