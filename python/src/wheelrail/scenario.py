@@ -143,6 +143,7 @@ SCENARIO = {
         "adhesion": Several(Real(1e-3, 1, "1", "contaminated rail"), "friction", (0.05, 0.1)),
         "payload": Several(Real(0, 1e6, "kg", "load"), "loads", (0.0,)),
         "slide_high": Several(Real(0, 1, "1", "threshold"), "thresholds of the slide protection", (0.15,)),
+        "wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU in a sweep, before those of wheel", {}),
     },
 }
 
