@@ -151,6 +151,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
         for future in as_completed(futures):
             error = future.exception()
             row = future.result() if error is None else point_of[future.key] | {REASON: f"{type(error).__name__}: {error}"}
+            future.release()  # or it is computed again when the worker that keeps its result dies
             progress(row)
             if REASON in row:
                 failed.append(row)

@@ -203,7 +203,7 @@ class Stop:
 
 def predicted(h, wheelset, seen, pulls, others):
     """Masses [kg] of the wheelsets in the vehicle's step, and the forces [N] on them beside the suspension's."""
-    masses, forces = np.full(len(seen), wheelset.mass), np.array(others, float)
+    masses, forces = np.full(len(seen), float(wheelset.mass)), np.array(others, float)
     for k, w in enumerate(seen):
         peripheral = wheelset.radius * w.omega
         if abs(w.omega) < 1e-9 and abs(w.velocity) < STANDING + 2.0 * h * abs(w.force) / wheelset.mass:
