@@ -25,6 +25,7 @@ import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
 from wheelrail.ecco import StepControl, Suspension
+from wheelrail.plots import pyplot
 
 SPEED = 5.0  # m/s
 VEHICLE = 8460.0  # kg on one wheel's suspension
@@ -255,13 +256,7 @@ def equal_and_controlled(fmu):
 
 def plot(path, found, reference, steps):
     """Error of the distance and both swings over the step; deviation of the force over the number of steps."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.frameon": False})
-    figure, axes = plt.subplots(1, 4, figsize=(15, 3.4), layout="constrained")
+    figure, axes = pyplot().subplots(1, 4, figsize=(15, 3.4), layout="constrained")
     titles = ("Error of the stopping distance [%]", "Swing while braking [kN]", "Swing after 2 s of standstill [kN]")
     for axis, title, k in zip(axes[:3], titles, range(3)):
         for master in MASTERS:
@@ -278,6 +273,8 @@ def plot(path, found, reference, steps):
         line = "*--" if controlled else STYLES[master]
         axes[3].loglog(*zip(*points), line, label=label, color=f"C{MASTERS.index(master)}", markersize=8 if controlled else 4)
     axes[3].set(title="Deviation of the force, rms [N]", xlabel="steps")
+    axes[3].set_xticks([1e3, 3e3, 1e4, 3e4], ["1,000", "3,000", "10,000", "30,000"])
+    axes[3].minorticks_off()
     axes[3].legend()
     figure.savefig(path, dpi=110)
 
