@@ -18,7 +18,7 @@ from types import SimpleNamespace
 
 from .files import BadFile
 from .fmu import Fmu, Refused
-from .report import figures
+from .report import figures, known
 from .scenario import settle
 from .train import Stop
 
@@ -101,7 +101,7 @@ def results(scenario, point, path, limit):
             run.close()
     worst = lambda name: min if name == "mean adhesion" else max
     values = {name: found[name][0] for name in RESULTS}
-    return {name: float(worst(name)(v) if isinstance(v, list) else v) for name, v in values.items()}
+    return {name: float(worst(name)(known(v)) if isinstance(v, list) else v) for name, v in values.items()}
 
 
 def done(path, name):
