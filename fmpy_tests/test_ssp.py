@@ -186,6 +186,12 @@ def test_the_coach_keeps_the_rules_of_the_standard(packages):
         assert coach.get("coach.speed") == ahead[0][0]
 
 
+def test_a_set_of_coaches_is_refused_by_name(braking, monkeypatch):
+    monkeypatch.setattr(braking, "coaches", 2)
+    with pytest.raises(BadFile, match="coaches = 2 is outside its range, 1"):
+        ssp.coach_values(braking)
+
+
 def test_a_sander_is_refused_by_name(braking):
     braking.brake.sander.active = True
     with pytest.raises(BadFile, match="sander.active"):
