@@ -5,8 +5,9 @@
 1. A start state without tangential force (`free_rolling`).
 2. A wheel brakes from 2 m/s almost to rest under masters that differ in what they own and exchange (below).
 3. Error of each against the run in which the FMU owns everything, over the communication step.
-4. Largest stable step of the explicit masters, over the speed.
-5. A plot of both, and of the force.
+4. The same with steps that follow the energy which the coupling creates (`wheelrail.ecco`).
+5. Largest stable step of the explicit masters, over the speed.
+6. A plot of errors and limits, and of the force.
 
 What they own and exchange:
 
@@ -33,6 +34,8 @@ from pathlib import Path
 import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
+from wheelrail.ecco import StepControl, bond
+from wheelrail.plots import pyplot
 
 SPEED = 2.0  # m/s at the start
 RESIDUAL_SPEED = 0.05  # m/s, about, at the end
@@ -64,11 +67,7 @@ class Rolling:
     """What masters need to know of the wheel: inertia [kg, kg m^2] and the sizes of the contact."""
 
     def __init__(self, wheel):
-        names = ("wheel.radius", "wheel.hub_radius", "wheel.hub_mass", "wheel.hub_inertia", "material.density")
-        self.radius, hub_radius, hub_mass, hub_inertia, density = wheel.get(*names)
-        annulus = density * wheel.get("model.contact_width") * np.pi * (self.radius**2 - hub_radius**2)
-        self.mass = hub_mass + annulus
-        self.inertia = hub_inertia + 0.5 * annulus * (self.radius**2 + hub_radius**2)
+        self.radius, self.mass, self.inertia = wheel.get("wheel.radius", "wheel.mass", "wheel.inertia")
         self.half_width, self.load = wheel.get("contact.half_width", "contact.force_y")
 
     def effective_mass(self):
@@ -231,6 +230,26 @@ def coupled(fmu, owns, master, h, duration=DURATION, trials=None):
     return np.array(rows)
 
 
+def controlled(fmu, owns, energy, duration=DURATION):
+    """Times [s] and WATCHED of an explicit Gauss-Seidel master whose steps follow the energy [J] that its bonds create: held forces
+    beside those that the FMU exerts, at the same velocities."""
+    split, control, h = Split(fmu, owns, SPEED), StepControl(energy, 2, 1e-4, 2e-2), SHOWN
+    rows, velocities, felt = [(0.0, *split.wheel.get(*WATCHED))], split.velocities(), split.forces()
+    try:
+        while (left := duration - split.wheel.time) > 1e-9:
+            h = min(h, left)
+            moment = split.rolling.brake_moment(split.wheel.time + h)
+            before, velocities = velocities, velocities + h * (felt + split.loads(moment)) / split.inertia
+            split.step(h, velocities, moment)
+            exerted, flows = split.forces(), zip(before, velocities)
+            bonds = [bond(h, ((-a, -a), flow), ((-a, -b), flow)) for a, b, flow in zip(felt, exerted, flows)]
+            h, felt = control.next(h, bonds), exerted
+            rows.append((split.wheel.time, *split.wheel.get(*WATCHED)))
+    finally:
+        split.close()
+    return np.array(rows)
+
+
 def errors(table, reference):
     """Largest differences of speed [m/s] and tangential force [N] from a reference with a multiple of the points."""
     return np.abs(table - reference[:: (len(reference) - 1) // (len(table) - 1)]).max(axis=0)
@@ -274,6 +293,7 @@ def stability_limit(fmu, master, speed, guess, accuracy=1.1):
 
 STEPS = (4e-3, 2e-3, 1e-3, 5e-4)  # s
 REFERENCE_STEP = 1.25e-4  # s
+ENERGIES = (1e-1, 1e-2)  # J, that a step may create
 LIMIT_SPEEDS = (10.0, 5.0, 2.0, 1.0)  # m/s
 EXPLICIT = ("Jacobi", "Gauss-Seidel")
 SHOWN = 1e-3  # s, step of the runs whose force is drawn
@@ -301,6 +321,16 @@ def accuracy(fmu, reference):
     return found
 
 
+def by_energy(fmu, reference):
+    """Prints errors and numbers of steps of the explicit master of the vehicle whose steps follow the energy it creates."""
+    print("\nOwner of the vehicle, Gauss-Seidel, steps by the energy created; J tolerated, steps, error of V [m/s] / F_x [N]:\n")
+    times = REFERENCE_STEP * np.arange(len(reference))
+    for energy in ENERGIES:
+        table = controlled(fmu, "vehicle", energy)
+        off = [np.abs(table[:, k + 1] - np.interp(table[:, 0], times, reference[:, k])).max() for k in (0, 1)]
+        print(f"{energy:8g}{len(table) - 1:8d}{off[0]:12.1e} / {off[1]:.1e}", flush=True)
+
+
 def limits(fmu):
     """Stability limits [s] of the explicit masters that own the wheel, and that of Carter's slope; prints them."""
     rows = []
@@ -316,14 +346,7 @@ def limits(fmu):
 
 def plot(path, found, limit, reference, shown):
     """Draws error over step, limit over speed, and the force with one step."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    colours = {"Jacobi": "#D55E00", "Gauss-Seidel": "#E69F00", "iterative": "#0072B2", None: "#777777"}
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
-    plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4})
+    plt, colours = pyplot(), {"Jacobi": "#D55E00", "Gauss-Seidel": "#E69F00", "iterative": "#0072B2", None: "#777777"}
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), layout="constrained")
 
     axis = axes[0]
@@ -369,14 +392,12 @@ def run(options):
     with Fmu(options.fmu) as fmu:
         reference = monolithic(fmu, REFERENCE_STEP)
         found = accuracy(fmu, reference)
+        by_energy(fmu, reference)
         limit = limits(fmu)
-        shown = {}
-        for master in ("Gauss-Seidel", "iterative"):
-            shown[master] = coupled(fmu, "wheel", master, SHOWN)
+        shown = {master: coupled(fmu, "wheel", master, SHOWN) for master in ("Gauss-Seidel", "iterative")}
     options.out.mkdir(parents=True, exist_ok=True)
-    picture = options.out / "masters.png"
-    plot(picture, found, limit, reference, shown)
-    print(f"\nwritten: {picture}")
+    plot(options.out / "masters.png", found, limit, reference, shown)
+    print(f"\nwritten: {options.out / 'masters.png'}")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,9 @@ Manchester coach; the brake is inside the FMU. Exchanges, over a communication s
     iterative   as ramped, and the step is repeated from a saved state until the force at its end fits the motion found
 
 Printed for each and every step: stopping distance against that of the iterative master with the smallest step, the largest
-swing of the suspension's force while it brakes steadily, and its swing after two seconds of standstill. Drawn: all of them.
+swing of the suspension's force while it brakes steadily, and its swing after two seconds of standstill. Then, for held and
+ramped forces, how far the force is off over the whole run and how many steps it took: with steps that are all equal, and with
+steps controlled by the energy that the coupling creates (`wheelrail.ecco`). Drawn: all of them.
 """
 
 import argparse
@@ -22,10 +24,13 @@ from pathlib import Path
 import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
+from wheelrail.ecco import StepControl, Suspension
+from wheelrail.plots import pyplot
 
 SPEED = 5.0  # m/s
 VEHICLE = 8460.0  # kg on one wheel's suspension
 STIFFNESS, DAMPING = 31.391e6, 30e3  # N/m, N s/m along the track, one wheel (Manchester vehicle 1; damping: judgement)
+SUSPENSION = Suspension(STIFFNESS, DAMPING)
 TORQUE, BUILD = 5200.0, 0.5  # N m, s: about 1.2 m/s2
 HUB_MASS, HUB_INERTIA = 834.2, 48.25  # kg, kg m2: half a wheelset of 1813 kg, 112 kg m2 without its rim
 LOAD = 1e5  # N
@@ -45,7 +50,11 @@ class Vehicle:
 
     def force(self, place, velocity):
         """Of the suspension on a wheel [N]."""
-        return STIFFNESS * (self.place - place) + DAMPING * (self.velocity - velocity)
+        return SUSPENSION.force(*self.elongation(place, velocity))
+
+    def elongation(self, place, velocity):
+        """Of the suspension [m], and its rate [m/s]."""
+        return self.place - place, self.velocity - velocity
 
     def advance(self, h, begin, end):
         """Moves under the forces at the beginning and the end of a step [N], those on the wheel."""
@@ -67,10 +76,13 @@ def together(h, vehicle, place, velocity, mass, other):
 
 
 class Run:
-    """A stop under one master."""
+    """A stop under one master. With a `control` the steps after the first follow the energy that the coupling creates, which
+    `bonds` collects: time [s], step [s], `Bond`."""
 
-    def __init__(self, fmu, master, h):
-        self.master, self.h = master, h
+    def __init__(self, fmu, master, h, control=None):
+        self.master, self.h, self.control, self.bonds = master, h, control, []
+        if control and master not in CONTROLLED:
+            raise ValueError(f"master = {master!r}: steps are controlled for {', '.join(CONTROLLED)}")
         inputs = {"drive.load": LOAD}
         if master == "velocity":
             inputs |= {"control.translation": "velocity", "drive.velocity": SPEED}
@@ -87,12 +99,25 @@ class Run:
         wheel.set({"brake.torque": torque[0]})
         rates = {"brake.torque": (torque[1] - torque[0]) / h}
         begin = self.vehicle.force(self.place, self.speed)
+        before, speed = self.vehicle.elongation(self.place, self.speed), self.speed
         getattr(self, self.master)(h, begin, rates)
         force = self.vehicle.force(self.place, self.speed)
+        if self.master in CONTROLLED:
+            bond = SUSPENSION.residual(h, before, self.vehicle.elongation(self.place, self.speed), self.felt)
+            self.bonds.append((wheel.time, h, bond))
+            if self.control:
+                self.h = self.control.next(h, [bond], self.horizon((speed - self.speed) / h))
         self.rows.append((wheel.time, self.vehicle.velocity, self.vehicle.place, force, self.contact))
+
+    def horizon(self, deceleration):
+        """Time [s] to what is foreseen: the end of the brake's build-up, and standstill at a deceleration [m/s2]."""
+        building = BUILD - self.wheel.time
+        stopping = self.speed / deceleration if deceleration > 0.0 and self.omega > 0.0 else np.inf
+        return min(building if building > 0.0 else np.inf, stopping)
 
     def held(self, h, begin, rates):
         """The force of the beginning."""
+        self.felt = begin, begin
         self.wheel.set({"drive.force": begin})
         self._take(h, rates)
         self.vehicle.advance(h, begin, begin)
@@ -100,6 +125,7 @@ class Run:
     def ramped(self, h, begin, rates):
         """The force ramps to the predicted one."""
         end = self._predicted(h, begin)
+        self.felt = begin, end
         self.wheel.set({"drive.force": begin})
         self._take(h, rates | {"drive.force": (end - begin) / h})
         self.vehicle.advance(h, begin, end)
@@ -164,6 +190,10 @@ class Run:
 
 
 MASTERS = ("held", "ramped", "velocity", "iterative")
+CONTROLLED = {"held": 2, "ramped": 3}  # power of the step with which the energy falls that the coupling creates in it
+ENERGIES = (1e-3, 1e-4, 1e-5)  # J, tolerated in a step
+SMALLEST, LARGEST = 1e-4, 1e-2  # s, steps
+REFERENCE = 1e-4  # s, step of the ramped run with which forces are compared
 STYLES = {"held": "s-", "ramped": "o-", "velocity": "^-", "iterative": "x:"}
 
 
@@ -175,29 +205,60 @@ def swing(table, chosen, column=3):
 
 def figures(fmu, master, h):
     """Distance [m], swing while braking and after two seconds of standstill [kN]; none if it fails."""
-    run = Run(fmu, master, h)
     try:
-        table, rest = run.run()
+        _, table, rest = course(fmu, master, h)
     except Refused:
         return None
-    finally:
-        run.wheel.close()
     time = table[:, 0]
     stop = table[np.argmax(time >= rest - 1e-9), 2]
     return stop, swing(table, (time > 1.5) & (time < rest - 0.5)), swing(table, time > rest + 2.0)
 
 
-def plot(path, found, reference):
-    """Error of the distance and both swings over the step."""
-    import matplotlib
+def control(master, energy):
+    """Steps of a master that follow the energy [J] that its coupling creates."""
+    return StepControl(energy, CONTROLLED[master], SMALLEST, LARGEST)
 
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
 
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.frameon": False})
-    figure, axes = plt.subplots(1, 3, figsize=(12, 3.4), layout="constrained")
+def course(fmu, master, h, control=None):
+    """A stop: the run, its table and when it came to rest [s]."""
+    run = Run(fmu, master, h, control)
+    try:
+        return run, *run.run()
+    finally:
+        run.wheel.close()
+
+
+def deviation(table, reference, end):
+    """Root mean square difference of the suspension's force [N] from a reference, up to a time [s]."""
+    time = np.linspace(0.0, end, round(end / REFERENCE))
+    force = [np.interp(time, rows[:, 0], rows[:, 3]) for rows in (table, reference)]
+    return float(np.sqrt(np.mean((force[0] - force[1]) ** 2)))
+
+
+def equal_and_controlled(fmu):
+    """Steps and deviation of the force [N] up to two seconds of standstill: (master, controlled) to a list of pairs; printed."""
+    _, reference, rest = course(fmu, "ramped", REFERENCE)
+    end, found = rest + 2.0, {}
+    count = lambda table: int(np.sum(table[:, 0] < end))
+    print(f"\nDeviation of the force [N] from steps of {1e3 * REFERENCE:g} ms, root mean square, and number of steps; energy [J] tolerated:\n")
+    for master in CONTROLLED:
+        cells = {f"{1e3 * h:g} ms": (h, None) for h in STEPS} | {f"{e:g} J": (1e-3, control(master, e)) for e in ENERGIES}
+        for name, (h, controlled) in cells.items():
+            try:
+                _, table, _ = course(fmu, master, h, controlled)
+            except Refused:
+                print(f"{master:10}{name:>10}     fails", flush=True)
+                continue
+            found.setdefault((master, bool(controlled)), []).append((count(table), deviation(table, reference, end)))
+            print(f"{master:10}{name:>10}{found[master, bool(controlled)][-1][1]:10.1f}{count(table):10d}", flush=True)
+    return found
+
+
+def plot(path, found, reference, steps):
+    """Error of the distance and both swings over the step; deviation of the force over the number of steps."""
+    figure, axes = pyplot().subplots(1, 4, figsize=(15, 3.4), layout="constrained")
     titles = ("Error of the stopping distance [%]", "Swing while braking [kN]", "Swing after 2 s of standstill [kN]")
-    for axis, title, k in zip(axes, titles, range(3)):
+    for axis, title, k in zip(axes[:3], titles, range(3)):
         for master in MASTERS:
             rows = [(1e3 * h, found[master, h][k]) for h in STEPS if found[master, h]]
             values = [max(100.0 * abs(v / reference - 1.0) if k == 0 else v, 1e-5) for _, v in rows]
@@ -207,6 +268,14 @@ def plot(path, found, reference):
         axis.minorticks_off()
     axes[0].axhline(0.3, color="#777777", linestyle=":")
     axes[0].legend()
+    for (master, controlled), points in steps.items():
+        label = f"{master}, by energy" if controlled else f"{master}, equal"
+        line = "*--" if controlled else STYLES[master]
+        axes[3].loglog(*zip(*points), line, label=label, color=f"C{MASTERS.index(master)}", markersize=8 if controlled else 4)
+    axes[3].set(title="Deviation of the force, rms [N]", xlabel="steps")
+    axes[3].set_xticks([1e3, 3e3, 1e4, 3e4], ["1,000", "3,000", "10,000", "30,000"])
+    axes[3].minorticks_off()
+    axes[3].legend()
     figure.savefig(path, dpi=110)
 
 
@@ -217,6 +286,15 @@ def run(options):
         for master in MASTERS:
             for h in STEPS:
                 found[master, h] = figures(fmu, master, h)
+        report(found)
+        steps = equal_and_controlled(fmu)
+    options.out.mkdir(parents=True, exist_ok=True)
+    plot(options.out / "suspension.png", found, found["iterative", STEPS[-1]][0], steps)
+    print(f"\nwritten: {options.out / 'suspension.png'}")
+
+
+def report(found):
+    """Prints the figures of every master and step."""
     reference = found["iterative", STEPS[-1]][0]
     print(f"{reference:.4f} m by the iterative master with {1e3 * STEPS[-1]:g} ms. Error of the distance [%] / swing of the")
     print("suspension's force while braking / after 2 s of standstill [kN]; communication step [ms]:\n")
@@ -227,9 +305,6 @@ def run(options):
             row = found[master, h]
             cells.append(f"{100.0 * (row[0] / reference - 1.0):+.3f} / {row[1]:.3f} / {row[2]:.3f}" if row else "fails")
         print(f"{master:10}" + "".join(f"{cell:>26}" for cell in cells), flush=True)
-    options.out.mkdir(parents=True, exist_ok=True)
-    plot(options.out / "suspension.png", found, reference)
-    print(f"\nwritten: {options.out / 'suspension.png'}")
 
 
 def arguments():

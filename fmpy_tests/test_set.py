@@ -26,9 +26,9 @@ def collision(vehicle, step, steps, damping):
     both = Coach(vehicle, 2)
     both.share_after[:] = 0.25  # the trapezoidal rule for wheelsets, too, which keeps energy exactly
     both.start(10.0)
-    second = both._along()[both._along() >= SIZE]
+    second = both.along[both.along >= SIZE]
     both.velocity[second] += 1.0
-    along, rows = both._along(), []
+    along, rows = both.along, []
     lost, own = 0.0, both.masses[both.wheelsets]
     for _ in range(steps):
         before = both.velocity

@@ -20,10 +20,7 @@ STEPS, STEP = 150, ssp.STEP
 COACH = ("coach.speed", "coach.distance", "brake.control_pressure", "brake.reference_speed")
 AXLE = ("force", "load_change", "torque")
 WHEELSET = tuple(ssp.TO_COACH)
-TOLERANCE = 1e-9  # where the FMUs are the same
-# Where coach and coach are two programs: rounding of positions of metres, times 63 MN/m, through contacts that slide. Worst
-# measured 2.4e-9, the suspension's force on an axle over its load; speeds 2e-11.
-ROUNDING = 1e-8
+TOLERANCE = 1e-9
 
 
 @pytest.fixture(scope="module")
@@ -96,16 +93,16 @@ def scales(braking):
     return np.array([size(name) for _, name in names()])
 
 
-def assert_same(rows, expected, braking, tolerance=TOLERANCE):
+def assert_same(rows, expected, braking):
     """Equal within the tolerance, column by column."""
     assert rows.shape == expected.shape
     worst = np.max(np.abs(rows - expected), axis=0) / scales(braking)
     print("largest difference", worst.max(), list(names())[int(worst.argmax())])
-    assert worst.max() <= tolerance
+    assert worst.max() <= TOLERANCE
 
 
 def test_the_coach_is_that_of_the_python_package(expected, in_python, braking):
-    assert_same(expected, in_python, braking, ROUNDING)
+    assert_same(expected, in_python, braking)
 
 
 def test_fmpy_simulates_the_ssp(packages, braking, expected):
@@ -187,6 +184,12 @@ def test_the_coach_keeps_the_rules_of_the_standard(packages):
         with pytest.raises(Refused, match="communicationStepSize = 0.5 s is outside its range: more than 0, at most 0.01 s"):
             coach.step(0.5)
         assert coach.get("coach.speed") == ahead[0][0]
+
+
+def test_a_set_of_coaches_is_refused_by_name(braking, monkeypatch):
+    monkeypatch.setattr(braking, "coaches", 2)
+    with pytest.raises(BadFile, match="coaches = 2 is outside its range, 1"):
+        ssp.coach_values(braking)
 
 
 def test_a_sander_is_refused_by_name(braking):

@@ -99,6 +99,21 @@ def test_the_coach_in_exudyn_stops_where_its_equations_say(coach, fmu):
         assert loads[1] == pytest.approx(loads[0], rel=0.005)
 
 
+def test_a_coach_in_the_fmu_stops_with_a_rigid_one_behind_it_as_both_rigid_ones_do(coach, fmu):
+    coach.speed, coach.hold, coach.coaches, coach.fmu_coaches = 4.0, 0.0, 2, [1]
+    mixed, _ = stopped(coach, fmu, dry=0.3)
+    rigid, _ = stopped(coach, None, dry=0.3)
+    hot = [float(report.column(mixed, "hottest", axle)[-1]) for axle in range(2 * AXLES)]
+    print(f"{distance(mixed):.3f} m, both rigid {distance(rigid):.3f} m")
+    assert min(hot[:AXLES]) > 273.0 and max(hot[AXLES:]) == 0.0
+    assert min(report.known(report.figures(mixed)["peak temperature"][0])) > 0.0
+    assert distance(mixed) == pytest.approx(distance(rigid), rel=0.005)
+    # Momentum of the set: what both coaches lose is what brakes and contacts take from it.
+    force = sum(report.column(mixed, "force", axle) for axle in range(2 * AXLES))
+    lost = 2.0 * rolling_mass(coach.vehicle)[0] * coach.speed
+    assert -np.trapezoid(force, report.column(mixed, "time")) == pytest.approx(lost, rel=0.01)
+
+
 def test_an_unknown_parameter_of_the_wheel_is_named(coach, fmu):
     coach.wheel["friction.faling_ratio"] = 0.5
     with pytest.raises(Refused, match="no variable friction.faling_ratio; did you mean friction.falling_ratio?"):

@@ -28,6 +28,7 @@ BAD = [
     ("disc_brake.json", '"active": true', '"active": 1', "wsp.active is 1, neither true nor false"),
     ("low_adhesion.json", '"speed": 38.8889', '"speed": 388', r"low_adhesion.json:\d+: speed = 388 m/s is outside 0.5 to 60"),
     ("low_adhesion.json", '"coach.json"', '"couch.json"', "couch.json: cannot be read"),
+    ("low_adhesion.json", '"hold": 2.0', '"coaches": 2, "fmu_coaches": [3]', "fmu_coaches entry = 3 is outside 1 to 2, the number"),
     ("leaves.csv", "position,condition", "positon,condition", "leaves.csv:1: unknown column 'positon'; did you mean 'pos"),
     ("leaves.csv", ",condition", "", "leaves.csv:1: column 'condition' is missing"),
     ("leaves.csv", "400,wet", "400,icy", "leaves.csv:3: condition 'icy' is none of dry, wet, contaminated"),
@@ -71,6 +72,13 @@ def test_payload_and_adhesion_of_a_scenario_take_the_place_of_those_of_vehicle_a
     assert loaded.vehicle.body.payload == 12000
     assert loaded.track.conditions["contaminated"].friction == 0.04
     assert loaded.track.conditions["contaminated"].recovered == 0.15
+
+
+def test_whole_numbers_are_floats_unless_they_count_something():
+    loaded = scenario.load(TRAIN / "low_adhesion.json")
+    numbers = loaded.vehicle.wheelset.mass, loaded.brake.torque, loaded.wheel["solver.tolerance"], loaded.sweep.payload[0]
+    assert all(isinstance(number, float) for number in numbers)
+    assert isinstance(loaded.coaches, int) and loaded.brake.sander.axles == [1]
 
 
 def test_the_schemas_for_editors_are_those_of_the_program():

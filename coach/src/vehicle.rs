@@ -65,8 +65,12 @@ pub struct Coach {
 }
 
 /// Where everything is and how fast it moves.
+///
+/// Positions along the track count from where the first wheelset was last found: millimetres in place of kilometres, whose
+/// last digit times 63 MN/m would be felt.
 #[derive(Clone, Debug)]
 pub struct Motion {
+    origin: f64,
     position: Row,
     velocity: Row,
 }
@@ -75,20 +79,26 @@ impl Motion {
     /// All bodies move at a speed \[m/s], springs as under their own weight.
     pub fn start(speed: f64) -> Self {
         let mut velocity = [0.0; SIZE];
-        for k in [BODY, BOGIES[0], BOGIES[1]].into_iter().chain(WHEELSETS..SIZE) {
-            velocity[k] = speed;
-        }
-        Self { position: [0.0; SIZE], velocity }
+        Self::along().for_each(|k| velocity[k] = speed);
+        Self { origin: 0.0, position: [0.0; SIZE], velocity }
+    }
+
+    /// Coordinates along the track.
+    fn along() -> impl Iterator<Item = usize> {
+        [BODY, BOGIES[0], BOGIES[1]].into_iter().chain(WHEELSETS..SIZE)
     }
 
     /// Speed \[m/s] and way \[m] of the car body.
     pub fn body(&self) -> [f64; 2] {
-        [self.velocity[BODY], self.position[BODY]]
+        [self.velocity[BODY], self.origin + self.position[BODY]]
     }
 
     /// Wheelsets are where they are found \[m, m/s].
     pub fn correct(&mut self, positions: [f64; AXLES], velocities: [f64; AXLES]) {
-        self.position[WHEELSETS..].copy_from_slice(&positions);
+        let moved = positions[0] - self.origin;
+        Self::along().for_each(|k| self.position[k] -= moved);
+        self.origin = positions[0];
+        self.position[WHEELSETS..].copy_from_slice(&positions.map(|position| position - self.origin));
         self.velocity[WHEELSETS..].copy_from_slice(&velocities);
     }
 }

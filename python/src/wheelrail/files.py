@@ -212,13 +212,21 @@ class _Reader:
         wrong = field.check(value)
         if wrong:
             self.fail(place, wrong)
-        return value
+        return _number(value, field)
 
     def named(self, value, field, place):
         """An object with free names."""
         if not isinstance(value, dict):
             self.fail(place, f"is {value!r}, not an object")
         return {name: self.one(value, name, field.item, place) for name in value if name not in REMARKS}
+
+
+def _number(value, field):
+    """The value; numbers that need not be whole are floats, however they are written, for arrays of integers cut off what is
+    put into them."""
+    if isinstance(field, Several):
+        return [_number(entry, field.item) for entry in value]
+    return float(value) if isinstance(field, Real) and not field.whole else value
 
 
 def _text(path):

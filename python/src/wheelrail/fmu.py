@@ -119,6 +119,10 @@ class Wheel:
                 continue
             if variable.type == "Enumeration" and isinstance(value, str):
                 value = 1 + [item.name for item in variable.declaredType.items].index(value)
+            if isinstance(value, float):
+                if not value.is_integer():
+                    raise Refused(f"{name} = {value!r} is not a whole number")
+                value = int(value)
             self._call(self._access("set", variable), [variable.valueReference], [value])
         if references:
             self._call(self.slave.setReal, references, reals)

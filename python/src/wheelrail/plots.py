@@ -101,7 +101,8 @@ def _rail(axis, table, rail):
 
 
 def draw_sweep(path, rows):
-    """Draws stopping distances over speed and adhesion, one map for every payload and threshold."""
+    """Draws stopping distances over speed and adhesion, one map for every payload and threshold. Colours say by how much a stop is
+    longer than the shortest one from its speed with its payload: over speed itself distances differ too much."""
     plt = pyplot()
     axis_of = lambda key: sorted({row[key] for row in rows})
     speeds, adhesions, payloads, thresholds = map(axis_of, ("speed", "adhesion", "payload", "slide_high"))
@@ -110,18 +111,26 @@ def draw_sweep(path, rows):
         layout="constrained", squeeze=False,
     )  # fmt: skip
     distances = {tuple(row[k] for k in ("payload", "slide_high", "adhesion", "speed")): row["stopping distance"] for row in rows}
-    limits = min(distances.values()), max(distances.values())
+    shortest = {}
+    for (payload, _, _, speed), distance in distances.items():
+        shortest[payload, speed] = min(distance, shortest.get((payload, speed), distance))
+    longer = lambda payload, speed, distance: 100.0 * (distance / shortest.get((payload, speed), np.nan) - 1.0)
+    most = max(longer(key[0], key[3], distance) for key, distance in distances.items())
     for i, payload in enumerate(payloads):
         for j, threshold in enumerate(thresholds):
             axis = axes[i, j]
             table = [[distances.get((payload, threshold, a, v), np.nan) for v in speeds] for a in adhesions]
-            image = axis.imshow(table, origin="lower", aspect="auto", cmap="viridis", vmin=limits[0], vmax=limits[1])
+            share = [[longer(payload, v, value) for v, value in zip(speeds, row)] for row in table]
+            image = axis.imshow(share, origin="lower", aspect="auto", cmap="viridis", vmin=0.0, vmax=max(most, 1.0))
             for (y, x), value in np.ndenumerate(np.array(table)):
-                axis.text(x, y, f"{value:.0f}", ha="center", va="center", color="white", fontsize=7)
+                text = f"{value:.0f}" if np.isfinite(value) else "none"
+                bright = share[y][x] > 0.6 * most
+                axis.text(x, y, text, ha="center", va="center", color="black" if bright else "white", fontsize=8)
             axis.grid(False)
             axis.set_xticks(range(len(speeds)), [f"{3.6 * v:.0f}" for v in speeds])
             axis.set_yticks(range(len(adhesions)), [f"{a:g}" for a in adhesions])
             axis.set(title=f"{payload / 1e3:g} t, slide {100 * threshold:g} %", xlabel="speed [km/h]", ylabel="adhesion [1]")
-    figure.colorbar(image, ax=axes, label="stopping distance [m]")
+    figure.suptitle("stopping distance [m]", fontsize=9)
+    figure.colorbar(image, ax=axes, label="longer than the shortest from this speed with this load [%]")
     figure.savefig(path, dpi=110)
     plt.close(figure)

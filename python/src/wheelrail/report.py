@@ -92,6 +92,11 @@ def peak(values):
     return float(values[-1]) - CELSIUS if values[-1] > 0.0 else float("nan")
 
 
+def known(values):
+    """Those that are known: a rigid wheelset has no temperature. All, if none is."""
+    return [value for value in values if value == value] or values
+
+
 def longest(flags):
     """Most flags in a row."""
     best = now = 0
@@ -124,7 +129,7 @@ def lines(stops):
 def _cell(value):
     """One entry: a number, or one per axle; of a set of coaches the smallest and the largest."""
     if isinstance(value, list) and len(value) > AXLES:
-        return f"{_cell(min(value))} to {_cell(max(value))}"
+        return f"{_cell(min(known(value)))} to {_cell(max(known(value)))}"
     if isinstance(value, list):
         return " ".join(f"{_cell(entry):>7}" for entry in value)
     return value if isinstance(value, str) else f"{value:.4g}"

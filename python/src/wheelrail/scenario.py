@@ -127,6 +127,10 @@ SCENARIO = {
     "name": Text("what it shows"),
     "vehicle": Text("file"),
     "coaches": Real(1, 20, "", "coupled to a set", 1, whole=True),
+    "fmu_coaches": Several(
+        Real(1, 20, "", "coach from the front", whole=True),
+        "coaches whose wheelsets are in the FMU, those of the others are rigid; unless given, all", (),
+    ),
     "brake": Text("file"),
     "track": Text("file"),
     "speed": Real(0.5, 60, "m/s", "at the start"),
@@ -143,6 +147,7 @@ SCENARIO = {
         "adhesion": Several(Real(1e-3, 1, "1", "contaminated rail"), "friction", (0.05, 0.1)),
         "payload": Several(Real(0, 1e6, "kg", "load"), "loads", (0.0,)),
         "slide_high": Several(Real(0, 1, "1", "threshold"), "thresholds of the slide protection", (0.15,)),
+        "wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU in a sweep, before those of wheel", {}),
     },
 }
 
@@ -163,6 +168,9 @@ def load(path):
         profile = path.parent / track.profile
         track.profile = SimpleNamespace(**read_csv(profile, PROFILE))
         check_profile(track.profile, profile)
+    for coach in scenario.fmu_coaches:
+        if coach > scenario.coaches:
+            raise BadFile(f"{path}: fmu_coaches entry = {coach} is outside 1 to {scenario.coaches}, the number of coaches")
     settle(scenario)
     return scenario
 

@@ -48,6 +48,8 @@ def coach_values(scenario):
     values = {"initial.speed": scenario.speed, "demand": scenario.demand}
     if scenario.brake.sander.active:
         raise BadFile("the coach of a system package has no sander: set sander.active to false")
+    if scenario.coaches > 1:
+        raise BadFile(f"a system package holds one coach: coaches = {scenario.coaches} is outside its range, 1")
     for prefix, group in (("", scenario.vehicle), ("brake.", scenario.brake)):
         values |= {prefix + name: value for name, value in _flat(group) if not name.startswith(LEFT_OUT)}
     return values
@@ -239,6 +241,9 @@ def archive(path, entries):
 
 def pack_coach(program, library, out, licences=()):
     """Writes coach.fmu; `program` prints its model description."""
+    for path in map(Path, (program, library)):
+        if not path.is_file():
+            raise FileNotFoundError(f"{path} does not exist: `make ssp` builds it; --coach names its directory")
     described = subprocess.run([str(program)], check=True, capture_output=True).stdout
     texts = {f"documentation/licenses/{path.name}": path.read_bytes() for path in map(Path, licences)}
     # Some masters name a directory of resources that does not exist unless something is in it.

@@ -18,7 +18,7 @@ from types import SimpleNamespace
 
 from .files import BadFile
 from .fmu import Fmu, Refused
-from .report import figures
+from .report import figures, known
 from .scenario import settle
 from .train import Stop
 
@@ -30,8 +30,8 @@ RESULTS = (
 REASON = "reason"  # why a stop has no results
 
 
-# What a row does not depend on: swept values, and the time after which a stop is given up.
-APART = ("sweep", "speed", "adhesion", "payload", "longest")
+# What a row does not depend on: swept values, the time after which a stop is given up, and what comes after it.
+APART = ("sweep", "speed", "adhesion", "payload", "longest", "hold")
 
 
 def header():
@@ -40,14 +40,16 @@ def header():
 
 
 def points(scenario):
-    """All combinations of a scenario's sweep."""
+    """All combinations of a scenario's sweep, the fastest first: they take longest, and no worker is left with one at the end."""
     values = vars(scenario.sweep)
-    return [dict(zip(KEYS, map(float, point))) for point in product(*(values[key] for key in KEYS))]
+    found = [dict(zip(KEYS, map(float, point))) for point in product(*(values[key] for key in KEYS))]
+    return sorted(found, key=lambda point: -point["speed"])
 
 
 def fingerprint(scenario, rigid):
     """Names what a sweep is of, the swept values apart, so that rows of another one are not taken for its own."""
     rest = {k: v for k, v in vars(scenario).items() if k not in APART}
+    rest["wheel"] = scenario.wheel | scenario.sweep.wheel
     text = json.dumps([rest, rigid], default=lambda v: vars(v) if isinstance(v, SimpleNamespace) else str(v), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -84,6 +86,8 @@ def results(scenario, point, path, limit):
     scenario = deepcopy(scenario)
     scenario.speed, scenario.adhesion, scenario.payload = point["speed"], point["adhesion"], point["payload"]
     scenario.brake.wsp.slide_high = point["slide_high"]
+    scenario.wheel |= scenario.sweep.wheel
+    scenario.hold = 0.0  # rows hold nothing of the time after it stands
     settle(scenario)
     if path is not None and not Path(path).is_absolute():
         from distributed import get_worker
@@ -97,7 +101,7 @@ def results(scenario, point, path, limit):
             run.close()
     worst = lambda name: min if name == "mean adhesion" else max
     values = {name: found[name][0] for name in RESULTS}
-    return {name: float(worst(name)(v) if isinstance(v, list) else v) for name, v in values.items()}
+    return {name: float(worst(name)(known(v)) if isinstance(v, list) else v) for name, v in values.items()}
 
 
 def done(path, name):
@@ -147,6 +151,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
         for future in as_completed(futures):
             error = future.exception()
             row = future.result() if error is None else point_of[future.key] | {REASON: f"{type(error).__name__}: {error}"}
+            future.release()  # or it is computed again when the worker that keeps its result dies
             progress(row)
             if REASON in row:
                 failed.append(row)
@@ -174,21 +179,46 @@ def described(row):
     return ", ".join(f"{key} {row[key]:g}" for key in KEYS)
 
 
+class Progress:
+    """A bar whose share and remaining time count a stop by its initial speed, which its duration follows; `known` rows are done."""
+
+    def __init__(self, scenario, known):
+        from tqdm import tqdm
+
+        everything = points(scenario)
+        self.count, self.done = len(everything), len(known)
+        weigh = lambda rows: sum(row["speed"] for row in rows)
+        form = "{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]"
+        self.bar = tqdm(total=weigh(everything), initial=weigh(known), desc="stops", bar_format=form)
+
+    def tell(self, row):
+        """A stop has come to its end, or failed."""
+        self.done += 1
+        found = "no result" if REASON in row else f"{row['stopping distance']:.0f} m"
+        self.bar.set_postfix_str(f"{self.done} of {self.count}; {described(row)}: {found}", refresh=False)
+        self.bar.update(row["speed"])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.bar.close()
+
+
 def run(options, scenario):
     """The command: cluster, progress, file, picture."""
     from distributed import Client, LocalCluster
-    from tqdm import tqdm
 
     from .plots import draw_sweep
 
     options.out.mkdir(parents=True, exist_ok=True)
     path = options.out / "sweep.csv"
     fmu = None if options.rigid else options.fmu
-    known = len(done(path, fingerprint(scenario, options.rigid)))
+    known = done(path, fingerprint(scenario, options.rigid))
     local = lambda: LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None)
     with nullcontext() if options.scheduler else local() as cluster, Client(options.scheduler or cluster) as client:
-        with tqdm(total=len(points(scenario)), initial=known, desc="stops", unit="stop") as bar:
-            rows, failed = sweep(client, scenario, fmu, path, lambda row: bar.update(), options.limit)
+        with Progress(scenario, known) as progress:
+            rows, failed = sweep(client, scenario, fmu, path, progress.tell, options.limit)
     for row in failed:
         print(f"no result: {described(row)}: {row[REASON]}")
     if not rows:
@@ -196,4 +226,4 @@ def run(options, scenario):
     draw_sweep(options.out / "sweep.png", rows)
     if failed:
         print(f"{len(failed)} stops without results, named in {unfinished(path)}; the next run tries them again")
-    print(f"{len(rows)} stops, {known} of them known before; written: {path}, {options.out / 'sweep.png'}")
+    print(f"{len(rows)} stops, {len(known)} of them known before; written: {path}, {options.out / 'sweep.png'}")

@@ -50,7 +50,8 @@ class Contacts:
         self.seen = None
         self.met = [(0.0, 0.0)] * len(wheelsets)
         # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not.
-        self.pool = ThreadPoolExecutor(len(wheelsets)) if isinstance(wheelsets[0], FmuWheelset) else None
+        threads = sum(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets)
+        self.pool = ThreadPoolExecutor(threads) if threads else None
 
     def step(self, h, forces, loads, torques, sand, lifted):
         """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle, `lifted` is height
@@ -101,20 +102,21 @@ class Contacts:
             wheelset.close()
 
 
-def fmu_wheelsets(fmu, scenario, coach):
-    """Wheelsets in the FMU."""
+def wheelsets_of(fmu, scenario, coach):
+    """Wheelsets of all coaches from the front: in the FMU, if there is one, where the scenario has them there; the others are
+    rigid, with the friction law of the scenario's wheels."""
+    wheelset, law = scenario.vehicle.wheelset, scenario.wheel
     damping = scenario.vehicle.primary.vertical_damping
-    make = lambda: FmuWheelset(
-        fmu, scenario.vehicle.wheelset, coach.static_load, scenario.speed, damping, dict(scenario.wheel)
-    )
-    return [make() for _ in range(coach.axles)]
-
-
-def rigid_wheelsets(scenario, coach):
-    """Rigid wheelsets with the friction law of the scenario's wheels."""
-    law = scenario.wheel
     falling = law.get("friction.falling_ratio", 1.0), law.get("friction.falling_decay", 0.0)
-    return [RigidWheelset(scenario.vehicle.wheelset, scenario.speed, 4e-3, *falling) for _ in range(coach.axles)]
+    inside = (scenario.fmu_coaches or range(1, coach.count + 1)) if fmu else ()
+    found = []
+    for number in range(1, coach.count + 1):
+        for _ in range(AXLES):
+            if number in inside:
+                found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, dict(law)))
+            else:
+                found.append(RigidWheelset(wheelset, scenario.speed, 4e-3, *falling))
+    return found
 
 
 class Stop:
@@ -128,8 +130,7 @@ class Stop:
         self.coach.start(scenario.speed)
         ahead = self.coach.axle_positions - self.coach.axle_positions[0]
         rail = scenarios.rail_map(scenario.track, -ahead[-1], self.axles, dry)
-        wheelsets = fmu_wheelsets(fmu, scenario, self.coach) if fmu else rigid_wheelsets(scenario, self.coach)
-        self.contacts = Contacts(wheelsets, ahead, rail, scenario.track)
+        self.contacts = Contacts(wheelsets_of(fmu, scenario, self.coach), ahead, rail, scenario.track)
         self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES) for _ in range(self.coach.count)]
         self.torques = np.zeros(self.axles)
         self.radius = scenario.vehicle.wheelset.radius
@@ -203,7 +204,7 @@ class Stop:
 
 def predicted(h, wheelset, seen, pulls, others):
     """Masses [kg] of the wheelsets in the vehicle's step, and the forces [N] on them beside the suspension's."""
-    masses, forces = np.full(len(seen), wheelset.mass), np.array(others, float)
+    masses, forces = np.full(len(seen), float(wheelset.mass)), np.array(others, float)
     for k, w in enumerate(seen):
         peripheral = wheelset.radius * w.omega
         if abs(w.omega) < 1e-9 and abs(w.velocity) < STANDING + 2.0 * h * abs(w.force) / wheelset.mass:

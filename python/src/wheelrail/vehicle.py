@@ -81,6 +81,8 @@ class Coach:
         self.static_load = self.mass * GRAVITY / AXLES  # N, of one wheelset
         self.places = SIZE * np.arange(count)  # of the coaches among the coordinates
         self.wheelsets = (self.places[:, None] + 9 + np.arange(AXLES)).ravel()
+        bodies = (self.places[:, None] + [BODY, LEADING, TRAILING]).ravel()
+        self.along = np.concatenate([bodies, self.wheelsets])  # coordinates along the track
         self.share_after = np.tile(SHARE_AFTER, count)
         self.secondary, self.pull, self.lift = [], [], []
         for place in self.places:
@@ -128,13 +130,9 @@ class Coach:
     def start(self, speed):
         """All bodies move at a speed [m/s], springs as under their own weight."""
         self.position, self.velocity = np.zeros(self.count * SIZE), np.zeros(self.count * SIZE)
-        self.velocity[self._along()] = speed
+        self.origin = 0.0
+        self.velocity[self.along] = speed
         self.lifted = np.zeros((2, self.axles))
-
-    def _along(self):
-        """Coordinates along the track."""
-        bodies = (self.places[:, None] + [BODY, LEADING, TRAILING]).ravel()
-        return np.concatenate([bodies, self.wheelsets])
 
     def speed(self):
         """Of the car body, the leading one of a set [m/s]."""
@@ -142,7 +140,7 @@ class Coach:
 
     def travelled(self):
         """Way of the car body, the leading one of a set, since the start [m]."""
-        return self.position[BODY]
+        return self.origin + self.position[BODY]
 
     def forces(self):
         """What the primary suspension does to each wheelset: along the track [N], and load on the rail [N]."""
@@ -188,8 +186,12 @@ class Coach:
         return -carried @ self.lift_rows
 
     def correct(self, positions, velocities):
-        """Wheelsets are where they are found [m, m/s]."""
-        self.position[self.wheelsets], self.velocity[self.wheelsets] = positions, velocities
+        """Wheelsets are where they are found [m, m/s]. Positions along the track count from the first of them: millimetres in place
+        of kilometres, whose last digit times 63 MN/m would be felt."""
+        self.position[self.along] -= positions[0] - self.origin
+        self.origin = positions[0]
+        self.position[self.wheelsets] = np.array(positions) - self.origin
+        self.velocity[self.wheelsets] = velocities
 
     def _external(self, torques, slope):
         """Forces from outside on all but the wheelsets: slope, resistance, and the brakes' reaction on the frames."""
