@@ -11,14 +11,14 @@ use std::collections::HashMap;
 /// Triangles beside each edge.
 type Neighbours = HashMap<(usize, usize), [Option<usize>; 2]>;
 
-/// Cuts each of the `marked` triangles at least once.
+/// Cuts each of the `marked` triangles at least once; one that a neighbour's walk has cut already is done.
 pub fn refine(mesh: &mut Mesh, marked: &[usize]) {
     let mut beside = Neighbours::new();
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         edges(*triangle).into_iter().for_each(|edge| replace(&mut beside, edge, None, Some(t)));
     }
-    for &t in marked {
-        let before = mesh.triangles[t];
+    let before: Vec<[usize; 3]> = marked.iter().map(|t| mesh.triangles[*t]).collect();
+    for (&t, before) in marked.iter().zip(before) {
         while mesh.triangles[t] == before {
             let terminal = terminal_edge(mesh, &beside, t);
             bisect(mesh, &mut beside, terminal);

@@ -58,7 +58,7 @@ pub struct System {
     /// Number of the wheel's nodes, after which those of the rail come.
     pub wheel_nodes: usize,
     /// Places \[m] in the frame of the rail.
-    places: Vec<[f64; 2]>,
+    pub places: Vec<[f64; 2]>,
     /// Nodes of the tread that may touch, each with the one upstream.
     slaves: Vec<[usize; 2]>,
     /// Nodes of the rail's surface from left to right.
@@ -156,6 +156,11 @@ impl System {
             law.forces(&pair, &nodes.map(at), motion.omega, motion.velocity).map(|forces| Touch { nodes, forces })
         };
         self.slaves.iter().filter_map(touch).collect()
+    }
+
+    /// Nodes of the tread that may touch, and those of the rail's surface, each from left to right.
+    pub fn candidates(&self) -> (Vec<usize>, &[usize]) {
+        (self.slaves.iter().map(|[slave, _]| *slave).collect(), &self.masters)
     }
 
     /// Unknowns on which contact forces can act or depend.

@@ -1,6 +1,7 @@
 //! Numbers of the text that closed forms decide.
 
 use super::{Figure, must};
+use crate::paper_a::WAVE;
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 use std::f64::consts::{PI, TAU};
@@ -80,66 +81,14 @@ fn bessel(x: f64) -> f64 {
     sum
 }
 
-/// Figure A 12: amplitude of the force on a corrugation, in closed form.
-pub fn corrugation() -> Result<Figure, String> {
-    let (mass, natural, damping, amplitude, wavelength) = (5265.0, 2922.0, 1e-4, 5e-6, 0.05);
+/// Amplitude of the force [N/m] on the waves of Paper A at an angular frequency [rad/s]: `|K* m ω²/(K* − m ω²)|` times the wave as the
+/// patch sees it, with `K* = K (1 + iωα)`.
+pub(super) fn corrugation_force(omega: f64) -> f64 {
+    let (mass, natural, damping, [amplitude, wavelength]) = (5265.0, 2922.0, 1e-4, WAVE);
     let stiffness = mass * natural * natural;
-    let a = hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON));
-    let filter = bessel(TAU * a / wavelength);
-    // |K* m ω²/(K* − m ω²)| with K* = K (1 + iωα).
-    let force = |omega: f64| {
-        let (inertia, loss) = (mass * omega * omega, stiffness * omega * damping);
-        amplitude * filter * stiffness.hypot(loss) * inertia / (stiffness - inertia).hypot(loss)
-    };
-    let omega = |i: i32| 500.0 + f64::from(i);
-    let peak = (0..5000).map(omega).max_by(|a, b| force(*a).total_cmp(&force(*b))).unwrap_or_default();
-    let curve = Curve {
-        source: Source::Exact,
-        name: "closed form".into(),
-        points: (0..=100).map(|i| omega(45 * i)).map(|omega| [omega, 1e-6 * force(omega)]).collect(),
-    };
-    let quoted = Curve {
-        source: Source::Quoted,
-        name: "stated peak".into(),
-        points: vec![[3050.0, 0.0], [3050.0, 1e-6 * force(peak)]],
-    };
-    let of_speed = |kmh: f64| force(TAU * kmh / 3.6 / wavelength);
-    Ok(Figure {
-        item: "A 12",
-        title: "Force on a corrugated rail over the excitation (closed form only)",
-        status: Status::ThesisError,
-        parameters: "Corrugation 5 µm, 5 cm; mass 5265 kg/m, contact resonance 2922 rad/s, α₁ = 1e-4 s. The amplitude is assumed \
-                     to be that of the convergence study.",
-        finding: format!(
-            "Peak at ω = {peak:.0} rad/s, {:.1} km/h, {:.3} MN/m. The stated 3.05e3 rad/s are ω = 2πV/λ: V/λ itself is {:.0} 1/s \
-             there. Thesis's and our transient results are still to come.",
-            3.6 * peak * wavelength / TAU,
-            1e-6 * force(peak),
-            peak / TAU
-        ),
-        plots: vec![Plot {
-            axes: ["ω = 2πV/λ in rad/s".into(), "amplitude in MN/m".into()],
-            curves: vec![curve, quoted],
-        }],
-        values: vec![
-            ("a12.peak".into(), peak),
-            ("a12.peak_without_2pi".into(), peak / TAU),
-            ("a12.peak_force".into(), force(peak)),
-        ],
-        predicates: vec![
-            must(
-                "peak 2992 ± 2 rad/s, 0.733 ± 0.001 MN/m",
-                (peak - 2992.0).abs() < 2.0 && (force(peak) - 0.733e6).abs() < 1e3,
-            ),
-            must(
-                "0.110, 0.514, 0.556, 0.324 MN/m at 50, 75, 100, 150 km/h",
-                [(50.0, 0.110), (75.0, 0.514), (100.0, 0.556), (150.0, 0.324)]
-                    .iter()
-                    .all(|(kmh, value)| (1e-6 * of_speed(*kmh) - value).abs() < 1e-3),
-            ),
-            must("first null of the filter at 13.08 mm", bessel(TAU * a / 0.01308).abs() < 1e-3),
-        ],
-    })
+    let filter = bessel(TAU * hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON)) / wavelength);
+    let (inertia, loss) = (mass * omega * omega, stiffness * omega * damping);
+    amplitude * filter * stiffness.hypot(loss) * inertia / (stiffness - inertia).hypot(loss)
 }
 
 /// Text to D 18: share of the limit at the largest creepage.
@@ -175,7 +124,18 @@ pub fn braking() -> Result<Figure, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::bessel;
+    use super::*;
+
+    #[test]
+    fn forces_on_waves_are_those_of_the_specification() {
+        let known = [(50.0, 0.110), (75.0, 0.514), (100.0, 0.556), (150.0, 0.324)];
+        assert!(known.iter().all(|(kmh, force)| {
+            let found = 1e-6 * corrugation_force(TAU * kmh / 3.6 / WAVE[1]);
+            (found - force).abs() < 1e-3
+        }));
+        let a = hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON));
+        assert!(bessel(TAU * a / 0.01308).abs() < 1e-3, "first null of the filter");
+    }
 
     #[test]
     fn bessel_function_has_its_first_null_and_values() {
