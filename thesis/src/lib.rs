@@ -14,6 +14,7 @@ pub mod elastic;
 pub mod errors;
 pub mod figures;
 pub mod flow;
+pub mod heat;
 pub mod mesh;
 pub mod newton;
 pub mod one_dimension;

@@ -146,7 +146,8 @@ impl System {
     /// Where the bodies touch; `law` replaces the system's own.
     pub fn touches(&self, u: &[f64], motion: Motion, law: Law) -> Vec<Touch> {
         let at = |node: usize| [u[2 * node], u[2 * node + 1]];
-        let x = |node: usize| self.places[node][0] + u[2 * node];
+        // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between two normals.
+        let x = |node: usize| self.places[node][0];
         let touch = |&[slave, upstream]: &[usize; 2]| {
             let right = self.masters.partition_point(|node| x(*node) <= x(slave)).clamp(1, self.masters.len() - 1);
             let nodes = [slave, upstream, self.masters[right - 1], self.masters[right]];

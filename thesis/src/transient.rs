@@ -209,7 +209,7 @@ fn touch(gaps: &DMatrix<f64>, free: &DVector<f64>, guess: &[f64]) -> Result<Vec<
         let matrix = DMatrix::from_fn(nodes.len(), nodes.len(), |i, j| gaps[(nodes[i], nodes[j])]);
         let right = DVector::from_iterator(nodes.len(), nodes.iter().map(|i| -free[*i]));
         let singular = Error::Singular { size: nodes.len(), reason: "nodes in contact".into() };
-        let found = matrix.lu().solve(&right).ok_or(singular)?;
+        let found = if nodes.is_empty() { right } else { matrix.lu().solve(&right).ok_or(singular)? };
         let mut forces = vec![0.0; count];
         nodes.iter().zip(found.iter()).for_each(|(i, force)| forces[*i] = *force);
         let gap = free + gaps * DVector::from_column_slice(&forces);
