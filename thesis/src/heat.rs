@@ -123,6 +123,37 @@ impl Heating<'_> {
         Ok(Warmth { space, theta, means, flows: [conducted, friction] })
     }
 
+    /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.
+    pub fn let_in(&self, warmth: &Warmth) -> f64 {
+        let boundary: std::collections::HashSet<_> = self.meshes[0].boundary().into_iter().collect();
+        let mut sum = 0.0;
+        for nodes in &warmth.space.elements {
+            for i in 0..3 {
+                let (a, b) = (nodes[i], nodes[(i + 1) % 3]);
+                if !boundary.contains(&edge(a, b)) {
+                    continue;
+                }
+                let (p, q) = (warmth.space.places[a], warmth.space.places[b]);
+                let along = [q[0] - p[0], q[1] - p[1]];
+                let value = |node: usize| {
+                    let [x, y] = warmth.space.places[node];
+                    (x * along[0] + y * along[1]) * warmth.theta[node]
+                };
+                // Simpson's rule, exact up to cubics: temperatures are quadratic at most, the velocity is linear.
+                let middle = nodes.get(3 + i).map_or_else(
+                    || {
+                        let place = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
+                        let theta = 0.5 * (warmth.theta[a] + warmth.theta[b]);
+                        (place[0] * along[0] + place[1] * along[1]) * theta
+                    },
+                    |node| value(*node),
+                );
+                sum += (value(a) + 4.0 * middle + value(b)) / 6.0;
+            }
+        }
+        -self.material[0] * self.motion[0] * sum
+    }
+
     /// Conductance and friction heat, half of it to each side.
     fn exchange(&self, first: usize, matrix: &mut Matrix, load: &mut [f64]) {
         for spot in self.spots {

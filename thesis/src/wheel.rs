@@ -165,7 +165,7 @@ pub fn unstructured(annulus: Annulus, size: f64, disorder: f64) -> Mesh {
     let rings = 4;
     let radius = |k: i32| annulus.inner * (annulus.outer / annulus.inner).powf(f64::from(k) / f64::from(rings));
     let mut mesh = coarse(&(0..=rings).map(radius).collect::<Vec<_>>(), 9);
-    rivara::refine_while(&mut mesh, |corners| rivara::longest(corners) > size * size);
+    rivara::refine_unevenly_while(&mut mesh, |corners| rivara::longest(corners) > size * size);
     make_round(&mut mesh, annulus);
     let boundary: std::collections::BTreeSet<usize> = mesh.boundary().into_iter().flat_map(|(a, b)| [a, b]).collect();
     let mut nearest = vec![f64::INFINITY; mesh.nodes.len()];

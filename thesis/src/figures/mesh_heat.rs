@@ -18,9 +18,9 @@ use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz
 
 /// Wheel and rail of Papers B to D.
 pub(super) const ANNULUS: Annulus = Annulus { outer: OUTER, inner: INNER };
-const PLATE: Plate = Plate { length: 1.0, height: 0.1 };
+pub(super) const PLATE: Plate = Plate { length: 1.0, height: 0.1 };
 /// Edges under the contact, over half of it, before the whole wheel is refined.
-const BASE: f64 = 0.6;
+pub(super) const BASE: f64 = 0.25;
 
 /// Half of a contact \[m].
 fn half_width(load: f64) -> f64 {
@@ -60,7 +60,7 @@ fn warm(
     spots: &[Spot],
     arcs: f64,
     cold_hub: bool,
-) -> Result<Warmth, String> {
+) -> Result<(Warmth, f64), String> {
     let [first, second] = bodies;
     let heating = Heating {
         meshes: [first, second],
@@ -73,7 +73,9 @@ fn warm(
         arcs,
         cold_hub,
     };
-    heating.solve().map_err(|error| error.to_string())
+    let warmth = heating.solve().map_err(|error| error.to_string())?;
+    let let_in = heating.let_in(&warmth);
+    Ok((warmth, let_in))
 }
 
 const BUBBLES: (Order, Scheme) = (Order::Quadratic, Scheme::Bubble);
@@ -92,17 +94,18 @@ pub fn convergence() -> Result<Figure, String> {
     let law = Law { penalty: 5e12, friction: 0.0, regularisation: 1.0 };
     let depth = 2.0 * half_width(LOAD) / 5.0;
     let (mut curves, mut surface, mut means, mut counts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut lost = 0.0_f64;
+    let (mut arrives, mut lost) = (Vec::new(), 0.0_f64);
     for global in 0..4 {
         let bodies = meshes(LOAD, BASE, global)?;
         let system = system(LOAD, law, &bodies);
         let state = newton::frictionless(&system).map_err(|error| error.to_string())?;
-        let warmth = warm(&bodies, BUBBLES, &spots(&system, &state), 0.5 * HEAT, false)?;
+        let (warmth, let_in) = warm(&bodies, BUBBLES, &spots(&system, &state), 0.5 * HEAT, false)?;
         let points = below(&warmth, depth);
         surface.push(points.last().map_or(f64::NAN, |point| point[1]));
         means.push(warmth.means[0]);
         counts.push([bodies[0].triangles.len() + bodies[1].triangles.len(), warmth.theta.len()]);
-        lost = lost.max((warmth.flows[0] / HEAT - 1.0).abs());
+        arrives.push(warmth.flows[0] / HEAT);
+        lost = lost.max(((warmth.flows[0] - let_in) / HEAT - 1.0).abs());
         curves.push(curve(Source::Method, format!("n_r = {global}"), points));
     }
     let ours = heated(&paper_b(|_| ())?, SPEED, LOAD)?.warmth();
@@ -121,11 +124,13 @@ pub fn convergence() -> Result<Figure, String> {
                      assumed, the latter so that n_r = 2 has about the thesis's 8017 triangles.",
         finding: format!(
             "At the contact point {} K for n_r = 0 to 3, ours {:.4} K; mean of the wheel {} K, ours {:.4} K. n_r = 2 has {triangles} triangles and {nodes} nodes; the \
-             thesis's 8017 and 12608 mean 5733 quadratic triangles in the wheel and 2284 linear ones in the rail.",
+             thesis's 8017 and 12608 mean 5733 quadratic triangles in the wheel and 2284 linear ones in the rail. {:.3} times the \
+             heat of the arcs reach the rail with n_r = 2: the convective form lets heat in through the chords of the rims, which are no streamlines.",
             surface.iter().map(|t| format!("{t:.4}")).collect::<Vec<_>>().join(", "),
             ours.wheel_centre,
             means.iter().map(|t| format!("{t:.4}")).collect::<Vec<_>>().join(", "),
-            ours.wheel_mean
+            ours.wheel_mean,
+            arrives[2]
         ),
         plots: vec![Plot { axes: ["radius in m".into(), "temperature in K".into()], curves }],
         values: vec![
@@ -135,12 +140,21 @@ pub fn convergence() -> Result<Figure, String> {
             ("b.nodes".into(), nodes as f64),
         ],
         predicates: vec![
-            must(format!("all heat of the arcs reaches the rail: {lost:.1e}"), lost < 1e-6),
             must(
                 format!("n_r = 3 within 10 % of ours at the contact point: {:+.4}", off(surface[3])),
                 off(surface[3]).abs() < 0.1,
             ),
             must("nearer to ours with n_r = 3 than with n_r = 0", off(surface[3]).abs() < off(surface[0]).abs()),
+            must(
+                format!(
+                    "what reaches the rail is the heat of the arcs and what the chords of the rims let in: {lost:.1e}"
+                ),
+                lost < 1e-6,
+            ),
+            must(
+                format!("n_r = 2 has the thesis's numbers of triangles and nodes within 5 %: {triangles}, {nodes}"),
+                (triangles as f64 / 8017.0 - 1.0).abs() < 0.05 && (nodes as f64 / 12608.0 - 1.0).abs() < 0.05,
+            ),
         ],
     })
 }
@@ -153,7 +167,7 @@ fn paper_c(regularisation: f64) -> Law {
 /// Figure C 6: force over the regularisation of friction.
 pub fn regularisation() -> Result<Figure, String> {
     const POWERS: [f64; 6] = [-4.5, -4.0, -3.5, -3.0, -2.5, -2.0];
-    let bodies = meshes(LOAD, BASE, 2)?;
+    let bodies = meshes(LOAD, BASE, 1)?;
     let found = POWERS.map(|power| roll(LOAD, paper_c(10f64.powf(power)), &bodies, -5e-5).map(|(force, _)| force));
     let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
     let exact = carter_force(-5e-5, carter_full_slip(0.4, half_width(LOAD), OUTER));
@@ -163,7 +177,7 @@ pub fn regularisation() -> Result<Figure, String> {
         item: "C 6",
         title: "Tangential force over the regularisation of friction",
         status: Status::NotStated,
-        parameters: "Base of Paper C, P = 10 kN/m, 50 km/h, μ = 0.4 and ξ = −5e-5 assumed; penalty, tanh, velocity stepping, mesh of figure B 11 with n_r = 2, linear \
+        parameters: "Base of Paper C, P = 10 kN/m, 50 km/h, μ = 0.4 and ξ = −5e-5 assumed; penalty, tanh, velocity stepping, mesh of figure B 11 with n_r = 1, linear \
                      triangles, no heat.",
         finding: format!(
             "{plateau:.4} of the limit at 3.2e-5 m/s, {at:.4} at 1e-4, {:.4} at 1e-3, {:.4} at 1e-2 m/s: from about 1e-4 m/s on the force falls, as stated. Carter has \
@@ -194,15 +208,15 @@ pub fn regularisation() -> Result<Figure, String> {
 /// SUPG on the last but one.
 pub(super) fn friction_means() -> Result<(Vec<(usize, [f64; 2])>, [f64; 2]), String> {
     let (mut all, mut linear) = (Vec::new(), [0.0; 2]);
-    for global in 0..4 {
+    for global in 0..3 {
         let bodies = meshes(LOAD, BASE, global)?;
         let (_, spots) = roll(LOAD, paper_c(10f64.powf(-4.5)), &bodies, -5e-5)?;
         all.push((
             bodies[0].triangles.len() + bodies[1].triangles.len(),
-            warm(&bodies, BUBBLES, &spots, 0.0, true)?.means,
+            warm(&bodies, BUBBLES, &spots, 0.0, true)?.0.means,
         ));
         if global == 2 {
-            linear = warm(&bodies, (Order::Linear, Scheme::Supg), &spots, 0.0, true)?.means;
+            linear = warm(&bodies, (Order::Linear, Scheme::Supg), &spots, 0.0, true)?.0.means;
         }
     }
     Ok((all, linear))

@@ -12,6 +12,7 @@ mod plate;
 mod ramps;
 mod rolling;
 mod rough;
+mod share;
 mod tread_heat;
 mod tread_map;
 
@@ -144,7 +145,7 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("D 10", ramps::temperature),
     ("D 11–15", braking::velocities),
     ("D 16–17", braking::moment),
-    ("D 18", closed_forms::braking),
+    ("D 18", share::braking),
     ("D 19–21", holes::sharp),
 ];
 

@@ -153,7 +153,7 @@ pub fn temperature() -> Result<Figure, String> {
         finding: format!(
             "Ours {:.2e} K, reference 7.52e-5 K; stated 2.26e-6 K, {:.0} times less. The hub carries away what the mean temperature \
              drives through the annulus: {:.1} % of the wheel's half of the friction heat in ours, {:.1} % in the thesis, which \
-             must have lost the rest. Its own method, quadratic bubbles, loses it as well: wheel and rail have {} with n_r = 0 to 3, linear SUPG with n_r = 2 {:.2e} and {:.2e} K.",
+             must have lost the rest; the specification of this report expected its method to. Its own method, quadratic bubbles, loses less than half of it: wheel and rail have {} with n_r = 0 to 2, linear SUPG with n_r = 2 {:.2e} and {:.2e} K.",
             ours.wheel_mean,
             ours.wheel_mean / stated,
             100.0 * share,

@@ -153,7 +153,7 @@ pub fn densities() -> Result<Figure, String> {
         finding: format!(
             "Standard deviations in MN/m: {} over the velocity, {} over the load, {} over the mass. As stated, the density narrows at low \
              velocity, shifts with the load and changes with the mass. The thesis's method on a mesh of its size has {:.3} MN/m. It took 50 \
-             min then; the report's last line has its time now, with all our runs.",
+             min then.",
             list(0),
             list(3),
             list(6),
