@@ -5,7 +5,7 @@ use super::{Figure, corrugation::standard, curve, must};
 use crate::annulus::OUTER;
 use crate::ours::{Product, Run};
 use crate::paper_a::{self as a, LOAD, SPEED, STEP, case};
-use crate::plot::{Plot, Source};
+use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 use crate::transient::{Case, Rolling};
 use wheelrail::analytic::{contact_modulus, hertz_half_width};
@@ -134,49 +134,50 @@ fn half_width(load: f64) -> f64 {
     hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
 }
 
-/// Figures B 18 and 19: a hole of 0.2 mm under a rolling wheel without friction.
-pub fn small() -> Result<Figure, String> {
-    let [load, velocity] = B;
-    let (at, length, depth, duration) = (1e-3, 0.2e-3, 20e-6, 2.5e-4);
-    let text = hole(at, length, depth);
+/// Place of Paper B's hole, its length and depth \[m]; the depth is assumed. Time that is looked at \[s].
+const SMALL: [f64; 3] = [1e-3, 0.2e-3, 20e-6];
+const DURATION: f64 = 2.5e-4;
+
+/// The product over that hole: force over the way, largest number of patches, pressure at four instants.
+fn over_small(step: f64) -> Result<(Vec<[f64; 2]>, u64, Vec<Curve>), String> {
     let product = Product::with("paper_b", |config| {
         config.thermal.enabled = false;
         config.tuning.tolerance = 0.0;
-        config.rail.profile = text.clone();
+        config.rail.profile = hole(SMALL[0], SMALL[1], SMALL[2]);
     })?;
-    let run = |step: f64| -> Result<(Vec<[f64; 2]>, u64, Vec<crate::plot::Curve>), String> {
-        let mut run = product.rolling(velocity, 0.0, |_| ())?;
-        let (mut points, mut patches, mut shots) = (Vec::new(), 0, Vec::new());
-        for k in 0..(duration / step).round() as usize {
-            run.advance(step)?;
-            points.push([run.outputs().wheel_distance, run.outputs().contact_force_y]);
-            patches = patches.max(run.outputs().contact_patches);
-            let time = (k as f64 + 1.0) * step;
-            for instant in [50e-6, 66e-6, 78e-6, 100e-6] {
-                if (time - instant).abs() < 0.4 * step {
-                    shots.push(curve(Source::Ours, format!("{:.0} µs", 1e6 * instant), pressure(&run)));
-                }
+    let mut run = product.rolling(B[1], 0.0, |_| ())?;
+    let (mut points, mut patches, mut shots) = (Vec::new(), 0, Vec::new());
+    for k in 0..(DURATION / step).round() as usize {
+        run.advance(step)?;
+        points.push([run.outputs().wheel_distance, run.outputs().contact_force_y]);
+        patches = patches.max(run.outputs().contact_patches);
+        let time = (k as f64 + 1.0) * step;
+        for instant in [50e-6, 66e-6, 78e-6, 100e-6] {
+            if (time - instant).abs() < 0.4 * step {
+                shots.push(curve(Source::Ours, format!("{:.0} µs", 1e6 * instant), pressure(&run)));
             }
         }
-        Ok((points, patches, shots))
-    };
-    let ((coarse, ..), (points, patches, shots)) = (run(1e-6)?, run(5e-7)?);
-    let a = half_width(load);
+    }
+    Ok((points, patches, shots))
+}
+
+/// The same by the thesis's scheme: backward Euler, steps of 1 µs, no damping.
+fn small_by_the_thesis() -> Result<Vec<[f64; 2]>, String> {
+    let [load, velocity] = B;
     let [wheel, rail] = mesh_heat::meshes(load, mesh_heat::BASE, 2)?;
-    let theirs = Case {
-        annulus: ANNULUS,
-        plate: PLATE,
-        ends: RailEnds::Free,
-        load,
-        hub_mass: 0.0,
-        velocity,
-        damping: 0.0,
-        step: 1e-6,
-        theta: 1.0,
-        reach: 2.5 * a,
-    };
-    let meshes = a::Meshes { wheel, rail };
-    let method = a::history(theirs, &meshes, &text, 250)?;
+    let (step, reach) = (1e-6, 2.5 * half_width(load));
+    let bodies = Case { annulus: ANNULUS, plate: PLATE, ends: RailEnds::Free, reach, ..case() };
+    let theirs = Case { load, velocity, damping: 0.0, step, theta: 1.0, ..bodies };
+    let text = hole(SMALL[0], SMALL[1], SMALL[2]);
+    a::history(theirs, &a::Meshes { wheel, rail }, &text, (DURATION / step).round() as usize)
+}
+
+/// Figures B 18 and 19: a hole of 0.2 mm under a rolling wheel without friction.
+pub fn small() -> Result<Figure, String> {
+    let [load, velocity] = B;
+    let (length, a) = (SMALL[1], half_width(load));
+    let ((coarse, ..), (points, patches, shots)) = (over_small(1e-6)?, over_small(5e-7)?);
+    let method = small_by_the_thesis()?;
     let (ours, first, own) = (extremes(&points, load), extremes(&coarse, load), extremes(&method, load));
     let settles = (ours[0] - first[0]).abs().max((ours[1] - first[1]).abs());
     let passage = (length + 2.0 * a) / velocity;
@@ -261,6 +262,10 @@ fn locked(damping: f64, elements: usize, heat: bool, step: f64, duration: f64) -
     Ok(points)
 }
 
+fn plot(axis: &str, curves: Vec<Curve>) -> Plot {
+    Plot { axes: ["time in ms".into(), axis.into()], curves }
+}
+
 /// Figures D 19 to 21: temperatures and force as a locked wheel slides over a hole of 0.5 mm.
 pub fn sharp() -> Result<Figure, String> {
     let forces = |points: &[[f64; 4]]| extremes(&points.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>(), 1.0);
@@ -269,7 +274,7 @@ pub fn sharp() -> Result<Figure, String> {
         [1e-5, 5e-6, 2.5e-6].map(|step| locked(a::DAMPING, 20, false, step, 1e-3).map(|points| forces(&points)));
     let damped = damped.into_iter().collect::<Result<Vec<_>, _>>()?;
     let warm = locked(a::DAMPING, 20, true, 1e-5, 1e-2)?;
-    let (a, velocity, load) = (half_width(100e3), 50.0 / 3.6, 100e3);
+    let (a, velocity, load) = (half_width(100e3), B[1], 100e3);
     let [reaches, leaves] = [-1.0, 1.0].map(|sign| (SHARP[0] + sign * (0.5 * SHARP[1] + a)) / velocity);
     let start = warm[0];
     let over = |body: usize| warm.iter().filter(|p| p[0] <= leaves + 1e-5).map(move |p| p[body] - start[body]);
@@ -288,7 +293,6 @@ pub fn sharp() -> Result<Figure, String> {
     zoom.extend(marks(start[3] - fall, start[2] + rise));
     let settles = (fine[0] - coarse[0]).abs().max((fine[1] - coarse[1]).abs());
     let list = |k: usize| damped.iter().map(|e| format!("{:.4}", e[k])).collect::<Vec<_>>().join(", ");
-    let plot = |axis: &str, curves| Plot { axes: ["time in ms".into(), axis.into()], curves };
     Ok(Figure {
         item: "D 19–21",
         title: "Temperatures and force as a locked wheel slides over a hole of 0.5 mm",
