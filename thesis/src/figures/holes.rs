@@ -326,7 +326,6 @@ pub fn sharp() -> Result<Figure, String> {
         values: vec![
             ("d19.reaches".into(), reaches),
             ("d19.leaves".into(), leaves),
-            ("d19.wheel_rise".into(), rise),
             ("d19.rail_fall".into(), fall),
             ("d21.least".into(), fine[0]),
             ("d21.largest".into(), fine[1]),
