@@ -134,12 +134,15 @@ fn half_width(load: f64) -> f64 {
     hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
 }
 
+/// Way \[m] and force [N/m].
+type Points = Vec<[f64; 2]>;
+
 /// Place of Paper B's hole, its length and depth \[m]; the depth is assumed. Time that is looked at \[s].
 const SMALL: [f64; 3] = [1e-3, 0.2e-3, 20e-6];
 const DURATION: f64 = 2.5e-4;
 
 /// The product over that hole: force over the way, largest number of patches, pressure at four instants.
-fn over_small(step: f64) -> Result<(Vec<[f64; 2]>, u64, Vec<Curve>), String> {
+fn over_small(step: f64) -> Result<(Points, u64, Vec<Curve>), String> {
     let product = Product::with("paper_b", |config| {
         config.thermal.enabled = false;
         config.tuning.tolerance = 0.0;

@@ -204,9 +204,12 @@ pub fn regularisation() -> Result<Figure, String> {
     })
 }
 
+/// Triangles of a mesh, and mean temperatures of wheel and rail on it \[K].
+pub(super) type MeshMeans = (usize, [f64; 2]);
+
 /// Text to C 12 by the thesis's method: triangles, mean temperatures of wheel and rail \[K] for refinements of the wheel, and for linear
 /// SUPG on the last but one.
-pub(super) fn friction_means() -> Result<(Vec<(usize, [f64; 2])>, [f64; 2]), String> {
+pub(super) fn friction_means() -> Result<(Vec<MeshMeans>, [f64; 2]), String> {
     let (mut all, mut linear) = (Vec::new(), [0.0; 2]);
     for global in 0..3 {
         let bodies = meshes(LOAD, BASE, global)?;

@@ -170,7 +170,11 @@ pub fn temperature() -> Result<Figure, String> {
         ],
         predicates: vec![
             must(
-                format!("the thesis's method has more with n_r = 2 than with 0, though not steadily: {:.2e} to {:.2e} K", own(0), own(2)),
+                format!(
+                    "the thesis's method has more with n_r = 2 than with 0, though not steadily: {:.2e} to {:.2e} K",
+                    own(0),
+                    own(2)
+                ),
                 own(2) > own(0),
             ),
             must("and stays below ours", meshes.iter().all(|(_, means)| means[0] < ours.wheel_mean)),
