@@ -115,6 +115,8 @@ locked-wheels: $(BUILT)
 
 thesis:
 	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- --out results/thesis
+	@if command -v octave > /dev/null; then octave --quiet thesis/baseline.m | tee results/thesis/baseline.txt || true; \
+		else echo "monolithic baseline skipped: octave is not installed"; fi
 
 bench:
 	$(CARGO) bench --locked --bench table

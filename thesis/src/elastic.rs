@@ -2,6 +2,7 @@
 //! velocities, as the decomposition of \[D] 20 wants them.
 
 use crate::mesh::{Mesh, double_area};
+use crate::rail::Plate;
 use crate::sparse::Matrix;
 use crate::triangle::{Order, linear_gradients, points};
 
@@ -47,6 +48,57 @@ pub fn centrifugal(mesh: &Mesh, density: f64) -> Vec<f64> {
         }
     }
     load
+}
+
+/// `ρ ∫ N N` [kg/m]: the same in both directions.
+pub fn mass(mesh: &Mesh, density: f64) -> Matrix {
+    let mut matrix = Matrix::new(2 * mesh.nodes.len());
+    for (t, triangle) in mesh.triangles.iter().enumerate() {
+        let share = density * double_area(&mesh.corners(t)) / 24.0;
+        for i in triangle {
+            for j in triangle {
+                let value = if i == j { 2.0 * share } else { share };
+                (0..2).for_each(|axis| matrix.add(2 * i + axis, 2 * j + axis, value));
+            }
+        }
+    }
+    matrix
+}
+
+/// `ρ ∫ N (v·∇N)` [kg/(m s)] for a velocity field [m/s], to be taken twice the velocities of the nodes.
+pub fn gyroscopic(mesh: &Mesh, density: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Matrix {
+    let mut matrix = Matrix::new(2 * mesh.nodes.len());
+    for (t, triangle) in mesh.triangles.iter().enumerate() {
+        let corners = mesh.corners(t);
+        let slopes = linear_gradients(&corners);
+        for point in points(&corners, Order::Linear) {
+            let v = velocity(point.place);
+            for (value, i) in point.shape.values.iter().zip(triangle) {
+                for (slope, j) in slopes.iter().zip(triangle) {
+                    let part = density * point.weight * value * (v[0] * slope[0] + v[1] * slope[1]);
+                    (0..2).for_each(|axis| matrix.add(2 * i + axis, 2 * j + axis, part));
+                }
+            }
+        }
+    }
+    matrix
+}
+
+/// `ρ ∮ (c_P n n + c_S t t) N N` [kg/(m s)] on the vertical ends of a plate (Lysmer and Kuhlemeyer; \[A] 2.5), for Young's modulus
+/// \[Pa], Poisson's ratio and density [kg/m³].
+pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) -> Matrix {
+    let shear = 0.5 * young / (1.0 + poisson);
+    let pressure = 2.0 * shear * (1.0 - poisson) / (1.0 - 2.0 * poisson);
+    let impedance = [pressure, shear].map(|modulus| (density * modulus).sqrt());
+    let mut matrix = Matrix::new(2 * mesh.nodes.len());
+    let at_end = |node: usize| mesh.nodes[node][0].abs() > 0.5 * plate.length - 1e-9;
+    for (a, b) in mesh.boundary().into_iter().filter(|(a, b)| at_end(*a) && at_end(*b)) {
+        let length = (mesh.nodes[a][1] - mesh.nodes[b][1]).abs();
+        for (i, j, share) in [(a, a, 2.0), (b, b, 2.0), (a, b, 1.0), (b, a, 1.0)] {
+            (0..2).for_each(|axis| matrix.add(2 * i + axis, 2 * j + axis, impedance[axis] * length * share / 6.0));
+        }
+    }
+    matrix
 }
 
 /// Sums area times `entry(∇N_a, ∇N_b, p, q, triangle)` over all pairs of nodes and directions.

@@ -33,6 +33,8 @@ const TOLERANCE: f64 = 1e-9;
 const ITERATIONS: usize = 80;
 /// Halvings of a step at most.
 const HALVINGS: usize = 14;
+/// Full steps at most that are taken although the residual grows: nodes that change segments or touch anew make it jump.
+const JUMPS: usize = 6;
 
 /// An iteration on a system.
 pub struct Newton<'a> {
@@ -129,6 +131,7 @@ impl Newton<'_> {
     pub fn solve(&self, start: &State) -> Result<(State, usize), Error> {
         let mut state = start.clone();
         let mut residual = self.size(&self.residual(&state).0);
+        let mut jumps = 0;
         for iterations in 0..ITERATIONS {
             if residual < TOLERANCE {
                 return Ok((state, iterations));
@@ -139,10 +142,12 @@ impl Newton<'_> {
                 let size = self.size(&self.residual(&next).0);
                 (next, size)
             };
-            let Some((next, size)) = (0..HALVINGS).map(try_share).find(|(_, size)| *size < residual) else {
+            let better = (0..HALVINGS).map(try_share).find(|(_, size)| *size < residual);
+            jumps += usize::from(better.is_none());
+            if jumps > JUMPS {
                 return Err(Error::NotConverged { iterations, residual });
-            };
-            (state, residual) = (next, size);
+            }
+            (state, residual) = better.unwrap_or_else(|| try_share(0));
         }
         Err(Error::NotConverged { iterations: ITERATIONS, residual })
     }
@@ -176,7 +181,8 @@ pub fn frictionless(system: &System) -> Result<State, Error> {
 }
 
 /// Rolling by velocity stepping (\[C] 5.3): velocities grow from a thousandth to their full values by factors of √10 with the
-/// creepage kept; a step that fails is halved on the logarithmic scale. Returns the state and all Newton steps.
+/// creepage kept; a step that fails is halved on the logarithmic scale. The steps are taken on the contact
+/// alone, which changes nothing but their cost. Returns the state and all Newton steps.
 pub fn rolling(system: &System, motion: Motion) -> Result<(State, usize), Error> {
     let mut state = frictionless(system)?;
     let newton = Newton { system, law: system.parameters.law, drive: Drive::Velocity };
@@ -184,11 +190,16 @@ pub fn rolling(system: &System, motion: Motion) -> Result<(State, usize), Error>
     loop {
         let scale = (reached * factor).min(1.0);
         state.motion = Motion { omega: scale * motion.omega, velocity: scale * motion.velocity };
-        match newton.solve(&state) {
+        let solved = Condensed::new(system, state.motion).and_then(|condensed| condensed.solve(&newton, &state));
+        match solved {
             Ok((next, steps)) => {
                 (state, reached, count) = (next, scale, count + steps);
                 if scale == 1.0 {
-                    return Ok((state, count));
+                    // All other unknowns are linear: one assembled step finds them.
+                    let step = newton.step(&state)?;
+                    return newton
+                        .solve(&newton.moved(&state, &step, 1.0))
+                        .map(|(state, steps)| (state, count + steps));
                 }
             }
             Err(error) if factor < 1.02 => return Err(error),
@@ -245,14 +256,25 @@ impl Condensed {
         Ok(Self { kept, stiffness, load })
     }
 
-    /// The next values of the kept unknowns after a full Newton step from a state.
-    pub fn next(&self, newton: &Newton<'_>, state: &State) -> Option<DVector<f64>> {
+    /// Values of the kept unknowns of a state.
+    fn values(&self, state: &State) -> DVector<f64> {
+        DVector::from_iterator(self.kept.len(), self.kept.iter().map(|i| state.q[*i]))
+    }
+
+    /// A state with other values of the kept unknowns; the eliminated ones are left as they are.
+    fn state(&self, before: &State, values: &DVector<f64>) -> State {
+        let mut state = before.clone();
+        self.kept.iter().zip(values.iter()).for_each(|(i, value)| state.q[*i] = *value);
+        state
+    }
+
+    /// Residual on the kept unknowns, and its derivative.
+    fn equations(&self, newton: &Newton<'_>, state: &State) -> (DVector<f64>, DMatrix<f64>) {
         let system = newton.system;
         let mut place = vec![None; system.size];
         self.kept.iter().enumerate().for_each(|(k, i)| place[*i] = Some(k));
-        let now = DVector::from_iterator(self.kept.len(), self.kept.iter().map(|i| state.q[*i]));
         let mut tangent = self.stiffness.clone();
-        let mut residual = &self.stiffness * &now - &self.load;
+        let mut residual = &self.stiffness * self.values(state) - &self.load;
         for touch in system.touches(&system.expand(&state.q), state.motion, newton.law) {
             for (row, force) in [touch.nodes[0], touch.nodes[2], touch.nodes[3]].into_iter().zip(touch.forces.on) {
                 for (axis, part) in force.iter().enumerate() {
@@ -265,6 +287,41 @@ impl Condensed {
                 }
             }
         }
-        tangent.lu().solve(&residual).map(|step| now - step)
+        (residual, tangent)
+    }
+
+    /// The next values of the kept unknowns after a full Newton step from a state.
+    pub fn next(&self, newton: &Newton<'_>, state: &State) -> Option<DVector<f64>> {
+        let (residual, tangent) = self.equations(newton, state);
+        tangent.lu().solve(&residual).map(|step| self.values(state) - step)
+    }
+
+    /// Solves from a start as [`Newton::solve`] does, which takes the same steps; of the result only the kept unknowns are true.
+    pub fn solve(&self, newton: &Newton<'_>, start: &State) -> Result<(State, usize), Error> {
+        let load = newton.system.parameters.load;
+        let mut state = start.clone();
+        let (mut residual, mut tangent) = self.equations(newton, &state);
+        let mut jumps = 0;
+        for iterations in 0..ITERATIONS {
+            let size = residual.norm() / load;
+            if size < TOLERANCE {
+                return Ok((state, iterations));
+            }
+            let singular = Error::Singular { size: self.kept.len(), reason: "contact".into() };
+            let (now, step) = (self.values(&state), tangent.lu().solve(&residual).ok_or(singular)?);
+            let try_share = |k: usize| {
+                let next = self.state(&state, &(&now - 0.5_f64.powi(k as i32) * &step));
+                let equations = self.equations(newton, &next);
+                (next, equations)
+            };
+            let better = (0..HALVINGS).map(try_share).find(|(_, (after, _))| after.norm() < residual.norm());
+            jumps += usize::from(better.is_none());
+            if jumps > JUMPS {
+                return Err(Error::NotConverged { iterations, residual: size });
+            }
+            let (next, equations) = better.unwrap_or_else(|| try_share(0));
+            (state, (residual, tangent)) = (next, equations);
+        }
+        Err(Error::NotConverged { iterations: ITERATIONS, residual: residual.norm() / load })
     }
 }

@@ -34,7 +34,11 @@ pub fn coarse(plate: Plate, columns: usize, rows: usize) -> Mesh {
 /// The thesis's plate: `columns` by seven nodes, refined in a box of `2 patch × patch` \[m] under the contact until edges are
 /// shorter than `size` \[m].
 pub fn rolling(plate: Plate, columns: usize, patch: f64, size: f64) -> Mesh {
-    let mut mesh = coarse(plate, columns, 7);
+    refined(coarse(plate, columns, 7), patch, size)
+}
+
+/// A mesh refined in a box of `2 patch × patch` \[m] about the origin until edges are shorter than `size` \[m].
+pub fn refined(mut mesh: Mesh, patch: f64, size: f64) -> Mesh {
     let reaches = |corners: &[[f64; 2]; 3]| {
         let (left, right) = (corners.iter().map(|c| c[0]), corners.iter().map(|c| c[0]));
         let (left, right) = (left.fold(f64::INFINITY, f64::min), right.fold(f64::NEG_INFINITY, f64::max));

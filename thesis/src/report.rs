@@ -51,7 +51,10 @@ pub fn html(figures: &[(Figure, f64)], quoted: &[Quoted]) -> String {
             badge(figure.status)
         );
     }
-    let _ = write!(page, "</table><p class=\"open\">Not recomputed yet: {}.</p>", MISSING.join(", "));
+    page += "</table>";
+    if !MISSING.is_empty() {
+        let _ = write!(page, "<p class=\"open\">Not recomputed yet: {}.</p>", MISSING.join(", "));
+    }
     page +=
         "<h2>Errors of the thesis</h2><table><tr><th>place</th><th>it says</th><th>right is</th><th>because</th></tr>";
     for error in errors::ALL {

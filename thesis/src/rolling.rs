@@ -58,7 +58,7 @@ pub struct System {
     /// Number of the wheel's nodes, after which those of the rail come.
     pub wheel_nodes: usize,
     /// Places \[m] in the frame of the rail.
-    places: Vec<[f64; 2]>,
+    pub places: Vec<[f64; 2]>,
     /// Nodes of the tread that may touch, each with the one upstream.
     slaves: Vec<[usize; 2]>,
     /// Nodes of the rail's surface from left to right.
@@ -146,7 +146,8 @@ impl System {
     /// Where the bodies touch; `law` replaces the system's own.
     pub fn touches(&self, u: &[f64], motion: Motion, law: Law) -> Vec<Touch> {
         let at = |node: usize| [u[2 * node], u[2 * node + 1]];
-        let x = |node: usize| self.places[node][0] + u[2 * node];
+        // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between two normals.
+        let x = |node: usize| self.places[node][0];
         let touch = |&[slave, upstream]: &[usize; 2]| {
             let right = self.masters.partition_point(|node| x(*node) <= x(slave)).clamp(1, self.masters.len() - 1);
             let nodes = [slave, upstream, self.masters[right - 1], self.masters[right]];
@@ -156,6 +157,11 @@ impl System {
             law.forces(&pair, &nodes.map(at), motion.omega, motion.velocity).map(|forces| Touch { nodes, forces })
         };
         self.slaves.iter().filter_map(touch).collect()
+    }
+
+    /// Nodes of the tread that may touch, and those of the rail's surface, each from left to right.
+    pub fn candidates(&self) -> (Vec<usize>, &[usize]) {
+        (self.slaves.iter().map(|[slave, _]| *slave).collect(), &self.masters)
     }
 
     /// Unknowns on which contact forces can act or depend.

@@ -28,6 +28,28 @@ impl Matrix {
         self.entries.push((row, column, value));
     }
 
+    /// Sum of matrices of one size, each times its factor, compressed.
+    pub fn sum(parts: &[(f64, &Self)]) -> Self {
+        let size = parts.iter().map(|(_, part)| part.size).max().unwrap_or_default();
+        let scaled = |(factor, part): &(f64, &Self)| {
+            let factor = *factor;
+            part.entries.iter().map(|(i, j, value)| (*i, *j, factor * value)).collect::<Vec<_>>()
+        };
+        Self { size, entries: parts.iter().flat_map(scaled).collect() }.compressed()
+    }
+
+    /// The same matrix with one entry for each position.
+    pub fn compressed(mut self) -> Self {
+        self.entries.sort_unstable_by_key(|(i, j, _)| (*i, *j));
+        self.entries.dedup_by(|next, kept| {
+            let same = (next.0, next.1) == (kept.0, kept.1);
+            kept.2 += if same { next.2 } else { 0.0 };
+            same
+        });
+        self.entries.retain(|entry| entry.2 != 0.0);
+        self
+    }
+
     /// `A x`.
     pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.size];

@@ -103,26 +103,39 @@ fn polygon_area(mesh: &Mesh, nodes: &[usize]) -> f64 {
     corners.iter().enumerate().map(|(i, a)| 0.5 * (a[0] * next(i)[1] - a[1] * next(i)[0])).sum()
 }
 
-/// Mesh of a rolling wheel as \[A] 3.1 and \[C] 5.1 build it: refined in ever smaller discs about the contact, the last one with a
-/// radius of at least `patch` \[m], until the edges there would be shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the
-/// longest edges of the tread, the round rims, and the centre of gravity.
+/// Mesh of a rolling wheel as \[C] 5.1 builds it: refined about the contact, as `graded` does, until the edges there would be
+/// shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the longest edges of
+/// the tread, the round rims, and the centre of gravity.
 pub fn rolling(annulus: Annulus, patch: f64, size: f64, global: usize, poisson: f64) -> Result<Mesh, Error> {
+    let mut mesh = graded(annulus, patch, size * 2.0_f64.powf(0.5 * global as f64), global);
+    refine_tread(&mut mesh, annulus);
+    make_round(&mut mesh, annulus);
+    centre(&mut mesh, annulus, poisson)?;
+    Ok(mesh)
+}
+
+/// Mesh of a rolling wheel as \[A] 3.1 builds it: refined about the contact, then as a whole, then with round rims.
+pub fn early(annulus: Annulus, patch: f64, base: f64, global: usize) -> Mesh {
+    let mut mesh = graded(annulus, patch, base, global);
+    make_round(&mut mesh, annulus);
+    mesh
+}
+
+/// Refined in ever smaller discs about the contact, the last one with a radius of at least `patch` \[m], until edges there are
+/// shorter than `base` \[m]; then `global` refinements of everything.
+fn graded(annulus: Annulus, patch: f64, base: f64, global: usize) -> Mesh {
     let mut mesh = coarse(&[annulus.inner, (annulus.inner * annulus.outer).sqrt(), annulus.outer], 12);
-    let before = size * 2.0_f64.powf(0.5 * global as f64);
     let mut disc = 0.5 * annulus.outer;
     while disc > patch {
         let within = |corner: &[f64; 2]| corner[0].hypot(corner[1] + annulus.outer) < disc;
-        let coarse = if disc < 2.0 * patch { before } else { 0.5 * disc };
+        let coarse = if disc < 2.0 * patch { base } else { 0.5 * disc };
         rivara::refine_while(&mut mesh, |corners| {
             corners.iter().any(within) && rivara::longest(corners) > coarse * coarse
         });
         disc *= 0.5;
     }
     rivara::refine_all(&mut mesh, global);
-    refine_tread(&mut mesh, annulus);
-    make_round(&mut mesh, annulus);
-    centre(&mut mesh, annulus, poisson)?;
-    Ok(mesh)
+    mesh
 }
 
 /// Cuts triangles at the tread until no edge of it is longer than a fiftieth of its length.
@@ -152,7 +165,7 @@ pub fn unstructured(annulus: Annulus, size: f64, disorder: f64) -> Mesh {
     let rings = 4;
     let radius = |k: i32| annulus.inner * (annulus.outer / annulus.inner).powf(f64::from(k) / f64::from(rings));
     let mut mesh = coarse(&(0..=rings).map(radius).collect::<Vec<_>>(), 9);
-    rivara::refine_while(&mut mesh, |corners| rivara::longest(corners) > size * size);
+    rivara::refine_unevenly_while(&mut mesh, |corners| rivara::longest(corners) > size * size);
     make_round(&mut mesh, annulus);
     let boundary: std::collections::BTreeSet<usize> = mesh.boundary().into_iter().flat_map(|(a, b)| [a, b]).collect();
     let mut nearest = vec![f64::INFINITY; mesh.nodes.len()];

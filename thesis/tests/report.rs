@@ -6,8 +6,8 @@ use wheelrail_thesis::quoted::Status;
 use wheelrail_thesis::{errors, quoted, report};
 
 /// Figures that are computed here; `make thesis` computes all of them.
-const QUICK: [&str; 13] =
-    ["I 4.2", "I 5.1", "A text", "A 12", "A 5–6", "B 5", "B 6", "B 7", "B 13", "C 7", "C 12", "D 6", "D 18"];
+const QUICK: [&str; 12] =
+    ["I 4.2", "I 5.1", "A text", "A 5–6", "A 7", "B 5", "B 6", "B 7", "B 13", "B 18–19", "C 7", "D 6"];
 
 /// The quick figures, each with a time.
 fn figures() -> Vec<(Figure, f64)> {
@@ -30,7 +30,7 @@ fn every_figure_shows_what_it_must_and_every_quoted_number_has_its_status() {
     let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
     let known = |entry: &quoted::Quoted| entry.computed.as_ref().is_none_or(|name| values.contains_key(name));
     let compared: Vec<_> = quoted::all().unwrap().into_iter().filter(known).collect();
-    assert!(compared.iter().filter(|entry| entry.computed.is_some()).count() >= 9);
+    assert!(compared.iter().filter(|entry| entry.computed.is_some()).count() >= 4);
     for entry in &compared {
         assert_eq!(entry.holds(&values), Ok(true), "{} {}", entry.item, entry.quantity);
     }
@@ -66,17 +66,14 @@ fn a_figure_that_nothing_tests_is_refused() {
     assert_eq!(figure.flaws(), ["I 4.2: nothing tests it"]);
 }
 
-/// A number is open only where its item, or a part of it that is named here, is not recomputed.
+/// A number is open exactly where its item is not recomputed.
 #[test]
 fn quoted_numbers_belong_to_items_and_open_ones_to_what_is_missing() {
     let done: BTreeSet<&str> = ALL.iter().map(|(name, _)| *name).collect();
-    // Sentences and a mesh whose contact is not recomputed, though their item is.
-    let partly = ["A text", "A 12", "B text"];
     for entry in quoted::all().unwrap() {
         let item = entry.item.as_str();
-        assert!(ITEMS.contains(&item) || item == "B text", "{item}");
+        assert!(ITEMS.contains(&item), "{item}");
         let open = entry.status == Status::Open;
-        assert!(!(open && done.contains(item)) || partly.contains(&item), "{item} {}", entry.quantity);
-        assert!(open || done.contains(item), "{item} {}", entry.quantity);
+        assert!(open != done.contains(item), "{item} {}", entry.quantity);
     }
 }

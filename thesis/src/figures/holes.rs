@@ -1,0 +1,352 @@
+//! Sharp holes: Paper A figures 13 and 14, Paper B figures 18 and 19, Paper D figures 19 to 21.
+
+use super::mesh_heat::{self, ANNULUS, PLATE};
+use super::{Figure, corrugation::standard, curve, must};
+use crate::annulus::OUTER;
+use crate::ours::{Product, Run};
+use crate::paper_a::{self as a, LOAD, SPEED, STEP, case};
+use crate::plot::{Curve, Plot, Source};
+use crate::quoted::Status;
+use crate::transient::{Case, Rolling};
+use wheelrail::analytic::{contact_modulus, hertz_half_width};
+use wheelrail::config::RailEnds;
+
+/// Smallest and largest force over a load.
+fn extremes(points: &[[f64; 2]], load: f64) -> [f64; 2] {
+    let fold = |pick: fn(f64, f64) -> f64, from: f64| points.iter().fold(from, |found, point| pick(found, point[1]));
+    [fold(f64::min, f64::MAX) / load, fold(f64::max, f64::MIN) / load]
+}
+
+fn hole(position: f64, length: f64, depth: f64) -> String {
+    format!("hole(position = {position:?}, length = {length:?}, depth = {depth:?})")
+}
+
+/// Place of Paper A's hole, its length and its depth \[m]; the depth is assumed.
+const DISCONTINUITY: [f64; 3] = [0.03, 5e-3, 1e-4];
+
+/// The product over that hole: force over the way.
+fn over(velocity: f64, damping: f64, elements: usize, step: f64) -> Result<Vec<[f64; 2]>, String> {
+    let [at, length, depth] = DISCONTINUITY;
+    let product = a::product(&hole(at, length, depth), |config| {
+        config.damping.rayleigh_stiffness = damping;
+        config.mesh.elements_per_half_width = elements;
+    })?;
+    a::follow(&mut product.rolling(velocity, 0.0, |_| ())?, step, (0.12 / velocity / step) as usize)
+}
+
+/// Pressure on the nodes of the tread when the middle of the hole is at three places \[m] ahead of the contact, by the thesis's method.
+fn instants(places: [f64; 3]) -> Result<Vec<Vec<[f64; 2]>>, String> {
+    let mesh = standard();
+    let profile = a::profile(&hole(DISCONTINUITY[0], DISCONTINUITY[1], DISCONTINUITY[2]))?;
+    let height = |x: f64| profile.height(x);
+    let said = |error: crate::Error| error.to_string();
+    let mut rolling = Rolling::new(case(), &mesh.wheel, &mesh.rail, &height).map_err(said)?;
+    let mut found = Vec::new();
+    for place in places {
+        while rolling.way < DISCONTINUITY[0] - place {
+            rolling.advance(&height).map_err(said)?;
+        }
+        found.push(rolling.pressure());
+    }
+    Ok(found)
+}
+
+/// Number of separate parts of the contact.
+fn patches(pressure: &[[f64; 2]]) -> usize {
+    let touches: Vec<bool> = pressure.iter().map(|point| point[1] > 0.0).collect();
+    touches.iter().zip(std::iter::once(&false).chain(&touches)).filter(|(now, before)| **now && !**before).count()
+}
+
+/// Figures A 13 and 14: a hole of 5 mm at three velocities, and the nodal forces on it.
+pub fn discontinuity() -> Result<Figure, String> {
+    let kmh = [50.0, 100.0, 150.0];
+    let [at, length, depth] = DISCONTINUITY;
+    let text = hole(at, length, depth);
+    let steps = |velocity: f64, step: f64| (0.12 / velocity / step) as usize;
+    let (mut curves, mut theirs) = (Vec::new(), Vec::new());
+    for v in kmh.map(|kmh| kmh / 3.6) {
+        let shown = |points: &[[f64; 2]]| points.iter().map(|[way, f]| [1e3 * (way - at), f / LOAD]).collect();
+        let ours = over(v, a::DAMPING, 10, STEP)?;
+        let method = a::history(Case { velocity: v, ..case() }, &standard(), &text, steps(v, STEP))?;
+        theirs.push(extremes(&method, LOAD));
+        curves.push(curve(Source::Ours, format!("ours, {:.0} km/h", 3.6 * v), shown(&ours)));
+        curves.push(curve(Source::Method, format!("thesis's method, {:.0} km/h", 3.6 * v), shown(&method)));
+    }
+    let damped =
+        [1.0, 2.0, 4.0, 8.0].map(|share| over(SPEED, a::DAMPING, 10, STEP / share).map(|p| extremes(&p, LOAD)));
+    let damped = damped.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let smooth =
+        [(10, 5e-6), (10, 2.5e-6), (20, 5e-6)].map(|(n, step)| over(SPEED, 0.0, n, step).map(|p| extremes(&p, LOAD)));
+    let smooth = smooth.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let change = |b: [f64; 2], c: [f64; 2]| (b[0] - c[0]).abs().max((b[1] - c[1]).abs());
+    let (grows, settles) = (damped[3][1] - damped[0][1], change(smooth[0], smooth[1]));
+    let forces = instants([2e-3, -1e-3, -5e-3])?;
+    let names = ["2 mm ahead", "1 mm behind", "5 mm behind"];
+    let nodal = forces.iter().zip(names).map(|(points, name)| {
+        let points = points.iter().map(|[x, p]| [1e3 * x, 1e-6 * p]).collect();
+        curve(Source::Method, format!("middle of the hole {name}"), points)
+    });
+    let list = damped.iter().map(|e| format!("{:.3}", e[1])).collect::<Vec<_>>().join(", ");
+    let most = forces.iter().map(|points| patches(points)).max().unwrap_or_default();
+    Ok(Figure {
+        item: "A 13–14",
+        title: "Force and nodal forces over a sharp hole of 5 mm",
+        status: Status::NotStated,
+        parameters: "Hole of 5 mm; its depth, 0.1 mm, 50 and 150 km/h and the instants are assumed. Drawn with the thesis's 5e-5 s and α₁ = 1e-4 s.",
+        finding: format!(
+            "At 100 km/h the hole passes in 0.54 ms, 11 steps of the thesis. With its damping, shorter steps find more and more force: {list} of the \
+             load at 50, 25, 12.5 and 6.25 µs — not converged, since stiffness-proportional damping resists a jump without bound. Without damping \
+             {:.3} to {:.3} of the load, and {settles:.4} of it change with half the step. The thesis's method on a mesh of its size finds {:.3} to {:.3}.",
+            smooth[1][0], smooth[1][1], theirs[1][0], theirs[1][1]
+        ),
+        plots: vec![
+            Plot { axes: ["way from the middle of the hole in mm".into(), "force over load".into()], curves },
+            Plot { axes: ["place in mm".into(), "nodal force over length in MPa".into()], curves: nodal.collect() },
+        ],
+        values: vec![
+            ("a13.least".into(), smooth[1][0]),
+            ("a13.largest".into(), smooth[1][1]),
+            ("a13.damped.50".into(), damped[0][1]),
+            ("a13.damped.6".into(), damped[3][1]),
+        ],
+        predicates: vec![
+            must(format!("undamped, half the step changes less than 0.01 of the load: {settles:.4}"), settles < 0.01),
+            must(
+                format!("undamped, half the elements change less than 0.03 of it: {:.4}", change(smooth[0], smooth[2])),
+                change(smooth[0], smooth[2]) < 0.03,
+            ),
+            must(
+                format!(
+                    "damped, the largest force grows with every shorter step, by more than 0.01 in all: {grows:.3}"
+                ),
+                grows > 0.01 && damped.windows(2).all(|pair| pair[1][1] > pair[0][1]),
+            ),
+            must(format!("local loss of contact: {most} parts by the thesis's method"), most == 2),
+        ],
+    })
+}
+
+/// Paper B's load [N/m] and velocity [m/s].
+const B: [f64; 2] = [10e3, 50.0 / 3.6];
+
+/// Half of a contact on the wheel of Papers B to D \[m].
+fn half_width(load: f64) -> f64 {
+    hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
+}
+
+/// Way \[m] and force [N/m].
+type Points = Vec<[f64; 2]>;
+
+/// Place of Paper B's hole, its length and depth \[m]; the depth is assumed. Time that is looked at \[s].
+const SMALL: [f64; 3] = [1e-3, 0.2e-3, 20e-6];
+const DURATION: f64 = 2.5e-4;
+
+/// The product over that hole: force over the way, largest number of patches, pressure at four instants.
+fn over_small(step: f64) -> Result<(Points, u64, Vec<Curve>), String> {
+    let product = Product::with("paper_b", |config| {
+        config.thermal.enabled = false;
+        config.tuning.tolerance = 0.0;
+        config.rail.profile = hole(SMALL[0], SMALL[1], SMALL[2]);
+    })?;
+    let mut run = product.rolling(B[1], 0.0, |_| ())?;
+    let (mut points, mut patches, mut shots) = (Vec::new(), 0, Vec::new());
+    for k in 0..(DURATION / step).round() as usize {
+        run.advance(step)?;
+        points.push([run.outputs().wheel_distance, run.outputs().contact_force_y]);
+        patches = patches.max(run.outputs().contact_patches);
+        let time = (k as f64 + 1.0) * step;
+        for instant in [50e-6, 66e-6, 78e-6, 100e-6] {
+            if (time - instant).abs() < 0.4 * step {
+                shots.push(curve(Source::Ours, format!("{:.0} µs", 1e6 * instant), pressure(&run)));
+            }
+        }
+    }
+    Ok((points, patches, shots))
+}
+
+/// The same by the thesis's scheme: backward Euler, steps of 1 µs, no damping.
+fn small_by_the_thesis() -> Result<Vec<[f64; 2]>, String> {
+    let [load, velocity] = B;
+    let [wheel, rail] = mesh_heat::meshes(load, mesh_heat::BASE, 2)?;
+    let (step, reach) = (1e-6, 2.5 * half_width(load));
+    let bodies = Case { annulus: ANNULUS, plate: PLATE, ends: RailEnds::Free, reach, ..case() };
+    let theirs = Case { load, velocity, damping: 0.0, step, theta: 1.0, ..bodies };
+    let text = hole(SMALL[0], SMALL[1], SMALL[2]);
+    a::history(theirs, &a::Meshes { wheel, rail }, &text, (DURATION / step).round() as usize)
+}
+
+/// Figures B 18 and 19: a hole of 0.2 mm under a rolling wheel without friction.
+pub fn small() -> Result<Figure, String> {
+    let [load, velocity] = B;
+    let (length, a) = (SMALL[1], half_width(load));
+    let ((coarse, ..), (points, patches, shots)) = (over_small(1e-6)?, over_small(5e-7)?);
+    let method = small_by_the_thesis()?;
+    let (ours, first, own) = (extremes(&points, load), extremes(&coarse, load), extremes(&method, load));
+    let settles = (ours[0] - first[0]).abs().max((ours[1] - first[1]).abs());
+    let passage = (length + 2.0 * a) / velocity;
+    let shown = |points: &[[f64; 2]]| points.iter().map(|[way, f]| [1e6 * way / velocity, 1e-3 * f]).collect();
+    Ok(Figure {
+        item: "B 18–19",
+        title: "Pressure and force over a sharp hole of 0.2 mm",
+        status: Status::Qualitative,
+        parameters: "Base of Paper B, 50 km/h, no friction, no damping, hole of 0.2 mm; depth, 20 µm, and instants are assumed; steps of 0.5 µs (thesis \
+                     1 µs, as its own method here, backward Euler). No heat.",
+        finding: format!(
+            "{:.3} to {:.3} kN/m in ours, {:.3} to {:.3} by the thesis's method with linear triangles; the lowest tick at hand of the figure's axis is 9.85, \
+             the highest 10.1 kN: the thesis's force falls less, or below its axis. The hole passes in {:.0} µs and splits the contact in {patches}.",
+            1e-3 * load * ours[0],
+            1e-3 * load * ours[1],
+            1e-3 * load * own[0],
+            1e-3 * load * own[1],
+            1e6 * passage
+        ),
+        plots: vec![
+            Plot { axes: ["place in mm".into(), "pressure in MPa".into()], curves: shots },
+            Plot {
+                axes: ["time in µs".into(), "force in kN/m".into()],
+                curves: vec![
+                    curve(Source::Ours, "ours", shown(&points)),
+                    curve(Source::Method, "thesis's method", shown(&method)),
+                    curve(
+                        Source::Quoted,
+                        "ends of the axis",
+                        vec![[0.0, 9.85], [250.0, 9.85], [250.0, 10.1], [0.0, 10.1]],
+                    ),
+                ],
+            },
+        ],
+        values: vec![
+            ("b19.least".into(), load * ours[0]),
+            ("b19.largest".into(), load * ours[1]),
+            ("b19.passage".into(), passage),
+        ],
+        predicates: vec![
+            must(format!("largest force within the axis of the figure: {:.4}", ours[1]), ours[1] < 1.01),
+            must(format!("half the step changes less than 0.002 of the load: {settles:.5}"), settles < 2e-3),
+            must("the contact is split in two", patches == 2),
+            must("the force falls over the hole and rises behind it", ours[0] < 0.998 && ours[1] > 1.0005),
+            must(
+                format!("the thesis's method falls as far within 30 %: {:.3}", (1.0 - own[0]) / (1.0 - ours[0])),
+                ((1.0 - own[0]) / (1.0 - ours[0]) - 1.0).abs() < 0.3,
+            ),
+        ],
+    })
+}
+
+/// Pressure in MPa over the place in mm.
+fn pressure(run: &Run) -> Vec<[f64; 2]> {
+    let pressure = &run.traction().pressure;
+    pressure.x.iter().zip(&pressure.value).map(|(x, p)| [1e3 * x, 1e-6 * p]).collect()
+}
+
+/// Paper D's hole: place of its middle, length and depth \[m]; the depth is assumed, the place follows from the first instant.
+const SHARP: [f64; 3] = [2.26e-3, 0.5e-3, 20e-6];
+
+/// A locked wheel over that hole: time \[s], force over load, temperatures over the reference at the contact point of wheel and rail.
+fn locked(damping: f64, elements: usize, heat: bool, step: f64, duration: f64) -> Result<Vec<[f64; 4]>, String> {
+    let product = Product::with("paper_d", |config| {
+        config.thermal.enabled = heat;
+        config.mesh.elements_per_half_width = elements;
+        config.tuning.tolerance = 0.0;
+        config.damping.rayleigh_stiffness = damping;
+        config.rail.profile = hole(SHARP[0], SHARP[1], SHARP[2]);
+    })?;
+    let load = product.config().model.nominal_load;
+    let mut run = product.rolling(50.0 / 3.6, 2.0, |inputs| inputs.drive.omega = 0.0)?;
+    let see = |time: f64, run: &Run| {
+        let warmth = run.warmth();
+        [time, run.outputs().contact_force_y / load, warmth.wheel_centre, warmth.rail_centre]
+    };
+    let mut points = vec![see(0.0, &run)];
+    for k in 1..=(duration / step).round() as usize {
+        run.advance(step)?;
+        points.push(see(k as f64 * step, &run));
+    }
+    Ok(points)
+}
+
+fn plot(axis: &str, curves: Vec<Curve>) -> Plot {
+    Plot { axes: ["time in ms".into(), axis.into()], curves }
+}
+
+/// Figures D 19 to 21: temperatures and force as a locked wheel slides over a hole of 0.5 mm.
+pub fn sharp() -> Result<Figure, String> {
+    let forces = |points: &[[f64; 4]]| extremes(&points.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>(), 1.0);
+    let (coarse, fine) = (forces(&locked(0.0, 40, false, 5e-6, 1e-3)?), forces(&locked(0.0, 40, false, 2.5e-6, 1e-3)?));
+    let damped =
+        [1e-5, 5e-6, 2.5e-6].map(|step| locked(a::DAMPING, 20, false, step, 1e-3).map(|points| forces(&points)));
+    let damped = damped.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let warm = locked(a::DAMPING, 20, true, 1e-5, 1e-2)?;
+    let (a, velocity, load) = (half_width(100e3), B[1], 100e3);
+    let [reaches, leaves] = [-1.0, 1.0].map(|sign| (SHARP[0] + sign * (0.5 * SHARP[1] + a)) / velocity);
+    let start = warm[0];
+    let over = |body: usize| warm.iter().filter(|p| p[0] <= leaves + 1e-5).map(move |p| p[body] - start[body]);
+    let (rise, fall) = (over(2).fold(0.0, f64::max), -over(3).fold(0.0, f64::min));
+    let points = |body: usize, until: f64, scale: f64| {
+        let kept = warm.iter().filter(|p| p[0] <= until);
+        kept.map(|p| [1e3 * p[0], scale * p[body]]).collect::<Vec<_>>()
+    };
+    let marks = |low: f64, high: f64| {
+        [(reaches, "reached"), (leaves, "left")].map(|(t, name)| {
+            curve(Source::Exact, name, (0..=20).map(|i| [1e3 * t, low + (high - low) * f64::from(i) / 20.0]).collect())
+        })
+    };
+    let mut zoom =
+        vec![curve(Source::Ours, "wheel", points(2, 4.6e-4, 1.0)), curve(Source::Ours, "rail", points(3, 4.6e-4, 1.0))];
+    zoom.extend(marks(start[3] - fall, start[2] + rise));
+    let settles = (fine[0] - coarse[0]).abs().max((fine[1] - coarse[1]).abs());
+    let list = |k: usize| damped.iter().map(|e| format!("{:.4}", e[k])).collect::<Vec<_>>().join(", ");
+    Ok(Figure {
+        item: "D 19–21",
+        title: "Temperatures and force as a locked wheel slides over a hole of 0.5 mm",
+        status: Status::Qualitative,
+        parameters: "Base of Paper D, locked, 50 km/h; depth of the hole, 20 µm, assumed (5 µm to 1 mm give the same), its middle at 2.26 mm follows from \
+                     t₁. Drawn: 1e-5 s and α₁ = 1e-4 s as the thesis, 20 elements.",
+        finding: format!(
+            "The contact reaches the hole after {:.1} µs and leaves it after {:.1} µs (stated about 90 and 230). Meanwhile the wheel warms by {rise:.3} K and \
+             the rail cools by {fall:.3} K, from {:.2} and {:.2} K: as stated, with the rail's change the larger. Undamped the force goes from {:.4} to {:.4} of \
+             the load, half the step changes {settles:.4}. With the thesis's damping the least force at 10, 5 and 2.5 µs is {}, the largest {}: not converged.",
+            1e6 * reaches,
+            1e6 * leaves,
+            start[2],
+            start[3],
+            fine[0],
+            fine[1],
+            list(0),
+            list(1)
+        ),
+        plots: vec![
+            plot("temperature over the reference in K", zoom),
+            plot(
+                "temperature over the reference in K",
+                vec![
+                    curve(Source::Ours, "wheel", points(2, 1e-2, 1.0)),
+                    curve(Source::Ours, "rail", points(3, 1e-2, 1.0)),
+                ],
+            ),
+            plot("force in kN/m", vec![curve(Source::Ours, "ours", points(1, 1e-2, 1e-3 * load))]),
+        ],
+        values: vec![
+            ("d19.reaches".into(), reaches),
+            ("d19.leaves".into(), leaves),
+            ("d19.rail_fall".into(), fall),
+            ("d21.least".into(), fine[0]),
+            ("d21.largest".into(), fine[1]),
+        ],
+        predicates: vec![
+            must(
+                format!("undamped 0.974 and 1.0058 within 0.003: {:.4}, {:.4}", fine[0], fine[1]),
+                (fine[0] - 0.974).abs() < 3e-3 && (fine[1] - 1.0058).abs() < 3e-3,
+            ),
+            must(format!("undamped, half the step changes less than 0.2 %: {settles:.4}"), settles < 2e-3),
+            must(
+                format!("starts within 1 % of the references 28.64 and 26.40 K: {:.3}, {:.3}", start[2], start[3]),
+                (start[2] / 28.639 - 1.0).abs() < 0.01 && (start[3] / 26.402 - 1.0).abs() < 0.01,
+            ),
+            must(
+                format!("over the hole the wheel warms and the rail cools, by more: {rise:.3}, {fall:.3} K"),
+                rise > 0.0 && fall > rise,
+            ),
+        ],
+    })
+}

@@ -1,0 +1,235 @@
+//! Stationary heat of rolling wheel and rail on triangles (\[B] 2 to 5, \[C] 4): bubbles or SUPG in the wheel, SUPG in the rail,
+//! conductance and friction heat at the nodes in contact.
+//!
+//! The contact is given: its expansion by these temperatures, some micrometres at most, does not act back.
+
+use crate::Error;
+use crate::contact::Law;
+use crate::flow::Flow;
+use crate::mesh::{Mesh, edge};
+use crate::newton::{Drive, Newton, State};
+use crate::rolling::System;
+use crate::sparse::Matrix;
+use crate::stabilise::Scheme;
+use crate::triangle::{Order, Space, points};
+use crate::wheel::{Annulus, rims};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
+
+/// A node of the tread in contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot {
+    /// Node of the wheel.
+    pub slave: usize,
+    /// Ends of the segment of the rail below, with their shares of the node.
+    pub masters: [(usize, f64); 2],
+    /// Length of the tread that it stands for \[m].
+    pub length: f64,
+    /// Friction power [W/m].
+    pub friction: f64,
+}
+
+/// What is heated and how.
+pub struct Heating<'a> {
+    /// Wheel and rail.
+    pub meshes: [&'a Mesh; 2],
+    /// Radii \[m].
+    pub annulus: Annulus,
+    /// Functions and stabilisation of the wheel; the rail is linear with SUPG.
+    pub wheel: (Order, Scheme),
+    /// Heat capacity of the volume [J/(m³ K)] and conductivity [W/(m K)].
+    pub material: [f64; 2],
+    /// Angular velocity [rad/s] and velocity [m/s].
+    pub motion: [f64; 2],
+    /// Nodes in contact.
+    pub spots: &'a [Spot],
+    /// Conductance of the contact [W/(m² K)] and share of the friction power that becomes heat \[1].
+    pub contact: [f64; 2],
+    /// Heat into each of the arcs of 45° at ±90° from the contact [W/m].
+    pub arcs: f64,
+    /// Whether the hub is held at the reference.
+    pub cold_hub: bool,
+}
+
+/// Temperatures over the reference.
+pub struct Warmth {
+    /// Nodes of the wheel.
+    pub space: Space,
+    /// Temperatures \[K] of the wheel's nodes, then of the rail's.
+    pub theta: Vec<f64>,
+    /// Mean temperatures of wheel and rail \[K].
+    pub means: [f64; 2],
+    /// Heat from the wheel to the rail by conduction, and friction heat into both bodies [W/m].
+    pub flows: [f64; 2],
+}
+
+/// Nodes in contact of a mechanical solution, with their friction power.
+pub fn spots(system: &System, state: &State) -> Vec<Spot> {
+    let newton = Newton { system, law: Law { ..system.parameters.law }, drive: Drive::Velocity };
+    let (_, touches) = newton.residual(state);
+    let (tread, _) = system.candidates();
+    let x = |node: usize| system.places[node][0];
+    let spot = |touch: &crate::rolling::Touch| {
+        let [slave, _, left, right] = touch.nodes;
+        let at = tread.iter().position(|node| *node == slave).unwrap_or_default();
+        let (before, after) = (tread[at.saturating_sub(1)], tread[(at + 1).min(tread.len() - 1)]);
+        let on = touch.forces.on;
+        let share = -on[2][1].value / on[0][1].value;
+        Spot {
+            slave,
+            masters: [(left - system.wheel_nodes, 1.0 - share), (right - system.wheel_nodes, share)],
+            length: 0.5 * (x(after) - x(before)),
+            friction: (on[0][0].value * touch.forces.slip.value).abs(),
+        }
+    };
+    touches.iter().map(spot).collect()
+}
+
+impl Heating<'_> {
+    /// Stationary temperatures.
+    pub fn solve(&self) -> Result<Warmth, Error> {
+        let [wheel, rail] = self.meshes;
+        let [omega, velocity] = self.motion;
+        let spaces = [Space::new(wheel, self.wheel.0), Space::new(rail, Order::Linear)];
+        let first = spaces[0].places.len();
+        let size = first + spaces[1].places.len();
+        let (mut matrix, mut load) = (Matrix::new(size), vec![0.0; size]);
+        let turning = |[x, y]: [f64; 2]| [omega * y, -omega * x];
+        let streaming = |_: [f64; 2]| [-velocity, 0.0];
+        let [capacity, conductivity] = self.material;
+        let flows: [&dyn Fn([f64; 2]) -> [f64; 2]; 2] = [&turning, &streaming];
+        for (body, (space, velocity)) in spaces.iter().zip(flows).enumerate() {
+            let flow = Flow { capacity, conductivity, velocity, source: 0.0 };
+            let (order, scheme) = if body == 0 { self.wheel } else { (Order::Linear, Scheme::Supg) };
+            for (t, nodes) in space.elements.iter().enumerate() {
+                let (part, _) = flow.element(&self.meshes[body].corners(t), order, scheme);
+                for (a, row) in nodes.iter().enumerate() {
+                    nodes.iter().enumerate().for_each(|(b, column)| {
+                        matrix.add(row + body * first, column + body * first, part[(a, b)]);
+                    });
+                }
+            }
+        }
+        self.exchange(first, &mut matrix, &mut load);
+        self.heat_arcs(&spaces[0], &mut load);
+        let fixed = self.fixed(&spaces);
+        matrix.fix(&fixed);
+        fixed.iter().for_each(|node| load[*node] = 0.0);
+        let theta = matrix.compressed().factorise()?.solve(load)?;
+        let means = [mean(wheel, &spaces[0], &theta[..first]), mean(rail, &spaces[1], &theta[first..])];
+        let conducted =
+            self.spots.iter().map(|spot| self.contact[0] * spot.length * difference(spot, &theta, first)).sum();
+        let friction = self.contact[1] * self.spots.iter().map(|spot| spot.friction).sum::<f64>();
+        let [space, _] = spaces;
+        Ok(Warmth { space, theta, means, flows: [conducted, friction] })
+    }
+
+    /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.
+    pub fn let_in(&self, warmth: &Warmth) -> f64 {
+        let boundary: std::collections::HashSet<_> = self.meshes[0].boundary().into_iter().collect();
+        let mut sum = 0.0;
+        for nodes in &warmth.space.elements {
+            for i in 0..3 {
+                let (a, b) = (nodes[i], nodes[(i + 1) % 3]);
+                if !boundary.contains(&edge(a, b)) {
+                    continue;
+                }
+                let (p, q) = (warmth.space.places[a], warmth.space.places[b]);
+                let along = [q[0] - p[0], q[1] - p[1]];
+                let value = |node: usize| {
+                    let [x, y] = warmth.space.places[node];
+                    (x * along[0] + y * along[1]) * warmth.theta[node]
+                };
+                // Simpson's rule, exact up to cubics: temperatures are quadratic at most, the velocity is linear.
+                let middle = nodes.get(3 + i).map_or_else(
+                    || {
+                        let place = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
+                        let theta = 0.5 * (warmth.theta[a] + warmth.theta[b]);
+                        (place[0] * along[0] + place[1] * along[1]) * theta
+                    },
+                    |node| value(*node),
+                );
+                sum += (value(a) + 4.0 * middle + value(b)) / 6.0;
+            }
+        }
+        -self.material[0] * self.motion[0] * sum
+    }
+
+    /// Conductance and friction heat, half of it to each side.
+    fn exchange(&self, first: usize, matrix: &mut Matrix, load: &mut [f64]) {
+        for spot in self.spots {
+            let [(left, a), (right, b)] = spot.masters;
+            let sides = [(spot.slave, 1.0), (first + left, -a), (first + right, -b)];
+            for (row, weight) in sides {
+                for (column, share) in sides {
+                    matrix.add(row, column, self.contact[0] * spot.length * weight * share);
+                }
+                load[row] += 0.5 * self.contact[1] * spot.friction * weight.abs();
+            }
+        }
+    }
+
+    /// Heat of both arcs by edges of the tread whose middle lies on them.
+    fn heat_arcs(&self, space: &Space, load: &mut [f64]) {
+        let mesh = self.meshes[0];
+        let (tread, _) = rims(mesh, self.annulus);
+        let on_tread: std::collections::HashSet<usize> = tread.into_iter().collect();
+        let boundary: std::collections::HashSet<_> = mesh.boundary().into_iter().collect();
+        let mut parts = Vec::new();
+        for nodes in &space.elements {
+            for i in 0..3 {
+                let (a, b) = (nodes[i], nodes[(i + 1) % 3]);
+                if boundary.contains(&edge(a, b)) && on_tread.contains(&a) && on_tread.contains(&b) {
+                    let (p, q) = (space.places[a], space.places[b]);
+                    let angle = (p[0] + q[0]).atan2(-p[1] - q[1]).abs();
+                    if (angle - FRAC_PI_2).abs() < FRAC_PI_8 {
+                        parts.push((a, b, nodes.get(3 + i).copied(), (p[0] - q[0]).hypot(p[1] - q[1])));
+                    }
+                }
+            }
+        }
+        let total: f64 = parts.iter().map(|part| part.3).sum();
+        for (a, b, middle, length) in parts {
+            let heat = 2.0 * self.arcs * length / total;
+            let ends = if middle.is_some() { heat / 6.0 } else { 0.5 * heat };
+            (load[a], load[b]) = (load[a] + ends, load[b] + ends);
+            middle.iter().for_each(|node| load[*node] += heat * 4.0 / 6.0);
+        }
+    }
+
+    /// Nodes at the reference: the rail's ends, and the hub where it is cold.
+    fn fixed(&self, spaces: &[Space; 2]) -> Vec<usize> {
+        let end = spaces[1].places.iter().fold(0.0_f64, |most, place| most.max(place[0].abs())) - 1e-9;
+        let first = spaces[0].places.len();
+        let ends = (0..spaces[1].places.len()).filter(|n| spaces[1].places[*n][0].abs() > end).map(|n| n + first);
+        let (_, hub) = rims(self.meshes[0], self.annulus);
+        let hub: std::collections::HashSet<usize> = hub.into_iter().collect();
+        let mut cold: Vec<usize> = Vec::new();
+        for nodes in spaces[0].elements.iter().filter(|_| self.cold_hub) {
+            for i in 0..3 {
+                if hub.contains(&nodes[i]) {
+                    cold.push(nodes[i]);
+                    cold.extend(nodes.get(3 + i).filter(|_| hub.contains(&nodes[(i + 1) % 3])));
+                }
+            }
+        }
+        let mut fixed: Vec<usize> = ends.chain(cold).collect();
+        fixed.sort_unstable();
+        fixed.dedup();
+        fixed
+    }
+}
+
+/// How much warmer the wheel is than the rail at a spot \[K].
+fn difference(spot: &Spot, theta: &[f64], first: usize) -> f64 {
+    theta[spot.slave] - spot.masters.iter().map(|(node, share)| share * theta[first + node]).sum::<f64>()
+}
+
+/// Mean over a body \[K].
+fn mean(mesh: &Mesh, space: &Space, theta: &[f64]) -> f64 {
+    let part = |(t, nodes): (usize, &Vec<usize>)| -> f64 {
+        let value =
+            |p: &crate::triangle::Point| nodes.iter().zip(p.shape.values).map(|(n, v)| v * theta[*n]).sum::<f64>();
+        points(&mesh.corners(t), space.order).iter().map(|point| point.weight * value(point)).sum()
+    };
+    space.elements.iter().enumerate().map(part).sum::<f64>() / mesh.area()
+}
