@@ -15,6 +15,7 @@
 mod bounds;
 mod column;
 mod depth_modes;
+mod elimination;
 mod field;
 mod flows;
 mod layout;
