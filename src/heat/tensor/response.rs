@@ -57,7 +57,6 @@ impl SurfaceResponse {
     fn set_diagonal(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
         let nm = body.modes.len();
         let around = !factor.fill(range, nm)[0].is_empty();
-        self.diagonal.clear();
         self.diagonal.resize(range.len() * nm, 0.0);
         self.moving.clear();
         self.moving.resize(nm, 0.0);
