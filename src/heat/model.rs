@@ -71,6 +71,8 @@ pub struct Observation {
     pub lowest: f64,
     /// Work space: a field summed along the streamlines, or the nodes below one surface node.
     pub(super) sums: Vec<f64>,
+    /// Work space: first moments of the layers.
+    pub(super) moments: Vec<f64>,
 }
 
 /// Mean heat flows over a step, or in the stationary state [W/m].

@@ -37,11 +37,11 @@ vectorised! {
         let (b_fours, b_few) = b.as_chunks::<4>();
         for (a, b) in a_fours.iter().zip(b_fours) {
             for l in 0..4 {
-                sums[l] = simd.add_f64s(sums[l], simd.mul_f64s(a[l], b[l]));
+                sums[l] = simd.mul_add_e_f64s(a[l], b[l], sums[l]);
             }
         }
         for (&a, &b) in a_few.iter().zip(b_few) {
-            sums[0] = simd.add_f64s(sums[0], simd.mul_f64s(a, b));
+            sums[0] = simd.mul_add_e_f64s(a, b, sums[0]);
         }
         let sum = simd.add_f64s(simd.add_f64s(sums[0], sums[1]), simd.add_f64s(sums[2], sums[3]));
         simd.reduce_sum_f64s(sum) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
@@ -57,8 +57,8 @@ pub enum Update {
     Add,
 }
 
-/// Rows of the second factor that are multiplied at a time.
-const TOGETHER: usize = 4;
+/// Rows of the factors that are multiplied at a time.
+const TILE: [usize; 2] = [2, 4];
 
 vectorised! {
     /// The product `A Bᵀ` of two matrices with rows of `width` numbers, a multiple of four; `target` starts with its first entry
@@ -75,22 +75,44 @@ vectorised! {
         update: Update,
     ) {
         let (a, b, k) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0, width / S::F64_LANES);
-        for (i, a) in a.chunks_exact(k).enumerate() {
-            for (block, b) in b.chunks(TOGETHER * k).enumerate() {
-                let mut sums = [simd.splat_f64s(0.0); TOGETHER];
-                for (q, &a) in a.iter().enumerate() {
-                    for (sum, b) in sums.iter_mut().zip(b[q..].iter().step_by(k)) {
-                        *sum = simd.add_f64s(*sum, simd.mul_f64s(a, *b));
+        for (i, a) in a.chunks(TILE[0] * k).enumerate() {
+            for (j, b) in b.chunks(TILE[1] * k).enumerate() {
+                let (rows, columns) = (a.len() / k, b.len() / k);
+                let mut sums = [[simd.splat_f64s(0.0); TILE[1]]; TILE[0]];
+                if rows == TILE[0] && columns == TILE[1] {
+                    let (a, b) = (parts::<_, { TILE[0] }>(a, k), parts::<_, { TILE[1] }>(b, k));
+                    for q in 0..k {
+                        for (sums, a) in sums.iter_mut().zip(a) {
+                            for (sum, b) in sums.iter_mut().zip(b) {
+                                *sum = simd.mul_add_e_f64s(a[q], b[q], *sum);
+                            }
+                        }
+                    }
+                } else {
+                    for (sums, a) in sums.iter_mut().zip(a.chunks_exact(k)) {
+                        for (sum, b) in sums.iter_mut().zip(b.chunks_exact(k)) {
+                            for (&a, &b) in a.iter().zip(b) {
+                                *sum = simd.mul_add_e_f64s(a, b, *sum);
+                            }
+                        }
                     }
                 }
-                let target = &mut target[i * stride + block * TOGETHER..][..b.len() / k];
-                for (target, sum) in target.iter_mut().zip(sums) {
-                    let product = simd.reduce_sum_f64s(sum);
-                    *target = if update == Update::Add { *target + product } else { product };
+                for (row, sums) in sums[..rows].iter().enumerate() {
+                    let target = &mut target[(i * TILE[0] + row) * stride + j * TILE[1]..][..columns];
+                    for (target, &sum) in target.iter_mut().zip(sums) {
+                        let product = simd.reduce_sum_f64s(sum);
+                        *target = if update == Update::Add { *target + product } else { product };
+                    }
                 }
             }
         }
     }
+}
+
+/// Rows of `k` entries each.
+#[inline(always)]
+fn parts<T, const N: usize>(rows: &[T], k: usize) -> [&[T]; N] {
+    std::array::from_fn(|i| &rows[i * k..][..k])
 }
 
 #[cfg(test)]

@@ -7,7 +7,22 @@ use super::stage::{BodyOperator, Stage};
 use crate::heat::model::HeatFlows;
 
 impl Stage {
-    /// Adds `weight` times the heat flows of a stage to their mean.
+    /// Sums the field from which a stage starts along the streamlines.
+    pub fn set_sums(&mut self, heat: &Heat, field: &[f64]) {
+        let (wheel, rail) = field.split_at(heat.wheel.size());
+        heat.wheel.integrate(wheel, &mut self.wheel.sums[0]);
+        heat.rail.integrate(rail, &mut self.rail.sums[0]);
+    }
+
+    /// The same for the field `dt` seconds on, at the rates of the last stage.
+    pub fn advance_sums(&mut self, dt: f64) {
+        for operator in [&mut self.wheel, &mut self.rail] {
+            let [now, change] = &mut operator.sums;
+            now.iter_mut().zip(change).for_each(|(now, change)| *now += dt * *change);
+        }
+    }
+
+    /// Adds `weight` times the heat flows of a stage to their mean; the sums are those of `ends.temperature`.
     pub fn add_flows(
         &mut self,
         heat: &Heat,
@@ -16,11 +31,11 @@ impl Stage {
         weight: f64,
         flows: &mut HeatFlows,
     ) {
-        let StageEnd { temperature, content, rate } = *ends;
+        let StageEnd { temperature, content, rate, ahead } = *ends;
         flows.friction += weight * loads.friction_heat();
         flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
         if self.coupled() {
-            self.set_jump(heat, temperature);
+            self.set_jump_ahead(heat, temperature, rate, ahead);
             let moments = &loads.conductance[self.elements.clone()];
             let through = moments.iter().zip(self.jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);
             let reversible = loads.reversible.iter().map(|q| q[0]);
@@ -30,19 +45,19 @@ impl Stage {
         flows.to_wheel = share * flows.friction - flows.conduction;
         flows.to_rail = (1.0 - share) * flows.friction + flows.conduction;
         let size = heat.wheel.size();
-        let (now, held, change) = (temperature.split_at(size), content.split_at(size), rate.map(|r| r.split_at(size)));
-        let wheel = self.wheel.flows(&heat.wheel, now.0, held.0, change.map(|r| r.0));
+        let (held, change) = (content.split_at(size), rate.map(|r| r.split_at(size)));
+        let wheel = self.wheel.flows(&heat.wheel, held.0, change.map(|r| r.0), ahead);
         flows.stored_wheel += weight * wheel.stored;
         flows.wheel_to_air += weight * (wheel.air + loads.radiation[0].heat);
         flows.to_hub += if heat.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
-        let rail = self.rail.flows(&heat.rail, now.1, held.1, change.map(|r| r.1));
+        let rail = self.rail.flows(&heat.rail, held.1, change.map(|r| r.1), ahead);
         flows.stored_rail += weight * rail.stored;
         flows.rail_to_air += weight * (rail.air + loads.radiation[1].heat);
         flows.outflow += weight * rail.out;
     }
 }
 
-/// Both bodies at the end of a stage.
+/// Both bodies at the end of a stage: temperature and heat content there are the given ones and `ahead` times the rate.
 #[derive(Clone, Copy)]
 pub(super) struct StageEnd<'a> {
     /// Temperature.
@@ -51,6 +66,8 @@ pub(super) struct StageEnd<'a> {
     pub content: &'a [f64],
     /// Its rate; `None`: it does not change.
     pub rate: Option<&'a [f64]>,
+    /// \[s]
+    pub ahead: f64,
 }
 
 /// Heat flows of one body [W/m].
@@ -64,11 +81,10 @@ struct BodyFlows {
 }
 
 impl BodyOperator {
-    /// Flows at the temperatures `x` and heat contents `content` that change at the rates `rate`.
-    fn flows(&mut self, body: &HeatBody, x: &[f64], content: &[f64], rate: Option<&[f64]>) -> BodyFlows {
+    /// Flows at the temperatures whose sums are known and heat contents `content`, `ahead` seconds on at the rates `rate`.
+    fn flows(&mut self, body: &HeatBody, content: &[f64], rate: Option<&[f64]>, ahead: f64) -> BodyFlows {
         let modes = &body.modes;
         let [now, change] = &mut self.sums;
-        body.integrate(x, now);
         match rate {
             Some(rate) => body.integrate(rate, change),
             None => {
@@ -78,17 +94,19 @@ impl BodyOperator {
         }
         let (mut stored, mut air, mut fixed) = (0.0, 0.0, 0.0);
         for m in 0..modes.len() {
+            let now = now[m] + ahead * change[m];
             stored += body.heat_capacity * modes.content[m] * change[m];
-            let film = body.film * modes.air[m] * now[m];
+            let film = body.film * modes.air[m] * now;
             air += film;
             // Residual of the energy balance tested with 1 at the free nodes: what reaches the fixed ones.
-            fixed += body.conductivity * modes.values[m] * modes.free[m] * now[m]
+            fixed += body.conductivity * modes.values[m] * modes.free[m] * now
                 - film
                 - body.heat_capacity * (modes.content[m] - modes.free[m]) * change[m];
         }
         let out = self.transport.exit.map_or(0.0, |(node, flux)| {
             let nm = modes.len();
-            flux * dot(&content[node * nm..(node + 1) * nm], &modes.content)
+            let held = |field: &[f64]| dot(&field[node * nm..(node + 1) * nm], &modes.content);
+            flux * (held(content) + ahead * rate.map_or(0.0, held))
         });
         BodyFlows { stored, air, fixed, out }
     }

@@ -15,6 +15,7 @@
 mod bounds;
 mod column;
 mod depth_modes;
+mod elimination;
 mod field;
 mod flows;
 mod layout;
@@ -99,11 +100,11 @@ impl HeatModel for Heat {
                 if body.line.closed > 0.0 { dot(&seen.sums, weights) / body.line.closed } else { 0.0 }
             };
             let (along, moment_along) = (mean(weights), mean(moments));
-            let nm = body.modes.len();
-            let rows = field[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
-            seen.layer[i].clear();
-            seen.layer[i].extend(rows.clone().map(|row| dot(row, weights) - along));
-            seen.layer_depth[i] = mean_depth(rows.map(|row| dot(row, moments) - moment_along), &seen.layer[i]);
+            body.products(nodes.clone(), field, weights, &mut seen.layer[i]);
+            seen.layer[i].iter_mut().for_each(|content| *content -= along);
+            body.products(nodes, field, moments, &mut seen.moments);
+            let moments = seen.moments.iter().map(|moment| moment - moment_along);
+            seen.layer_depth[i] = mean_depth(moments, &seen.layer[i]);
         }
         seen.lowest = state.range[0];
         let melted = self.observe_melting(state, seen);

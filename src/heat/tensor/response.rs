@@ -30,9 +30,6 @@ pub(super) struct SurfaceResponse {
 /// Largest number of nodes between which the temperatures are computed pair by pair.
 const PAIRS: usize = 8;
 
-/// Influence relative to that of a node on itself that is left out.
-const NEGLIGIBLE: f64 = 1e-18;
-
 impl SurfaceResponse {
     /// Temperatures at the node `i` of the range under unit loads at all of them.
     pub fn row(&self, i: usize) -> &[f64] {
@@ -52,35 +49,31 @@ impl SurfaceResponse {
             self.fill(&factor.w[first + nm..last + nm], nm, 0..self.count, Triangle::Lower);
             self.fill(&factor.r[first..last], nm, 0..self.count, Triangle::Upper);
         }
-        if body.line.closed > 0.0 {
-            self.add_round_trip(factor, body, &range);
-        }
+        self.add_round_trip(factor, body, &range);
     }
 
-    /// Diagonal of the inverse of the chain at the nodes `range`, weighted with `φₘ(0)²`.
+    /// Diagonal of the inverse at the nodes `range`, of which the last one is eliminated last, weighted with `φₘ(0)²`; without
+    /// what goes around the ring, which includes all of the last node if anything does.
     fn set_diagonal(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
         let nm = body.modes.len();
-        let n = body.line.len() - usize::from(body.line.closed > 0.0);
-        self.diagonal.clear();
+        let around = !factor.fill(range, nm)[0].is_empty();
         self.diagonal.resize(range.len() * nm, 0.0);
         self.moving.clear();
         self.moving.resize(nm, 0.0);
-        for i in (range.start..n).rev() {
+        for i in range.clone().rev() {
             let (inverse, moving) = (&factor.inverse[i * nm..][..nm], &mut self.moving[..nm]);
-            if i + 1 < n {
+            if i + 1 < range.end {
                 let (r, w) = (&factor.r[i * nm..][..nm], &factor.w[(i + 1) * nm..][..nm]);
                 for m in 0..nm {
                     moving[m] = inverse[m] + r[m] * w[m] * moving[m];
                 }
-            } else {
+            } else if !around {
                 moving.copy_from_slice(inverse);
             }
-            if i < range.end {
-                self.diagonal[(i - range.start) * nm..][..nm].copy_from_slice(&self.moving);
+            let diagonal = &mut self.diagonal[(i - range.start) * nm..][..nm];
+            for ((diagonal, x), s) in diagonal.iter_mut().zip(&*moving).zip(&body.modes.surface) {
+                *diagonal = x * s * s;
             }
-        }
-        for row in self.diagonal.chunks_exact_mut(nm) {
-            row.iter_mut().zip(&body.modes.surface).for_each(|(x, s)| *x *= s * s);
         }
     }
 
@@ -97,30 +90,45 @@ impl SurfaceResponse {
         let middle = start + nodes.len() / 2;
         self.before.resize((middle - start) * nm, 0.0);
         self.after.resize((end - middle) * nm, 0.0);
-        rows::decay_towards(&links[start * nm..], &mut self.before, nm);
-        rows::decay_from(&links[middle * nm..], &self.diagonal[middle * nm..], &mut self.after, &mut self.moving);
-        let (first, second, at) = match triangle {
-            Triangle::Lower => (&self.after, &self.before, middle * self.count + start),
-            Triangle::Upper => (&self.before, &self.after, start * self.count + middle),
+        // Beyond some nodes hardly anything is left upstream.
+        let first = rows::decay_towards(&links[start * nm..], &mut self.before, nm);
+        let scales = &self.diagonal[middle * nm..];
+        let count = rows::decay_from(&links[middle * nm..], scales, &mut self.after, &mut self.moving);
+        let (before, after) = (&self.before[first * nm..], &self.after[..count * nm]);
+        let (rows, columns, at) = match triangle {
+            Triangle::Lower => (after, before, middle * self.count + start + first),
+            Triangle::Upper => (before, after, (start + first) * self.count + middle),
         };
-        multiply_transposed(first, second, nm, &mut self.matrix[at..], self.count, Update::Replace);
+        multiply_transposed(rows, columns, nm, &mut self.matrix[at..], self.count, Update::Replace);
         self.fill(links, nm, start..middle, triangle);
         self.fill(links, nm, middle..end, triangle);
     }
 
-    /// Adds the influence that goes once around the wheel to the response at the nodes `range`.
+    /// Adds what the last node takes part in to the response at the nodes `range`, if the ring is closed for some modes.
     fn add_round_trip(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
-        let (nm, inner) = (body.modes.len(), range.start * body.modes.len()..range.end * body.modes.len());
-        let (row, column) = (&factor.row[inner.clone()], &factor.column[inner]);
+        let nm = body.modes.len();
+        let [column, row] = factor.fill(range, nm);
+        if column.is_empty() {
+            return;
+        }
+        // What the last node does to the others, and they to it: both substitutions for a unit there.
+        let (count, first) = (self.count, range.start * nm);
+        self.before.clear();
+        self.before.resize(count * nm, 1.0);
         self.after.clear();
-        for column in column.chunks_exact(nm) {
-            let scales = factor.border[2].iter().zip(&body.modes.surface);
-            self.after.extend(column.iter().zip(scales).map(|(c, (pivot, s))| c * pivot * s * s));
+        self.after.resize(count * nm, 1.0);
+        let last = (count - 1) * nm;
+        for j in (0..last).rev() {
+            let filled = column.get(j).map_or(0.0, |c| c * factor.inverse[first + j]);
+            self.after[j] = -factor.r[first + j] * self.after[j + nm] - filled;
+            self.before[j] = -factor.w[first + j + nm] * self.before[j + nm] - row.get(j).copied().unwrap_or(0.0);
         }
-        let smallest = (0..self.count).map(|i| self.matrix[i * self.count + i]).fold(f64::INFINITY, f64::min);
-        if largest(&self.after) * largest(row) > NEGLIGIBLE * smallest {
-            multiply_transposed(&self.after, row, nm, &mut self.matrix, self.count, Update::Add);
+        let pivots = &factor.inverse[first + last..];
+        for after in self.after.chunks_exact_mut(nm) {
+            let scales = pivots.iter().zip(&body.modes.surface);
+            after.iter_mut().zip(scales).for_each(|(after, (pivot, s))| *after *= pivot * s * s);
         }
+        multiply_transposed(&self.after, &self.before, nm, &mut self.matrix, count, Update::Add);
     }
 }
 
@@ -129,16 +137,4 @@ impl SurfaceResponse {
 enum Triangle {
     Lower,
     Upper,
-}
-
-/// Largest magnitude in a vector whose length is a multiple of four.
-fn largest(x: &[f64]) -> f64 {
-    let mut lanes = [0.0_f64; 4];
-    for x in x.chunks_exact(4) {
-        for l in 0..4 {
-            // A comparison, not `max`: compiles to one instruction.
-            lanes[l] = if x[l].abs() > lanes[l] { x[l].abs() } else { lanes[l] };
-        }
-    }
-    lanes.into_iter().fold(0.0, f64::max)
 }

@@ -1,7 +1,7 @@
 //! Loops over the rows of fields, where a row holds the modes at one node along the surface.
 //!
 //! They take most of the time of a step of heat, and are written for the vector registers of the machine that runs them. Results
-//! are the same on every machine but for the order of sums: products and sums are rounded one by one.
+//! of different machines differ by round-off: by the order of sums, and where a product and a sum are rounded at once.
 
 use super::streamline::Transport;
 use crate::linalg::Update;
@@ -15,26 +15,112 @@ vectorised! {
         for (i, link) in links.chunks_exact(k).enumerate() {
             let (done, rest) = x.split_at_mut((i + 1) * k);
             for ((x, &before), &link) in rest.iter_mut().zip(&done[i * k..]).zip(link) {
-                *x = simd.sub_f64s(*x, simd.mul_f64s(link, before));
+                *x = less(simd, *x, link, before);
             }
         }
     }
 }
 
 vectorised! {
-    /// `xᵢ ← dᵢ xᵢ − lᵢ xᵢ₊₁` from the last row to the first.
-    fn substitute<'a, S>(simd, d: &'a [f64], links: &'a [f64], x: &'a mut [f64], width: usize) {
+    /// `xᵢ ← dᵢ xᵢ − lᵢ xᵢ₊₁` from the last row, which the row `next` follows, to the first.
+    fn substitute<'a, S>(simd, d: &'a [f64], links: &'a [f64], x: &'a mut [f64], next: &'a [f64]) {
         let (d, links) = (S::as_simd_f64s(d).0, S::as_simd_f64s(links).0);
-        let (x, k) = (S::as_mut_simd_f64s(x).0, width / S::F64_LANES);
-        let last = x.len() - k;
-        for (x, &d) in x[last..].iter_mut().zip(&d[last..]) {
-            *x = simd.mul_f64s(*x, d);
-        }
-        let rows = d[..last].chunks_exact(k).zip(links[..last].chunks_exact(k));
+        let (x, next) = (S::as_mut_simd_f64s(x).0, S::as_simd_f64s(next).0);
+        let k = next.len();
+        let rows = d.chunks_exact(k).zip(links.chunks_exact(k)).take(x.len() / k);
         for (i, (d, link)) in rows.enumerate().rev() {
             let (done, rest) = x.split_at_mut((i + 1) * k);
-            for (((x, &d), &link), &next) in done[i * k..].iter_mut().zip(d).zip(link).zip(&*rest) {
-                *x = simd.sub_f64s(simd.mul_f64s(*x, d), simd.mul_f64s(link, next));
+            let next = if rest.is_empty() { next } else { &rest[..k] };
+            for (((x, &d), &link), &next) in done[i * k..].iter_mut().zip(d).zip(link).zip(next) {
+                *x = less(simd, simd.mul_f64s(*x, d), link, next);
+            }
+        }
+    }
+}
+
+vectorised! {
+    /// Surface values of `xᵢ ← dᵢ (xᵢ − cᵢ xₙ) − lᵢ xᵢ₊₁` from the last row `n`, which is `dₙ xₙ`, to the first; the column c may be
+    /// empty, or end two rows before the last. `moving` is a buffer of two rows.
+    fn substituted_surface<'a, S>(
+        simd,
+        factors: [&'a [f64]; 3],
+        x: &'a [f64],
+        moving: &'a mut [f64],
+        surface: &'a [f64],
+        out: &'a mut [f64],
+    ) {
+        let [d, links, column] = factors.map(|factors| S::as_simd_f64s(factors).0);
+        let (x, surface) = (S::as_simd_f64s(x).0, S::as_simd_f64s(surface).0);
+        let k = surface.len();
+        let (now, last) = S::as_mut_simd_f64s(moving).0.split_at_mut(k);
+        now.fill(simd.splat_f64s(0.0));
+        for (i, out) in out.iter_mut().enumerate().rev() {
+            let row = i * k..(i + 1) * k;
+            let given = x[row.clone()].iter().zip(&d[row.clone()]).zip(&links[row.clone()]);
+            let mut sums = simd.splat_f64s(0.0);
+            if row.end <= column.len() {
+                for ((((now, &surface), ((&x, &d), &link)), &c), &last) in
+                    now.iter_mut().zip(surface).zip(given).zip(&column[row.clone()]).zip(&*last)
+                {
+                    *now = less(simd, simd.mul_f64s(less(simd, x, c, last), d), link, *now);
+                    sums = simd.mul_add_e_f64s(*now, surface, sums);
+                }
+            } else {
+                for ((now, &surface), ((&x, &d), &link)) in now.iter_mut().zip(surface).zip(given) {
+                    *now = less(simd, simd.mul_f64s(x, d), link, *now);
+                    sums = simd.mul_add_e_f64s(*now, surface, sums);
+                }
+            }
+            if row.end == x.len() {
+                last.copy_from_slice(now);
+            }
+            *out = simd.reduce_sum_f64s(sums);
+        }
+    }
+}
+
+vectorised! {
+    /// Adds the rows `shape · load` to `x`, after their elimination by the links and the row of the last node, which may be empty
+    /// or end two rows before it. `moving` is a buffer of two rows.
+    fn add_eliminated<'a, S>(
+        simd,
+        factors: [&'a [f64]; 2],
+        load: &'a [f64],
+        shape: &'a [f64],
+        x: &'a mut [f64],
+        moving: &'a mut [f64],
+    ) {
+        let ([links, fill], shape) = (factors.map(|factors| S::as_simd_f64s(factors).0), S::as_simd_f64s(shape).0);
+        let (x, k) = (S::as_mut_simd_f64s(x).0, shape.len());
+        let (now, last) = S::as_mut_simd_f64s(moving).0.split_at_mut(k);
+        now.fill(simd.splat_f64s(0.0));
+        last.fill(simd.splat_f64s(0.0));
+        for (i, &load) in load.iter().enumerate() {
+            let (row, load) = (i * k..(i + 1) * k, simd.splat_f64s(load));
+            for (((now, x), &shape), &link) in
+                now.iter_mut().zip(&mut x[row.clone()]).zip(shape).zip(&links[row.clone()])
+            {
+                *now = less(simd, simd.mul_f64s(load, shape), link, *now);
+                *x = simd.add_f64s(*x, *now);
+            }
+            if row.end <= fill.len() {
+                for ((last, &now), &fill) in last.iter_mut().zip(&*now).zip(&fill[row]) {
+                    *last = less(simd, *last, fill, now);
+                }
+            }
+        }
+        let end = x.len() - k;
+        x[end..].iter_mut().zip(last).for_each(|(x, &mut last)| *x = simd.add_f64s(*x, last));
+    }
+}
+
+vectorised! {
+    /// `sum ← sum − Σ yᵢ xᵢ` over all rows of `y`, entry by entry.
+    fn subtract_products<'a, S>(simd, y: &'a [f64], x: &'a [f64], sum: &'a mut [f64]) {
+        let (y, x, sum) = (S::as_simd_f64s(y).0, S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sum).0);
+        for (y, x) in y.chunks_exact(sum.len()).zip(x.chunks_exact(sum.len())) {
+            for ((sum, &y), &x) in sum.iter_mut().zip(y).zip(x) {
+                *sum = less(simd, *sum, y, x);
             }
         }
     }
@@ -46,7 +132,7 @@ vectorised! {
         let (y, factor, x) = (S::as_simd_f64s(y).0, S::as_simd_f64s(factor).0, S::as_mut_simd_f64s(x).0);
         for (x, y) in x.chunks_exact_mut(factor.len()).zip(y.chunks_exact(factor.len())) {
             for ((x, &y), &factor) in x.iter_mut().zip(y).zip(factor) {
-                *x = simd.sub_f64s(*x, simd.mul_f64s(y, factor));
+                *x = less(simd, *x, y, factor);
             }
         }
     }
@@ -58,19 +144,26 @@ vectorised! {
         let ((y, y_rest), (x, x_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(x));
         let many = simd.splat_f64s(factor);
         for (x, &y) in x.iter_mut().zip(y) {
-            *x = simd.add_f64s(*x, simd.mul_f64s(many, y));
+            *x = simd.mul_add_e_f64s(many, y, *x);
         }
         x_rest.iter_mut().zip(y_rest).for_each(|(x, y)| *x += factor * y);
     }
 }
 
 vectorised! {
-    /// Rows of `shape`, each times its factor.
-    fn multiples<'a, S>(simd, factors: &'a [f64], shape: &'a [f64], out: &'a mut [f64]) {
-        let (shape, out) = (S::as_simd_f64s(shape).0, S::as_mut_simd_f64s(out).0);
-        for (out, &factor) in out.chunks_exact_mut(shape.len()).zip(factors) {
-            let factor = simd.splat_f64s(factor);
-            out.iter_mut().zip(shape).for_each(|(out, &shape)| *out = simd.mul_f64s(factor, shape));
+    /// Adds `factor` times the product of a row vector `g` with the matrix of three bands (lower, diagonal, upper) to `row`.
+    fn add_banded<'a, S>(simd, factor: f64, g: &'a [f64], bands: [&'a [f64]; 3], row: &'a mut [f64]) {
+        let _ = simd;
+        let (n, [lower, diagonal, upper]) = (row.len(), bands.map(|band| &band[..row.len()]));
+        let g = &g[..n];
+        for (row, (c, g)) in row.iter_mut().zip(diagonal.iter().zip(g)) {
+            *row += factor * c * g;
+        }
+        for (row, (c, g)) in row[1..].iter_mut().zip(upper.iter().zip(g)) {
+            *row += factor * c * g;
+        }
+        for (row, (c, g)) in row.iter_mut().zip(lower[1..].iter().zip(&g[1..])) {
+            *row += factor * c * g;
         }
     }
 }
@@ -82,7 +175,7 @@ vectorised! {
         for (x, &weight) in x.chunks_exact(sums.len()).zip(weights) {
             let weight = simd.splat_f64s(weight);
             for (sum, &x) in sums.iter_mut().zip(x) {
-                *sum = simd.add_f64s(*sum, simd.mul_f64s(weight, x));
+                *sum = simd.mul_add_e_f64s(weight, x, *sum);
             }
         }
     }
@@ -95,7 +188,7 @@ vectorised! {
         for (x, out) in x.chunks_exact(shape.len()).zip(out) {
             let mut sums = simd.splat_f64s(0.0);
             for (&x, &shape) in x.iter().zip(shape) {
-                sums = simd.add_f64s(sums, simd.mul_f64s(x, shape));
+                sums = simd.mul_add_e_f64s(x, shape, sums);
             }
             *out = simd.reduce_sum_f64s(sums);
         }
@@ -124,13 +217,13 @@ vectorised! {
             let carried = [line.flow_lower[i], line.flow_upper[i], line.entry(i)].map(|f| simd.splat_f64s(flow * f));
             let neighbours = row(before).iter().zip(row(i)).zip(row(after));
             for ((out, &value), ((&a, &b), &c)) in out.iter_mut().zip(values).zip(neighbours) {
-                let alpha = simd.add_f64s(storage, simd.mul_f64s(conduction, value));
-                let held = simd.add_f64s(simd.mul_f64s(mass[0], a), simd.mul_f64s(mass[1], b));
-                let held = simd.mul_f64s(alpha, simd.add_f64s(held, simd.mul_f64s(mass[2], c)));
+                let alpha = simd.mul_add_e_f64s(conduction, value, storage);
+                let held = simd.mul_add_e_f64s(mass[0], a, simd.mul_f64s(mass[1], b));
+                let held = simd.mul_add_e_f64s(mass[2], c, held);
                 let from = simd.mul_f64s(carried[0], simd.sub_f64s(a, b));
-                let to = simd.mul_f64s(carried[1], simd.sub_f64s(c, b));
-                let moved = simd.add_f64s(simd.add_f64s(from, to), simd.mul_f64s(carried[2], b));
-                let product = simd.add_f64s(held, moved);
+                let moved = simd.mul_add_e_f64s(carried[1], simd.sub_f64s(c, b), from);
+                let moved = simd.mul_add_e_f64s(carried[2], b, moved);
+                let product = simd.mul_add_e_f64s(alpha, held, moved);
                 *out = if update == Update::Add { simd.add_f64s(*out, product) } else { product };
             }
         }
@@ -138,85 +231,63 @@ vectorised! {
 }
 
 vectorised! {
-    /// Factors `wᵢ`, `rᵢ` and `1/dᵢ` of all rows of `α M̃ + β F`, α given mode by mode; `excess` is a buffer of one row.
-    ///
-    /// Elimination in terms of row sums e (Grassmann, Taksar & Heyman, *Oper. Res.* 33 (1985)): nothing cancels in a fast
-    /// stream, `eᵢ = sᵢ − Lᵢ eᵢ₋₁/dᵢ₋₁`, `dᵢ = eᵢ − Uᵢ` with the row sums s, of the mass alone.
-    fn factorise<'a, S>(
-        simd,
-        line: &'a Transport,
-        alpha: &'a [f64],
-        flow: f64,
-        factors: [&'a mut [f64]; 3],
-        excess: &'a mut [f64],
-    ) {
-        let (alpha, excess, k) = (S::as_simd_f64s(alpha).0, S::as_mut_simd_f64s(excess).0, alpha.len() / S::F64_LANES);
-        let [w, r, inverse] = factors.map(|factors| S::as_mut_simd_f64s(factors).0);
-        let one = simd.splat_f64s(1.0);
-        for i in 0..inverse.len() / k {
-            let (lower, upper) = (line.mass_lower[i], line.mass_upper[i]);
-            let sum = simd.splat_f64s(lower + line.mass[i] + upper);
-            let [lower, upper] = [lower, upper].map(|m| simd.splat_f64s(m));
-            let [to_lower, to_upper] = [line.flow_lower[i], line.flow_upper[i]].map(|f| simd.splat_f64s(flow * f));
-            let entry = simd.splat_f64s(flow * line.entry(i));
-            let (done, rest) = inverse.split_at_mut(i * k);
-            let target = w[i * k..].iter_mut().zip(&mut r[i * k..]).zip(rest).zip(excess.iter_mut());
-            for (q, ((((w, r), inverse), excess), &alpha)) in target.zip(alpha).enumerate() {
-                let below = simd.add_f64s(simd.mul_f64s(alpha, lower), to_lower);
-                let left = if i > 0 {
-                    *w = simd.mul_f64s(below, done[(i - 1) * k + q]);
-                    simd.mul_f64s(*w, *excess)
-                } else {
-                    *w = simd.splat_f64s(0.0);
-                    below
-                };
-                *excess = simd.sub_f64s(simd.add_f64s(simd.mul_f64s(alpha, sum), entry), left);
-                let above = simd.add_f64s(simd.mul_f64s(alpha, upper), to_upper);
-                *inverse = simd.div_f64s(one, simd.sub_f64s(*excess, above));
-                *r = simd.mul_f64s(above, *inverse);
-            }
-        }
-    }
-}
-
-vectorised! {
-    /// How an influence decays on the way to the node after the last row, `xᵢ = −lᵢ xᵢ₊₁` with 1 there.
-    fn decay_towards<'a, S>(simd, links: &'a [f64], x: &'a mut [f64], width: usize) {
+    /// How an influence decays on the way to the node after the last row, `xᵢ = −lᵢ xᵢ₊₁` with 1 there; the first row in which
+    /// something is left. Rows before that are not touched.
+    fn decay_towards<'a, S>(simd, links: &'a [f64], x: &'a mut [f64], width: usize) -> usize {
         let (links, x, k) = (S::as_simd_f64s(links).0, S::as_mut_simd_f64s(x).0, width / S::F64_LANES);
         for i in (0..x.len() / k).rev() {
             let (done, rest) = x.split_at_mut((i + 1) * k);
+            let mut left = simd.splat_f64s(0.0);
             for (q, (x, &link)) in done[i * k..].iter_mut().zip(&links[i * k..]).enumerate() {
                 let next = rest.get(q).copied().unwrap_or(simd.splat_f64s(1.0));
                 *x = decayed(simd, link, next);
+                left = simd.add_f64s(left, simd.abs_f64s(*x));
+            }
+            if simd.reduce_sum_f64s(left) == 0.0 {
+                return i + 1;
             }
         }
+        0
     }
 }
 
 vectorised! {
     /// How an influence decays on the way from the node of the first row, `mᵢ = −lᵢ₋₁ mᵢ₋₁` with 1 there, times the row of
-    /// `scales`. `moving` is a buffer of one row.
-    fn decay_from<'a, S>(simd, links: &'a [f64], scales: &'a [f64], x: &'a mut [f64], moving: &'a mut [f64]) {
+    /// `scales`; the number of rows in which something is left. Those after that are not touched. `moving` is a buffer of one row.
+    fn decay_from<'a, S>(
+        simd,
+        links: &'a [f64],
+        scales: &'a [f64],
+        x: &'a mut [f64],
+        moving: &'a mut [f64],
+    ) -> usize {
         let (links, scales) = (S::as_simd_f64s(links).0, S::as_simd_f64s(scales).0);
         let (x, moving) = (S::as_mut_simd_f64s(x).0, S::as_mut_simd_f64s(moving).0);
         let k = moving.len();
         moving.fill(simd.splat_f64s(1.0));
         for (i, (x, scales)) in x.chunks_exact_mut(k).zip(scales.chunks_exact(k)).enumerate() {
             if i > 0 {
+                let mut left = simd.splat_f64s(0.0);
                 for (moving, &link) in moving.iter_mut().zip(&links[(i - 1) * k..]) {
                     *moving = decayed(simd, link, *moving);
+                    left = simd.add_f64s(left, simd.abs_f64s(*moving));
+                }
+                if simd.reduce_sum_f64s(left) == 0.0 {
+                    return i;
                 }
             }
             for ((x, &scale), &moving) in x.iter_mut().zip(scales).zip(&*moving) {
                 *x = simd.mul_f64s(scale, moving);
             }
         }
+        x.len() / k
     }
 }
 
 vectorised! {
     /// Sums of the rows of `scales`, and of these times the decay on the way back to every row before them: those of row `k` at
-    /// `j ≤ k` go to `k · strides[0] + j · strides[1]` in `out`. `moving` is a buffer of one row.
+    /// `j ≤ k` go to `k · strides[0] + j · strides[1]` in `out`, where nothing is left of them it stays as it is. `moving` is a
+    /// buffer of one row.
     fn decay_pairs<'a, S>(
         simd,
         links: &'a [f64],
@@ -226,17 +297,21 @@ vectorised! {
         out: &'a mut [f64],
     ) {
         let (links, scales) = (S::as_simd_f64s(links).0, S::as_simd_f64s(scales).0);
-        let moving = S::as_mut_simd_f64s(moving).0;
+        let (moving, zero) = (S::as_mut_simd_f64s(moving).0, simd.splat_f64s(0.0));
         let width = moving.len();
         for (k, scales) in scales.chunks_exact(width).enumerate() {
-            moving.copy_from_slice(scales);
-            let sum = moving.iter().fold(simd.splat_f64s(0.0), |sum, &x| simd.add_f64s(sum, x));
+            moving.fill(simd.splat_f64s(1.0));
+            let sum = scales.iter().fold(zero, |sum, &x| simd.add_f64s(sum, x));
             out[k * (strides[0] + strides[1])] = simd.reduce_sum_f64s(sum);
             for j in (0..k).rev() {
-                let mut sum = simd.splat_f64s(0.0);
-                for (moving, &link) in moving.iter_mut().zip(&links[j * width..]) {
+                let (mut sum, mut left) = (zero, zero);
+                for ((moving, &link), &scale) in moving.iter_mut().zip(&links[j * width..]).zip(scales) {
                     *moving = decayed(simd, link, *moving);
-                    sum = simd.add_f64s(sum, *moving);
+                    sum = simd.mul_add_e_f64s(*moving, scale, sum);
+                    left = simd.add_f64s(left, simd.abs_f64s(*moving));
+                }
+                if simd.reduce_sum_f64s(left) == 0.0 {
+                    break;
                 }
                 out[k * strides[0] + j * strides[1]] = simd.reduce_sum_f64s(sum);
             }
@@ -244,13 +319,24 @@ vectorised! {
     }
 }
 
-/// `−link · x`, or zero where hardly anything is left: the smallest numbers are slow.
+/// `x − link · y`.
 #[inline(always)]
-fn decayed<S: Simd>(simd: S, link: S::f64s, x: S::f64s) -> S::f64s {
-    let value = simd.neg_f64s(simd.mul_f64s(link, x));
-    let small = simd.less_than_f64s(simd.abs_f64s(value), simd.splat_f64s(NOTHING));
-    simd.select_f64s(small, simd.splat_f64s(0.0), value)
+pub(super) fn less<S: Simd>(simd: S, x: S::f64s, link: S::f64s, y: S::f64s) -> S::f64s {
+    simd.mul_add_e_f64s(simd.neg_f64s(link), y, x)
 }
 
-/// Influence below which nothing is left.
-const NOTHING: f64 = 1e-60;
+/// `−link · x`, or zero where hardly anything is left: the smallest numbers are slow, and zeros are left out.
+#[inline(always)]
+fn decayed<S: Simd>(simd: S, link: S::f64s, x: S::f64s) -> S::f64s {
+    faded(simd, simd.neg_f64s(simd.mul_f64s(link, x)))
+}
+
+/// `x`, or zero where hardly anything is left.
+#[inline(always)]
+pub(super) fn faded<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+    let small = simd.less_than_f64s(simd.abs_f64s(x), simd.splat_f64s(NOTHING));
+    simd.select_f64s(small, simd.splat_f64s(0.0), x)
+}
+
+/// Influence of one node on another below which nothing is left.
+const NOTHING: f64 = 1e-20;

@@ -4,6 +4,7 @@ use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
 use super::response::SurfaceResponse;
+use super::rows;
 use super::streamline::Transport;
 use super::tridiagonal::TridiagonalFactor;
 use crate::heat::error::HeatError;
@@ -80,6 +81,8 @@ pub(super) struct Stage {
     coupling: DenseSystem,
     /// Temperature of the wheel less that of the rail at the contact nodes.
     pub(super) jump: Vec<f64>,
+    /// Rate of it.
+    growth: Vec<f64>,
     gmres: Gmres,
 }
 
@@ -112,14 +115,8 @@ impl BodyOperator {
 
     /// Adds row `i` of `β G C̃` to a row of the coupling matrix.
     fn add_coupling(&self, flow: f64, i: usize, row: &mut [f64]) {
-        let (response, last) = (self.response.row(i), row.len() - 1);
         let [lower, diagonal, upper] = &self.contact;
-        let add = |row: &mut [f64], band: &[f64], response: &[f64]| {
-            row.iter_mut().zip(band.iter().zip(response)).for_each(|(value, (c, g))| *value += flow * c * g);
-        };
-        add(row, diagonal, response);
-        add(&mut row[1..], upper, response);
-        add(&mut row[..last], &lower[1..], &response[1..]);
+        rows::add_banded(flow, self.response.row(i), [lower, diagonal, upper], row);
     }
 }
 
@@ -144,12 +141,12 @@ impl Stage {
             [(&heat.wheel, &mut self.wheel, -omega * heat.config.wheel.radius), (&heat.rail, &mut self.rail, -velocity)]
         {
             operator.transport.set(&body.line, speed, rate, body.heat_capacity, body.conductivity);
-            operator.factor.set(body, &operator.transport, coefficients)?;
+            let first = body.line.zone;
+            let nodes = first + self.nodes.start..first + self.nodes.end;
+            operator.factor.set(body, &operator.transport, coefficients, &nodes)?;
             if !self.elements.is_empty() {
-                let first = body.line.zone;
                 operator.set_contact(&self.conductance[self.elements.clone()], first + self.elements.start);
-                let range = first + self.nodes.start..first + self.nodes.end;
-                operator.response.set(&operator.factor, body, range);
+                operator.response.set(&operator.factor, body, nodes);
             }
         }
         let n = self.nodes.len();
@@ -267,30 +264,45 @@ impl Stage {
         self.jump.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
     }
 
+    /// The same for `x` and `ahead` times its rate.
+    pub(super) fn set_jump_ahead(&mut self, heat: &Heat, x: &[f64], rate: Option<&[f64]>, ahead: f64) {
+        let Some(rate) = rate.filter(|_| ahead != 0.0) else { return self.set_jump(heat, x) };
+        self.set_jump(heat, rate);
+        std::mem::swap(&mut self.jump, &mut self.growth);
+        self.set_jump(heat, x);
+        self.jump.iter_mut().zip(&self.growth).for_each(|(jump, growth)| *jump += ahead * growth);
+    }
+
     /// `x ← P⁻¹ x` with the operator of the modal solver.
     fn invert(&mut self, heat: &Heat, x: &mut [f64]) {
         let (Some(coefficients), size) = (self.coefficients, heat.wheel.size()) else { return };
+        let nodes = [&heat.wheel, &heat.rail].map(|body| self.contact_nodes(body));
+        let coupled = self.coupled();
         let (wheel, rail) = x.split_at_mut(size);
-        self.wheel.factor.solve(&heat.wheel, wheel, 0);
-        self.rail.factor.solve(&heat.rail, rail, 0);
-        if !self.coupled() {
-            return;
+        let bodies = [(&heat.wheel, &mut self.wheel, wheel), (&heat.rail, &mut self.rail, rail)];
+        for ((body, operator, x), nodes) in bodies.into_iter().zip(&nodes) {
+            let BodyOperator { factor, trace, .. } = operator;
+            factor.eliminate(body, x);
+            if coupled {
+                factor.trace(body, nodes, x, trace);
+            }
         }
-        self.set_jump(heat, x);
-        self.coupling.solve_with(&mut self.jump);
+        if coupled {
+            self.jump.clear();
+            self.jump.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
+            self.coupling.solve_with(&mut self.jump);
+        }
         let (wheel, rail) = x.split_at_mut(size);
-        for (body, operator, factor, x) in [
+        let bodies = [
             (&heat.wheel, &mut self.wheel, -coefficients.flow, wheel),
             (&heat.rail, &mut self.rail, coefficients.flow, rail),
-        ] {
-            operator.set_contact_load(factor, &self.jump);
-            let BodyOperator { factor, load, work, .. } = operator;
-            work.clear();
-            work.resize(body.size(), 0.0);
-            let first = body.line.zone + self.nodes.start;
-            body.add_surface_load(first, load, work);
-            factor.solve(body, work, first);
-            x.iter_mut().zip(&*work).for_each(|(x, dx)| *x += dx);
+        ];
+        for ((body, operator, flow, x), nodes) in bodies.into_iter().zip(&nodes) {
+            if coupled {
+                operator.set_contact_load(flow, &self.jump);
+                operator.factor.add_eliminated(body, nodes, &operator.load, x);
+            }
+            operator.factor.substitute(body, x);
         }
     }
 

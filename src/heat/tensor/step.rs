@@ -125,9 +125,11 @@ impl Heat {
         let shares = if stages == 2 && first >= 0.0 { [first, 1.0] } else { [held, held] };
         let known = &mut next.field;
         known.clone_from(&state.field);
+        stage.set_sums(self, known);
         let mut flows = HeatFlows::default();
         for index in 1..=stages {
-            let (weight, onward) = if index == stages { (gamma, 0.0) } else { (1.0 - gamma, 1.0 - 2.0 * gamma) };
+            // Both the weight of the stage and the share of the step by which it takes the field on.
+            let weight = if index == stages { gamma } else { 1.0 - gamma };
             loads.friction_share = shares[index - 1];
             rate.resize(known.len(), 0.0);
             stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, known, rate);
@@ -139,13 +141,17 @@ impl Heat {
                     self.melt(melting, stage, coefficients, known, [load, rate], melt)?
                 }
             };
-            // Temperature at this stage, then the known part of the next one.
-            rows::add(gamma * dt, rate, known);
-            let temperature = if melting.is_some() { melt.temperature(known) } else { &**known };
-            let ends = StageEnd { temperature, content: known, rate: Some(rate) };
-            stage.add_flows(self, loads, &ends, weight, &mut flows);
-            if onward != 0.0 {
-                rows::add(onward * dt, rate, known);
+            if melting.is_some() {
+                rows::add(weight * dt, rate, known);
+                let temperature = melt.temperature(known);
+                stage.set_sums(self, temperature);
+                let ends = StageEnd { temperature, content: known, rate: Some(rate), ahead: 0.0 };
+                stage.add_flows(self, loads, &ends, weight, &mut flows);
+            } else {
+                let ends = StageEnd { temperature: known, content: known, rate: Some(rate), ahead: gamma * dt };
+                stage.add_flows(self, loads, &ends, weight, &mut flows);
+                rows::add(weight * dt, rate, known);
+                stage.advance_sums(weight * dt);
             }
         }
         if !flows.is_finite() {
@@ -172,7 +178,9 @@ impl Heat {
             other => other,
         })?;
         let mut flows = HeatFlows { iterations, ..HeatFlows::default() };
-        stage.add_flows(self, &loads, &StageEnd { temperature: &field, content: &field, rate: None }, 1.0, &mut flows);
+        stage.set_sums(self, &field);
+        let ends = StageEnd { temperature: &field, content: &field, rate: None, ahead: 0.0 };
+        stage.add_flows(self, &loads, &ends, 1.0, &mut flows);
         if !flows.is_finite() {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }

@@ -40,14 +40,14 @@ fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
         let mut transport = Transport::default();
         transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
         let mut factor = TridiagonalFactor::default();
-        factor.set(&body, &transport, STATIONARY).unwrap();
+        factor.set(&body, &transport, STATIONARY, &(0..0)).unwrap();
         let mut tested = vec![0.0; body.line.len()];
         for (e, h) in body.line.lengths.iter().enumerate() {
             transport.add_load(&body.line, e, [*h, 0.5 * h], &mut tested);
         }
         let mut field: Vec<f64> =
             tested.iter().flat_map(|w| body.modes.content.iter().map(move |c| 1000.0 * w * c)).collect();
-        factor.solve(&body, &mut field, 0);
+        factor.solve(&body, &mut field);
         let across = body.modes.at(R - 0.275);
         let nm = across.len();
         let values: Vec<f64> = field.chunks(nm).map(|row| row.iter().zip(&across).map(|(t, s)| t * s).sum()).collect();
@@ -69,7 +69,7 @@ impl LinearSystem for Exact<'_> {
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        self.2.solve(self.0, x, 0);
+        self.2.solve(self.0, x);
     }
 }
 
@@ -79,7 +79,7 @@ fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
     let body = annulus(even(n), &depths, 1e8);
     let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
     transport.set(&body.line, omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
-    factor.set(&body, &transport, STATIONARY).unwrap();
+    factor.set(&body, &transport, STATIONARY, &(0..0)).unwrap();
     let rim = |j: usize| (body.line.nodes[j % n] / R).cos();
     let load: Vec<f64> = (0..n)
         .map(|i| {
@@ -194,8 +194,8 @@ fn surface_response_equals_solutions_for_unit_loads() {
             HeatBody { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
         let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
         transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
-        factor.set(&body, &transport, STATIONARY).unwrap();
         let range = body.line.zone + 1..body.line.zone + 1 + nodes;
+        factor.set(&body, &transport, STATIONARY, &range).unwrap();
         let mut response = SurfaceResponse::default();
         response.set(&factor, &body, range.clone());
         let entries = (0..nodes).flat_map(|i| response.row(i));
@@ -204,7 +204,7 @@ fn surface_response_equals_solutions_for_unit_loads() {
             let mut field = vec![0.0; body.size()];
             body.add_surface_load(node, &[1.0], &mut field);
             let load = field.clone();
-            factor.solve(&body, &mut field, node);
+            factor.solve(&body, &mut field);
             let mut trace = Vec::new();
             body.trace(range.clone(), &field, &mut trace);
             let error = trace.iter().enumerate().map(|(i, t)| (t - response.row(i)[k]).abs());

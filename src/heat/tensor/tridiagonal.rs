@@ -1,119 +1,147 @@
 //! Factors of the tridiagonal systems of one implicit step, one system per mode across the streamlines.
 
+use super::elimination::{Carried, Ring, factorise, factorise_filled};
 use super::modal::{HeatBody, StageCoefficients};
 use super::rows;
 use super::streamline::Transport;
 use crate::heat::error::HeatError;
+use std::ops::Range;
 
 /// Factors of the tridiagonal systems of all modes.
 ///
-/// The chain of nodes (without the last one on a closed streamline, which borders it) has `T = (1 + w)(1/inverse)(1 +
-/// r)` with subdiagonal `w` and superdiagonal `r`.
+/// Nodes are eliminated around the ring of the streamline: the first one after the contact comes first, the last one of the
+/// contact comes last. An open streamline is a ring with an empty link. So the surface under the contact is known before
+/// anything else is substituted back, and a load there is eliminated within the contact alone. What the last node shares with
+/// the first one fills a column and a row of the factors, `S = (1 + w + row)(1/inverse)(1 + r) + column`; both fade within
+/// some nodes where the stream is faster than conduction.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TridiagonalFactor {
+    /// How a node acts on the next one in the order of elimination, how that acts on it, and the inverse pivots; by nodes.
     pub(super) w: Vec<f64>,
     pub(super) r: Vec<f64>,
     pub(super) inverse: Vec<f64>,
-    /// `T⁻¹ b`, b the column of the bordering node.
+    /// Entries in the column and the row of the last node, by steps of the elimination, as far as they reach.
     pub(super) column: Vec<f64>,
-    /// `T⁻ᵀ c`, c the row of the bordering node.
     pub(super) row: Vec<f64>,
-    /// Row entries of the bordering node towards the first and the last node of the chain, and its inverse pivot.
-    pub(super) border: [Vec<f64>; 3],
+    /// The node that is eliminated last.
+    last: usize,
     alpha: Vec<f64>,
-    /// Row sums of the mass of the chain.
-    sums: Vec<f64>,
-    /// One number per mode that a recurrence carries along.
+    carried: Carried,
+    /// Two rows that recurrences carry along.
     moving: Vec<f64>,
 }
 
+/// Steps of the elimination that are taken at a time while the row and the column of the last node are filled.
+const STRIDE: usize = 8;
+
 impl TridiagonalFactor {
-    /// Factorises `S` for all modes.
+    /// Factorises `S` for all modes; the nodes `contact` are eliminated last.
     pub fn set(
         &mut self,
         body: &HeatBody,
         transport: &Transport,
         coefficients: StageCoefficients,
+        contact: &Range<usize>,
     ) -> Result<(), HeatError> {
-        let nm = body.modes.len();
-        let closed = body.line.closed > 0.0;
-        let n = body.line.len() - usize::from(closed);
+        let (nm, n) = (body.modes.len(), body.line.len());
         let (storage, flow) = body.alpha(coefficients);
+        self.last = if contact.is_empty() { n - 1 } else { contact.end - 1 };
         self.alpha.clear();
         self.alpha.extend(body.modes.values.iter().map(|value| storage + flow * value));
         for values in [&mut self.w, &mut self.r, &mut self.inverse] {
             values.resize(n * nm, 0.0);
         }
-        self.moving.clear();
-        self.moving.resize(nm, 0.0);
-        let factors = [&mut self.w[..], &mut self.r, &mut self.inverse];
-        rows::factorise(transport, &self.alpha, coefficients.flow, factors, &mut self.moving);
-        if closed {
-            self.set_border(transport, coefficients, n, nm);
+        self.moving.resize(2 * nm, 0.0);
+        self.carried.begin(nm);
+        self.column.clear();
+        self.row.clear();
+        let ring = Ring { line: transport, alpha: &self.alpha, flow: coefficients.flow, last: self.last };
+        let (mut step, filled) = (0, n - 2);
+        while self.carried.alive && step < filled {
+            let steps = step..(step + STRIDE).min(filled);
+            let rows = step * nm..steps.end * nm;
+            step = steps.end;
+            self.column.resize(rows.end, 0.0);
+            self.row.resize(rows.end, 0.0);
+            let fill = [&mut self.column[rows.clone()], &mut self.row[rows]];
+            let factors = [&mut self.w[..], &mut self.r, &mut self.inverse];
+            factorise_filled(&ring, steps, factors, fill, &mut self.carried);
         }
-        let bordered = if closed { self.border[2].iter().sum() } else { 0.0 };
-        let check = self.inverse[(n - 1) * nm..].iter().sum::<f64>() + bordered;
+        if step + contact.len() > n {
+            // It reaches the contact: either all of that has an entry, or nothing.
+            self.column.resize(filled * nm, 0.0);
+            self.row.resize(filled * nm, 0.0);
+        }
+        let factors = [&mut self.w[..], &mut self.r, &mut self.inverse];
+        factorise(&ring, step..n, factors, &mut self.carried);
+        let check = self.inverse[self.last * nm..][..nm].iter().sum::<f64>();
         if check.is_finite() { Ok(()) } else { Err(HeatError::Singular { unknowns: body.size() }) }
     }
 
-    fn set_border(&mut self, transport: &Transport, coefficients: StageCoefficients, n: usize, nm: usize) {
-        self.row.clear();
-        self.row.resize(n * nm, 0.0);
-        // Rows 0 and n − 1 of the chain see the bordering node as their outer neighbour, and it sees them.
-        let mut border = std::mem::take(&mut self.border);
-        let [to_first, to_last, pivot] = &mut border;
-        for (entries, mass, flow) in [
-            (&mut *to_first, transport.mass_upper[n], transport.flow_upper[n]),
-            (&mut *to_last, transport.mass_lower[n], transport.flow_lower[n]),
-        ] {
-            entries.clear();
-            entries.extend(self.alpha.iter().map(|a| a * mass + coefficients.flow * flow));
-        }
-        let last = (n - 1) * nm;
-        for m in 0..nm {
-            self.row[m] += to_first[m];
-            self.row[last + m] += to_last[m];
-        }
-        // Row sums again, for the pivot of the bordering node, too: 1 + T⁻¹ b = T⁻¹ s.
-        let mut column = std::mem::take(&mut self.column);
-        let sum = |i: usize| transport.mass_lower[i] + transport.mass[i] + transport.mass_upper[i];
-        self.sums.clear();
-        self.sums.extend((0..n).map(sum));
-        column.resize(n * nm, 0.0);
-        rows::multiples(&self.sums, &self.alpha, &mut column);
-        self.solve_chain(&mut column, 0, n, nm);
-        pivot.clear();
-        pivot.extend(
-            (0..nm).map(|m| 1.0 / (self.alpha[m] * sum(n) - to_first[m] * column[m] - to_last[m] * column[last + m])),
-        );
-        column.iter_mut().for_each(|y| *y -= 1.0);
-        self.column = column;
-        self.border = border;
-        // Tᵀ = (1 + r)ᵀ (1/inverse) (1 + w)ᵀ.
-        rows::eliminate(&self.r[..last], &mut self.row, nm);
-        rows::substitute(&self.inverse, &self.w[nm..], &mut self.row, nm);
+    /// Rows of the column and the row of the last node at the nodes `contact`; none where these have faded before.
+    pub fn fill(&self, contact: &Range<usize>, nm: usize) -> [&[f64]; 2] {
+        let first = self.inverse.len() - contact.len() * nm;
+        [&self.column, &self.row].map(|fill| fill.get(first..).unwrap_or_default())
     }
 
-    /// `x ← T⁻¹ x`; `x` is zero before node `first`.
-    fn solve_chain(&self, x: &mut [f64], first: usize, n: usize, nm: usize) {
-        rows::eliminate(&self.w[(first + 1) * nm..n * nm], &mut x[first * nm..n * nm], nm);
-        rows::substitute(&self.inverse, &self.r, &mut x[..n * nm], nm);
+    /// `x ← S⁻¹ x`.
+    #[cfg(test)]
+    pub fn solve(&self, body: &HeatBody, x: &mut [f64]) {
+        self.eliminate(body, x);
+        self.substitute(body, x);
     }
 
-    /// `x ← S⁻¹ x`; `x` is zero before node `first`.
-    pub fn solve(&self, body: &HeatBody, x: &mut [f64], first: usize) {
+    /// The first half of a solution: `x ← (1 + w + row)⁻¹ x`.
+    pub fn eliminate(&self, body: &HeatBody, x: &mut [f64]) {
         let nm = body.modes.len();
-        if body.line.closed == 0.0 {
-            return self.solve_chain(x, first, body.line.len(), nm);
+        let (before, after) = x.split_at_mut((self.last + 1) * nm);
+        let first = before.len();
+        if !after.is_empty() {
+            rows::eliminate(&self.w[first + nm..], after, nm);
+            let around = &after[after.len() - nm..];
+            (0..nm).for_each(|m| before[m] -= self.w[m] * around[m]);
         }
-        let n = body.line.len() - 1;
-        let (chain, last) = x.split_at_mut(n * nm);
-        self.solve_chain(chain, first.min(n - 1), n, nm);
-        let [to_first, to_last, pivot] = &self.border;
-        for m in 0..nm {
-            let sum = to_first[m] * chain[m] + to_last[m] * chain[(n - 1) * nm + m];
-            last[m] = (last[m] - sum) * pivot[m];
+        rows::eliminate(&self.w[nm..first], before, nm);
+        let (before, last) = before.split_at_mut(self.last * nm);
+        let (row, rest) = self.row.split_at(self.row.len().min(after.len()));
+        rows::subtract_products(row, after, last);
+        rows::subtract_products(rest, before, last);
+    }
+
+    /// The second half of a solution.
+    pub fn substitute(&self, body: &HeatBody, x: &mut [f64]) {
+        let nm = body.modes.len();
+        let (before, after) = x.split_at_mut((self.last + 1) * nm);
+        let (before, last) = before.split_at_mut(self.last * nm);
+        last.iter_mut().zip(&self.inverse[before.len()..]).for_each(|(x, d)| *x *= d);
+        let (column, rest) = self.column.split_at(self.column.len().min(after.len()));
+        rows::subtract(column, last, after);
+        rows::subtract(rest, last, before);
+        rows::substitute(&self.inverse, &self.r, before, last);
+        if !after.is_empty() {
+            let (first, next) = (before.len() + nm, if before.is_empty() { &*last } else { &before[..nm] });
+            rows::substitute(&self.inverse[first..], &self.r[first..], after, next);
         }
-        rows::subtract(&self.column, last, chain);
+    }
+
+    /// Surface values of the solution at the nodes `contact`, from what [`Self::eliminate`] has left.
+    pub fn trace(&mut self, body: &HeatBody, contact: &Range<usize>, x: &[f64], out: &mut Vec<f64>) {
+        let nm = body.modes.len();
+        let rows = contact.start * nm..contact.end * nm;
+        let mut moving = std::mem::take(&mut self.moving);
+        let factors = [&self.inverse[rows.clone()], &self.r[rows.clone()], self.fill(contact, nm)[0]];
+        out.resize(contact.len(), 0.0);
+        rows::substituted_surface(factors, &x[rows], &mut moving, &body.modes.surface, out);
+        self.moving = moving;
+    }
+
+    /// Adds a load on the surface at the nodes `contact` to what [`Self::eliminate`] has left.
+    pub fn add_eliminated(&mut self, body: &HeatBody, contact: &Range<usize>, load: &[f64], x: &mut [f64]) {
+        let nm = body.modes.len();
+        let rows = contact.start * nm..contact.end * nm;
+        let mut moving = std::mem::take(&mut self.moving);
+        let factors = [&self.w[rows.clone()], self.fill(contact, nm)[1]];
+        rows::add_eliminated(factors, load, &body.modes.surface, &mut x[rows], &mut moving);
+        self.moving = moving;
     }
 }
