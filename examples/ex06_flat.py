@@ -137,8 +137,8 @@ def conduct(slide, wheel, end):
 
     Explicit differences. Returns a dictionary: `time` [s]; `record`, temperatures [K] over time at the depths SHOWN below the
     place where steel was above Ac1 to the greatest depth; over the depths `z` [m] the highest temperature of all places, `peak` [K], and the cooling rate
-    [K/s] there, `rate`, with the rule of `damage.cooling_rate`, 0 where it was not above Ac1; `hottest`, that of the point
-    which was hottest.
+    [K/s] there, `rate`, with the rule of `damage.cooling_rate`, 0 where it was not above Ac1; `longest`, that of the point
+    which was longest above Ac1.
     """
     conductivity, density, heat = wheel.get("material.conductivity", "material.density", "material.specific_heat")
     diffusivity = conductivity / (density * heat)
@@ -150,7 +150,8 @@ def conduct(slide, wheel, end):
     times, turned, surfaces = surface_of(slide)
     width = spread(z / wheel.get("model.contact_width"))[:, None]
     between_rows = 0.5 * (width[1:] + width[:-1])
-    peak, upper, lower = field.copy(), np.zeros(field.shape), np.zeros(field.shape)
+    peak = field.copy()
+    upper, lower, above = (np.zeros(field.shape) for _ in range(3))
     kept, record, time = [], [], 0.0
     while time < end:
         # The first row is half as thick as the others; far away nothing happens.
@@ -170,6 +171,7 @@ def conduct(slide, wheel, end):
             inside = (x >= slide.x[0]) & (x <= slide.x[-1])
             field[0, inside] = np.interp(x[inside], slide.x, between(surfaces))
         peak = np.maximum(peak, field)
+        above += step * (field > ac1)
         start = np.where(peak > FROM, FROM, ac1)
         upper = np.where((old >= start) & (field < start) & (peak > ac1), time, upper)
         lower = np.where((old >= TO) & (field < TO), time, lower)
@@ -183,7 +185,7 @@ def conduct(slide, wheel, end):
     return {
         "time": np.array(kept), "record": np.array(record)[:, :, place], "z": z,
         "peak": peak.max(axis=1), "rate": rate[np.arange(len(z)), deepest],
-        "hottest": rate.flat[np.argmax(peak)],
+        "longest": rate.flat[np.argmax(above)],
     }  # fmt: skip
 
 
@@ -225,7 +227,7 @@ def summary(slide, table, cooled, wheel):
         ("highest tread temperature", slide.column(table, "temperature.wheel_max").max() - KELVIN, "°C", "model"),
         ("highest peak pressure", slide.column(table, "contact.pressure_max").max() / 1e6, "MPa", "model"),
         ("depth above Ac1", depth_of(cooled["z"], cooled["peak"], austenitisation) * 1e3, "mm", PLANE),
-        ("cooling rate of the hottest point, 800 to 500 °C", cooled["hottest"], "K/s", PLANE),
+        ("cooling rate of the point longest above Ac1", cooled["longest"], "K/s", PLANE),
         ("the same 0.4 mm below it", cooled["rate"][round(0.4e-3 / SPACING)], "K/s", PLANE),
         ("critical cooling rate", steel(wheel, "damage.critical_cooling"), "K/s", "judgement"),
         ("depth of martensite", hardened(cooled, wheel) * 1e3, "mm", PLANE),

@@ -84,10 +84,11 @@ fn share_above(before: f64, after: f64, level: f64) -> f64 {
 pub struct Findings {
     /// Highest temperature of its hottest point \[K].
     pub peak: f64,
-    /// Mean cooling rate of that point from 800 to 500 °C, zero while it is hotter [K/s].
-    pub cooling_rate: f64,
     /// Longest time of a point above Ac1 \[s].
     pub above_ac1: f64,
+    /// Mean cooling rate of that point from 800 to 500 °C, zero while it is hotter [K/s]. The hottest point may be one that was hot
+    /// for milliseconds, somewhere at an edge; which one depends on the mesh.
+    pub cooling_rate: f64,
     /// Depth to which Ac1 was exceeded \[m].
     pub ac1_depth: f64,
     /// Depth to which at least half is martensite \[m].
@@ -95,11 +96,11 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Both together: the worst of each; the cooling rate is that of the hotter one.
+    /// Both together: the worst of each; the cooling rate is that of the one that was longer above Ac1.
     pub fn with(&self, other: &Self) -> Self {
         Self {
             peak: self.peak.max(other.peak),
-            cooling_rate: if other.peak > self.peak { other.cooling_rate } else { self.cooling_rate },
+            cooling_rate: if other.above_ac1 > self.above_ac1 { other.cooling_rate } else { self.cooling_rate },
             above_ac1: self.above_ac1.max(other.above_ac1),
             ac1_depth: self.ac1_depth.max(other.ac1_depth),
             martensite_depth: self.martensite_depth.max(other.martensite_depth),
@@ -112,10 +113,10 @@ impl Findings {
         let mut found = Self::default();
         for column in points.chunks_exact(mesh.depth.len()) {
             for point in column {
-                if point.peak > found.peak {
-                    (found.peak, found.cooling_rate) = (point.peak, point.cooling_rate);
+                found.peak = found.peak.max(point.peak);
+                if point.above_ac1 > found.above_ac1 {
+                    (found.above_ac1, found.cooling_rate) = (point.above_ac1, point.cooling_rate);
                 }
-                found.above_ac1 = found.above_ac1.max(point.above_ac1);
             }
             let austenitised = deepest(&mesh.depth, column, |point| point.peak - ac1);
             let martensitic = deepest(&mesh.depth, column, |point| point.martensite - MARTENSITIC);

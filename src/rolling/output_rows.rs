@@ -236,7 +236,7 @@ outputs! {
          heated while the wheel (nearly) stood still";
     704 cooling_rate: real "damage.cooling_rate", in "K/s", from 0.0, nominal 1e3, start zero,
         "Mean cooling rate from 800 to 500 degC (from thermal.austenitisation, if it was hotter than that but not than \
-         800 degC) of the hottest point of the hottest of these places; 0 until it has cooled to 500 degC";
+         800 degC) of the point of these places that was longest above it; 0 until it has cooled to 500 degC";
     705 martensite_depth: real "damage.martensite_depth", in "m" as "mm", from 0.0, nominal 1e-3, start zero,
         "Largest depth of at least half martensite at these places: austenitised, cooled at damage.critical_cooling or \
          faster, and far enough below damage.martensite_start";
