@@ -24,6 +24,7 @@ mod lock;
 mod plausible;
 mod shared;
 mod store;
+mod tools;
 pub mod validity;
 
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
@@ -31,11 +32,12 @@ pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::heat::HeatError;
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
-use crate::rolling::{self, Workspace, fields, outputs, sensitivity, stationary, substeps};
+use crate::rolling::{self, fields, outputs, sensitivity, stationary, substeps};
 use lock::lock;
 use plausible::plausible;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
+use tools::{Shelf, Tools};
 
 pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
@@ -72,6 +74,7 @@ pub struct Model {
     not_kept: Option<String>,
     /// The stationary start computed last, with its inputs: equal instances of a process mostly start alike.
     start: Mutex<Option<(Inputs, Checkpoint)>>,
+    shelf: Shelf,
 }
 
 impl Inputs {
@@ -117,7 +120,7 @@ impl Model {
         }
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::Model::new(config, bodies, surfaces)?;
-        Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default() }))
+        Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default(), shelf: Shelf::default() }))
     }
 
     /// Whether the model serves a configuration: all but the tunable parameters are equal.
@@ -164,17 +167,15 @@ const LEAD: f64 = 1e-3;
 
 impl Checkpoint {
     /// Checkpoint of a stationary start.
-    fn stationary(
-        model: &Model,
-        tuning: &Tuning,
-        inputs: &Inputs,
-        workspace: &mut Workspace,
-    ) -> Result<Self, StepError> {
+    fn stationary(model: &Model, tuning: &Tuning, inputs: &Inputs) -> Result<Self, StepError> {
         let known = |(with, known): &(Inputs, Self)| (with == inputs && known.tuning == *tuning).then(|| known.clone());
         if let Some(known) = lock(&model.start).as_ref().and_then(known) {
             return Ok(known);
         }
-        let state = stationary::start(&model.rolling, tuning, inputs, workspace)?;
+        let mut tools = model.shelf.take();
+        let found = stationary::start(&model.rolling, tuning, inputs, &mut tools.workspace);
+        model.shelf.put_back(tools);
+        let state = found?;
         let mut earlier = outputs::observe(&model.rolling, &state);
         earlier.wheel_distance -= LEAD * earlier.wheel_velocity;
         earlier.wheel_angle -= LEAD * earlier.wheel_omega;
@@ -187,15 +188,12 @@ impl Checkpoint {
     }
 }
 
-/// One wheel on one rail: model, tunable parameters, checkpoint, scratch space and outputs.
+/// One wheel on one rail: model, tunable parameters, checkpoint and outputs.
 pub struct Simulation {
     model: Arc<Model>,
     tuning: Tuning,
     checkpoint: Checkpoint,
     outputs: Outputs,
-    workspace: Workspace,
-    /// Memory for the next state.
-    spare: State,
 }
 
 impl Simulation {
@@ -207,27 +205,34 @@ impl Simulation {
 
     /// Starts from the stationary state for the inputs.
     pub fn start(model: Arc<Model>, tuning: Tuning, inputs: &Inputs) -> Result<Self, StepError> {
-        let mut workspace = Workspace::default();
-        let checkpoint = Checkpoint::stationary(&model, &tuning, inputs, &mut workspace)?;
-        Ok(Self::at(model, tuning, checkpoint, workspace))
+        let checkpoint = Checkpoint::stationary(&model, &tuning, inputs)?;
+        Ok(Self::at(model, tuning, checkpoint))
     }
 
-    fn at(model: Arc<Model>, tuning: Tuning, checkpoint: Checkpoint, workspace: Workspace) -> Self {
+    fn at(model: Arc<Model>, tuning: Tuning, checkpoint: Checkpoint) -> Self {
         let outputs = outputs::observe(&model.rolling, &checkpoint.state);
-        Self { model, tuning, checkpoint, outputs, workspace, spare: State::default() }
+        Self { model, tuning, checkpoint, outputs }
     }
 
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
-        let Self { model, tuning, checkpoint, workspace, spare, .. } = self;
+        let mut tools = self.model.shelf.take();
+        let advanced = self.advance_with(inputs, h, &mut tools);
+        self.model.shelf.put_back(tools);
+        advanced
+    }
+
+    fn advance_with(&mut self, inputs: &Inputs, h: f64, tools: &mut Tools) -> Result<(), StepError> {
+        let Self { model, tuning, checkpoint, outputs } = self;
+        let Tools { workspace, spare } = tools;
         substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
         std::mem::swap(&mut checkpoint.state, spare);
         if checkpoint.state.pending > 0.0 {
             return Ok(());
         }
         let present = outputs::observe(&model.rolling, &checkpoint.state);
-        let outputs = std::mem::replace(&mut self.outputs, present);
-        checkpoint.before.insert(0, (spare.time, outputs));
+        let before = std::mem::replace(outputs, present);
+        checkpoint.before.insert(0, (spare.time, before));
         checkpoint.before.truncate(KEPT_POINTS);
         checkpoint.tuning.clone_from(tuning);
         // The state before becomes the origin, and the memory of the origin before that the spare one.
@@ -253,7 +258,7 @@ impl Simulation {
 
     /// Replaces everything by the stationary state for the inputs.
     pub fn restart(&mut self, inputs: &Inputs) -> Result<(), StepError> {
-        self.checkpoint = Checkpoint::stationary(&self.model, &self.tuning, inputs, &mut self.workspace)?;
+        self.checkpoint = Checkpoint::stationary(&self.model, &self.tuning, inputs)?;
         self.outputs = outputs::observe(&self.model.rolling, &self.checkpoint.state);
         Ok(())
     }
@@ -262,7 +267,11 @@ impl Simulation {
     /// the last communication step, or of the stationary start. See [`crate::rolling::sensitivity`].
     pub fn difference(&mut self, direction: &Drive) -> Result<Difference, StepError> {
         let Checkpoint { state, tuning, origin, .. } = &self.checkpoint;
-        sensitivity::difference(&self.model.rolling, tuning, state, origin, direction, &mut self.workspace)
+        let mut tools = self.model.shelf.take();
+        let rolling = &self.model.rolling;
+        let found = sensitivity::difference(rolling, tuning, state, origin, direction, &mut tools.workspace);
+        self.model.shelf.put_back(tools);
+        found
     }
 
     /// Time derivative of an output: second-order backward difference of the last communication points, which the
@@ -332,14 +341,12 @@ impl Simulation {
         if !origin.into_iter().chain([&checkpoint.state]).all(|state| model.rolling.fits(state) && plausible(state)) {
             return Err(StepError::ForeignState);
         }
-        Ok(Self::at(model, tuning, checkpoint, Workspace::default()))
+        Ok(Self::at(model, tuning, checkpoint))
     }
 
     /// Goes back, or on, to the checkpoint of a simulation with an equal model.
     pub fn recall(&mut self, checkpoint: Checkpoint) -> Result<(), StepError> {
-        let resumed = Self::resume(self.model.clone(), self.tuning.clone(), checkpoint)?;
-        let (workspace, spare) = (std::mem::take(&mut self.workspace), std::mem::take(&mut self.spare));
-        *self = Self { workspace, spare, ..resumed };
+        *self = Self::resume(self.model.clone(), self.tuning.clone(), checkpoint)?;
         Ok(())
     }
 
