@@ -245,15 +245,12 @@ impl Iterate<'_> {
         let GridScratch { closed, friction, stuck, axes, .. } = &*self.scratch;
         let (normal, rest) = target.split_at_mut(closed.len());
         let (tangential, rigid) = rest.split_at_mut(stuck.len());
-        let mut largest = 0.0f64;
         for ((value, &i), friction) in normal.iter_mut().zip(closed).zip(friction) {
             let port = self.grid.port(i);
             *value = forces[port + 1] + friction * forces[port];
-            largest = largest.max(value.abs());
         }
         for (value, &i) in tangential.iter_mut().zip(stuck) {
             *value = forces[self.grid.port(i)];
-            largest = largest.max(value.abs());
         }
         let mut constant = row.constant;
         for (k, motion) in self.problem.rigid.iter().enumerate() {
@@ -261,8 +258,8 @@ impl Iterate<'_> {
         }
         for (value, &k) in rigid.iter_mut().zip(axes) {
             *value = row.rigid[k];
-            largest = largest.max(value.abs());
         }
+        let largest = largest(target);
         let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         target.iter_mut().for_each(|value| *value *= scale);
         *rhs = -constant * scale;
@@ -381,4 +378,13 @@ impl Iterate<'_> {
             (None, None) => self.founding_state(),
         }
     }
+}
+
+/// Largest amount, of four at a time.
+fn largest(values: &[f64]) -> f64 {
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    let (fours, rest) = values.as_chunks::<4>();
+    let four =
+        fours.iter().fold([0.0; 4], |most: [f64; 4], four| std::array::from_fn(|k| larger(most[k], four[k].abs())));
+    rest.iter().map(|value| value.abs()).chain(four).fold(0.0, larger)
 }

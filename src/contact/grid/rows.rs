@@ -89,18 +89,11 @@ impl Iterate<'_> {
         let (v, rim) = (self.traction.rigid[0], self.rim_velocity());
         let gain = problem.time.a0;
         let [wheel, rail] = &self.scratch.known;
-        let add = |forces: &mut [f64], factor: f64, matrix: &DMatrix<f64>, port: usize| {
-            let source = &column(matrix, port)[window.clone()];
-            forces[window.clone()].iter_mut().zip(source).for_each(|(f, c)| *f += factor * c);
-        };
-        forces[window.clone()].fill(0.0);
-        add(forces, gain, bodies.relative, port);
         let mut inertial: [f64; 3] = std::array::from_fn(|k| gain * bodies.inertial[(port, k)]);
         let mut constant = gain * (wheel[port] - rail[port]) + self.scratch.slip_offset[i];
         let row = self.scratch.upwind[i];
-        for (at, weight) in self.stencil(i, row, to_right) {
-            add(forces, -v * weight, bodies.compliance[1], at);
-            add(forces, -rim * weight, bodies.compliance[0], at);
+        let stencil = self.stencil(i, row, to_right);
+        for (at, weight) in stencil {
             for (k, load) in inertial.iter_mut().enumerate() {
                 *load -= rim * weight * bodies.inertial[(at, k)];
             }
@@ -109,10 +102,16 @@ impl Iterate<'_> {
         let [stretch_wheel, stretch_rail] = self.stretches(i, row, to_right);
         // A turn of the rim tilts the surface and slows the rim.
         let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
-        let tilt: f64 = self.stencil(i, row, to_right).iter().map(|(at, weight)| weight * height(*at)).sum();
+        let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
         let by_turn = rim * tilt + problem.radius() * gain * stretch_wheel;
         let turn = &self.scratch.turn;
-        forces[window.clone()].iter_mut().zip(&turn.forces[window.clone()]).for_each(|(f, t)| *f += by_turn * t);
+        let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
+        let upstream = stencil.map(|(at, weight)| {
+            let [wheel, rail] = bodies.compliance.map(|matrix| of_node(matrix, at));
+            [(rail, -v * weight), (wheel, -rim * weight)]
+        });
+        let terms = [(of_node(bodies.relative, port), gain), (&turn.forces[window.clone()], by_turn)];
+        combine(&mut forces[window.clone()], terms, upstream);
         inertial.iter_mut().zip(turn.inertial).for_each(|(load, t)| *load += by_turn * t);
         constant += by_turn * (turn.known - self.frame.turn);
         let mut rigid = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
@@ -300,4 +299,20 @@ impl Iterate<'_> {
 fn column(matrix: &DMatrix<f64>, j: usize) -> &[f64] {
     let n = matrix.nrows();
     &matrix.as_slice()[j * n..(j + 1) * n]
+}
+
+/// A multiple of values.
+type Term<'a> = (&'a [f64], f64);
+
+/// Writes the first of `terms`, plus those of `others`, plus the second one. All at once: passes over the memory, one for each, are
+/// what the contact on uneven surfaces waits for.
+fn combine<'a>(sum: &mut [f64], [first, last]: [Term<'a>; 2], others: [[Term<'a>; 2]; 3]) {
+    let count = sum.len();
+    let cut = |(values, factor): Term<'a>| (&values[..count], factor);
+    let ([(f, f_by), (l, l_by)], others) = ([cut(first), cut(last)], others.map(|pair| pair.map(cut)));
+    let [[(a, a_by), (b, b_by)], [(c, c_by), (d, d_by)], [e, g]] = others;
+    for (k, sum) in sum.iter_mut().enumerate() {
+        let upstream = f_by * f[k] + a_by * a[k] + b_by * b[k] + c_by * c[k] + d_by * d[k];
+        *sum = upstream + e.1 * e.0[k] + g.1 * g.0[k] + l_by * l[k];
+    }
 }
