@@ -78,7 +78,8 @@ fn a_value_that_is_no_value_is_refused_with_a_short_message_for_every_variable()
                 assert_eq!(slave.setup(0.0, None), fmi2OK);
                 let entered = slave.enter();
                 let status = if entered == fmi2OK { slave.exit() } else { entered };
-                slave.refused(status, &[name, "column"]);
+                let why = if *name == "wheel.profile_save" { "must end in .csv" } else { "column" };
+                slave.refused(status, &[name, why]);
             }
         }
     }
