@@ -142,13 +142,16 @@ fn starts(table: &mut Table, store: &BasisStore) {
     table.time("start of a further equal wheel", fastest(second));
 }
 
-/// What a wheel adds to the memory of the process. It has to come first: later there is memory of earlier work to spare.
+/// What a wheel adds to the memory of the process: the mean over many, after as many others have used up what earlier work left to
+/// spare.
 fn memory(table: &mut Table, store: &BasisStore) {
     let shared = model(20, true, store);
-    drop(braking(&shared));
+    let some = || (0..150).map(|_| braking(&shared)).collect::<Vec<_>>();
+    let first = some();
     let before = resident();
-    let wheels: Vec<_> = (0..40).map(|_| braking(&shared)).collect();
+    let wheels = some();
     table.number("memory of a further equal wheel", (resident() - before) / wheels.len() as f64, "MB");
+    drop(first);
 }
 
 fn main() {
