@@ -55,18 +55,21 @@ fn model(elements: usize, heat: bool, store: &BasisStore) -> Arc<Model> {
     model
 }
 
-/// A wheel that rolls under a braking moment of about half the adhesion limit, and its inputs.
-fn braking(model: &Arc<Model>) -> (Simulation, Inputs) {
+/// Braking moment of about half the adhesion limit \[N m].
+const MOMENT: f64 = -7000.0;
+
+/// A wheel that rolls under a moment \[N m], and its inputs.
+fn braking(model: &Arc<Model>, moment: f64) -> (Simulation, Inputs) {
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model.clone(), &inputs).expect("stationary state");
-    inputs.drive.moment = -7000.0;
+    inputs.drive.moment = moment;
     (0..20).for_each(|_| simulation.advance(&inputs, STEP).expect("step"));
     (simulation, inputs)
 }
 
 /// Time of a step \[s].
 fn step(model: &Arc<Model>) -> f64 {
-    let (mut simulation, inputs) = braking(model);
+    let (mut simulation, inputs) = braking(model, MOMENT);
     fastest(|| simulation.advance(&inputs, STEP).expect("step"))
 }
 
@@ -112,11 +115,12 @@ fn steps(table: &mut Table, store: &BasisStore) {
     }
 }
 
-/// Wheels one after the other and on all cores.
+/// Wheels one after the other and on all cores. Their moments differ: equal ones would share what belongs to their speeds.
 fn wheels(table: &mut Table, store: &BasisStore) {
     for (name, heat) in [("coupled", true), ("without heat", false)] {
         let model = model(20, heat, store);
-        let (mut wheels, inputs): (Vec<_>, Vec<_>) = (0..WHEELS).map(|_| braking(&model)).unzip();
+        let (mut wheels, inputs): (Vec<_>, Vec<_>) =
+            (0..WHEELS).map(|k| braking(&model, MOMENT + 100.0 * k as f64)).unzip();
         let alone =
             fastest(|| wheels.iter_mut().zip(&inputs).for_each(|(wheel, inputs)| wheel.advance(inputs, STEP).unwrap()));
         let together = fastest(|| assert!(advance_all(&mut wheels, &inputs, STEP).iter().all(Result::is_ok)));
@@ -146,7 +150,7 @@ fn starts(table: &mut Table, store: &BasisStore) {
 /// spare.
 fn memory(table: &mut Table, store: &BasisStore) {
     let shared = model(20, true, store);
-    let some = || (0..150).map(|_| braking(&shared)).collect::<Vec<_>>();
+    let some = || (0..150).map(|_| braking(&shared, MOMENT)).collect::<Vec<_>>();
     let first = some();
     let before = resident();
     let wheels = some();
