@@ -163,8 +163,8 @@ fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
     }
 }
 
-/// At 2 m/s the torsion sticks and slips. Without a memory of friction, 0.25 s of it depended on the steps by a fifth, or heated
-/// the contact beyond the liquidus.
+/// At 2 m/s the torsion sticks and slips. Without a memory of friction the force depended on the steps by a fifth, or the contact
+/// was heated beyond the liquidus, after 0.236 s in steps of 0.1 ms.
 #[test]
 fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
     let means = [1e-3, 1e-4].map(|h| {
