@@ -347,7 +347,7 @@ def limits(fmu):
 def plot(path, found, limit, reference, shown):
     """Draws error over step, limit over speed, and the force with one step."""
     plt, colours = pyplot(), {"Jacobi": "#D55E00", "Gauss-Seidel": "#E69F00", "iterative": "#0072B2", None: "#777777"}
-    figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), layout="constrained")
+    figure, axes = plt.subplots(1, 3, figsize=(13.4, 3.6), layout="constrained")
 
     axis = axes[0]
     for owns, master in dict.fromkeys(key[:2] for key in found):
@@ -359,23 +359,26 @@ def plot(path, found, limit, reference, shown):
     axis.set(title="Error of $V$, braking from 2 m/s", xlabel="communication step [ms]", ylabel="m/s")
     axis.set_xticks([1e3 * h for h in STEPS], [f"{1e3 * h:g}" for h in STEPS])
     axis.minorticks_off()
-    axis.legend(fontsize=7)
+    axis.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
     axis = axes[1]
     axis.loglog(LIMIT_SPEEDS, 1e6 * limit[:, 0], ":", color=colours[None], label=r"$2m/c$ (Carter's slope)")
     for k, master in enumerate(EXPLICIT, start=1):
         axis.loglog(LIMIT_SPEEDS, 1e6 * limit[:, k], "o-", color=colours[master], label=master, markersize=4)
     axis.set(title="Largest stable step, master owns the wheel", xlabel="$V$ [m/s]", ylabel="µs")
+    axis.set_xticks(LIMIT_SPEEDS, [f"{speed:g}" for speed in LIMIT_SPEEDS])
+    axis.set_yticks([10, 20, 50, 100, 200], ["10", "20", "50", "100", "200"])
+    axis.minorticks_off()
     axis.legend()
 
     axis = axes[2]
     for master, table in shown.items():
         time = SHOWN * np.arange(len(table))
-        axis.plot(time, table[:, 1] / 1e3, color=colours[master], label=f"wheel, {master}", linewidth=0.8)
+        axis.plot(time, table[:, 1] / 1e3, color=colours[master], label=f"wheel, {master}", linewidth=0.8, alpha=0.4 if master in EXPLICIT else 1.0)
     time = REFERENCE_STEP * np.arange(len(reference))
     axis.plot(time, reference[:, 1] / 1e3, ":", color="black", label="monolithic", linewidth=1.4)
     axis.set(title=f"Tangential force, step {1e3 * SHOWN:g} ms", xlabel="time [s]", ylabel="kN")
-    axis.legend(frameon=True, framealpha=1.0)
+    axis.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.savefig(path, dpi=120)
 
 
