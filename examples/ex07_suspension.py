@@ -266,6 +266,7 @@ def plot(path, found, reference, steps):
         axis.set(title=title, xlabel="communication step [ms]")
         axis.set_xticks([1e3 * h for h in STEPS], [f"{1e3 * h:g}" for h in STEPS])
         axis.minorticks_off()
+    axes[2].set_yticks([1, 2, 5], ["1", "2", "5"])
     axes[0].axhline(0.3, color="#777777", linestyle=":")
     axes[0].legend()
     for (master, controlled), points in steps.items():
