@@ -87,5 +87,11 @@ impl Profile {
     }
 }
 
+/// Length of the longest flat that a text names \[m]; zero if there is none.
+pub fn longest_flat(text: &str) -> f64 {
+    let calls = text::calls(text).unwrap_or_default();
+    calls.iter().filter(|call| call.name == "flat").filter_map(|call| call.number("length")).fold(0.0, f64::max)
+}
+
 #[cfg(test)]
 mod tests;

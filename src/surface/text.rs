@@ -13,6 +13,16 @@ pub struct Call {
     pub given: Vec<(Option<String>, Given)>,
 }
 
+impl Call {
+    /// The number that is given under a name.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.given.iter().find_map(|(given, value)| match value {
+            Given::Number(number) if given.as_deref() == Some(name) => Some(*number),
+            _ => None,
+        })
+    }
+}
+
 /// A value as it is written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Given {
