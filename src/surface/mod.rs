@@ -40,7 +40,8 @@ impl Profile {
     /// Whatever has no meaning: the error names feature or line, value, allowed range and what to do.
     pub fn parse(text: &str, folder: Option<&Path>, body: Body) -> Result<Self, ProfileError> {
         let calls = text::calls(text)?;
-        let features = calls.into_iter().map(|call| catalogue::build(call, folder, body)).collect::<Result<_, _>>()?;
+        let site = catalogue::Site::new(body, folder);
+        let features = calls.into_iter().map(|call| catalogue::build(call, &site)).collect::<Result<_, _>>()?;
         Ok(Self { features })
     }
 
