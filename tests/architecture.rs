@@ -18,7 +18,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("piecewise", &[]),
     ("linalg", &[]),
     ("fem", &["linalg"]),
-    ("mechanics", &["fem", "linalg", "multistep", "config", "analytic", "material"]),
+    ("mechanics", &["surface", "fem", "linalg", "multistep", "config", "analytic", "material"]),
     ("heat", &["fem", "linalg", "config", "piecewise"]),
     ("surface", &["config", "piecewise"]),
     ("contact", &["linalg", "multistep", "piecewise"]),

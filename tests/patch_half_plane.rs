@@ -65,6 +65,7 @@ impl HalfPlanes {
                 inertial: &self.none[1],
                 momentum: &self.none[2],
                 deformation_inertia: &self.none[3],
+                late: [None; 2],
             },
             membrane: [&flat, &flat],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],

@@ -108,6 +108,19 @@ fn two_thousand_mistyped_profiles_are_surfaces_or_refused_by_name() {
     assert!(surfaces > 250 && refused > 2000, "{surfaces} {refused}");
 }
 
+/// What a text may cost is bounded before anything is computed: by its length, and by the samples of all its roughness.
+#[test]
+fn texts_that_would_take_long_are_refused_by_name() {
+    let rough = "roughness(spectrum = EN_ISO_3095, shortest = 8e-4, length = 50)";
+    let refusal = |text: &str| Profile::parse(text, None, Body::Rail).unwrap_err().to_string();
+    assert!(Profile::parse(rough, None, Body::Rail).is_ok());
+    let (many, endless) = (vec![rough; 2].join(" + "), vec!["hole(length = 1, depth = 1e-3)"; 1000].join(" + "));
+    assert!(refusal(&many).contains("shortest") && refusal(&many).contains("for all roughness"), "{}", refusal(&many));
+    assert!(refusal(&endless).contains("column 20001") && refusal(&endless).contains(".csv"), "{}", refusal(&endless));
+    let names: String = (0..1500).map(|k| format!("a{k} = 1, ")).collect();
+    assert!(refusal(&format!("hole({names}length = 1)")).contains("needs depth"));
+}
+
 #[test]
 fn two_thousand_damaged_files_are_surfaces_or_refused_by_line() {
     let mut random = Random(6);

@@ -120,11 +120,11 @@ fn nothing_of_a_flat_is_lost_between_communication_points() {
     assert!((supported - momentum).abs() < 2.5e-3 * impulse, "{supported} {momentum}");
 }
 
-/// Largest force [N] and time without contact [s] as a wheel with a flat of 40 mm rolls over it.
-fn impact(shape: &str, speed: f64, elements: usize, step: f64) -> (f64, f64) {
+/// Largest force [N] and time without contact [s] as a wheel with a flat [m] rolls over it.
+fn impact(length: f64, shape: &str, speed: f64, elements: usize, step: f64) -> (f64, f64) {
     let mut config = cold(preset("railway", elements));
     config.physics.yielding = false;
-    config.wheel.profile = format!("flat(length = 0.04, shape = {shape}, position = 0.08)");
+    config.wheel.profile = format!("flat(length = {length}, shape = {shape}, position = 0.08)");
     let model = model(config);
     let inputs = without_friction(&model, speed * KMH);
     let mut simulation = Simulation::new(model, &inputs).unwrap();
@@ -137,11 +137,22 @@ fn impact(shape: &str, speed: f64, elements: usize, step: f64) -> (f64, f64) {
 #[test]
 fn a_flat_hits_hardest_at_a_moderate_speed_and_throws_the_wheel_off_the_rail() {
     for (shape, speeds) in [("fresh", [20.0, 40.0, 100.0]), ("rounded", [20.0, 40.0, 140.0])] {
-        let found = speeds.map(|speed| impact(shape, speed, 6, 2e-5));
+        let found = speeds.map(|speed| impact(0.04, shape, speed, 6, 2e-5));
         println!("{shape}, {speeds:?} km/h: {found:.4?}");
         assert!(found[1].0 > 1.2 * found[0].0.max(found[2].0) && found[1].1 > 1e-3, "{found:?}");
-        let (finer, lost) = impact(shape, speeds[1], 10, 1e-5);
+        let (finer, lost) = impact(0.04, shape, speeds[1], 10, 1e-5);
         assert!((found[1].0 / finer - 1.0).abs() < 0.02 && (found[1].1 / lost - 1.0).abs() < 0.02, "{finer} {lost}");
+    }
+}
+
+/// The zone of the contact widens to the edges of the flat, on cells that grow outwards: 6, 10 and 20 elements and half the step.
+#[test]
+fn a_flat_of_60_mm_runs_at_every_speed_and_converges_in_step_and_mesh() {
+    for speed in [20.0, 30.0, 40.0, 60.0, 80.0, 100.0, 140.0] {
+        let found = [(6, 2e-5), (6, 1e-5), (10, 1e-5), (20, 1e-5)].map(|(n, dt)| impact(0.06, "fresh", speed, n, dt));
+        println!("60 mm at {speed} km/h: {found:.4?}");
+        assert!(found[..3].iter().all(|f| (f.0 / found[3].0 - 1.0).abs() < 0.02), "{found:?}");
+        assert!(found[3].0 > 3e5 && found[3].1 > 2e-3);
     }
 }
 
@@ -244,16 +255,22 @@ fn profiles_without_meaning_are_refused_by_name_and_unresolved_ones_are_announce
     assert_eq!((simulation.exceeded_limits().count(), outputs.internal_steps), (0, 40));
 }
 
+/// A wheel that sinks between the edges of a hole of the rail; with the advice it does so without complaint.
 #[test]
-fn surfaces_that_touch_where_no_contact_is_looked_for_are_refused_with_advice() {
+fn surfaces_that_touch_where_no_contact_is_looked_for_are_refused_with_advice_that_helps() {
     let mut config = cold(preset("railway", 6));
     config.physics.yielding = false;
-    config.wheel.profile = "flat(length = 0.1, position = 0.1)".into();
-    let model = model(config.clone());
-    let inputs = without_friction(&model, 1.0);
-    let mut simulation = Simulation::new(model, &inputs).unwrap();
-    let error = (0..200).find_map(|_| simulation.advance(&inputs, 1e-3).err()).unwrap();
-    let text = advice::failed_step(&error, &config);
-    println!("{text} at {:.4} m", simulation.outputs().wheel_distance);
-    assert!(["candidate zone", "wheel.profile is too", "model.nominal_load"].iter().all(|word| text.contains(word)));
+    config.rail.profile = "hole(length = 0.06, position = 0.1, depth = 2e-3)".into();
+    let over = |config: &Config| {
+        let model = model(config.clone());
+        let inputs = without_friction(&model, 1.0);
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        (0..200).find_map(|_| simulation.advance(&inputs, 1e-3).err())
+    };
+    let text = advice::failed_step(&over(&config).unwrap(), &config);
+    println!("{text}");
+    let (_, advised) = text.split_once("up to which contact is looked for, to ").unwrap();
+    config.mesh.reach = advised.split_once(' ').unwrap().0.parse().unwrap();
+    assert!(["candidate zone", "rail.profile is too"].iter().all(|word| text.contains(word)));
+    assert_eq!(over(&config), None);
 }

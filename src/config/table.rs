@@ -181,6 +181,9 @@ parameters! {
         mesh: MeshParameters fixed {
             1080 elements_per_half_width: usize = 20, from 4 to 80,
                 "Elements per Hertzian half-width at model.nominal_load";
+            1081 reach: f64 = 0.0, in "m" as "mm", from 0.0 to 1.0,
+                "Distance from the contact point up to which contact is looked for at least where a patch needs it, as far as wheel \
+                 and rail have room; 0: about six half-widths at model.nominal_load, and the edges of every flat in wheel.profile";
         }
         /// Numerical choices.
         solver: SolverParameters fixed {

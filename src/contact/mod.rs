@@ -22,7 +22,7 @@ pub use error::ContactError;
 pub use flattening::Flattening;
 pub use friction::{Friction, FrictionLaw, Heating};
 pub use limits::Limits;
-pub use problem::{AxisDrive, ContactProblem, RigidMotion, SurfaceResponse};
+pub use problem::{AxisDrive, ContactProblem, LateLayer, RigidMotion, SurfaceResponse};
 pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Relief, Surfaces};
 pub use traction::Traction;

@@ -22,6 +22,20 @@ pub struct SurfaceResponse<'a> {
     pub momentum: &'a DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, 3 × 3.
     pub deformation_inertia: &'a DMatrix<f64>,
+    /// Layers of wheel and rail that answer late; `None`: all flexibility answers at once.
+    pub late: [Option<LateLayer<'a>>; 2],
+}
+
+/// A layer at the surface of a body that answers with the elastic part `share · force + known` of the nodal forces, from which
+/// these run ahead.
+#[derive(Clone, Copy)]
+pub struct LateLayer<'a> {
+    /// Displacement per unit elastic nodal force [m/(N/m)].
+    pub flexibility: &'a DMatrix<f64>,
+    /// Part of a new force that counts at once \[1].
+    pub share: f64,
+    /// Elastic nodal forces on this body without new forces [N/m].
+    pub known: &'a DVector<f64>,
 }
 
 /// What drives a rigid motion of the wheel.

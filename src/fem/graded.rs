@@ -94,6 +94,12 @@ impl ContactZone {
         [x[last], x[last] - x[last - 1]]
     }
 
+    /// Distance of the outermost node that may come into contact from the contact point \[m].
+    pub fn end_of_candidates(&self) -> f64 {
+        let x = self.surface_x();
+        x[x.len() - 1 - GUARDS]
+    }
+
     /// Number of uniform layers below the surface.
     fn layers(&self) -> usize {
         (UNIFORM_DEPTH * self.elements as f64).ceil() as usize

@@ -64,10 +64,11 @@ pub fn key(config: &Config) -> String {
     let Config { model, wheel, rail, material, mesh, solver, .. } = config;
     let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
     let elastic = [material.youngs_modulus, material.poissons_ratio, material.density];
+    let zone = [contact_zone(config).reach];
     let line_load = [model.nominal_load / model.contact_width];
     let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
     let mut bytes = CODE.as_bytes().to_vec();
-    bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).flat_map(|value| value.to_le_bytes()));
+    bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).chain(&zone).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()
 }
@@ -224,7 +225,9 @@ mod tests {
         same.physics.centrifugal = false;
         (same.model.nominal_load, same.model.contact_width) = (2e5, 2.0);
         assert_eq!(key(&base), key(&same));
-        let changes: [fn(&mut Config); 5] = [
+        let changes: [fn(&mut Config); 7] = [
+            |c| c.mesh.reach = 0.1,
+            |c| c.wheel.profile = "flat(length = 0.1)".into(),
             |c| c.wheel.hub_radius = 0.06,
             |c| c.material.density = 7800.0,
             |c| c.model.nominal_load = 1.1e5,

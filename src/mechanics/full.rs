@@ -30,7 +30,7 @@ struct FullDamping {
     /// The modes that ratios damp, and through which the stream carries strain.
     modes: Arc<DampedModes>,
     /// What the contact adds to the surface, with stiffness-proportional damping.
-    layer: Option<RetardedLayer>,
+    layer: Option<Arc<RetardedLayer>>,
 }
 
 /// `a0² M + a0 (D + α0 M + α1 K) + K` with dashpots `D`; the pattern does not depend on `a0`.
@@ -64,7 +64,7 @@ impl FullBody {
         let modes = Arc::new(DampedModes::compute(&body.system, modes, damping)?);
         let ports = body.system.surface.len();
         let layer = (damping.stiffness > 0.0)
-            .then(|| RetardedLayer { flexibility: DMatrix::zeros(ports, ports), time: damping.stiffness });
+            .then(|| Arc::new(RetardedLayer { flexibility: DMatrix::zeros(ports, ports), time: damping.stiffness }));
         body.damping = Some(FullDamping { rayleigh: [damping.mass, damping.stiffness], modes, layer });
         Ok(body)
     }
@@ -76,7 +76,7 @@ impl FullBody {
         let damping = self.damping.as_ref().map(|FullDamping { rayleigh, modes, layer }| FullDamping {
             rayleigh: *rayleigh,
             modes: modes.clone(),
-            layer: layer.as_ref().map(|layer| layer.cut(ports)),
+            layer: layer.as_ref().map(|layer| Arc::new(layer.cut(ports))),
         });
         Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping }
     }
@@ -187,7 +187,7 @@ impl Equations for FullBody {
     }
 
     fn layer(&self) -> Option<&RetardedLayer> {
-        self.damping.as_ref().and_then(|damping| damping.layer.as_ref())
+        self.damping.as_ref().and_then(|damping| damping.layer.as_deref())
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
@@ -245,7 +245,8 @@ impl BodyResponse for FullBody {
         let inertial_response = -system.rows_on_surface(&rigid);
         let momentum = inertial_response.transpose() * -(a0 * a0);
         let deformation_inertia = system.rigid.tr_mul(&rigid) * -(a0 * a0);
-        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver })
+        let layer = self.damping.as_ref().and_then(|damping| damping.layer.clone());
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
     }
 
     fn free_response(
@@ -301,7 +302,7 @@ impl BodyResponse for FullBody {
     }
 
     fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
-        let layer = self.damping.as_mut().and_then(|damping| damping.layer.as_mut());
+        let layer = self.damping.as_mut().and_then(|damping| damping.layer.as_mut().map(Arc::make_mut));
         layer.map(|layer| layer.flexibility += flexibility).is_some()
     }
 }

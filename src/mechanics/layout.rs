@@ -4,6 +4,7 @@ use crate::analytic;
 use crate::config::Config;
 use crate::fem::ContactZone;
 use crate::material::Isotropic;
+use crate::surface;
 use std::f64::consts::PI;
 
 /// Half-width `a = √(4 P R / (π E*))` \[m] of the Hertzian line contact of a cylinder on a plane of the same material.
@@ -26,13 +27,29 @@ const REACH: f64 = 6.0;
 /// for it.
 const SHARES: [f64; 4] = [0.19, 1.5, 0.22, 1.5];
 
+/// Half-widths beyond the edges of flats, on which a patch may lie.
+const BEYOND_FLAT: f64 = 1.0;
+
 /// Fine zone of the meshes for the nominal load, with wings for wider patches where the bodies have room for them.
 pub(super) fn winged_zone(config: &Config) -> ContactZone {
     let half_width = nominal_half_width(config);
     let (radius, rail) = (config.wheel.radius, &config.rail);
     let lengths = [radius, radius - config.wheel.hub_radius, rail.length, rail.height];
-    let reach = SHARES.iter().zip(lengths).map(|(share, length)| share * length).fold(REACH * half_width, f64::min);
-    ContactZone { half_width, elements: config.mesh.elements_per_half_width, reach }
+    let most = SHARES.iter().zip(lengths).map(|(share, length)| share * length).fold(f64::INFINITY, f64::min);
+    let reach = most.min(REACH * half_width);
+    let mut zone = ContactZone { half_width, elements: config.mesh.elements_per_half_width, reach };
+    while zone.reach < most && zone.end_of_candidates() < wanted_reach(config) {
+        zone.reach = most.min(zone.reach + half_width);
+    }
+    zone
+}
+
+/// Distance from the contact point up to which contact is to be looked for at least \[m]: what the parameters ask for, and the
+/// edges of the longest flat of the wheel.
+fn wanted_reach(config: &Config) -> f64 {
+    let flat = surface::longest_flat(&config.wheel.profile);
+    let of_flat = if flat > 0.0 { 0.5 * flat + BEYOND_FLAT * nominal_half_width(config) } else { 0.0 };
+    config.mesh.reach.max(of_flat)
 }
 
 /// Mass of the wheel `ρ π (r_o² − r_i²)` [kg/m], exact for the circle.

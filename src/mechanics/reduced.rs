@@ -20,6 +20,7 @@ use super::solver::{Dense, Diagonal, StepSolver};
 use crate::linalg::dense::symmetrise;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// State: modal coordinates.
 pub struct ReducedBody {
@@ -30,7 +31,7 @@ pub struct ReducedBody {
     /// Damping of each mode; `None`: by dashpots at most.
     modal: Option<ModalRates>,
     /// The residual flexibility, if it is damped.
-    layer: Option<RetardedLayer>,
+    layer: Option<Arc<RetardedLayer>>,
 }
 
 /// Damping that does not couple the modes.
@@ -59,7 +60,7 @@ impl ReducedBody {
             transport: character.transport.transpose(),
         });
         let layer = (damping.stiffness > 0.0)
-            .then(|| RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness });
+            .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
         Self { basis, centrifugal, modal, layer }
     }
 
@@ -106,7 +107,7 @@ impl Equations for ReducedBody {
     }
 
     fn layer(&self) -> Option<&RetardedLayer> {
-        self.layer.as_ref()
+        self.layer.as_deref()
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
@@ -157,7 +158,8 @@ impl BodyResponse for ReducedBody {
         let momentum = modal.transpose() * square;
         let inertial_response = -(modal + &basis.rigid_residual);
         let deformation_inertia = basis.rigid.tr_mul(&answer) * -square;
-        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver })
+        let layer = self.layer.clone();
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
     }
 
     fn free_response(
@@ -212,7 +214,7 @@ impl BodyResponse for ReducedBody {
     }
 
     fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
-        self.layer.as_mut().map(|layer| layer.flexibility += flexibility).is_some()
+        self.layer.as_mut().map(Arc::make_mut).map(|layer| layer.flexibility += flexibility).is_some()
     }
 }
 

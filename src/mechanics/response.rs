@@ -16,12 +16,13 @@
 //! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state before the step.
 
 use super::MechanicsError;
-use super::retarded::RetardedForces;
 pub(super) use super::retarded::fit;
+use super::retarded::{RetardedForces, RetardedLayer};
 use super::solver::StepSolver;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A deformable body behind the contact; all quantities per metre of width.
 pub trait BodyResponse: Send + Sync {
@@ -173,6 +174,8 @@ pub struct StepOperator {
     pub momentum: DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, `3 × 3`.
     pub deformation_inertia: DMatrix<f64>,
+    /// Part of the surface displacement that answers late, if there is any; its share is in [`Self::surface`].
+    pub layer: Option<Arc<RetardedLayer>>,
     /// Solves the equations of the step.
     pub solver: Box<dyn StepSolver>,
 }
@@ -191,7 +194,7 @@ pub struct FreeResponse {
     pub(super) velocity: DVector<f64>,
     pub(super) product: DVector<f64>,
     /// Elastic forces of a retarded layer before the contact is solved.
-    pub(super) retarded: DVector<f64>,
+    pub retarded: DVector<f64>,
 }
 
 impl Default for BodyState {

@@ -5,8 +5,8 @@ use super::error::StepError;
 use super::state::{State, ThermalDeformation, Weakening};
 use crate::config::{Config, Tuning};
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
-    Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, LateLayer,
+    Limits, Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
 };
 use crate::material::{INDENTATION, SHEAR, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -122,6 +122,11 @@ impl ContactModel {
             inertial: &operators.wheel.inertial_response,
             momentum: &operators.wheel.momentum,
             deformation_inertia: &operators.wheel.deformation_inertia,
+            late: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
+                let layer = operator.layer.as_ref()?;
+                let share = layer.share(operator.a0);
+                Some(LateLayer { flexibility: &layer.flexibility, share, known: &free.retarded })
+            }),
         };
         let [distance, angle] = step.place;
         let problem = ContactProblem {

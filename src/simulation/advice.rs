@@ -17,7 +17,9 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         config.tuning.max_step, config.tuning.tolerance
     );
     let advice = match error {
-        StepError::ZoneExceeded { load, .. } => zone(*load, config).or_else(|| uneven(config)).unwrap_or(shorter),
+        StepError::ZoneExceeded { load, zone: reached } => {
+            zone(*load, config).or_else(|| uneven(*reached, config)).unwrap_or(shorter)
+        }
         StepError::Contact { .. } | StepError::NotFinite { .. } => shorter,
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
@@ -39,16 +41,18 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
 /// The message of a stationary start that failed, with advice.
 pub fn failed_start(error: &StepError, config: &Config) -> String {
     let advice = match error {
-        StepError::ZoneExceeded { load, .. } => zone(*load, config).or_else(|| uneven(config)).unwrap_or_else(|| {
-            format!(
-                "the load is one that the zone carries, so a higher model.nominal_load does not help: check \
+        StepError::ZoneExceeded { load, zone: reached } => {
+            zone(*load, config).or_else(|| uneven(*reached, config)).unwrap_or_else(|| {
+                format!(
+                    "the load is one that the zone carries, so a higher model.nominal_load does not help: check \
                  drive.displacement, initial.creepage (now {}), thermal.wheel_excess (now {:?} K) and rail.length (now \
                  {:?} m)",
-                creepage(config),
-                config.thermal.wheel_excess,
-                config.rail.length
-            )
-        }),
+                    creepage(config),
+                    config.thermal.wheel_excess,
+                    config.rail.length
+                )
+            })
+        }
         StepError::BeyondAdhesion { .. } => {
             "start with gentler drive.moment and drive.force and bring them to their values in the first steps, or set \
              initial.creepage, with which the run starts sliding and accelerates by what adhesion does not carry"
@@ -73,16 +77,21 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
     format!("{error}: {advice}")
 }
 
+/// Zone that is advised over the one that was too short \[1].
+const WIDER: f64 = 1.5;
+
 /// Advice where the surfaces may touch beyond the zone because of their profiles; `None` for smooth ones.
-fn uneven(config: &Config) -> Option<String> {
+fn uneven(zone: f64, config: &Config) -> Option<String> {
     let profiles = [("wheel.profile", &config.wheel.profile), ("rail.profile", &config.rail.profile)];
     let set: Vec<_> = profiles.iter().filter(|(_, text)| !text.is_empty()).map(|(name, _)| *name).collect();
     (!set.is_empty()).then(|| {
         format!(
-            "{} is too deep or too long for it: the surfaces touch beyond; make it shallower or shorter, or raise \
-             model.nominal_load (now {:?} N), which widens the zone, and set drive.load",
+            "{} is too deep or too long for it: the surfaces touch beyond; set mesh.reach (now {:?} m), up to which contact is \
+             looked for, to {:.3} m or more, or make the profile shallower or shorter. If the zone stays as it is, wheel and \
+             rail have no more room for it",
             set.join(" or "),
-            config.model.nominal_load
+            config.mesh.reach,
+            WIDER * zone
         )
     })
 }

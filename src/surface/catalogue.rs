@@ -11,6 +11,7 @@ use super::text::Call;
 use super::wave::{Cover, Pattern, Wave, Window};
 
 use crate::config::{display_number, nearest};
+use std::cell::Cell;
 use std::path::Path;
 
 /// Positions [m].
@@ -31,10 +32,19 @@ const OFF_BAND: f64 = 0.1;
 /// Makes a feature of what it is given.
 type Maker = fn(&mut Arguments, &Site) -> Result<Feature, ProfileError>;
 
-/// Whose surface it is, and where its files lie.
-struct Site<'a> {
+/// Whose surface it is, where its files lie, and what is left of the memory for roughness.
+pub struct Site<'a> {
     body: Body,
     folder: Option<&'a Path>,
+    /// Samples that tables of roughness may still take.
+    samples: Cell<usize>,
+}
+
+impl<'a> Site<'a> {
+    /// A surface without features yet.
+    pub fn new(body: Body, folder: Option<&'a Path>) -> Self {
+        Self { body, folder, samples: Cell::new(LARGEST_TABLE) }
+    }
 }
 
 /// All features.
@@ -56,13 +66,13 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Makes the feature that a call names.
-pub fn build(call: Call, folder: Option<&Path>, body: Body) -> Result<Feature, ProfileError> {
+pub fn build(call: Call, site: &Site) -> Result<Feature, ProfileError> {
     let Some((name, make)) = CATALOGUE.iter().find(|(name, _)| *name == call.name) else {
         let nearest = nearest(&call.name, names());
         return Err(ProfileError::Feature { column: call.column, name: call.name, nearest });
     };
     let mut given = Arguments::new(name, call, "name")?;
-    let feature = make(&mut given, &Site { body, folder })?;
+    let feature = make(&mut given, site)?;
     given.finish()?;
     Ok(feature)
 }
@@ -203,12 +213,12 @@ fn rough(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
     };
     let levels = levels.iter().map(|level| level + offset).collect();
     let spectrum = Spectrum { longest, levels, seed, period };
-    check_table(&spectrum, given)?;
+    check_table(&spectrum, given, site)?;
     cover(Pattern::Roughness(spectrum.realise()), given, site)
 }
 
-/// Refuses bands without a wave and tables that are too long.
-fn check_table(spectrum: &Spectrum, given: &Arguments) -> Result<(), ProfileError> {
+/// Refuses bands without a wave, and tables that are too long, alone or together.
+fn check_table(spectrum: &Spectrum, given: &Arguments, site: &Site) -> Result<(), ProfileError> {
     let mid = |i: usize| roughness::band_wavelength(f64::from(spectrum.longest) - i as f64);
     let period = display_number(spectrum.period);
     if let Some(i) = (0..spectrum.levels.len()).find(|&i| spectrum.waves(i).is_empty()) {
@@ -219,11 +229,14 @@ fn check_table(spectrum: &Spectrum, given: &Arguments) -> Result<(), ProfileErro
         return Err(given.outside("longest", format!("{} m", display_number(mid(0))), range));
     }
     let (samples, last) = (spectrum.samples(), spectrum.levels.len() - 1);
-    if samples > LARGEST_TABLE {
-        let range =
-            format!("longer, or a shorter length: {period} m would take {samples} samples, at most {LARGEST_TABLE}");
+    let Some(left) = site.samples.get().checked_sub(samples) else {
+        let range = format!(
+            "longer, or a shorter length: {period} m would take {samples} samples, at most {LARGEST_TABLE} for all roughness of \
+             a surface"
+        );
         return Err(given.outside("shortest", format!("{} m", display_number(mid(last))), range));
-    }
+    };
+    site.samples.set(left);
     Ok(())
 }
 

@@ -40,7 +40,8 @@ impl Profile {
     /// Whatever has no meaning: the error names feature or line, value, allowed range and what to do.
     pub fn parse(text: &str, folder: Option<&Path>, body: Body) -> Result<Self, ProfileError> {
         let calls = text::calls(text)?;
-        let features = calls.into_iter().map(|call| catalogue::build(call, folder, body)).collect::<Result<_, _>>()?;
+        let site = catalogue::Site::new(body, folder);
+        let features = calls.into_iter().map(|call| catalogue::build(call, &site)).collect::<Result<_, _>>()?;
         Ok(Self { features })
     }
 
@@ -85,6 +86,12 @@ impl Profile {
     pub fn is_smooth(&self) -> bool {
         self.features.is_empty()
     }
+}
+
+/// Length of the longest flat that a text names \[m]; zero if there is none.
+pub fn longest_flat(text: &str) -> f64 {
+    let calls = text::calls(text).unwrap_or_default();
+    calls.iter().filter(|call| call.name == "flat").filter_map(|call| call.number("length")).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

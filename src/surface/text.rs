@@ -2,6 +2,9 @@
 
 use super::error::ProfileError;
 
+/// Longest text [characters]: what is longer belongs into a file. It bounds what looking at all features costs.
+const LONGEST: usize = 20_000;
+
 /// A feature as it is written: its name and what it is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Call {
@@ -11,6 +14,16 @@ pub struct Call {
     pub column: usize,
     /// What stands between its brackets: name, none for a text that stands alone, and value.
     pub given: Vec<(Option<String>, Given)>,
+}
+
+impl Call {
+    /// The number that is given under a name.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.given.iter().find_map(|(given, value)| match value {
+            Given::Number(number) if given.as_deref() == Some(name) => Some(*number),
+            _ => None,
+        })
+    }
 }
 
 /// A value as it is written.
@@ -44,6 +57,10 @@ pub fn calls(text: &str) -> Result<Vec<Call>, ProfileError> {
     if bare.to_lowercase().ends_with(".csv") {
         let given = vec![(None, Given::Text(bare.to_owned()))];
         return Ok(vec![Call { name: "file".to_owned(), column: 1, given }]);
+    }
+    if let Some((at, _)) = text.char_indices().nth(LONGEST) {
+        let found = text[at..].chars().next().unwrap_or_default();
+        return Err(unexpected(LONGEST, "the end (longer profiles belong into a .csv file)", found));
     }
     let mut reader = Reader { tokens: tokens(text)?, next: 0, end: text.chars().count() + 1 };
     let mut calls = vec![reader.call()?];

@@ -91,6 +91,7 @@ impl HalfPlanes {
                 inertial: &self.none[0],
                 momentum: &self.none[1],
                 deformation_inertia: &self.none[2],
+                late: [None; 2],
             },
             membrane: [&flat, &flat],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],

@@ -50,6 +50,7 @@ impl Iterate<'_> {
     pub fn run(mut self) -> Result<(), ContactError> {
         self.traction.rigid = self.problem.rigid.map(|motion| motion.start());
         self.prepare();
+        self.lag();
         if self.problem.time.is_stationary() {
             self.found_anew();
         }
@@ -82,7 +83,8 @@ impl Iterate<'_> {
             // Once states and edges are settled, only motions and turn are refined: smooth functions of the data.
             decided += usize::from(!settled);
             settled = !changed && (settled || self.edges_settled());
-            if settled && !turned && self.sticks() {
+            let late = self.lag() && self.problem.rigid[2].target().is_none();
+            if settled && !turned && !late && self.sticks() {
                 return Ok(decided);
             }
         }

@@ -27,10 +27,13 @@ impl Iterate<'_> {
             scratch.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
         }
         let GridScratch { swelling, membrane, centred_slip: slip, .. } = &*scratch;
-        let power = Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane };
+        let late = scratch.late.force;
+        let power =
+            Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane, late: late[1] };
         let [friction, work] = power.friction(&problem.time, &mut state.friction);
         let power = traction.dissipate(friction, work, problem.duration);
         traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, &scratch.dents, traction);
+        traction.resultant[2] -= problem.radius() * late.iter().sum::<f64>();
         observe::overlap(grid, state, &scratch.overlap, traction);
         let pressures = scratch.limit.iter().enumerate().map(|(i, force)| force / grid.width(i));
         let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);

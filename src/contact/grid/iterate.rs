@@ -50,10 +50,23 @@ pub struct GridScratch {
     pub(super) upwind_before: Vec<Upwind>,
     pub(super) status_before: Vec<Status>,
     pub(super) turn: AffineTurn,
+    /// See [`Iterate::lag`].
+    pub(super) late: Late,
     /// Coefficients of all port forces in the row at hand.
     pub(super) row: Vec<f64>,
     /// Slip velocity with centred differences: what dissipates. The upwind one counts its own numerical dissipation.
     pub(super) centred_slip: Vec<f64>,
+}
+
+/// What each of the layers that answer late spares the hub, and the memory to compute it.
+#[derive(Default)]
+pub(super) struct Late {
+    /// Of wheel and rail, at the rim [N/m].
+    pub force: [f64; 2],
+    /// Elastic nodal forces of the layer at hand [N/m].
+    pub elastic: DVector<f64>,
+    /// Their displacement [m].
+    pub displacement: DVector<f64>,
 }
 
 /// Turn of the rim as an affine function.

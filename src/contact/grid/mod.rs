@@ -12,6 +12,7 @@ mod conclude;
 mod frame;
 pub(super) mod iterate;
 pub mod kernel;
+mod late;
 mod nested;
 pub mod observe;
 mod power;

@@ -24,6 +24,8 @@ pub(super) struct Power<'a> {
     pub swelling: &'a [Vec<f64>; 2],
     /// Displacement of wheel and rail by the membrane forces of their hot layers [m]; empty without any.
     pub membrane: &'a [DVector<f64>; 2],
+    /// Force with which the late layer of the rail spares the hub [N/m].
+    pub late: f64,
 }
 
 impl Power<'_> {
@@ -55,7 +57,7 @@ impl Power<'_> {
         let rail = &self.traction.surface[1];
         let slope = |i: usize| self.slope(rail, i, self.grid.port(i) + 1) + self.swelling_slope(1, i);
         let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
-        (self.rim_velocity - self.traction.rigid[0]) * load
+        (self.rim_velocity - self.traction.rigid[0]) * (load + self.late)
     }
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the change of

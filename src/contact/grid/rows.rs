@@ -145,7 +145,8 @@ impl Iterate<'_> {
             }
         }
         let own = &self.problem.rigid[axis];
-        let mut row = AffineRow { rigid: [0.0; 3], constant: own.momentum - load };
+        let late = if axis == 2 { self.problem.radius() * self.scratch.late.force.iter().sum::<f64>() } else { 0.0 };
+        let mut row = AffineRow { rigid: [0.0; 3], constant: own.momentum - load + late };
         for (i, pull) in self.scratch.pull[0].iter().enumerate() {
             row.constant += bodies.momentum[(axis, grid.port(i))] * pull;
         }
