@@ -15,9 +15,10 @@ use super::damping::BodyDamping;
 use super::motion::{self, Equations};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
-use super::retarded::{RetardedLayer, quadratic_form};
+use super::retarded::{RetardedLayer, add_product, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::linalg::dense::symmetrise;
+use crate::linalg::vectorised::dot;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -96,11 +97,11 @@ impl Equations for ReducedBody {
 
     fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
         if let Some(damping) = &self.basis.damping {
-            load.gemv(-1.0, damping, velocity, 1.0);
+            add_product(-1.0, damping, velocity, load);
         }
         if let Some(modal) = &self.modal {
             if speed != 0.0 {
-                velocity.gemv_tr(speed, &modal.transport, y, 1.0);
+                add_products(speed, &modal.transport, y, velocity);
             }
             load.cmpy(-1.0, &modal.rates, velocity, 1.0);
         }
@@ -111,11 +112,11 @@ impl Equations for ReducedBody {
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
-        load.gemv(-1.0, &self.basis.gyroscopic, rate, 1.0);
+        add_product(-1.0, &self.basis.gyroscopic, rate, load);
     }
 
     fn add_ale_inertia(&self, square: f64, displacement: &DVector<f64>, load: &mut DVector<f64>) {
-        load.gemv(square, &self.basis.ale_inertia, displacement, 1.0);
+        add_product(square, &self.basis.ale_inertia, displacement, load);
     }
 
     fn centrifugal(&self) -> Option<&DVector<f64>> {
@@ -128,14 +129,15 @@ impl Equations for ReducedBody {
 
     fn set_surface(&self, y: &DVector<f64>, square: f64, surface: &mut DVector<f64>) {
         fit(surface, self.basis.shapes.nrows());
-        surface.gemv(1.0, &self.basis.shapes, y, 0.0);
+        surface.fill(0.0);
+        add_product(1.0, &self.basis.shapes, y, surface);
         if self.centrifugal {
             surface.axpy(square, &self.basis.centrifugal_residual, 1.0);
         }
     }
 
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>) {
-        load.gemv_tr(1.0, &self.basis.shapes, forces, 1.0);
+        add_products(1.0, &self.basis.shapes, forces, load);
     }
 }
 
@@ -203,7 +205,8 @@ impl BodyResponse for ReducedBody {
         let (y, v) = (&state.displacement, &state.velocity);
         let dashpots = self.basis.damping.as_ref().map_or(0.0, |damping| quadratic_form(damping, v));
         let modes = self.modal.as_ref().map_or(0.0, |ModalRates { rates, transport }| {
-            let power = |(i, rate): (usize, &f64)| rate * (v[i] + speed * transport.column(i).dot(y)).powi(2);
+            let power =
+                |(i, rate): (usize, &f64)| rate * (v[i] + speed * dot(column(transport, i), y.as_slice())).powi(2);
             rates.iter().enumerate().map(power).sum()
         });
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
@@ -216,6 +219,18 @@ impl BodyResponse for ReducedBody {
     fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
         self.layer.as_mut().map(Arc::make_mut).map(|layer| layer.flexibility += flexibility).is_some()
     }
+}
+
+/// `out ← out + factor · Aᵀ x`.
+fn add_products(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+    for (j, out) in out.iter_mut().enumerate() {
+        *out += factor * dot(column(a, j), x.as_slice());
+    }
+}
+
+/// A column of a matrix.
+fn column(a: &DMatrix<f64>, j: usize) -> &[f64] {
+    &a.as_slice()[j * a.nrows()..(j + 1) * a.nrows()]
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
-use crate::linalg::vectorised::dot;
+use crate::linalg::vectorised::{add_columns, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -74,7 +74,7 @@ impl RetardedLayer {
         for (port, value) in known.iter_mut().enumerate() {
             *value = factor * state.offset(td, port);
         }
-        surface.gemv(1.0, &self.flexibility, known, 1.0);
+        add_product(1.0, &self.flexibility, known, surface);
     }
 
     /// Writes the elastic forces after a step under `forces` into `next`.
@@ -108,6 +108,11 @@ impl RetardedLayer {
     pub fn dissipation(&self, state: &RetardedForces) -> f64 {
         self.time * quadratic_form(&self.flexibility, &state.rate)
     }
+}
+
+/// `out ← out + factor · A x`.
+pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+    add_columns(factor, a.as_slice(), x.as_slice(), out.as_mut_slice());
 }
 
 /// `xᵀ A x` of a symmetric matrix without a temporary; entries of zero in `x` (nodes out of contact) cost little.

@@ -4,6 +4,7 @@ use super::frame::RimFrame;
 use super::iterate::{GridScratch, Iterate, NEARLY_PLASTIC, copy};
 use super::observe;
 use super::streamline::Upwind;
+use crate::linalg::vectorised::{add_columns, vectorised};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -110,8 +111,9 @@ impl Iterate<'_> {
             let [wheel, rail] = bodies.compliance.map(|matrix| of_node(matrix, at));
             [(rail, -v * weight), (wheel, -rim * weight)]
         });
-        let terms = [(of_node(bodies.relative, port), gain), (&turn.forces[window.clone()], by_turn)];
-        combine(&mut forces[window.clone()], terms, upstream);
+        let [[a, b], [c, d], [e, f]] = upstream;
+        let own = (of_node(bodies.relative, port), gain);
+        combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, (&turn.forces[window.clone()], by_turn)]);
         inertial.iter_mut().zip(turn.inertial).for_each(|(load, t)| *load += by_turn * t);
         constant += by_turn * (turn.known - self.frame.turn);
         let mut rigid = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
@@ -224,7 +226,7 @@ impl Iterate<'_> {
     fn warm(&mut self, body: usize) {
         let (grid, problem) = (self.grid, self.problem);
         let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
-        let GridScratch { known, swelling, pull, membrane, .. } = &mut *self.scratch;
+        let GridScratch { known, swelling, pull, membrane, row, .. } = &mut *self.scratch;
         let (known, swelling, membrane) = (&mut known[body], &mut swelling[body], &mut membrane[body]);
         let pull = &mut pull[body];
         pull.clear();
@@ -236,14 +238,15 @@ impl Iterate<'_> {
         }
         copy(membrane, known);
         membrane.fill(0.0);
+        row.clear();
+        row.resize(grid.ports(), 0.0);
         let last = grid.len().saturating_sub(1);
         for i in 0..=last {
             let (before, after) = (grid.x[i.saturating_sub(1)], grid.x[(i + 1).min(last)]);
             pull.push(-0.5 * (force.at(after) - force.at(before)));
-            if pull[i] != 0.0 {
-                membrane.axpy(pull[i], &problem.bodies.compliance[body].column(grid.port(i)), 1.0);
-            }
+            row[grid.port(i)] = pull[i];
         }
+        add_columns(1.0, problem.bodies.compliance[body].as_slice(), row, membrane.as_mut_slice());
         *known += &*membrane;
     }
 
@@ -251,12 +254,14 @@ impl Iterate<'_> {
     pub(super) fn evaluate(&mut self) {
         let (grid, problem) = (self.grid, self.problem);
         let bodies = &problem.bodies;
+        let forces = self.traction.port_forces.as_slice();
+        let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
+        let loaded = first..forces.iter().rposition(|force| *force != 0.0).map_or(first, |last| last + 1);
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
             let surface = &mut self.traction.surface[body];
             copy(surface, &self.scratch.known[body]);
-            for (port, force) in self.traction.port_forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
-                surface.axpy(sign * force, &bodies.compliance[body].column(port), 1.0);
-            }
+            let columns = &bodies.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
+            add_columns(sign, columns, &forces[loaded.clone()], surface.as_mut_slice());
         }
         let turn = &mut self.scratch.turn;
         turn.expected = turn.known;
@@ -305,15 +310,23 @@ fn column(matrix: &DMatrix<f64>, j: usize) -> &[f64] {
 /// A multiple of values.
 type Term<'a> = (&'a [f64], f64);
 
-/// Writes the first of `terms`, plus those of `others`, plus the second one. All at once: passes over the memory, one for each, are
-/// what the contact on uneven surfaces waits for.
-fn combine<'a>(sum: &mut [f64], [first, last]: [Term<'a>; 2], others: [[Term<'a>; 2]; 3]) {
-    let count = sum.len();
-    let cut = |(values, factor): Term<'a>| (&values[..count], factor);
-    let ([(f, f_by), (l, l_by)], others) = ([cut(first), cut(last)], others.map(|pair| pair.map(cut)));
-    let [[(a, a_by), (b, b_by)], [(c, c_by), (d, d_by)], [e, g]] = others;
-    for (k, sum) in sum.iter_mut().enumerate() {
-        let upstream = f_by * f[k] + a_by * a[k] + b_by * b[k] + c_by * c[k] + d_by * d[k];
-        *sum = upstream + e.1 * e.0[k] + g.1 * g.0[k] + l_by * l[k];
+vectorised! {
+    /// Writes the sum of all terms. All at once: passes over the memory, one for each, are what the contact on uneven surfaces waits
+    /// for.
+    fn combine<'a, S>(simd, sum: &'a mut [f64], terms: [Term<'a>; TERMS]) {
+        let count = sum.len();
+        let terms = terms.map(|(values, factor)| (S::as_simd_f64s(&values[..count]), factor));
+        let (sum, sum_rest) = S::as_mut_simd_f64s(sum);
+        let many = terms.map(|((values, _), factor)| (&values[..sum.len()], simd.splat_f64s(factor)));
+        for (k, sum) in sum.iter_mut().enumerate() {
+            let zero = simd.splat_f64s(0.0);
+            *sum = many.iter().fold(zero, |sum, (values, factor)| simd.mul_add_e_f64s(*factor, values[k], sum));
+        }
+        for (k, sum) in sum_rest.iter_mut().enumerate() {
+            *sum = terms.iter().map(|((_, rest), factor)| factor * rest[k]).sum();
+        }
     }
 }
+
+/// Terms of the row of a stuck node.
+const TERMS: usize = 8;

@@ -3,6 +3,7 @@
 use super::rows::{faded, less};
 use super::streamline::Transport;
 use crate::linalg::vectorised::vectorised;
+use pulp::Simd;
 use std::ops::Range;
 
 /// The matrices `α M̃ + β F` of all modes, and the node that is eliminated last.
@@ -80,22 +81,101 @@ vectorised! {
         fill: [&'a mut [f64]; 2],
         carried: &'a mut Carried,
     ) {
-        let Carried { alive, sum: sums, inverse: before, column, row, taken } = carried;
-        let [sums, before, column, row, taken] =
-            [sums, before, column, row, taken].map(|carried| S::as_mut_simd_f64s(carried).0);
-        let ([w, r, inverse], alpha) = (factors.map(|f| S::as_mut_simd_f64s(f).0), S::as_simd_f64s(ring.alpha).0);
-        let ([columns, rows], k) = (fill.map(|f| S::as_mut_simd_f64s(f).0), alpha.len());
+        let Carried { alive, sum, inverse, column, row, taken } = carried;
+        let carried = [sum, inverse, column, row, taken].map(|carried| S::as_mut_simd_f64s(carried).0);
+        let alpha = S::as_simd_f64s(ring.alpha).0;
+        let mut filled = Filled {
+            factors: factors.map(|f| S::as_mut_simd_f64s(f).0),
+            fill: fill.map(|f| S::as_mut_simd_f64s(f).0),
+            carried,
+            left: simd.splat_f64s(0.0),
+        };
+        for at in (0..alpha.len()).step_by(BLOCK) {
+            match alpha.len() - at {
+                1 => filled.eliminate::<1>(simd, ring, alpha, at, steps.clone()),
+                2 => filled.eliminate::<2>(simd, ring, alpha, at, steps.clone()),
+                3 => filled.eliminate::<3>(simd, ring, alpha, at, steps.clone()),
+                _ => filled.eliminate::<BLOCK>(simd, ring, alpha, at, steps.clone()),
+            }
+        }
+        *alive = simd.reduce_sum_f64s(filled.left) != 0.0;
+    }
+}
+
+vectorised! {
+    /// The same for the steps up to the last one, without fill.
+    fn factorise<'a, S>(
+        simd,
+        ring: &'a Ring<'a>,
+        steps: Range<usize>,
+        factors: [&'a mut [f64]; 3],
+        carried: &'a mut Carried,
+    ) {
+        let Carried { sum, inverse, column, row, taken, .. } = carried;
+        let carried = [sum, inverse, column, row, taken].map(|carried| S::as_mut_simd_f64s(carried).0);
+        let alpha = S::as_simd_f64s(ring.alpha).0;
+        let mut plain = Filled {
+            factors: factors.map(|f| S::as_mut_simd_f64s(f).0),
+            fill: [&mut [], &mut []],
+            carried,
+            left: simd.splat_f64s(0.0),
+        };
+        for at in (0..alpha.len()).step_by(BLOCK) {
+            match alpha.len() - at {
+                1 => plain.finish::<1>(simd, ring, alpha, at, steps.clone()),
+                2 => plain.finish::<2>(simd, ring, alpha, at, steps.clone()),
+                3 => plain.finish::<3>(simd, ring, alpha, at, steps.clone()),
+                _ => plain.finish::<BLOCK>(simd, ring, alpha, at, steps.clone()),
+            }
+        }
+    }
+}
+
+/// Registers of modes that go from row to row together. Every division waits for that of the row before: one register alone would
+/// wait, and with more there is no room for what is carried along.
+const BLOCK: usize = 4;
+
+/// Where the factors of all modes go, in registers of type `V`.
+struct Filled<'a, V> {
+    factors: [&'a mut [V]; 3],
+    fill: [&'a mut [V]; 2],
+    /// Sum, inverse pivot, column, row and what is taken from the last sum, of the row before.
+    carried: [&'a mut [V]; 5],
+    /// What is left of column and row after the last step.
+    left: V,
+}
+
+impl<V: Copy> Filled<'_, V> {
+    /// The carried numbers of `B` registers from `at` on.
+    #[inline(always)]
+    fn carried<const B: usize>(&self, at: usize) -> [[V; B]; 5] {
+        std::array::from_fn(|c| std::array::from_fn(|q| self.carried[c][at + q]))
+    }
+
+    /// The steps of [`factorise_filled`] for the registers `at..at + B`.
+    #[inline(always)]
+    fn eliminate<const B: usize>(
+        &mut self,
+        simd: impl Simd<f64s = V>,
+        ring: &Ring,
+        alpha: &[V],
+        at: usize,
+        steps: Range<usize>,
+    ) {
+        let (k, alpha): (usize, [V; B]) = (alpha.len(), std::array::from_fn(|q| alpha[at + q]));
+        let [mut sums, mut before, mut column, mut row, mut taken] = self.carried::<B>(at);
         let closing = ring.entries(ring.last).above.map(|entry| simd.splat_f64s(entry));
         let (one, zero) = (simd.splat_f64s(1.0), simd.splat_f64s(0.0));
-        for (at, step) in steps.enumerate() {
+        let part = |entry: [V; 2], alpha: V| simd.mul_add_e_f64s(alpha, entry[0], entry[1]);
+        let mut left = zero;
+        for (number, step) in steps.enumerate() {
             let i = ring.node(step);
             let Entries { sum, below, above } = ring.entries(i);
             let [sum, below, above] = [sum, below, above].map(|entry| entry.map(|part| simd.splat_f64s(part)));
-            let part = |entry: [S::f64s; 2], alpha: S::f64s| simd.mul_add_e_f64s(alpha, entry[0], entry[1]);
-            let (w, r, inverse) = (&mut w[i * k..][..k], &mut r[i * k..][..k], &mut inverse[i * k..][..k]);
-            let (columns, rows) = (&mut columns[at * k..][..k], &mut rows[at * k..][..k]);
-            let mut left = zero;
-            for q in 0..k {
+            let [w, r, inverse] = self.factors.each_mut().map(|factor| &mut factor[i * k + at..][..B]);
+            let [columns, rows] = self.fill.each_mut().map(|fill| &mut fill[number * k + at..][..B]);
+            left = zero;
+            for q in 0..B {
                 let (below, above) = (part(below, alpha[q]), part(above, alpha[q]));
                 let (link, filled, entry) = if step == 0 {
                     (zero, below, part(closing, alpha[q]))
@@ -113,32 +193,33 @@ vectorised! {
                 taken[q] = simd.mul_add_e_f64s(share, excess, taken[q]);
                 left = simd.add_f64s(left, simd.add_f64s(simd.abs_f64s(column[q]), simd.abs_f64s(share)));
             }
-            *alive = simd.reduce_sum_f64s(left) != 0.0;
+        }
+        self.left = simd.add_f64s(self.left, left);
+        for (carried, now) in self.carried.iter_mut().zip([sums, before, column, row, taken]) {
+            carried[at..at + B].copy_from_slice(&now);
         }
     }
-}
 
-vectorised! {
-    /// The same for the steps up to the last one, without fill.
-    fn factorise<'a, S>(
-        simd,
-        ring: &'a Ring<'a>,
+    /// The steps of [`factorise`] for the registers `at..at + B`.
+    #[inline(always)]
+    fn finish<const B: usize>(
+        &mut self,
+        simd: impl Simd<f64s = V>,
+        ring: &Ring,
+        alpha: &[V],
+        at: usize,
         steps: Range<usize>,
-        factors: [&'a mut [f64]; 3],
-        carried: &'a mut Carried,
     ) {
-        let Carried { sum: sums, inverse: before, column, row, taken, .. } = carried;
-        let [sums, before, column, row, taken] =
-            [sums, before, column, row, taken].map(|carried| S::as_mut_simd_f64s(carried).0);
-        let ([w, r, inverse], alpha) = (factors.map(|f| S::as_mut_simd_f64s(f).0), S::as_simd_f64s(ring.alpha).0);
-        let (k, one, end) = (alpha.len(), simd.splat_f64s(1.0), steps.end);
+        let (k, alpha): (usize, [V; B]) = (alpha.len(), std::array::from_fn(|q| alpha[at + q]));
+        let [mut sums, mut before, column, row, taken] = self.carried::<B>(at);
+        let (one, end) = (simd.splat_f64s(1.0), steps.end);
+        let part = |entry: [V; 2], alpha: V| simd.mul_add_e_f64s(alpha, entry[0], entry[1]);
         for step in steps {
             let i = ring.node(step);
             let Entries { sum, below, above } = ring.entries(i);
             let [sum, below, above] = [sum, below, above].map(|entry| entry.map(|part| simd.splat_f64s(part)));
-            let part = |entry: [S::f64s; 2], alpha: S::f64s| simd.mul_add_e_f64s(alpha, entry[0], entry[1]);
-            let (w, r, inverse) = (&mut w[i * k..][..k], &mut r[i * k..][..k], &mut inverse[i * k..][..k]);
-            for q in 0..k {
+            let [w, r, inverse] = self.factors.each_mut().map(|factor| &mut factor[i * k + at..][..B]);
+            for q in 0..B {
                 let (mut below, mut above) = (part(below, alpha[q]), part(above, alpha[q]));
                 let mut excess = part(sum, alpha[q]);
                 if step + 2 == end {
