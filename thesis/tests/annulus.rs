@@ -61,3 +61,20 @@ fn without_rotation_all_schemes_are_right() {
     // The hub of this mesh is a nonagon and cools less than a circle.
     assert!(quadratic.iter().all(|ratio| (ratio - 1.0).abs() < 1e-2));
 }
+
+/// Linear elements without stabilisation give anything between the two ends of a band; eight meshes, none left out.
+#[test]
+fn linear_elements_without_stabilisation_scatter_over_eight_meshes_and_bubbles_on_quadratic_ones_do_not() {
+    let meshes = [0.09, 0.07, 0.05].into_iter().flat_map(|size| [0.0, 0.1, 0.2].map(|disorder| (size, disorder)));
+    // The middle size with the largest disorder would be the ninth.
+    let all: Vec<_> = meshes.filter(|mesh| *mesh != (0.07, 0.2)).map(|(size, d)| ratios(size, d, OMEGA).1).collect();
+    assert_eq!(all.len(), 8);
+    let band = |order: usize, scheme: usize| {
+        let values = || all.iter().map(move |ratios| ratios[order][scheme]);
+        [values().fold(f64::MAX, f64::min), values().fold(f64::MIN, f64::max)]
+    };
+    println!("linear {:.3?}, quadratic with bubbles {:.3?}", band(0, 0), band(1, 2));
+    let within = |found: [f64; 2], stated: [f64; 2]| (0..2).all(|i| (found[i] - stated[i]).abs() < 0.01);
+    assert!(within(band(0, 0), [0.133, 0.714]));
+    assert!(within(band(1, 2), [0.900, 0.984]));
+}

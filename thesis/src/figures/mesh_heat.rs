@@ -1,4 +1,4 @@
-//! Heat and friction of rolling by the thesis's own method: Paper B figure 11, Paper C figures 6 and 12.
+//! Heat and friction of rolling by the thesis's own method: Paper B figure 11, Paper C figure 6.
 
 use super::tread_heat::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
 use super::{Figure, curve, must};
@@ -53,32 +53,42 @@ pub(super) fn roll(load: f64, law: Law, bodies: &[Mesh; 2], creepage: f64) -> Re
     Ok((forward / (law.friction * up), spots(&system, &state)))
 }
 
-/// Temperatures under the given contact; with quadratic bubbles as the thesis has them, or another wheel.
-fn warm(
-    bodies: &[Mesh; 2],
-    wheel: (Order, Scheme),
-    spots: &[Spot],
-    arcs: f64,
-    cold_hub: bool,
-) -> Result<(Warmth, f64), String> {
-    let [first, second] = bodies;
-    let heating = Heating {
-        meshes: [first, second],
-        annulus: ANNULUS,
-        wheel,
-        material: [CAPACITY, CONDUCTIVITY],
-        motion: [SPEED / OUTER, SPEED],
-        spots,
-        contact: [1e7, 0.1],
-        arcs,
-        cold_hub,
-    };
-    let warmth = heating.solve().map_err(|error| error.to_string())?;
-    let let_in = heating.let_in(&warmth);
-    Ok((warmth, let_in))
+/// What the heat of rolling depends on beside mesh and contact; as in [`Heating`].
+#[derive(Clone, Copy)]
+pub(super) struct Thermal {
+    /// Functions and stabilisation of the wheel.
+    pub wheel: (Order, Scheme),
+    /// Angular velocity [rad/s] and velocity [m/s].
+    pub motion: [f64; 2],
+    /// Conductance [W/(m² K)] and share of the friction power that becomes heat.
+    pub contact: [f64; 2],
+    /// Heat into each arc [W/m].
+    pub arcs: f64,
+    /// Whether the hub is held at the reference.
+    pub cold_hub: bool,
 }
 
-const BUBBLES: (Order, Scheme) = (Order::Quadratic, Scheme::Bubble);
+impl Thermal {
+    /// As Paper C describes it.
+    pub(super) fn paper_c() -> Self {
+        Self { wheel: BUBBLES, motion: [SPEED / OUTER, SPEED], contact: [1e7, 0.1], arcs: 0.0, cold_hub: true }
+    }
+}
+
+/// What is heated.
+fn heating<'a>([first, second]: &'a [Mesh; 2], spots: &'a [Spot], thermal: Thermal) -> Heating<'a> {
+    let Thermal { wheel, motion, contact, arcs, cold_hub } = thermal;
+    let material = [CAPACITY, CONDUCTIVITY];
+    Heating { meshes: [first, second], annulus: ANNULUS, wheel, material, motion, spots, contact, arcs, cold_hub }
+}
+
+/// Temperatures under the given contact.
+pub(super) fn thermal(bodies: &[Mesh; 2], spots: &[Spot], thermal: Thermal) -> Result<Warmth, String> {
+    heating(bodies, spots, thermal).solve().map_err(|error| error.to_string())
+}
+
+/// Quadratic bubbles, as the thesis has them.
+pub(super) const BUBBLES: (Order, Scheme) = (Order::Quadratic, Scheme::Bubble);
 
 /// Temperatures \[K] on the segment x = 0, y < 0 over the radius, from the tread `depth` \[m] inward.
 fn below(warmth: &Warmth, depth: f64) -> Vec<[f64; 2]> {
@@ -99,7 +109,10 @@ pub fn convergence() -> Result<Figure, String> {
         let bodies = meshes(LOAD, BASE, global)?;
         let system = system(LOAD, law, &bodies);
         let state = newton::frictionless(&system).map_err(|error| error.to_string())?;
-        let (warmth, let_in) = warm(&bodies, BUBBLES, &spots(&system, &state), 0.5 * HEAT, false)?;
+        let spots = spots(&system, &state);
+        let heating = heating(&bodies, &spots, Thermal { arcs: 0.5 * HEAT, cold_hub: false, ..Thermal::paper_c() });
+        let warmth = heating.solve().map_err(|error| error.to_string())?;
+        let let_in = heating.let_in(&warmth);
         let points = below(&warmth, depth);
         surface.push(points.last().map_or(f64::NAN, |point| point[1]));
         means.push(warmth.means[0]);
@@ -160,7 +173,7 @@ pub fn convergence() -> Result<Figure, String> {
 }
 
 /// Paper C's law for a regularisation \[m/s].
-fn paper_c(regularisation: f64) -> Law {
+pub(super) fn paper_c(regularisation: f64) -> Law {
     Law { penalty: 5e12, friction: 0.4, regularisation }
 }
 
@@ -202,25 +215,4 @@ pub fn regularisation() -> Result<Figure, String> {
             ),
         ],
     })
-}
-
-/// Triangles of a mesh, and mean temperatures of wheel and rail on it \[K].
-pub(super) type MeshMeans = (usize, [f64; 2]);
-
-/// Text to C 12 by the thesis's method: triangles, mean temperatures of wheel and rail \[K] for refinements of the wheel, and for linear
-/// SUPG on the last but one.
-pub(super) fn friction_means() -> Result<(Vec<MeshMeans>, [f64; 2]), String> {
-    let (mut all, mut linear) = (Vec::new(), [0.0; 2]);
-    for global in 0..3 {
-        let bodies = meshes(LOAD, BASE, global)?;
-        let (_, spots) = roll(LOAD, paper_c(10f64.powf(-4.5)), &bodies, -5e-5)?;
-        all.push((
-            bodies[0].triangles.len() + bodies[1].triangles.len(),
-            warm(&bodies, BUBBLES, &spots, 0.0, true)?.0.means,
-        ));
-        if global == 2 {
-            linear = warm(&bodies, (Order::Linear, Scheme::Supg), &spots, 0.0, true)?.0.means;
-        }
-    }
-    Ok((all, linear))
 }

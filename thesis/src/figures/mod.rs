@@ -7,6 +7,7 @@ mod corrugation;
 mod friction_heat;
 mod holes;
 mod introduction;
+mod lost_heat;
 mod mesh_heat;
 mod plate;
 mod ramps;
@@ -134,7 +135,7 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("C 6", mesh_heat::regularisation),
     ("C 7", rolling::paper_c),
     ("C 8–11", friction_heat::profiles),
-    ("C 12", rolling::temperature),
+    ("C 12", lost_heat::temperature),
     ("C 13", friction_heat::locked),
     ("C 14", friction_heat::velocity),
     ("C 15", friction_heat::conductance),

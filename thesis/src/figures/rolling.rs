@@ -1,8 +1,7 @@
 //! Stationary rolling, Papers C and D: ours beside Carter; for figure D 6 also the thesis's own path, without heat.
 
-use super::mesh_heat::friction_means;
 use super::{Figure, must};
-use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
+use crate::annulus::{INNER, OUTER};
 use crate::contact::Law;
 use crate::newton::{self, Drive, Newton};
 use crate::ours::Product;
@@ -11,7 +10,6 @@ use crate::quoted::Status;
 use crate::rail::{self, Plate};
 use crate::rolling::{Motion, Parameters, System};
 use crate::wheel::{self, Annulus};
-use std::f64::consts::TAU;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 
 /// Creepage at which Carter's contact slips fully, for a load [N/m].
@@ -122,70 +120,6 @@ pub fn paper_d() -> Result<Figure, String> {
             must(format!("within 0.002 of Carter: {difference:.4}"), difference < 2e-3),
             must(format!("thesis's path within 0.03 of Carter in the mean of both signs: {worst:.4}"), worst < 0.03),
             must("|F(0)| below 0.005 of the limit and not zero", free.abs() < 5e-3 && free.abs() > 1e-5),
-        ],
-    })
-}
-
-/// Text to C 12: mean temperature of the wheel.
-pub fn temperature() -> Result<Figure, String> {
-    let product = Product::new("paper_c", true)?;
-    let ours = product.stationary(-5e-5, None)?;
-    // The reference knows no centrifugal load.
-    let still = Product::new("paper_c", false)?.stationary(-5e-5, None)?.wheel_mean;
-    // Outside of the skin the fast wheel is axisymmetric: its heat flows to the hub through an annulus.
-    let square = OUTER * OUTER;
-    let shape = square * (OUTER / INNER).ln() / (square - INNER * INNER) - 0.5;
-    let per_heat = shape / (TAU * CONDUCTIVITY);
-    // Half of a tenth of the friction power F V |ξ| goes to the wheel, before conduction to the rail.
-    let friction = ours.utilisation * 0.4 * 10e3 * 50.0 / 3.6 * 5e-5;
-    let share = ours.wheel_mean / (0.05 * friction * per_heat);
-    let (meshes, linear) = friction_means()?;
-    let rows: Vec<String> =
-        meshes.iter().map(|(count, [wheel, rail])| format!("{count} triangles {wheel:.2e} and {rail:.2e} K")).collect();
-    let own = |i: usize| meshes[i].1[0];
-    let stated = 2.26e-6;
-    let stated_share = stated / (0.05 * friction * per_heat);
-    Ok(Figure {
-        item: "C 12",
-        title: "Mean temperature of the wheel",
-        status: Status::ThesisError,
-        parameters: "Base of Paper C, ξ = −5e-5, 50 km/h; μ = 0.4 assumed.",
-        finding: format!(
-            "Ours {:.2e} K, reference 7.52e-5 K; stated 2.26e-6 K, {:.0} times less. The hub carries away what the mean temperature \
-             drives through the annulus: {:.1} % of the wheel's half of the friction heat in ours, {:.1} % in the thesis, which \
-             must have lost the rest. Its own method, quadratic bubbles, loses less than half of it: wheel and rail have {} with n_r = 0 to 2, linear SUPG with n_r = 2 {:.2e} and {:.2e} K.",
-            ours.wheel_mean,
-            ours.wheel_mean / stated,
-            100.0 * share,
-            100.0 * stated_share,
-            rows.join(", "),
-            linear[0],
-            linear[1]
-        ),
-        plots: Vec::new(),
-        values: vec![
-            ("c12.wheel".into(), ours.wheel_mean),
-            ("c12.wheel.method".into(), own(2)),
-            ("c12.rail.method".into(), meshes[2].1[1]),
-        ],
-        predicates: vec![
-            must(
-                format!(
-                    "the thesis's method has more with n_r = 2 than with 0, though not steadily: {:.2e} to {:.2e} K",
-                    own(0),
-                    own(2)
-                ),
-                own(2) > own(0),
-            ),
-            must("and stays below ours", meshes.iter().all(|(_, means)| means[0] < ours.wheel_mean)),
-            must(
-                format!("without centrifugal load {still:.4e} K, within 2 % of the reference 7.5217e-5 K"),
-                (still / 7.5217e-5 - 1.0).abs() < 0.02,
-            ),
-            must(
-                "reference and its heat to the hub fit the annulus",
-                (0.011_648_07 * per_heat / 7.5217e-5 - 1.0).abs() < 1e-3,
-            ),
         ],
     })
 }
