@@ -3,7 +3,7 @@
 use super::kernels::HalfPlane;
 use super::state::{PatchState, Tractions};
 use super::surface::{AtPoints, Moments, Surface, dot};
-use super::tables::{QUADRATURE, Tables};
+use super::tables::{POWER, QUADRATURE, Tables};
 use crate::contact::problem::{AxisDrive, ContactProblem};
 use crate::linalg::Lagrange;
 
@@ -53,6 +53,8 @@ pub struct Iterate<'a> {
     pub moments: Moments,
     /// Smooth displacements under them.
     pub surface: Surface,
+    /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
+    pub slips: [f64; POWER],
 }
 
 impl<'a> Iterate<'a> {
@@ -73,6 +75,7 @@ impl<'a> Iterate<'a> {
             stuck: none,
             moments: Moments::default(),
             surface: Surface::default(),
+            slips: [0.0; POWER],
         }
     }
 
@@ -107,11 +110,13 @@ impl<'a> Iterate<'a> {
         let Constants { tables, points, .. } = self.constants;
         let pressure = &self.tractions.pressure;
         self.moments.normal = AtPoints::default();
+        let places = tables.places.map(|t| pressure.centre + pressure.half_width * t);
+        let logarithms = pressure.logarithm(&places);
         for (q, place) in self.pressed.iter_mut().enumerate() {
-            let x = pressure.centre + pressure.half_width * tables.places[q];
+            let x = places[q];
             let terms = pressure.terms.iter().zip(&tables.moments);
             let force = pressure.half_width * terms.take(pressure.count).map(|(p, m)| p * m[q]).sum::<f64>();
-            *place = Place { x, values: points.values(x), force, logarithm: pressure.logarithm(x) };
+            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
             self.moments.normal.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
         }
         self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
@@ -122,15 +127,18 @@ impl<'a> Iterate<'a> {
         let Constants { tables, points, .. } = self.constants;
         let Tractions { pressure, slide, stick } = &self.tractions;
         self.moments.tangential = self.moments.normal.map(|m| slide * m);
+        if stick.half_width == 0.0 {
+            self.stuck = [Place::default(); QUADRATURE];
+            return;
+        }
+        let places = tables.places.map(|t| stick.centre + stick.half_width * t);
+        let logarithms = pressure.logarithm(&places);
         for (q, place) in self.stuck.iter_mut().enumerate() {
-            *place = Place::default();
-            if stick.half_width > 0.0 {
-                let x = stick.centre + stick.half_width * tables.places[q];
-                let terms = stick.terms.iter().zip(&tables.moments);
-                let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
-                *place = Place { x, values: points.values(x), force, logarithm: pressure.logarithm(x) };
-                self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
-            }
+            let x = places[q];
+            let terms = stick.terms.iter().zip(&tables.moments);
+            let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
+            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
+            self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
         }
     }
 

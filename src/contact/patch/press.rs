@@ -19,7 +19,7 @@ impl Iterate<'_> {
     pub fn press(&mut self) -> Result<f64, ContactError> {
         let Constants { tables, points, half_plane } = self.constants;
         let radius = self.problem.surfaces.radius;
-        let gap = self.surface.gap();
+        let gap = points.polynomial(&self.surface.gap());
         let pressure = &mut self.tractions.pressure;
         let (centre, half_width) = (pressure.centre, pressure.half_width);
         if centre.abs() + half_width >= points.reach {
@@ -28,7 +28,7 @@ impl Iterate<'_> {
         }
         let slope = |t: f64| {
             let x = centre + half_width * t;
-            x / (radius * radius - x * x).sqrt() + dot(&points.slopes(x), &gap) - self.turn
+            x / (radius * radius - x * x).sqrt() + gap.slope(x) - self.turn
         };
         let slopes = tables.closed.map(slope);
         let series: [f64; SMOOTH] = std::array::from_fn(|n| {
@@ -63,7 +63,7 @@ impl Iterate<'_> {
         let (load, at, motion) = (pressure.total(), pressure.centre, &problem.rigid[1]);
         let values = points.values(at);
         let round = problem.surfaces.gap(at, &problem.placement);
-        let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(at);
+        let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(&[at])[0];
         let gap = round + dot(&values, &self.surface.gap()) - self.turn * at + self.rigid[1] + half_planes;
         let compliances = problem.bodies.compliance;
         let smooth: f64 = compliances.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
