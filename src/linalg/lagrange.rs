@@ -18,7 +18,7 @@ pub struct Lagrange {
 impl Lagrange {
     /// Polynomials on the interval `[−reach, reach]`.
     pub fn new(reach: f64) -> Self {
-        let nodes: [f64; POINTS] = std::array::from_fn(|k| -((k as f64 + 0.5) * PI / POINTS as f64).cos());
+        let nodes = Self::places();
         let coefficients = std::array::from_fn(|k| {
             let mut product = [0.0; POINTS];
             product[0] = 1.0;
@@ -32,6 +32,16 @@ impl Lagrange {
             product
         });
         Self { reach, coefficients }
+    }
+
+    /// Chebyshev points of the interval [−1, 1].
+    fn places() -> [f64; POINTS] {
+        std::array::from_fn(|k| -((k as f64 + 0.5) * PI / POINTS as f64).cos())
+    }
+
+    /// The points.
+    pub fn nodes(&self) -> [f64; POINTS] {
+        Self::places().map(|place| place * self.reach)
     }
 
     /// Values of all polynomials at x.

@@ -2,7 +2,9 @@
 
 use super::iterate::Iterate;
 use super::state::{Past, PatchState, Tractions};
+use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
+use super::warmth::Warmth;
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 use crate::multistep::History;
@@ -37,7 +39,11 @@ impl Iterate<'_> {
         let own = stick.logarithm(&self.stuck.map(|place| place.x));
         let stuck = self.stuck.iter().zip(own);
         let stuck: f64 = stuck.map(|(place, own)| place.force * (2.0 * slide * place.logarithm + own)).sum();
-        -self.constants.half_plane.kernel * (pressed * (1.0 + slide * slide) + stuck)
+        // Pulls do little beside friction: of the tangential part the mean under the pressure is enough.
+        let along = self.over_pressure(|warmth, _| less(&warmth.along[0], &warmth.along[1]));
+        let along = along * self.resultant()[0] / self.load();
+        let lift = self.over_pressure(|warmth, x| less(&warmth.wheel.lift.at(x), &warmth.rail.lift.at(x)));
+        along + lift - self.constants.half_plane.kernel * (pressed * (1.0 + slide * slide) + stuck)
     }
 
     /// Power of pressure on the slope of the rail that slides past it [W/m].
@@ -49,7 +55,38 @@ impl Iterate<'_> {
         let pressed = self.pressed.iter().zip(pressed);
         let pressed: f64 = pressed.map(|(at, p)| at.force * (smooth.slope(at.x) + coupling * slide * p)).sum();
         let stuck: f64 = self.stuck.iter().zip(stuck).map(|(at, p)| at.force * coupling * p).sum();
-        (self.rim_velocity() - self.rigid[0]) * (pressed + stuck)
+        let warm = self.over_pressure(|Warmth { rail, .. }, x| plus(&rail.lift.slope(x), &rail.swelling.slope(x)));
+        (self.rim_velocity() - self.rigid[0]) * (pressed + stuck + warm) - self.expansion()
+    }
+
+    /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces.
+    fn expansion(&self) -> f64 {
+        if self.warmth.is_none() {
+            return 0.0;
+        }
+        let (v, rim) = (self.rigid[0], self.rim_velocity());
+        let (points, compliance) = (&self.constants.points, self.problem.bodies.compliance);
+        // What the pulls do to the bodies less the half-planes.
+        let [[wheel, wheel_lift], [rail, rail_lift]] = [0, 1].map(|body| {
+            [0, 1].map(|component| {
+                let entry = |k: usize, l: usize| compliance[body][(2 * k + component, 2 * l)] * self.pulls[body][l];
+                points.polynomial(&std::array::from_fn(|k| (0..POINTS).map(|l| entry(k, l)).sum()))
+            })
+        });
+        let turning = rim / self.problem.surfaces.radius;
+        let along = self.over_shear(|warmth, x| {
+            let stretch = warmth.stretch(x, [rim, -v]);
+            let smooth = |x: f64| rim * wheel.slope(x) - v * rail.slope(x) + turning * wheel_lift.at(x);
+            std::array::from_fn(|i| stretch[i] + smooth(x[i]))
+        });
+        let lift = self.over_pressure(|warmth, x| {
+            let of_wheel = less(&warmth.wheel.lift.slope(x), &warmth.wheel.swelling.slope(x));
+            let of_rail = plus(&warmth.rail.lift.slope(x), &warmth.rail.swelling.slope(x));
+            let smooth = |x: f64| rim * wheel_lift.slope(x) - v * rail_lift.slope(x) - turning * wheel.at(x);
+            let along = warmth.along[0];
+            std::array::from_fn(|i| rim * of_wheel[i] - v * of_rail[i] - turning * along[i] + smooth(x[i]))
+        });
+        along + lift
     }
 
     /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
@@ -57,7 +94,7 @@ impl Iterate<'_> {
     fn remember(&self, slip: &[f64; POWER], force: &[f64; POWER], state: &mut PatchState) -> [f64; 2] {
         let time = &self.problem.time;
         state.tractions = self.tractions;
-        let now = Past::Patch(self.tractions, self.surface.relative());
+        let now = Past::Patch(self.tractions, self.relative(&self.surface));
         let push = |history: &mut History, value: f64| match time.is_stationary() {
             true => *history = History::constant(value),
             false => history.push(time, value),
@@ -130,7 +167,8 @@ impl Iterate<'_> {
             for (component, force) in forces.into_iter().enumerate() {
                 let port = 2 * k + component;
                 port_forces[port] = force;
-                (loads[0][port], loads[1][port]) = (force, -force);
+                let pull = if component == 0 { self.pulls.map(|pull| pull[k]) } else { [0.0; 2] };
+                (loads[0][port], loads[1][port]) = (force + pull[0], pull[1] - force);
                 for (u, body) in surface.iter_mut().zip(bodies) {
                     u[port] = if component == 0 { body.tangential[k] } else { body.normal[k] };
                 }

@@ -66,13 +66,14 @@ impl Iterate<'_> {
         let carried: AtPoints = std::array::from_fn(|k| v * rail.tangential[k] - rim * wheel.tangential[k]);
         let carried = points.polynomial(&carried);
         let rigid = v - self.problem.radius() * omega;
+        let warm = self.warm(x, |warmth, x| warmth.stretch(x, [-rim, v]));
         let mut slip: [f64; N] = std::array::from_fn(|i| {
             let tilt = self.turn * x[i] / (radius * radius - x[i] * x[i]).sqrt();
             let strains = (v + rim) * half_plane.kernel * cauchy[i] + (rim - v) * half_plane.coupling * pressure[i];
-            rigid + strains + carried.slope(x[i]) - rim * tilt
+            rigid + strains + carried.slope(x[i]) - rim * tilt + warm[i]
         });
         if !time.is_stationary() {
-            let (smooth, logarithm) = (points.polynomial(&surface.relative()), tractions.shear_logarithm(x));
+            let (smooth, logarithm) = (points.polynomial(&self.relative(surface)), tractions.shear_logarithm(x));
             let [last, before] = self.before.past.each_ref().map(|past| past.at(x, half_plane.kernel, points));
             for i in 0..N {
                 let now = smooth.at(x[i]) - 2.0 * half_plane.kernel * logarithm[i];
@@ -93,7 +94,7 @@ impl Iterate<'_> {
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
         let moments = self.terms();
         let base = Moments { tangential: self.moments.normal.map(|m| self.tractions.slide * m), ..self.moments };
-        let surface = Surface::new(self.problem, &base, self.accelerations());
+        let surface = Surface::new(self.problem, &base, &self.pulls, self.accelerations());
         let mut rows = Rows::new(STICK + axes.len());
         let kernels = self.convected();
         let places = tables.stick.map(|t| centre + half * t);
@@ -163,7 +164,7 @@ impl Iterate<'_> {
         moments: &[AtPoints; SHEAR],
         row: &mut [f64],
     ) {
-        let Constants { tables, points, half_plane } = self.constants;
+        let Constants { tables, points, half_plane, .. } = self.constants;
         let half = self.tractions.stick.half_width;
         let (values, slopes) = (points.values(x), points.slopes(x));
         let mut by_force = AtPoints::default();
