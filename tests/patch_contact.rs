@@ -4,27 +4,13 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod};
-use wheelrail::contact::SolverState;
+use wheelrail::config::ContactMethod;
 use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, Vertical};
 
 type Field = fn(&mut Drive) -> &mut f64;
 
-/// A preset without heat, on the contact solver asked for.
-fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config)) -> Arc<Model> {
-    let mut config = preset(name, 20);
-    config.thermal.enabled = false;
-    config.solver.contact = contact;
-    change(&mut config);
-    model(config)
-}
-
 fn paper_d(contact: ContactMethod) -> Arc<Model> {
     solved_by(contact, "paper_d", |config| config.physics.centrifugal = false)
-}
-
-fn is_patch(simulation: &Simulation) -> bool {
-    matches!(simulation.state().contact.solver, SolverState::Patch(_))
 }
 
 /// Creepage ramp from 0 to −8e-4 in 70 % of `duration`, held to its end: `F/μP` at tenths of the duration.
@@ -78,7 +64,12 @@ fn steady_rolling_is_that_of_the_grid_and_of_the_reference() {
 
 #[test]
 fn the_railway_wheel_creeps_as_on_the_grid_from_a_tenth_of_the_load_to_nearly_twice_it() {
-    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(|method| solved_by(method, "railway", |_| {}));
+    [false, true].into_iter().for_each(creeps);
+}
+
+fn creeps(heat: bool) {
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid]
+        .map(|method| solved_by(method, "railway", |config| config.thermal.enabled = heat));
     for share in [0.1, 1.0, 1.9] {
         for xi in [-6e-3, -2e-3, -5e-4, 0.0, 1e-3, 3e-3] {
             for velocity in [1.0, 80.0 * KMH, -20.0] {
@@ -88,7 +79,10 @@ fn the_railway_wheel_creeps_as_on_the_grid_from_a_tenth_of_the_load_to_nearly_tw
                     let simulation = Simulation::new(model.clone(), &inputs).unwrap();
                     signed_utilisation(&simulation, inputs.drive.friction)
                 });
-                println!("{share} of the load, {velocity:.0} m/s, {xi:e}: {ours:.6} and {:.1e}", ours - theirs);
+                println!(
+                    "heat {heat}, {share} of the load, {velocity:.0} m/s, {xi:e}: {ours:.6} and {:.1e}",
+                    ours - theirs
+                );
                 // A tenth of the load has six cells of the grid to a half-width.
                 let bound = if share < 0.5 { 6e-3 } else { 1e-3 };
                 assert!((ours - theirs).abs() < bound, "{ours} {theirs}");
@@ -165,8 +159,12 @@ fn a_braked_wheel_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
 
 #[test]
 fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
+    [false, true].into_iter().for_each(goes_back);
+}
+
+fn goes_back(heat: bool) {
     // The moment jumps in such a way that the grid takes over in between.
-    let model = solved_by(ContactMethod::Auto, "railway", |_| {});
+    let model = solved_by(ContactMethod::Auto, "railway", |config| config.thermal.enabled = heat);
     let (mut simulation, inputs, _) = braked(&model, 30);
     assert!(is_patch(&simulation));
     let checkpoint = simulation.checkpoint().clone();
@@ -189,7 +187,13 @@ fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
 
 #[test]
 fn derivatives_by_the_inputs_are_those_of_steps_taken_anew() {
-    let model = solved_by(ContactMethod::Patch, "railway", |config| config.tuning.tolerance = 0.0);
+    [false, true].into_iter().for_each(derivatives);
+}
+
+fn derivatives(heat: bool) {
+    let model = solved_by(ContactMethod::Patch, "railway", |config| {
+        (config.tuning.tolerance, config.thermal.enabled) = (0.0, heat);
+    });
     let (mut simulation, mut inputs, _) = braked(&model, 30);
     let before = simulation.checkpoint().clone();
     inputs.drive.moment = -7500.0;
@@ -217,9 +221,15 @@ fn derivatives_by_the_inputs_are_those_of_steps_taken_anew() {
 /// again. How much the force jumps at a change of solver is by what its second difference exceeds that of a run on the grid.
 #[test]
 fn a_change_of_solver_does_not_make_the_force_jump() {
+    [false, true].into_iter().for_each(changes_smoothly);
+}
+
+fn changes_smoothly(heat: bool) {
     let xi = -1.5e-3;
     let run = |method| {
-        let model = solved_by(method, "railway", |config| config.tuning.tolerance = 0.0);
+        let model = solved_by(method, "railway", |config| {
+            (config.tuning.tolerance, config.thermal.enabled) = (0.0, heat);
+        });
         let mut inputs = prescribed(&model, 1.0, xi);
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
         let (mut forces, mut patch) = (Vec::new(), Vec::new());
@@ -257,8 +267,10 @@ fn auto_takes_the_grid_where_the_patch_does_not_hold_and_patch_alone_refuses() {
     let mut inputs = Inputs::rolling(only.config());
     inputs.drive.load *= 3.0;
     assert!(Simulation::new(only.clone(), &inputs).is_err());
-    // With heat that swells the surfaces the model keeps to the grid.
-    let hot = solved_by(ContactMethod::Auto, "railway", |config| config.thermal.enabled = true);
+    // Reversible heating needs strains that only the grid has.
+    let hot = solved_by(ContactMethod::Auto, "railway", |config| {
+        (config.thermal.enabled, config.physics.thermoelastic_heating) = (true, true);
+    });
     assert!(!is_patch(&Simulation::new(hot.clone(), &Inputs::rolling(hot.config())).unwrap()));
 }
 

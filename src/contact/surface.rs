@@ -65,9 +65,14 @@ impl Surfaces {
 
     /// The same between circle and plane, as heat and elevation leave them.
     pub fn even_gap(&self, x: f64, at: &Placement) -> f64 {
+        self.round_gap(x, at) - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>()
+    }
+
+    /// The same but for the swelling of the layers.
+    pub fn round_gap(&self, x: f64, at: &Placement) -> f64 {
         // The form of r − √(r² − x²) without cancellation.
         let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
-        circle - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>() - at.growth - at.elevation
+        circle - at.growth - at.elevation
     }
 
     /// Depths \[m] by which the material of wheel and rail that lies at `x` \[m] is missing from circle and plane.

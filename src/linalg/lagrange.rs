@@ -18,7 +18,7 @@ pub struct Lagrange {
 impl Lagrange {
     /// Polynomials on the interval `[−reach, reach]`.
     pub fn new(reach: f64) -> Self {
-        let nodes: [f64; POINTS] = std::array::from_fn(|k| -((k as f64 + 0.5) * PI / POINTS as f64).cos());
+        let nodes = Self::places();
         let coefficients = std::array::from_fn(|k| {
             let mut product = [0.0; POINTS];
             product[0] = 1.0;
@@ -34,6 +34,16 @@ impl Lagrange {
         Self { reach, coefficients }
     }
 
+    /// Chebyshev points of the interval [−1, 1].
+    fn places() -> [f64; POINTS] {
+        std::array::from_fn(|k| -((k as f64 + 0.5) * PI / POINTS as f64).cos())
+    }
+
+    /// The points.
+    pub fn nodes(&self) -> [f64; POINTS] {
+        Self::places().map(|place| place * self.reach)
+    }
+
     /// Values of all polynomials at x.
     pub fn values(&self, x: f64) -> [f64; POINTS] {
         let s = x / self.reach;
@@ -47,10 +57,38 @@ impl Lagrange {
         self.coefficients.each_ref().map(|c| slope(c) / self.reach)
     }
 
+    /// The polynomial with these values at the points.
+    pub fn polynomial(&self, values: &[f64; POINTS]) -> Polynomial {
+        let power = |power: usize| values.iter().zip(&self.coefficients).map(|(v, c)| v * c[power]).sum();
+        Polynomial { reach: self.reach, coefficients: std::array::from_fn(power) }
+    }
+
     /// Matrix that turns values at the positions `x` into those at the points: least squares.
     pub fn projection(&self, x: &[f64]) -> Option<DMatrix<f64>> {
         let design = DMatrix::from_fn(x.len(), POINTS, |i, k| self.values(x[i])[k]);
         (design.transpose() * &design).cholesky().map(|factor| factor.solve(&design.transpose()))
+    }
+}
+
+/// One polynomial on the interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polynomial {
+    reach: f64,
+    /// By powers of `x/reach`.
+    coefficients: [f64; POINTS],
+}
+
+impl Polynomial {
+    /// Its value at x.
+    pub fn at(&self, x: f64) -> f64 {
+        let s = x / self.reach;
+        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
+    }
+
+    /// Its derivative at x.
+    pub fn slope(&self, x: f64) -> f64 {
+        let s = x / self.reach;
+        (1..POINTS).rev().fold(0.0, |sum, k| sum * s + k as f64 * self.coefficients[k]) / self.reach
     }
 }
 
@@ -65,11 +103,13 @@ mod tests {
         let x: Vec<f64> = (0..21).map(|i| -3.3 + 0.33 * f64::from(i)).collect();
         let values = nalgebra::DVector::from_iterator(21, x.iter().map(|&x| quartic(x)));
         let nodes = basis.projection(&x).unwrap() * values;
+        let polynomial = basis.polynomial(&std::array::from_fn(|k| nodes[k]));
         for x in [-3.0_f64, -1.2, 0.0, 0.7, 2.9] {
             let dot = |weights: [f64; POINTS]| weights.iter().zip(&nodes).map(|(w, v)| w * v).sum::<f64>();
             let slope = -1.0 + x - 0.3 * x * x + 0.12 * x.powi(3);
             assert!((dot(basis.values(x)) - quartic(x)).abs() < 1e-12);
             assert!((dot(basis.slopes(x)) - slope).abs() < 1e-12);
+            assert!((polynomial.at(x) - quartic(x)).abs() < 1e-12 && (polynomial.slope(x) - slope).abs() < 1e-12);
             assert!((basis.values(x).iter().sum::<f64>() - 1.0).abs() < 1e-13);
         }
     }

@@ -81,7 +81,8 @@ impl Model {
     /// What the solver on a single patch needs to know of the bodies, where it is asked for and no parameter rules it out: the
     /// half-plane that they lack, and how far they are known \[m].
     fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlane, f64)> {
-        let expansion = config.thermal.enabled && config.physics.thermal_expansion;
+        // Reversible heating needs the strains of the surfaces.
+        let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
         let rates = config.solver.time_scheme == TimeScheme::Theta;
         let sought = match config.solver.contact {
             ContactMethod::Grid => false,
@@ -90,7 +91,7 @@ impl Model {
         };
         let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
         let mechanics::HalfPlane { kernel, coupling } = smooth.half_plane;
-        (!expansion && !rates).then_some((HalfPlane { kernel, coupling }, smooth.reach))
+        (!reversible && !rates).then_some((HalfPlane { kernel, coupling }, smooth.reach))
     }
 
     /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.

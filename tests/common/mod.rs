@@ -7,7 +7,8 @@ pub mod random;
 pub use random::Random;
 use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::{Config, presets};
+use wheelrail::config::{Config, ContactMethod, presets};
+use wheelrail::contact::SolverState;
 use wheelrail::simulation::{BasisStore, Inputs, Model, Rotation, Simulation, Translation};
 
 pub const KMH: f64 = 1.0 / 3.6;
@@ -61,4 +62,18 @@ pub fn signed_utilisation(simulation: &Simulation, friction: f64) -> f64 {
 /// Smallest and largest value.
 pub fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::MAX, f64::MIN), |(low, high), &v| (low.min(v), high.max(v)))
+}
+
+/// A preset without heat, on the contact solver asked for.
+pub fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config)) -> Arc<Model> {
+    let mut config = preset(name, 20);
+    config.thermal.enabled = false;
+    config.solver.contact = contact;
+    change(&mut config);
+    model(config)
+}
+
+/// Whether the contact was found on a patch.
+pub fn is_patch(simulation: &Simulation) -> bool {
+    matches!(simulation.state().contact.solver, SolverState::Patch(_))
 }

@@ -2,17 +2,14 @@
 
 use super::iterate::Iterate;
 use super::state::{Past, PatchState, Tractions};
-use super::surface::dot;
-use super::tables::POWER;
+use super::surface::{less, plus};
+use super::tables::{POWER, PROFILE};
+use super::warmth::Warmth;
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 use crate::multistep::History;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
-use std::f64::consts::PI;
-
-/// Points of the profiles over the part that slips and the part that sticks.
-const PROFILE: usize = 20;
 
 impl Iterate<'_> {
     /// Ends of the slipping part \[m]; `None` where all sticks.
@@ -30,8 +27,8 @@ impl Iterate<'_> {
         let (tables, [low, high]) = (&self.constants.tables, self.slipping_ends());
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let places = tables.places.map(|t| centre + half * t);
-        let force =
-            |q: usize| half * tables.weights[q] * self.tractions.slide * self.tractions.pressure.density(places[q]);
+        let densities = self.tractions.pressure.density(&places);
+        let force = |q: usize| half * tables.weights[q] * self.tractions.slide * densities[q];
         (places, std::array::from_fn(force))
     }
 
@@ -39,22 +36,57 @@ impl Iterate<'_> {
     fn energy(&self) -> f64 {
         let Tractions { slide, stick, .. } = self.tractions;
         let pressed: f64 = self.pressed.iter().map(|place| place.force * place.logarithm).sum();
-        let stuck =
-            |place: &super::iterate::Place| place.force * (2.0 * slide * place.logarithm + stick.logarithm(place.x));
-        let stuck = if stick.half_width > 0.0 { self.stuck.iter().map(stuck).sum() } else { 0.0 };
-        -self.constants.half_plane.kernel * (pressed * (1.0 + slide * slide) + stuck)
+        let own = stick.logarithm(&self.stuck.map(|place| place.x));
+        let stuck = self.stuck.iter().zip(own);
+        let stuck: f64 = stuck.map(|(place, own)| place.force * (2.0 * slide * place.logarithm + own)).sum();
+        // Pulls do little beside friction: of the tangential part the mean under the pressure is enough.
+        let along = self.over_pressure(|warmth, _| less(&warmth.along[0], &warmth.along[1]));
+        let along = along * self.resultant()[0] / self.load();
+        let lift = self.over_pressure(|warmth, x| less(&warmth.wheel.lift.at(x), &warmth.rail.lift.at(x)));
+        along + lift - self.constants.half_plane.kernel * (pressed * (1.0 + slide * slide) + stuck)
     }
 
     /// Power of pressure on the slope of the rail that slides past it [W/m].
     fn slope_power(&self) -> f64 {
-        let coupling = self.constants.half_plane.coupling;
-        let slope = |place: &super::iterate::Place| {
-            let smooth = dot(&self.constants.points.slopes(place.x), &self.surface.rail.normal);
-            place.force * (smooth + coupling * self.tractions.slide * self.tractions.pressure.density(place.x))
-        };
-        let pressed: f64 = self.pressed.iter().map(slope).sum();
-        let stuck = |place: &super::iterate::Place| place.force * coupling * self.tractions.pressure.density(place.x);
-        (self.rim_velocity() - self.rigid[0]) * (pressed + self.stuck.iter().map(stuck).sum::<f64>())
+        let (coupling, Tractions { pressure, slide, .. }) = (self.constants.half_plane.coupling, &self.tractions);
+        let smooth = self.constants.points.polynomial(&self.surface.rail.normal);
+        let [pressed, stuck] =
+            [&self.pressed, &self.stuck].map(|places| pressure.density(&places.map(|place| place.x)));
+        let pressed = self.pressed.iter().zip(pressed);
+        let pressed: f64 = pressed.map(|(at, p)| at.force * (smooth.slope(at.x) + coupling * slide * p)).sum();
+        let stuck: f64 = self.stuck.iter().zip(stuck).map(|(at, p)| at.force * coupling * p).sum();
+        let warm = self.over_pressure(|Warmth { rail, .. }, x| plus(&rail.lift.slope(x), &rail.swelling.slope(x)));
+        (self.rim_velocity() - self.rigid[0]) * (pressed + stuck + warm) - self.expansion()
+    }
+
+    /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces.
+    fn expansion(&self) -> f64 {
+        if self.warmth.is_none() {
+            return 0.0;
+        }
+        let (v, rim) = (self.rigid[0], self.rim_velocity());
+        let (points, compliance) = (&self.constants.points, self.problem.bodies.compliance);
+        // What the pulls do to the bodies less the half-planes.
+        let [[wheel, wheel_lift], [rail, rail_lift]] = [0, 1].map(|body| {
+            [0, 1].map(|component| {
+                let entry = |k: usize, l: usize| compliance[body][(2 * k + component, 2 * l)] * self.pulls[body][l];
+                points.polynomial(&std::array::from_fn(|k| (0..POINTS).map(|l| entry(k, l)).sum()))
+            })
+        });
+        let turning = rim / self.problem.surfaces.radius;
+        let along = self.over_shear(|warmth, x| {
+            let stretch = warmth.stretch(x, [rim, -v]);
+            let smooth = |x: f64| rim * wheel.slope(x) - v * rail.slope(x) + turning * wheel_lift.at(x);
+            std::array::from_fn(|i| stretch[i] + smooth(x[i]))
+        });
+        let lift = self.over_pressure(|warmth, x| {
+            let of_wheel = less(&warmth.wheel.lift.slope(x), &warmth.wheel.swelling.slope(x));
+            let of_rail = plus(&warmth.rail.lift.slope(x), &warmth.rail.swelling.slope(x));
+            let smooth = |x: f64| rim * wheel_lift.slope(x) - v * rail_lift.slope(x) - turning * wheel.at(x);
+            let along = warmth.along[0];
+            std::array::from_fn(|i| rim * of_wheel[i] - v * of_rail[i] - turning * along[i] + smooth(x[i]))
+        });
+        along + lift
     }
 
     /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
@@ -62,7 +94,7 @@ impl Iterate<'_> {
     fn remember(&self, slip: &[f64; POWER], force: &[f64; POWER], state: &mut PatchState) -> [f64; 2] {
         let time = &self.problem.time;
         state.tractions = self.tractions;
-        let now = Past::Patch(self.tractions, self.surface.relative());
+        let now = Past::Patch(self.tractions, self.relative(&self.surface));
         let push = |history: &mut History, value: f64| match time.is_stationary() {
             true => *history = History::constant(value),
             false => history.push(time, value),
@@ -92,8 +124,8 @@ impl Iterate<'_> {
 
     /// Writes the traction and the memory.
     pub(super) fn conclude(&self, state: &mut PatchState, traction: &mut Traction) {
-        let (places, force) = self.slipping();
-        let slip = places.map(|x| self.slip(x, &self.surface, true));
+        let (_, force) = self.slipping();
+        let slip = self.slips;
         let [friction, work] = self.remember(&slip, &force, state);
         let power = traction.dissipate(friction, work, self.problem.duration);
         traction.friction = self.friction;
@@ -117,8 +149,8 @@ impl Iterate<'_> {
 
     /// Mean slip over the pressure without friction [m/s].
     fn mean_slip(&self) -> f64 {
-        let sum: f64 = self.pressed.iter().map(|place| place.force * self.slip(place.x, &self.surface, true)).sum();
-        sum / self.load()
+        let slips = self.slip(&self.pressed.map(|place| place.x), &self.surface, true);
+        self.pressed.iter().zip(slips).map(|(place, slip)| place.force * slip).sum::<f64>() / self.load()
     }
 
     fn write_ports(&self, traction: &mut Traction) {
@@ -135,7 +167,8 @@ impl Iterate<'_> {
             for (component, force) in forces.into_iter().enumerate() {
                 let port = 2 * k + component;
                 port_forces[port] = force;
-                (loads[0][port], loads[1][port]) = (force, -force);
+                let pull = if component == 0 { self.pulls.map(|pull| pull[k]) } else { [0.0; 2] };
+                (loads[0][port], loads[1][port]) = (force + pull[0], pull[1] - force);
                 for (u, body) in surface.iter_mut().zip(bodies) {
                     u[port] = if component == 0 { body.tangential[k] } else { body.normal[k] };
                 }
@@ -147,45 +180,22 @@ impl Iterate<'_> {
         let Traction { pressure, shear, slip, dissipation, .. } = traction;
         [&mut *pressure, shear, slip, dissipation].into_iter().for_each(Piecewise::clear);
         let ([low, high], part) = (self.tractions.pressure.ends(), self.slipping_ends());
-        let mut peak = 0.0_f64;
-        let mut add = |x: f64, slips: bool| {
-            let p = self.tractions.pressure.density(x);
-            let (q, s) = (self.tractions.shear(x), if slips { self.slip(x, &self.surface, true) } else { 0.0 });
-            peak = peak.max(p);
-            for (profile, value) in [(&mut *pressure, p), (shear, q), (slip, s), (dissipation, (-q * s).max(0.0))] {
-                profile.push(x, value);
-            }
-        };
-        let between = |from: f64, to: f64, k: usize| {
-            let c = (PI * k as f64 / PROFILE as f64).cos();
-            0.5 * (from * (1.0 + c) + to * (1.0 - c))
-        };
-        add(low, false);
+        [&mut *pressure, shear, slip, dissipation].into_iter().for_each(|profile| profile.push(low, 0.0));
         let stretches = [(low, part[0], false), (part[0], part[1], true), (part[1], high, false)];
         for (from, to, slips) in stretches.into_iter().filter(|(from, to, _)| to - from > 1e-9 * (high - low)) {
-            for k in 1..=PROFILE {
-                let x = between(from, to, k);
-                add(if k == PROFILE { to } else { x }, slips && k < PROFILE);
+            let mut places = self.constants.tables.profile.map(|share| from + share * (to - from));
+            places[PROFILE - 1] = to;
+            let (p, q) = (self.tractions.pressure.density(&places), self.tractions.shear(&places));
+            let mut s = if slips { self.slip(&places, &self.surface, true) } else { [0.0; PROFILE] };
+            s[PROFILE - 1] = 0.0;
+            for (i, &x) in places.iter().enumerate() {
+                pressure.push(x, p[i]);
+                shear.push(x, q[i]);
+                slip.push(x, s[i]);
+                dissipation.push(x, (-q[i] * s[i]).max(0.0));
             }
         }
-        traction.pressure_max = self.peak(peak);
-    }
-
-    /// Largest pressure \[Pa]: of the parabola through `p²` about the largest of the samples, whose value `found` is.
-    fn peak(&self, found: f64) -> f64 {
-        let pressure = &self.tractions.pressure;
-        let at = |t: f64| pressure.density(pressure.centre + t * pressure.half_width);
-        // The maximum lies near the middle: Newton's method on the slope of the pressure, by differences.
-        let (mut t, h) = (0.0, 1e-3);
-        for _ in 0..4 {
-            let (low, mid, high) = (at(t - h), at(t), at(t + h));
-            let bend = high - 2.0 * mid + low;
-            if bend >= 0.0 {
-                return found;
-            }
-            t = (t - 0.5 * h * (high - low) / bend).clamp(-0.5, 0.5);
-        }
-        at(t).max(found)
+        traction.pressure_max = self.tractions.pressure.peak();
     }
 }
 

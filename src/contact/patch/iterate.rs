@@ -3,7 +3,8 @@
 use super::kernels::HalfPlane;
 use super::state::{PatchState, Tractions};
 use super::surface::{AtPoints, Moments, Surface, dot};
-use super::tables::{QUADRATURE, Tables};
+use super::tables::{POWER, QUADRATURE, Tables};
+use super::warmth::{self, LayerTables, Warmth};
 use crate::contact::problem::{AxisDrive, ContactProblem};
 use crate::linalg::Lagrange;
 
@@ -16,6 +17,8 @@ pub struct Constants {
     pub points: Lagrange,
     /// Constants of the series.
     pub tables: Tables,
+    /// Constants of hot layers.
+    pub layers: LayerTables,
 }
 
 /// A place of integration with everything that does not depend on shear.
@@ -36,6 +39,10 @@ pub struct Iterate<'a> {
     pub constants: &'a Constants,
     pub problem: &'a ContactProblem<'a>,
     pub before: &'a PatchState,
+    /// What hot layers do; none: they are cold.
+    pub warmth: Option<Warmth>,
+    /// Moments of their pulls on wheel and rail.
+    pub pulls: [AtPoints; 2],
     pub tractions: Tractions,
     /// V [m/s], U \[m], Ω [rad/s].
     pub rigid: [f64; 3],
@@ -53,6 +60,8 @@ pub struct Iterate<'a> {
     pub moments: Moments,
     /// Smooth displacements under them.
     pub surface: Surface,
+    /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
+    pub slips: [f64; POWER],
 }
 
 impl<'a> Iterate<'a> {
@@ -60,10 +69,13 @@ impl<'a> Iterate<'a> {
         let start = |k: usize| problem.rigid[k].start();
         let hub = problem.rigid[1].target().unwrap_or(height);
         let none = [Place::default(); QUADRATURE];
+        let warmth = Warmth::new(constants, problem, &before.tractions.pressure);
         Self {
             constants,
             problem,
             before,
+            pulls: warmth::pulls(&warmth),
+            warmth,
             tractions: before.tractions,
             rigid: [start(0), hub, start(2)],
             slope: before.slope,
@@ -73,6 +85,7 @@ impl<'a> Iterate<'a> {
             stuck: none,
             moments: Moments::default(),
             surface: Surface::default(),
+            slips: [0.0; POWER],
         }
     }
 
@@ -102,16 +115,48 @@ impl<'a> Iterate<'a> {
         std::array::from_fn(|k| self.problem.rigid[k].acceleration(self.rigid[k]))
     }
 
+    /// What hot layers do at x.
+    pub fn warm<const N: usize>(&self, x: &[f64; N], of: impl Fn(&Warmth, &[f64; N]) -> [f64; N]) -> [f64; N] {
+        self.warmth.as_ref().map_or([0.0; N], |warmth| of(warmth, x))
+    }
+
+    /// `∫ p f dx` for something that hot layers do.
+    pub fn over_pressure(&self, f: impl Fn(&Warmth, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
+        let values = self.warm(&self.pressed.map(|place| place.x), f);
+        self.pressed.iter().zip(values).map(|(place, value)| place.force * value).sum()
+    }
+
+    /// `∫ q f dx`.
+    pub fn over_shear(&self, f: impl Fn(&Warmth, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
+        let slipping = self.tractions.slide * self.over_pressure(&f);
+        if self.tractions.slides() {
+            return slipping;
+        }
+        let values = self.warm(&self.stuck.map(|place| place.x), f);
+        slipping + self.stuck.iter().zip(values).map(|(place, value)| place.force * value).sum::<f64>()
+    }
+
+    /// Tangential displacement of the wheel less that of the rail at the points, without half-planes under the contact forces.
+    pub fn relative(&self, surface: &Surface) -> AtPoints {
+        let smooth = surface.relative();
+        self.warmth.as_ref().map_or(smooth, |warmth| std::array::from_fn(|k| smooth[k] + warmth.relative[k]))
+    }
+
     /// Places and moments of the pressure.
     pub fn place_pressure(&mut self) {
         let Constants { tables, points, .. } = self.constants;
         let pressure = &self.tractions.pressure;
         self.moments.normal = AtPoints::default();
+        if let Some(warmth) = &mut self.warmth {
+            warmth.fit(pressure);
+        }
+        let places = tables.places.map(|t| pressure.centre + pressure.half_width * t);
+        let logarithms = pressure.logarithm(&places);
         for (q, place) in self.pressed.iter_mut().enumerate() {
-            let x = pressure.centre + pressure.half_width * tables.places[q];
+            let x = places[q];
             let terms = pressure.terms.iter().zip(&tables.moments);
             let force = pressure.half_width * terms.take(pressure.count).map(|(p, m)| p * m[q]).sum::<f64>();
-            *place = Place { x, values: points.values(x), force, logarithm: pressure.logarithm(x) };
+            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
             self.moments.normal.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
         }
         self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
@@ -122,22 +167,25 @@ impl<'a> Iterate<'a> {
         let Constants { tables, points, .. } = self.constants;
         let Tractions { pressure, slide, stick } = &self.tractions;
         self.moments.tangential = self.moments.normal.map(|m| slide * m);
+        if stick.half_width == 0.0 {
+            self.stuck = [Place::default(); QUADRATURE];
+            return;
+        }
+        let places = tables.places.map(|t| stick.centre + stick.half_width * t);
+        let logarithms = pressure.logarithm(&places);
         for (q, place) in self.stuck.iter_mut().enumerate() {
-            *place = Place::default();
-            if stick.half_width > 0.0 {
-                let x = stick.centre + stick.half_width * tables.places[q];
-                let terms = stick.terms.iter().zip(&tables.moments);
-                let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
-                *place = Place { x, values: points.values(x), force, logarithm: pressure.logarithm(x) };
-                self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
-            }
+            let x = places[q];
+            let terms = stick.terms.iter().zip(&tables.moments);
+            let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
+            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
+            self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
         }
     }
 
     /// Smooth displacements under the present tractions, and the turn of the rim: the mean of `û_x` over the pressure
     /// vanishes.
     pub fn displace(&mut self) {
-        self.surface = Surface::new(self.problem, &self.moments, self.accelerations());
+        self.surface = Surface::new(self.problem, &self.moments, &self.pulls, self.accelerations());
         let (radius, kernel, slide) =
             (self.problem.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
         let (mut sum, mut arm) = (0.0, 0.0);
@@ -146,6 +194,7 @@ impl<'a> Iterate<'a> {
             sum += place.force * (smooth - kernel * slide * place.logarithm);
             arm += place.force * (radius * radius - place.x * place.x).sqrt();
         }
+        sum += self.over_pressure(|warmth, _| warmth.along[0]);
         // The work of the pressure on what the shear does is that of the shear on what the pressure does.
         sum -= kernel * self.stuck.iter().map(|place| place.force * place.logarithm).sum::<f64>();
         self.turn = sum / arm;
@@ -172,7 +221,7 @@ impl<'a> Iterate<'a> {
         let AxisDrive::Free { load } = motion.drive else { return 0.0 };
         let mut sum = motion.momentum - load - resultant[axis];
         for (k, (t, n)) in self.moments.tangential.iter().zip(&self.moments.normal).enumerate() {
-            sum += bodies.momentum[(axis, 2 * k)] * t + bodies.momentum[(axis, 2 * k + 1)] * n;
+            sum += bodies.momentum[(axis, 2 * k)] * (t + self.pulls[0][k]) + bodies.momentum[(axis, 2 * k + 1)] * n;
         }
         for (l, acceleration) in self.accelerations().into_iter().enumerate() {
             let own = if l == axis { motion.inertia } else { 0.0 };

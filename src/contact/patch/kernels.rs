@@ -78,54 +78,54 @@ pub fn logarithm_terms(t: f64, count: usize) -> [f64; TERMS] {
 }
 
 impl Arch {
-    /// Place on the stretch.
-    fn place(&self, x: f64) -> f64 {
-        (x - self.centre) / self.half_width
-    }
-
     /// Ends of the stretch \[m].
     pub fn ends(&self) -> [f64; 2] {
         [self.centre - self.half_width, self.centre + self.half_width]
     }
 
+    /// Places on the stretch.
+    fn places<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        x.map(|x| (x - self.centre) / self.half_width)
+    }
+
     /// Traction at x \[Pa].
-    pub fn density(&self, x: f64) -> f64 {
+    pub fn density<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         if self.half_width == 0.0 {
-            return 0.0;
+            return [0.0; N];
         }
-        let t = self.place(x);
-        if t.abs() >= 1.0 {
-            return 0.0;
+        let t = self.places(x);
+        let (mut next, mut now) = ([0.0; N], [0.0; N]);
+        for f in self.terms[..self.count].iter().rev() {
+            for i in 0..N {
+                (next[i], now[i]) = (now[i], f + 2.0 * t[i] * now[i] - next[i]);
+            }
         }
-        let (mut before, mut now, mut sum) = (0.0, 1.0, 0.0);
-        for f in &self.terms[..self.count] {
-            sum += f * now;
-            (before, now) = (now, 2.0 * t * now - before);
-        }
-        sum * (1.0 - t * t).sqrt()
+        std::array::from_fn(|i| now[i] * (1.0 - t[i] * t[i]).max(0.0).sqrt())
     }
 
     /// `∫ f/(x − s) ds` \[Pa].
-    pub fn cauchy(&self, x: f64) -> f64 {
+    pub fn cauchy<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         if self.half_width == 0.0 {
-            return 0.0;
+            return [0.0; N];
         }
-        PI * sum(self.place(x), self.count, |k| self.terms[k])
+        sum(&Powers::at(&self.places(x)), &self.terms[..self.count]).map(|sum| PI * sum)
     }
 
     /// `∫ f ln|x − s| ds` [N/m], lengths in metres.
-    pub fn logarithm(&self, x: f64) -> f64 {
+    pub fn logarithm<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         if self.half_width == 0.0 {
-            return 0.0;
+            return [0.0; N];
         }
-        let (t, f) = (self.place(x), &self.terms);
-        // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
-        let order = |k: usize| {
+        let (f, mut orders) = (&self.terms, [0.0; TERMS + 1]);
+        for (k, order) in orders[..=self.count].iter_mut().enumerate() {
+            // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
             let (below, own) = (if k > 0 { f[k - 1] } else { 0.0 }, if k + 1 < self.count { f[k + 1] } else { 0.0 });
-            (below - own) * SHARES[k]
-        };
-        let own = sum(t, self.count + 1, order) + zeroth(t) * f[0];
-        FRAC_PI_2 * self.half_width * (own + self.half_width.ln() * f[0])
+            *order = (below - own) * SHARES[k];
+        }
+        let (powers, size) = (Powers::at(&self.places(x)), self.half_width.ln());
+        let own = sum(&powers, &orders[..=self.count]);
+        let zeroth = powers.zeroth();
+        std::array::from_fn(|i| FRAC_PI_2 * self.half_width * (own[i] + (zeroth[i] + size) * f[0]))
     }
 
     /// Whether numbers are finite and in range.
@@ -141,21 +141,67 @@ impl Arch {
     pub fn total(&self) -> f64 {
         FRAC_PI_2 * self.half_width * self.terms[0]
     }
+
+    /// Largest traction \[Pa], by Newton's method from the middle on `Σ f_k sin (k + 1)θ`; that in the middle where it bends
+    /// upwards there.
+    pub fn peak(&self) -> f64 {
+        let (mut value, mut angle) = (0.0, FRAC_PI_2);
+        for _ in 0..4 {
+            let (mut slope, mut bend) = (0.0, 0.0);
+            value = 0.0;
+            for (k, f) in self.terms[..self.count].iter().enumerate() {
+                let n = (k + 1) as f64;
+                let (sin, cos) = (n * angle).sin_cos();
+                value += f * sin;
+                slope += n * f * cos;
+                bend -= n * n * f * sin;
+            }
+            if bend >= 0.0 {
+                break;
+            }
+            angle = (angle - slope / bend).clamp(FRAC_PI_2 / 1.5, FRAC_PI_2 * 4.0 / 3.0);
+        }
+        value
+    }
 }
 
-/// `Σ f(k) Z_{k+1}(t)` over k below the count.
-fn sum(t: f64, count: usize, f: impl Fn(usize) -> f64) -> f64 {
-    if t.abs() <= 1.0 {
-        // Clenshaw's recursion.
-        let (mut next, mut now) = (0.0, 0.0);
-        for k in (0..count).rev() {
-            (next, now) = (now, f(k) + 2.0 * t * now - next);
+/// How the `Z_n` of several places follow from each other.
+struct Powers<const N: usize> {
+    /// Factors of Clenshaw's recursion on the stretch and of Horner's beyond it: of the last sum, of the one before, and of the
+    /// last one in the result.
+    now: [f64; N],
+    next: [f64; N],
+    end: [f64; N],
+}
+
+impl<const N: usize> Powers<N> {
+    fn at(t: &[f64; N]) -> Self {
+        let (mut now, mut next, mut end) = ([0.0; N], [0.0; N], [0.0; N]);
+        for i in 0..N {
+            let (t, inside) = (t[i], t[i].abs() <= 1.0);
+            let base = 1.0 / (t + (t * t - 1.0).max(0.0).sqrt().copysign(t));
+            now[i] = if inside { 2.0 * t } else { base };
+            next[i] = if inside { 1.0 } else { 0.0 };
+            end[i] = if inside { t } else { base };
         }
-        t * now - next
-    } else {
-        let base = 1.0 / (t + t.signum() * (t * t - 1.0).sqrt());
-        base * (0..count).rev().fold(0.0, |sum, k| f(k) + base * sum)
+        Self { now, next, end }
     }
+
+    /// What stands for `−Z_0/0`.
+    fn zeroth(&self) -> [f64; N] {
+        std::array::from_fn(|i| if self.next[i] == 1.0 { -LN_2 } else { -(2.0 * self.end[i].abs()).ln() })
+    }
+}
+
+/// `Σ f_k Z_{k+1}` at all places.
+fn sum<const N: usize>(powers: &Powers<N>, f: &[f64]) -> [f64; N] {
+    let (mut next, mut now) = ([0.0; N], [0.0; N]);
+    for f in f.iter().rev() {
+        for i in 0..N {
+            (next[i], now[i]) = (now[i], f + powers.now[i] * now[i] - powers.next[i] * next[i]);
+        }
+    }
+    std::array::from_fn(|i| powers.end[i] * now[i] - powers.next[i] * next[i])
 }
 
 /// 1, ½, ⅓, …
@@ -185,7 +231,7 @@ mod tests {
             .map(|i| {
                 let theta = (f64::from(i) + 0.5) * PI / f64::from(n);
                 let s = arch.centre + arch.half_width * theta.cos();
-                arch.density(s) * weight(s) * arch.half_width * theta.sin()
+                arch.density(&[s])[0] * weight(s) * arch.half_width * theta.sin()
             })
             .sum();
         sum * PI / f64::from(n)
@@ -197,8 +243,12 @@ mod tests {
         assert!((integral(&arch, |_| 1.0) - arch.total()).abs() < 1e-12);
         for x in [0.1, 0.27, 0.2795, 0.3205, 0.34, 0.9] {
             let (cauchy, logarithm) = (integral(&arch, |s| 1.0 / (x - s)), integral(&arch, |s| (x - s).abs().ln()));
-            assert!((arch.cauchy(x) - cauchy).abs() < 1e-9 * 3.0, "{x}: {} {cauchy}", arch.cauchy(x));
-            assert!((arch.logarithm(x) - logarithm).abs() < 1e-12, "{x}: {} {logarithm}", arch.logarithm(x));
+            assert!((arch.cauchy(&[x])[0] - cauchy).abs() < 1e-9 * 3.0, "{x}: {} {cauchy}", arch.cauchy(&[x])[0]);
+            assert!(
+                (arch.logarithm(&[x])[0] - logarithm).abs() < 1e-12,
+                "{x}: {} {logarithm}",
+                arch.logarithm(&[x])[0]
+            );
         }
     }
 
@@ -209,18 +259,18 @@ mod tests {
         let [low, high] = arch.ends();
         let n = 400_000;
         for x in [0.2841, 0.3, 0.3107, 0.3193] {
-            let f = arch.density(x);
+            let f = arch.density(&[x])[0];
             let (mut cauchy, mut logarithm) = (f * ((x - low) / (high - x)).ln(), 0.0);
             for i in 0..n {
                 let theta = (f64::from(i) + 0.5) * PI / f64::from(n);
                 let (s, ds) =
                     (arch.centre + arch.half_width * theta.cos(), PI / f64::from(n) * arch.half_width * theta.sin());
-                cauchy += (arch.density(s) - f) / (x - s) * ds;
-                logarithm += (arch.density(s) - f) * (x - s).abs().ln() * ds;
+                cauchy += (arch.density(&[s])[0] - f) / (x - s) * ds;
+                logarithm += (arch.density(&[s])[0] - f) * (x - s).abs().ln() * ds;
             }
             logarithm += f * ((x - low) * (x - low).ln() + (high - x) * (high - x).ln() - (high - low));
-            assert!((arch.cauchy(x) - cauchy).abs() < 1e-5, "{x}: {} {cauchy}", arch.cauchy(x));
-            assert!((arch.logarithm(x) - logarithm).abs() < 1e-9, "{x}: {} {logarithm}", arch.logarithm(x));
+            assert!((arch.cauchy(&[x])[0] - cauchy).abs() < 1e-5, "{x}: {} {cauchy}", arch.cauchy(&[x])[0]);
+            assert!((arch.logarithm(&[x])[0] - logarithm).abs() < 1e-9, "{x}: {} {logarithm}", arch.logarithm(&[x])[0]);
         }
     }
 
@@ -228,11 +278,11 @@ mod tests {
     fn the_logarithm_is_continuous_at_the_ends_and_its_slope_is_the_principal_value() {
         let arch = arch();
         for end in arch.ends() {
-            assert!((arch.logarithm(end - 1e-12) - arch.logarithm(end + 1e-12)).abs() < 1e-9);
+            assert!((arch.logarithm(&[end - 1e-12])[0] - arch.logarithm(&[end + 1e-12])[0]).abs() < 1e-9);
         }
         for x in [0.25, 0.285, 0.3, 0.317, 0.35] {
-            let slope = (arch.logarithm(x + 1e-6) - arch.logarithm(x - 1e-6)) / 2e-6;
-            assert!((slope - arch.cauchy(x)).abs() < 1e-5 * arch.terms[0], "{x}");
+            let slope = (arch.logarithm(&[x + 1e-6])[0] - arch.logarithm(&[x - 1e-6])[0]) / 2e-6;
+            assert!((slope - arch.cauchy(&[x])[0]).abs() < 1e-5 * arch.terms[0], "{x}");
         }
     }
 }

@@ -16,6 +16,7 @@ mod stick;
 mod surface;
 mod tables;
 mod transfer;
+mod warmth;
 
 pub use kernels::{Arch, HalfPlane};
 pub use solver::PatchSolver;

@@ -17,25 +17,25 @@ impl Iterate<'_> {
     /// the pressure one by one, `p_k = A_{k+1}/(2πκ)`; `A_0 = 0` is the condition for the middle of the patch. Its width belongs
     /// to the load, and load and height to each other by the gap in the middle and the balance of the hub.
     pub fn press(&mut self) -> Result<f64, ContactError> {
-        let Constants { tables, points, half_plane } = self.constants;
+        let Constants { tables, points, half_plane, .. } = self.constants;
         let radius = self.problem.surfaces.radius;
-        let gap = self.surface.gap();
-        let pressure = &mut self.tractions.pressure;
+        let gap = points.polynomial(&self.surface.gap());
+        let pressure = self.tractions.pressure;
         let (centre, half_width) = (pressure.centre, pressure.half_width);
         if centre.abs() + half_width >= points.reach {
             let load = pressure.total();
             return Err(ContactError::ZoneExceeded { zone: points.reach, load });
         }
-        let slope = |t: f64| {
-            let x = centre + half_width * t;
-            x / (radius * radius - x * x).sqrt() + dot(&points.slopes(x), &gap) - self.turn
-        };
-        let slopes = tables.closed.map(slope);
+        let slope = |x: f64| x / (radius * radius - x * x).sqrt() + gap.slope(x) - self.turn;
+        let places = tables.closed.map(|t| centre + half_width * t);
+        let slopes = places.map(slope);
+        let warm = self.warmth.as_ref().map_or([0.0; SMOOTH], |warmth| warmth.slope);
         let series: [f64; SMOOTH] = std::array::from_fn(|n| {
             let sum: f64 = slopes.iter().zip(&tables.closed_terms[n]).map(|(s, t)| s * t).sum();
-            sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64
+            sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64 + warm[n] / half_width
         });
         let kernel = half_plane.kernel;
+        let pressure = &mut self.tractions.pressure;
         pressure.count = PRESSURE;
         for k in 0..PRESSURE {
             pressure.terms[k] = series[k + 1] / (2.0 * PI * kernel);
@@ -62,8 +62,9 @@ impl Iterate<'_> {
         let (problem, pressure) = (self.problem, &self.tractions.pressure);
         let (load, at, motion) = (pressure.total(), pressure.centre, &problem.rigid[1]);
         let values = points.values(at);
-        let round = problem.surfaces.gap(at, &problem.placement);
-        let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(at);
+        let round =
+            problem.surfaces.round_gap(at, &problem.placement) + self.warm(&[at], |warmth, x| warmth.gap.at(x))[0];
+        let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(&[at])[0];
         let gap = round + dot(&values, &self.surface.gap()) - self.turn * at + self.rigid[1] + half_planes;
         let compliances = problem.bodies.compliance;
         let smooth: f64 = compliances.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();

@@ -2,6 +2,7 @@
 
 use super::iterate::{Constants, Iterate};
 use super::kernels::{Arch, TERMS};
+use super::state::Tractions;
 use super::surface::{AtPoints, Moments, Surface, dot};
 use super::tables::{QUADRATURE, SHEAR, STICK};
 use crate::contact::error::ContactError;
@@ -26,9 +27,8 @@ impl Rows {
     pub fn solve(mut self) -> Option<[f64; UNKNOWNS]> {
         let n = self.count;
         for row in &mut self.rows[..n] {
-            row[n] = row[UNKNOWNS];
-            let largest = row[..n].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            row[..=n].iter_mut().for_each(|v| *v /= largest);
+            let scale = 1.0 / row[..n].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            row.iter_mut().for_each(|v| *v *= scale);
         }
         for k in 0..n {
             let best = (k..n).max_by(|&i, &j| self.rows[i][k].abs().total_cmp(&self.rows[j][k].abs()))?;
@@ -37,17 +37,16 @@ impl Rows {
             if pivot[k] == 0.0 || !pivot[k].is_finite() {
                 return None;
             }
+            // Whole rows, whose length is known beforehand, are quicker than the parts that matter.
             for row in &mut self.rows[k + 1..n] {
                 let factor = row[k] / pivot[k];
-                if factor != 0.0 {
-                    row[k..=n].iter_mut().zip(&pivot[k..=n]).for_each(|(v, p)| *v -= factor * p);
-                }
+                row.iter_mut().zip(&pivot).for_each(|(v, p)| *v -= factor * p);
             }
         }
         let mut x = [0.0; UNKNOWNS];
         for k in (0..n).rev() {
             let known: f64 = (k + 1..n).map(|j| self.rows[k][j] * x[j]).sum();
-            x[k] = (self.rows[k][n] - known) / self.rows[k][k];
+            x[k] = (self.rows[k][UNKNOWNS] - known) / self.rows[k][k];
         }
         x[..n].iter().all(|v| v.is_finite()).then_some(x)
     }
@@ -56,30 +55,30 @@ impl Rows {
 impl Iterate<'_> {
     /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`, under the
     /// pressure, the friction of slip and, if `sticks`, what sticking takes away from it.
-    pub fn slip(&self, x: f64, surface: &Surface, sticks: bool) -> f64 {
+    pub fn slip<const N: usize>(&self, x: &[f64; N], surface: &Surface, sticks: bool) -> [f64; N] {
         let Constants { points, half_plane, .. } = self.constants;
-        let (pressure, stick, slide) = (&self.tractions.pressure, &self.tractions.stick, self.tractions.slide);
         let ([v, _, omega], rim, radius) = (self.rigid, self.rim_velocity(), self.problem.surfaces.radius);
         let time = &self.problem.time;
-        let mut cauchy = slide * pressure.cauchy(x);
-        if sticks {
-            cauchy += stick.cauchy(x);
-        }
-        let slopes = points.slopes(x);
-        let tilt = self.turn * x / (radius * radius - x * x).sqrt();
-        let mut slip = v - self.problem.radius() * omega
-            + (v + rim) * half_plane.kernel * cauchy
-            + (rim - v) * half_plane.coupling * pressure.density(x)
-            + v * dot(&slopes, &surface.rail.tangential)
-            - rim * (dot(&slopes, &surface.wheel.tangential) + tilt);
+        let stick = if sticks { self.tractions.stick } else { Arch::default() };
+        let tractions = Tractions { stick, ..self.tractions };
+        let (cauchy, pressure) = (tractions.shear_cauchy(x), tractions.pressure.density(x));
+        let Surface { wheel, rail } = surface;
+        let carried: AtPoints = std::array::from_fn(|k| v * rail.tangential[k] - rim * wheel.tangential[k]);
+        let carried = points.polynomial(&carried);
+        let rigid = v - self.problem.radius() * omega;
+        let warm = self.warm(x, |warmth, x| warmth.stretch(x, [-rim, v]));
+        let mut slip: [f64; N] = std::array::from_fn(|i| {
+            let tilt = self.turn * x[i] / (radius * radius - x[i] * x[i]).sqrt();
+            let strains = (v + rim) * half_plane.kernel * cauchy[i] + (rim - v) * half_plane.coupling * pressure[i];
+            rigid + strains + carried.slope(x[i]) - rim * tilt + warm[i]
+        });
         if !time.is_stationary() {
-            let mut logarithm = slide * pressure.logarithm(x);
-            if sticks {
-                logarithm += stick.logarithm(x);
+            let (smooth, logarithm) = (points.polynomial(&self.relative(surface)), tractions.shear_logarithm(x));
+            let [last, before] = self.before.past.each_ref().map(|past| past.at(x, half_plane.kernel, points));
+            for i in 0..N {
+                let now = smooth.at(x[i]) - 2.0 * half_plane.kernel * logarithm[i];
+                slip[i] += time.a0 * now + time.a1 * last[i] + time.a2 * before[i];
             }
-            let now = dot(&points.values(x), &surface.relative()) - 2.0 * half_plane.kernel * logarithm;
-            let past = self.before.past.each_ref().map(|past| past.at(x, half_plane.kernel, points));
-            slip += time.a0 * now + time.a1 * past[0] + time.a2 * past[1];
         }
         slip
     }
@@ -95,16 +94,18 @@ impl Iterate<'_> {
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
         let moments = self.terms();
         let base = Moments { tangential: self.moments.normal.map(|m| self.tractions.slide * m), ..self.moments };
-        let surface = Surface::new(self.problem, &base, self.accelerations());
+        let surface = Surface::new(self.problem, &base, &self.pulls, self.accelerations());
         let mut rows = Rows::new(STICK + axes.len());
         let kernels = self.convected();
+        let places = tables.stick.map(|t| centre + half * t);
+        let slips = self.slip(&places, &surface, false);
         for (i, row) in rows.rows[..STICK].iter_mut().enumerate() {
-            let x = centre + half * tables.stick[i];
+            let x = places[i];
             self.stick_row(i, x, upstream, &kernels, &moments, row);
             for (column, &axis) in axes.iter().enumerate() {
                 row[STICK + column] = self.motion_term(axis, x);
             }
-            row[UNKNOWNS] = -self.slip(x, &surface, false);
+            row[UNKNOWNS] = -slips[i];
         }
         let all = std::mem::replace(&mut self.moments, base);
         let slide = self.tractions.slide * pressure.total();
@@ -163,7 +164,7 @@ impl Iterate<'_> {
         moments: &[AtPoints; SHEAR],
         row: &mut [f64],
     ) {
-        let Constants { tables, points, half_plane } = self.constants;
+        let Constants { tables, points, half_plane, .. } = self.constants;
         let half = self.tractions.stick.half_width;
         let (values, slopes) = (points.values(x), points.slopes(x));
         let mut by_force = AtPoints::default();

@@ -5,6 +5,7 @@ use super::kernels::{Arch, HalfPlane};
 use super::state::{Past, PatchState, Tractions};
 use super::tables::{PRESSURE, Tables};
 use super::transfer;
+use super::warmth::LayerTables;
 use crate::contact::error::ContactError;
 use crate::contact::grid::GridSolver;
 use crate::contact::problem::{AxisDrive, ContactProblem};
@@ -34,7 +35,8 @@ impl PatchSolver {
     /// Patches within `reach` \[m] of the contact point on bodies that lack a half-plane each, beside a `grid`; `only`: which is
     /// never used.
     pub fn new(grid: GridSolver, half_plane: HalfPlane, reach: f64, only: bool) -> Self {
-        let constants = Constants { half_plane, points: Lagrange::new(reach), tables: Tables::new() };
+        let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
+        let constants = Constants { half_plane, points, tables, layers };
         Self { grid, constants, only }
     }
 
@@ -47,9 +49,6 @@ impl PatchSolver {
         }
         if placement.flattening.iter().any(|flattening| !flattening.is_empty()) {
             return refuse("the surfaces are flattened");
-        }
-        if placement.swelling.iter().chain(&problem.membrane).any(|layer| !layer.is_empty()) {
-            return refuse("hot layers swell");
         }
         if problem.rigid.iter().any(|motion| matches!(motion.drive, AxisDrive::Braked { .. })) {
             return refuse("a brake may hold the wheel");

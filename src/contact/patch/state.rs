@@ -69,13 +69,23 @@ impl Default for Past {
 
 impl Tractions {
     /// Shear on the wheel at x \[Pa].
-    pub fn shear(&self, x: f64) -> f64 {
-        self.slide * self.pressure.density(x) + self.stick.density(x)
+    pub fn shear<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        self.together(self.pressure.density(x), self.stick.density(x))
+    }
+
+    /// `∫ q/(x − s) ds` \[Pa].
+    pub fn shear_cauchy<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        self.together(self.pressure.cauchy(x), self.stick.cauchy(x))
     }
 
     /// `∫ q ln|x − s| ds` [N/m].
-    pub fn shear_logarithm(&self, x: f64) -> f64 {
-        self.slide * self.pressure.logarithm(x) + self.stick.logarithm(x)
+    pub fn shear_logarithm<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        self.together(self.pressure.logarithm(x), self.stick.logarithm(x))
+    }
+
+    /// What the shear does, from what pressure and stick do.
+    fn together<const N: usize>(&self, pressure: [f64; N], stick: [f64; N]) -> [f64; N] {
+        std::array::from_fn(|i| self.slide * pressure[i] + stick[i])
     }
 
     /// Whether slip and stick are the same but for their lengths.
@@ -103,26 +113,27 @@ impl Past {
     }
 
     /// Displacement at x \[m]; `kernel` of one half-plane [m/(N/m)].
-    pub fn at(&self, x: f64, kernel: f64, points: &Lagrange) -> f64 {
+    pub fn at<const N: usize>(&self, x: &[f64; N], kernel: f64, points: &Lagrange) -> [f64; N] {
         match self {
             Past::Patch(tractions, smooth) => {
-                let rest: f64 = points.values(x).iter().zip(smooth).map(|(w, u)| w * u).sum();
-                rest - 2.0 * kernel * tractions.shear_logarithm(x)
+                let (smooth, logarithm) = (points.polynomial(smooth), tractions.shear_logarithm(x));
+                std::array::from_fn(|i| smooth.at(x[i]) - 2.0 * kernel * logarithm[i])
             }
-            Past::Grid(first, spacing, values) if values.len() > 3 => {
-                let place = (x - first) / spacing;
-                let cell = (place.floor().max(1.0) as usize).min(values.len() - 3);
-                let s = place - cell as f64;
-                // Lagrange's cubic through the four nodes about x.
-                let weights = [
-                    -s * (s - 1.0) * (s - 2.0) / 6.0,
-                    (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
-                    -(s + 1.0) * s * (s - 2.0) / 2.0,
-                    (s + 1.0) * s * (s - 1.0) / 6.0,
-                ];
-                weights.iter().zip(&values[cell - 1..]).map(|(w, u)| w * u).sum()
-            }
-            Past::Grid(..) => 0.0,
+            Past::Grid(first, spacing, values) if values.len() > 3 => x.map(|x| cubic((x - first) / spacing, values)),
+            Past::Grid(..) => [0.0; N],
         }
     }
+}
+
+/// Lagrange's cubic through the four nodes about a place; the nodes lie at 0, 1, 2 and so on.
+fn cubic(place: f64, values: &[f64]) -> f64 {
+    let cell = (place.floor().max(1.0) as usize).min(values.len() - 3);
+    let s = place - cell as f64;
+    let weights = [
+        -s * (s - 1.0) * (s - 2.0) / 6.0,
+        (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
+        -(s + 1.0) * s * (s - 2.0) / 2.0,
+        (s + 1.0) * s * (s - 1.0) / 6.0,
+    ];
+    weights.iter().zip(&values[cell - 1..]).map(|(w, u)| w * u).sum()
 }

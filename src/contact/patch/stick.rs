@@ -12,11 +12,12 @@ const OVERSHOOT: f64 = 5e-3;
 const BACKWARD: f64 = 5e-3;
 /// Times that slip and stick, or the directions of slip, change.
 const CHANGES: usize = 4;
-/// Change of the length of stick that says something about how the root depends on it \[1].
-const TELLING: f64 = 1e-9;
+/// Change of the length of stick that says something about how the root depends on it, over all changes of the iteration
+/// before: beside larger ones the root changes for other reasons \[1].
+const TELLING: f64 = 0.2;
 
-/// Largest relative change that ends the iteration.
-const TOLERANCE: f64 = 1e-11;
+/// Largest relative change expected of a further iteration that ends them; changes fall about as they fell last.
+const TOLERANCE: f64 = 1e-10;
 /// The same where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
@@ -31,18 +32,20 @@ impl Iterate<'_> {
         self.place_pressure();
         self.place_shear();
         self.displace();
-        for _ in 0..WARM {
-            if self.press()? < CLOSE {
+        let mut normal = self.press()?;
+        for _ in 1..WARM {
+            if normal < CLOSE {
                 break;
             }
+            normal = self.press()?;
         }
         let mut search = Search::new(self);
         let mut last = f64::INFINITY;
         for _ in 0..MOST {
-            let normal = self.press()?;
             let tangential = search.advance(self)?;
             let change = normal.max(tangential);
-            let settled = change <= TOLERANCE || change <= ROUNDING && change >= last;
+            let falls = if last.is_finite() { (change / last).min(1.0) } else { 1.0 };
+            let settled = change * falls <= TOLERANCE || change <= ROUNDING && change >= last;
             last = change;
             if settled {
                 if search.check(self)? {
@@ -51,6 +54,7 @@ impl Iterate<'_> {
                 }
                 last = f64::INFINITY;
             }
+            normal = self.press()?;
         }
         Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
     }
@@ -64,6 +68,8 @@ pub(super) struct Search {
     last: Option<[f64; 2]>,
     /// Change of the root per change of the share.
     slope: f64,
+    /// Largest relative change in the iteration before.
+    moving: f64,
     changes: usize,
 }
 
@@ -76,7 +82,7 @@ impl Search {
         let share = share.filter(|_| mu > 0.0).map(|share| share.clamp(SHORTEST, 1.0));
         let known = it.before.slope;
         let slope = Self::quasistatic(it) * if known > 0.0 { known } else { 1.0 };
-        Self { share, last: None, slope, changes: 0 }
+        Self { share, last: None, slope, moving: 0.0, changes: 0 }
     }
 
     /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
@@ -102,7 +108,7 @@ impl Search {
         let upstream = it.upstream();
         let root = it.stick(share * it.tractions.pressure.half_width, upstream)?;
         if let Some([other, there]) = self.last
-            && (share - other).abs() > TELLING
+            && (share - other).abs() > TELLING * self.moving
         {
             let slope = (root - there) / (share - other);
             if slope * self.slope > 0.0 && slope.is_finite() {
@@ -128,7 +134,8 @@ impl Search {
         self.share = Some(next);
         let change = (root / peak).abs().max((next - share).abs());
         let force = (it.tractions.stick.total() - force).abs() / (it.friction * it.load());
-        Ok(change.max(force).max(Self::moved(it, before, scale)))
+        self.moving = change.max(force).max(Self::moved(it, before, scale));
+        Ok(self.moving)
     }
 
     /// Change of motions and turn relative to the slip at which rolling becomes sliding.
@@ -151,17 +158,19 @@ impl Search {
 
     /// Whether the solution obeys friction: `false` where the search has to go on.
     pub fn check(&mut self, it: &mut Iterate) -> Result<bool, ContactError> {
+        it.slips = it.slip(&it.slipping().0, &it.surface, true);
         if it.friction == 0.0 {
             return Ok(true);
         }
         let (slide, peak) = (it.tractions.slide, it.friction * it.tractions.pressure.terms[0]);
-        let beyond = |x: f64| it.tractions.shear(x).abs() - it.friction * it.tractions.pressure.density(x);
-        let torn = !it.tractions.slides() && it.stuck.iter().any(|place| beyond(place.x) > OVERSHOOT * peak);
+        let stuck = it.stuck.map(|place| place.x);
+        let (shear, pressure) = (it.tractions.shear(&stuck), it.tractions.pressure.density(&stuck));
+        let beyond = |q: usize| shear[q].abs() - it.friction * pressure[q] > OVERSHOOT * peak;
+        let torn = !it.tractions.slides() && (0..stuck.len()).any(beyond);
         let scale = it.speed() * it.friction * it.tractions.pressure.half_width / it.problem.surfaces.radius;
-        let (places, _) = it.slipping();
-        let backward = |x: &f64| it.slip(*x, &it.surface, true) * slide.signum() > BACKWARD * scale;
-        let looked_at = || places.iter().step_by(3);
-        let wrong = looked_at().filter(|x| backward(x)).count();
+        let backward = |slip: &&f64| *slip * slide.signum() > BACKWARD * scale;
+        let looked_at = || it.slips.iter().step_by(3);
+        let wrong = looked_at().filter(backward).count();
         if it.tractions.slides() && wrong > 0 {
             if wrong == looked_at().count() {
                 it.tractions.slide = -slide;

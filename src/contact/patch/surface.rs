@@ -33,13 +33,19 @@ pub fn dot(a: &AtPoints, b: &AtPoints) -> f64 {
 }
 
 /// `a − b`.
-pub fn less(a: &AtPoints, b: &AtPoints) -> AtPoints {
+pub fn less<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
+/// `a + b`.
+pub fn plus<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
 impl Surface {
-    /// Displacements under forces on the wheel and the rail's opposite ones; `accelerations` are the rigid ones.
-    pub fn new(problem: &ContactProblem, moments: &Moments, accelerations: [f64; 3]) -> Self {
+    /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on wheel and rail;
+    /// `accelerations` are the rigid ones.
+    pub fn new(problem: &ContactProblem, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
         let bodies = &problem.bodies;
         let body = |index: usize, sign: f64| {
             let (free, compliance) = (bodies.free[index], bodies.compliance[index]);
@@ -47,7 +53,7 @@ impl Surface {
             for k in 0..POINTS {
                 let (mut t, mut n) = (free[2 * k], free[2 * k + 1]);
                 for l in 0..POINTS {
-                    let (force_t, force_n) = (sign * moments.tangential[l], sign * moments.normal[l]);
+                    let (force_t, force_n) = (sign * moments.tangential[l] + pulls[index][l], sign * moments.normal[l]);
                     t += compliance[(2 * k, 2 * l)] * force_t + compliance[(2 * k, 2 * l + 1)] * force_n;
                     n += compliance[(2 * k + 1, 2 * l)] * force_t + compliance[(2 * k + 1, 2 * l + 1)] * force_n;
                 }

@@ -16,6 +16,9 @@ pub const QUADRATURE: usize = 12;
 /// Places of the rule that integrates the power of friction.
 pub const POWER: usize = QUADRATURE;
 
+/// Points of the profiles over the part that slips and the part that sticks.
+pub const PROFILE: usize = 20;
+
 /// Places and values of the terms.
 #[derive(Clone, Debug)]
 pub struct Tables {
@@ -35,6 +38,8 @@ pub struct Tables {
     pub weights: [f64; QUADRATURE],
     /// `√(1 − t²) U_k` at the places times their weights, by k.
     pub moments: [[f64; QUADRATURE]; SHEAR],
+    /// Points of the profiles: shares of a stretch, denser towards its ends.
+    pub profile: [f64; PROFILE],
 }
 
 impl Tables {
@@ -56,6 +61,7 @@ impl Tables {
             moments: std::array::from_fn(|k| {
                 std::array::from_fn(|q: usize| weights[q] * ((k + 1) as f64 * angle(q)).sin())
             }),
+            profile: std::array::from_fn(|i| 0.5 - 0.5 * ((i + 1) as f64 * PI / PROFILE as f64).cos()),
         }
     }
 }

@@ -43,12 +43,12 @@ pub(super) fn to_grid(
         _ => slipping,
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
-    let past = |k: usize, x: f64| patch.past[k].at(x, constants.half_plane.kernel, &constants.points);
+    let past = |k: usize, x: f64| patch.past[k].at(&[x], constants.half_plane.kernel, &constants.points)[0];
     state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
     state.turn = patch.turn;
     state.rest = REST;
     let closed = |i: usize| status(grid.x[i]).is_active();
-    let force = |i: usize| if closed(i) { patch.tractions.shear(grid.x[i]) * grid.width(i) } else { 0.0 };
+    let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
     let span = duration(&patch.friction.force, &patch.friction.impulse);
     let slip = |i: usize| if status(grid.x[i]) == slipping { traction.slip.at(grid.x[i]) } else { 0.0 };
     state.slip = (0..grid.len()).map(slip).collect();
@@ -62,7 +62,7 @@ pub(super) fn to_grid(
     let mut forces = ports;
     for i in (0..grid.len()).filter(|&i| closed(i)) {
         forces[grid.port(i)] = force(i);
-        forces[grid.port(i) + 1] = pressure.density(grid.x[i]) * grid.width(i);
+        forces[grid.port(i) + 1] = pressure.density(&[grid.x[i]])[0] * grid.width(i);
     }
     let surface = [0, 1].map(|body| surface(constants, &patch.tractions, &traction.surface[body], grid, body));
     target.traction = Traction { loads: [forces.clone(), -&forces], port_forces: forces, surface, ..traction.clone() };
@@ -82,8 +82,8 @@ fn surface(
     for (node, &x) in grid.nodes().iter().enumerate() {
         let values = constants.points.values(x);
         let rest = |component: usize| (0..POINTS).map(|k| values[k] * smooth[2 * k + component]).sum::<f64>();
-        all[2 * node] = rest(0) + kernel * tractions.shear_logarithm(x);
-        all[2 * node + 1] = rest(1) + kernel * tractions.pressure.logarithm(x);
+        all[2 * node] = rest(0) + kernel * tractions.shear_logarithm(&[x])[0];
+        all[2 * node + 1] = rest(1) + kernel * tractions.pressure.logarithm(&[x])[0];
     }
     all
 }
@@ -164,13 +164,14 @@ fn slip_history(
     let half = pressure.half_width - stick.half_width;
     let centre = pressure.centre - side * stick.half_width;
     let tables = &constants.tables;
-    let place = |q: usize| centre + half * tables.places[q];
-    let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * slide * pressure.density(place(q)));
+    let places = tables.places.map(|t| centre + half * t);
+    let densities = pressure.density(&places);
+    let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * slide * densities[q]);
     let span = duration(&state.friction.force, &state.friction.impulse);
     SlipHistory {
         force,
         impulse: force.map(|f| span * f),
-        slip: std::array::from_fn(|q| traction.slip.at(place(q))),
+        slip: places.map(|x| traction.slip.at(x)),
         slope_power: state.friction.slope_power,
         slope_work: state.friction.slope_work,
     }
