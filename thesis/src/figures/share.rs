@@ -22,11 +22,6 @@ pub fn braking() -> Result<Figure, String> {
     shares(&EDGES, &REFINEMENTS)
 }
 
-/// The same on the row of edges down to half of the last, with three refinements of the whole wheel, too.
-pub fn braking_on_all_meshes() -> Result<Figure, String> {
-    shares(&[EDGES.as_slice(), &[0.2, 0.141]].concat(), &[1, 2, 3])
-}
-
 /// Shares on all meshes.
 fn shares(edges: &[f64], refinements: &[usize]) -> Result<Figure, String> {
     let a = hertz_half_width(LOAD, OUTER, contact_modulus(200e9, 0.3));
