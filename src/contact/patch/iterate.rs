@@ -1,25 +1,11 @@
 //! One contact problem on its way to the solution on a single patch.
 
-use super::kernels::HalfPlane;
+use super::constants::Constants;
 use super::state::{PatchState, Tractions};
 use super::surface::{AtPoints, Moments, Surface, dot};
-use super::tables::{POWER, QUADRATURE, Tables};
-use super::warmth::{self, LayerTables, Warmth};
+use super::tables::{POWER, QUADRATURE};
+use super::warmth::{self, Warmth};
 use crate::contact::problem::{AxisDrive, ContactProblem};
-use crate::linalg::Lagrange;
-
-/// What does not change from problem to problem.
-#[derive(Clone, Debug)]
-pub struct Constants {
-    /// What the bodies lack.
-    pub half_plane: HalfPlane,
-    /// Points between which their smooth displacements are polynomials.
-    pub points: Lagrange,
-    /// Constants of the series.
-    pub tables: Tables,
-    /// Constants of hot layers.
-    pub layers: LayerTables,
-}
 
 /// A place of integration with everything that does not depend on shear.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,11 +1,12 @@
 //! Contact on a single smooth patch: tractions as series that fit the patch and the part of it that sticks.
 //!
-//! [`kernels`] has the series and what they do to a half-plane, [`tables`] their constants, [`surface`] what the bodies add,
-//! [`press`] solves the normal problem, [`slip`] a given stretch of stick, [`stick`] finds where slip begins, [`conclude`]
-//! takes traction and power, [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
-//! `docs/theory/patch-contact.md`.
+//! [`kernels`] has the series and what they do to a half-plane, [`tables`] and [`constants`] their constants, [`surface`] what
+//! the bodies add, [`warmth`] what hot layers do, [`press`] solves the normal problem, [`slip`] a given stretch of stick,
+//! [`stick`] finds where slip begins, [`conclude`] takes traction and power, [`transfer`] leads to the grid and back, and
+//! [`solver`] decides between the two. Theory: `docs/theory/patch-contact.md`.
 
 mod conclude;
+mod constants;
 mod iterate;
 pub mod kernels;
 mod press;

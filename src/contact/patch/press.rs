@@ -1,6 +1,7 @@
 //! The normal problem: pressure, edges and height of the hub under the present shear.
 
-use super::iterate::{Constants, Iterate};
+use super::constants::Constants;
+use super::iterate::Iterate;
 use super::surface::{answer, dot};
 use super::tables::{PRESSURE, SMOOTH};
 use crate::contact::error::ContactError;

@@ -1,6 +1,7 @@
 //! Slip velocity of the surfaces, and the linear problem of one stretch that sticks.
 
-use super::iterate::{Constants, Iterate};
+use super::constants::Constants;
+use super::iterate::Iterate;
 use super::kernels::{Arch, TERMS};
 use super::state::Tractions;
 use super::surface::{AtPoints, Moments, Surface, dot};

@@ -1,11 +1,11 @@
 //! The contact solver that takes the patch where it can, and the grid where it cannot.
 
-use super::iterate::{Constants, Iterate};
+use super::constants::{Constants, LayerTables};
+use super::iterate::Iterate;
 use super::kernels::{Arch, HalfPlane};
 use super::state::{Past, PatchState, Tractions};
 use super::tables::{PRESSURE, Tables};
 use super::transfer;
-use super::warmth::LayerTables;
 use crate::contact::error::ContactError;
 use crate::contact::grid::GridSolver;
 use crate::contact::problem::{AxisDrive, ContactProblem};

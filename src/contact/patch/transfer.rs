@@ -1,7 +1,7 @@
 //! From the patch to the grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
 //! tangential displacement at the last two times, goes over as a function of x.
 
-use super::iterate::Constants;
+use super::constants::Constants;
 use super::kernels::Arch;
 use super::state::{Past, PatchState, SlipHistory, Tractions};
 use super::tables::{POWER, PRESSURE};

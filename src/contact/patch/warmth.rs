@@ -5,7 +5,7 @@
 //! edges, as these functions do. The membrane force N pulls with `−N′` at a half-plane, which it displaces by
 //! `κ [∫ n/(x − s) ds − π turn ln(b/2)]` with the part n of the sines. The layers move with the edges of the patch.
 
-use super::iterate::Constants;
+use super::constants::{Constants, LayerTables, PARTS, Samples};
 use super::kernels::{Arch, HalfPlane, TERMS};
 use super::surface::AtPoints;
 use super::tables::{QUADRATURE, SMOOTH};
@@ -15,8 +15,6 @@ use crate::piecewise::Piecewise;
 use nalgebra::Complex;
 use std::f64::consts::PI;
 
-/// Parts into which θ is divided; there are three quarters as many sines.
-const PARTS: usize = 16;
 /// How far from the middle what a layer holds ahead of the patch and behind it is taken, in half-widths \[1]: elements and the
 /// depth of the heat round off the root at the edges themselves.
 const BESIDE: f64 = 1.1;
@@ -26,44 +24,6 @@ const BESIDE: f64 = 1.1;
 const DEPTH: f64 = 0.03;
 /// Smallest `sin θ` that slopes are taken at: nearer to the edges they grow without bound, and there is next to no traction.
 const EDGE: f64 = 1e-3;
-/// What layers hold at the ends of the parts.
-type Samples = [f64; PARTS + 1];
-
-/// What is the same for all layers.
-#[derive(Clone, Debug)]
-pub struct LayerTables {
-    /// `cos θ` at the ends of the parts.
-    places: Samples,
-    /// Weights of the inner samples in the sines, by sine.
-    sines: [[f64; PARTS - 1]; TERMS],
-    /// Zeros of `T_16`.
-    zeros: [f64; PARTS],
-    /// Weights of the values there in the coefficients of `T_n`, by n.
-    zeros_terms: [[f64; PARTS]; SMOOTH],
-}
-
-impl LayerTables {
-    /// All constants.
-    pub fn new() -> Self {
-        let angle = |m: usize| m as f64 * PI / PARTS as f64;
-        let zero = |m: usize| angle(m) + 0.5 * angle(1);
-        let mean = |n: usize| if n == 0 { 1.0 } else { 2.0 } / PARTS as f64;
-        let weight = |k: usize, m: usize| 2.0 / PARTS as f64 * ((k + 1) as f64 * angle(m + 1)).sin();
-        Self {
-            places: std::array::from_fn(|m| angle(m).cos()),
-            sines: std::array::from_fn(|k| std::array::from_fn(|m| weight(k, m))),
-            zeros: std::array::from_fn(|m| zero(m).cos()),
-            zeros_terms: std::array::from_fn(|n| std::array::from_fn(|m| mean(n) * (n as f64 * zero(m)).cos())),
-        }
-    }
-}
-
-impl Default for LayerTables {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 /// A function on the patch.
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
