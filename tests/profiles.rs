@@ -6,6 +6,7 @@ mod common;
 use common::{KMH, model, prescribed, preset, store};
 use std::sync::Arc;
 use wheelrail::config::Config;
+use wheelrail::mechanics::nominal_half_width;
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, advice};
 
@@ -50,6 +51,44 @@ fn a_hole_unloads_the_contact_splits_it_in_two_and_is_left_with_a_small_peak() {
     println!("least and largest force over load, patches: {coarse:.5?}, half the step {fine:.5?}");
     assert!((fine.0 - 0.974).abs() < 3e-3 && (fine.1 - 1.0058).abs() < 3e-3 && fine.2 == 2, "{fine:?}");
     assert!((coarse.0 - fine.0).abs() < 2e-3 && (coarse.1 - fine.1).abs() < 2e-3, "{coarse:?} {fine:?}");
+}
+
+/// Least force over load as an elastic wheel rolls at 20 m/s over a sharp hole of the length `size` in half-widths.
+fn least_over_a_hole(elements: usize, size: f64) -> f64 {
+    let mut config = cold(preset("railway", elements));
+    config.physics.yielding = false;
+    let length = size * nominal_half_width(&config);
+    config.rail.profile = format!("hole(position = 0.01, length = {length:?}, depth = 1e-3)");
+    let model = model(config);
+    let inputs = without_friction(&model, 20.0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let outputs = run(&mut simulation, &inputs, 5e-6, 200);
+    outputs.iter().map(|o| o.contact_force_y / inputs.drive.load).fold(1.0, f64::min)
+}
+
+/// The least force over holes of half a cell to eight cells against a grid four and two times as fine: as the guard says.
+#[test]
+fn the_force_over_short_holes_errs_by_less_than_the_guard_says() {
+    let said = |elements: usize, size: f64| -> f64 {
+        let mut config = cold(preset("railway", elements));
+        let length = size * nominal_half_width(&config);
+        config.rail.profile = format!("hole(position = 2e-3, length = {length:?}, depth = 1e-3)");
+        let model = model(config);
+        let text =
+            Simulation::new(model.clone(), &without_friction(&model, 20.0)).unwrap().describe_limit(Limit::Waves);
+        1e-2 * text.split_once("by up to ").unwrap().1.split_once(" %").unwrap().0.parse::<f64>().unwrap()
+    };
+    for size in [0.05, 0.1, 0.2, 0.4] {
+        let least = |elements: usize| least_over_a_hole(elements, size);
+        let fine = least(40);
+        for elements in [10, 20] {
+            let (error, said) = ((least(elements) - fine).abs(), said(elements, size));
+            println!(
+                "{size} half-widths, {elements} elements: least force {fine:.5}, error {error:.1e}, said {said:.1e}"
+            );
+            assert!(error < said && said < 0.011, "{error} {said}");
+        }
+    }
 }
 
 #[test]

@@ -43,6 +43,10 @@ impl Limit {
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Elements, and internal steps, per wavelength of a surface below which it is not resolved.
 const FEWEST_PER_WAVE: f64 = 4.0;
+/// Error of the force over a sharp hole, over load, element and hole, one element added to it, in half-widths \[1]: the edges are found to
+/// within an element, and a hole that does not change the height of the wheel takes about a tenth of its squared length off the force.
+/// Measured: `docs/theory/profiles.md`, section 6.
+const HOLE: f64 = 0.2;
 /// Load that the candidate zone carries in any case, over the nominal load.
 pub(super) const ZONE_LOAD: f64 = 2.0;
 /// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
@@ -110,6 +114,14 @@ impl Simulation {
     fn shortest_wave(&self) -> f64 {
         let rolling = &self.model().rolling;
         rolling.contact.surfaces.wavelength(self.state().place(rolling.wheel.radius), rolling.zone)
+    }
+
+    /// Largest error of the force over a sharp hole \[m] that the grid makes, over the load \[1].
+    fn error_over_a_hole(&self, length: f64) -> f64 {
+        let config = self.model().config();
+        let half_width = nominal_half_width(config);
+        let element = half_width / config.mesh.elements_per_half_width as f64;
+        HOLE * element * (length + element) / (half_width * half_width)
     }
 
     /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding contact
@@ -200,10 +212,11 @@ impl Simulation {
             ),
             Limit::Waves => format!(
                 "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
-                 contact, {:.2} mm: forces are inexact; raise mesh.elements_per_half_width, or leave such waves out, which \
-                 the patch evens out",
+                 contact, {:.2} mm: forces are inexact, over a hole of half that length by up to {:.2} % of the load; raise \
+                 mesh.elements_per_half_width, or leave such waves out, which the patch evens out",
                 1e3 * value,
-                1e3 * bound
+                1e3 * bound,
+                1e2 * self.error_over_a_hole(0.5 * value)
             ),
             Limit::Sampling => format!(
                 "an internal step takes the wheel {:.2} mm on, more than a quarter, {:.2} mm, of the shortest wave of \
