@@ -114,7 +114,7 @@ fn texts_that_would_take_long_are_refused_by_name() {
     let rough = "roughness(spectrum = EN_ISO_3095, shortest = 8e-4, length = 50)";
     let refusal = |text: &str| Profile::parse(text, None, Body::Rail).unwrap_err().to_string();
     assert!(Profile::parse(rough, None, Body::Rail).is_ok());
-    let (many, endless) = (vec![rough; 2].join(" + "), vec!["hole(length = 1, depth = 1e-3)"; 1000].join(" + "));
+    let (many, endless) = ([rough; 2].join(" + "), ["hole(length = 1, depth = 1e-3)"; 1000].join(" + "));
     assert!(refusal(&many).contains("shortest") && refusal(&many).contains("for all roughness"), "{}", refusal(&many));
     assert!(refusal(&endless).contains("column 20001") && refusal(&endless).contains(".csv"), "{}", refusal(&endless));
     let names: String = (0..1500).map(|k| format!("a{k} = 1, ")).collect();
