@@ -24,6 +24,7 @@ const BESIDE: f64 = 1.1;
 const DEPTH: f64 = 0.03;
 /// Smallest `sin θ` that slopes are taken at: nearer to the edges they grow without bound, and there is next to no traction.
 const EDGE: f64 = 1e-3;
+
 /// A function on the patch.
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
