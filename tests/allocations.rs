@@ -1,53 +1,10 @@
 //! Heap allocations of a step: time spent in the allocator is time the model does not compute.
-#![allow(unsafe_code)]
 
 mod common;
+mod heap;
 
 use common::{model, preset};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use wheelrail::simulation::{Inputs, Simulation};
-
-/// The system's allocator, counting the calls of each thread.
-struct Counting;
-
-thread_local! {
-    static CALLS: Cell<u64> = const { Cell::new(0) };
-    static BYTES: Cell<u64> = const { Cell::new(0) };
-}
-
-fn count(size: usize) {
-    // Threads that are ending have no counters any more; nobody asks for theirs.
-    let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
-    let _ = BYTES.try_with(|bytes| bytes.set(bytes.get() + size as u64));
-}
-
-// SAFETY: every call is passed on to the system's allocator unchanged; the counters are plain cells without destructors,
-// so counting neither allocates nor panics.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count(layout.size());
-        // SAFETY: as the caller promises.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        count(layout.size());
-        // SAFETY: as the caller promises.
-        unsafe { System.alloc_zeroed(layout) }
-    }
-    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count(size);
-        // SAFETY: as the caller promises.
-        unsafe { System.realloc(memory, layout, size) }
-    }
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // SAFETY: as the caller promises.
-        unsafe { System.dealloc(memory, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Allocations and bytes per step of 1 ms in a braking run, after the workspace has been filled.
 fn per_step(thermal: bool) -> (f64, f64) {
@@ -64,10 +21,10 @@ fn per_step(thermal: bool) -> (f64, f64) {
         }
     };
     run(20);
-    let (calls, bytes) = (CALLS.get(), BYTES.get());
+    let (calls, bytes) = (heap::requests(), heap::requested_bytes());
     run(STEPS);
     let each = |now: u64, before: u64| (now - before) as f64 / STEPS as f64;
-    (each(CALLS.get(), calls), each(BYTES.get(), bytes))
+    (each(heap::requests(), calls), each(heap::requested_bytes(), bytes))
 }
 
 #[test]

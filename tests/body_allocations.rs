@@ -1,37 +1,13 @@
 //! A step of the reduced bodies works in the memory of its buffers.
 
 mod common;
+mod heap;
 use common::*;
 use nalgebra::DVector;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use wheelrail::mechanics::{
     BodyDamping, BodyResponse, BodyState, BodySystem, Convection, FreeResponse, ReducedBasis, ReducedBody, wheel_system,
 };
 use wheelrail::multistep::TimeDerivative;
-
-/// The system's allocator, with a count of the requests of each thread.
-struct Counting;
-
-thread_local! {
-    static REQUESTS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: passes every request on to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        REQUESTS.with(|count| count.set(count.get() + 1));
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: `pointer` came from `alloc` above, hence from `System`.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn a_step_of_a_reduced_body_allocates_nothing() {
@@ -59,9 +35,9 @@ fn a_step_of_a_reduced_body_allocates_nothing() {
         // The buffers take their size.
         step(&mut states);
         step(&mut states);
-        let before = REQUESTS.with(Cell::get);
+        let before = heap::requests();
         let energy: f64 = (0..20).map(|_| step(&mut states)).sum();
-        assert_eq!(REQUESTS.with(Cell::get), before);
+        assert_eq!(heap::requests(), before);
         assert!(energy.is_finite() && energy != 0.0);
     }
 }

@@ -1,44 +1,9 @@
 //! Memory requests of a heat step and its observation.
 
+mod heap;
 mod heat_common;
 use heat_common::*;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use wheelrail::heat::*;
-
-struct Counting;
-
-thread_local! {
-    static COUNT: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    // A thread that ends has no counter any more.
-    let _ = COUNT.try_with(|count| count.set(count.get() + 1));
-}
-
-// SAFETY: every request goes to the system's allocator unchanged; the counter allocates nothing.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.dealloc(memory, layout) }
-    }
-
-    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.realloc(memory, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
@@ -55,7 +20,7 @@ fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
         let mut most = 0;
         for k in 0..24 {
             let wave = 1.0 + vary * f64::from(k % 5);
-            let before = COUNT.get();
+            let before = heap::requests();
             exchange.clear();
             exchange.patches.extend_from_slice(&rolling.patches);
             exchange.tread.extend_from_slice(&rolling.tread);
@@ -68,7 +33,7 @@ fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
             std::mem::swap(&mut state, &mut next);
             // The first steps of each kind lay out the buffers.
             if k >= 12 {
-                most = most.max(COUNT.get() - before);
+                most = most.max(heap::requests() - before);
             }
         }
         println!("{name}: at most {most} requests per step");
