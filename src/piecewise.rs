@@ -107,6 +107,14 @@ impl Piecewise {
         }
     }
 
+    /// Replaces `out` by the values at ascending positions, see [`Self::at`].
+    pub fn sample(&self, at: &[f64], out: &mut Vec<f64>) {
+        resample(&self.x, &self.value, at, out);
+        let (first, last) = (self.x.first().copied(), self.x.last().copied());
+        let inside = |x: f64| first.is_some_and(|first| x >= first) && last.is_some_and(|last| x <= last);
+        out.iter_mut().zip(at).filter(|(_, x)| !inside(**x)).for_each(|(value, _)| *value = 0.0);
+    }
+
     /// Multiplies all values by a factor.
     pub fn scale(&mut self, factor: f64) {
         self.value.iter_mut().for_each(|v| *v *= factor);
@@ -158,10 +166,14 @@ pub fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
     if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
 }
 
-/// Replaces `out` by the values at the positions `at`, see [`interpolate`].
+/// Replaces `out` by the values at the ascending positions `at`, see [`interpolate`].
 pub fn resample(x: &[f64], values: &[f64], at: &[f64], out: &mut Vec<f64>) {
+    let mut next = 0;
     out.clear();
-    out.extend(at.iter().map(|&at| interpolate(x, values, at)));
+    out.extend(at.iter().map(|&at| {
+        next += x[next..].iter().take_while(|&&node| node <= at).count();
+        between(x, values, at, next)
+    }));
 }
 
 /// Mean over an interval of the function that is linear between nodes and zero outside; zero for an empty interval.
@@ -211,25 +223,32 @@ pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
 /// neighbours: continuous in the values, wherever the maximum moves. Nodes are distinct; `−∞` without any.
 pub fn peak(x: &[f64], values: &[f64]) -> f64 {
     let n = x.len().min(values.len());
-    let top = values[..n].iter().fold(f64::NEG_INFINITY, |top, v| top.max(*v));
+    let mut top = values[..n].iter().fold(f64::NEG_INFINITY, |top, v| top.max(*v));
     let chord = |i: usize| (values[i + 1] - values[i]) / (x[i + 1] - x[i]);
-    let slope = |i: usize| {
-        let (left, right) = (x[i] - x[i - 1], x[i + 1] - x[i]);
-        (chord(i - 1) * right + chord(i) * left) / (left + right)
-    };
-    // Maxima inside the cells; the outermost cells have only a chord.
-    let inside = (1..n.saturating_sub(2)).filter_map(|i| {
+    // Chords of a cell and of both beside it; the outermost cells have no maximum inside: there is only a chord.
+    let mut chords = [0.0; 3];
+    for i in 1..n.saturating_sub(2) {
+        chords = if i == 1 { [chord(0), chord(1), chord(2)] } else { [chords[1], chords[2], chord(i + 1)] };
         let h = x[i + 1] - x[i];
-        let (from, to, rise) = (h * slope(i), h * slope(i + 1), values[i + 1] - values[i]);
+        let steepest = chords.iter().fold(0.0_f64, |steepest, chord| steepest.max(chord.abs()));
+        // A cubic exceeds both its ends by at most 4/27 of either slope times the length.
+        if values[i].max(values[i + 1]) + 8.0 / 27.0 * h * steepest < top {
+            continue;
+        }
+        let slope = |left: f64, right: f64, k: usize| (chords[k] * right + chords[k + 1] * left) / (left + right);
+        let from = h * slope(x[i] - x[i - 1], h, 0);
+        let to = h * slope(h, x[i + 2] - x[i + 1], 1);
+        let rise = values[i + 1] - values[i];
         // v(ξ) = v₀ + from ξ + b ξ² + c ξ³.
         let (b, c) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
         let root = b * b - 3.0 * c * from;
         // The zero of v′ where v″ < 0, in the form that survives c = 0.
         let xi = from / (root.max(0.0).sqrt() - b);
-        let value = values[i] + xi * (from + xi * (b + xi * c));
-        (root >= 0.0 && xi > 0.0 && xi < 1.0).then_some(value)
-    });
-    inside.fold(top, f64::max)
+        if root >= 0.0 && xi > 0.0 && xi < 1.0 {
+            top = top.max(values[i] + xi * (from + xi * (b + xi * c)));
+        }
+    }
+    top
 }
 
 #[cfg(test)]

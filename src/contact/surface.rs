@@ -60,15 +60,11 @@ impl Surfaces {
     /// the cold, smooth bodies just touch: `r − √(r² − x²)` less everything that has grown into it.
     pub fn gap(&self, x: f64, at: &Placement) -> f64 {
         let [wheel, rail] = self.depth(x, at);
-        self.even_gap(x, at) + wheel + rail
+        let swelling = at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>();
+        self.round_gap(x, at) - swelling + wheel + rail
     }
 
-    /// The same between circle and plane, as heat and elevation leave them.
-    pub fn even_gap(&self, x: f64, at: &Placement) -> f64 {
-        self.round_gap(x, at) - at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>()
-    }
-
-    /// The same but for the swelling of the layers.
+    /// The same between circle and plane, as elevation leaves them, without the swelling of the layers.
     pub fn round_gap(&self, x: f64, at: &Placement) -> f64 {
         // The form of r − √(r² − x²) without cancellation.
         let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());

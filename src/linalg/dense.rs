@@ -1,9 +1,9 @@
 //! Small dense matrices: systems solved over and over in buffers that are kept, and exact symmetry.
 
+use super::vectorised::vectorised;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::perm::PermRef;
-use faer::{MatMut, MatRef, Par};
+use faer::linalg::lu::partial_pivoting::factor;
+use faer::{MatMut, Par};
 use nalgebra::DMatrix;
 
 /// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
@@ -15,6 +15,7 @@ pub struct DenseSystem {
     /// Rows of `A`, one after the other; overwritten by the factors of `Aᵀ`.
     rows: Vec<f64>,
     rhs: Vec<f64>,
+    permuted: Vec<f64>,
     permutation: [Vec<usize>; 2],
     stack: Option<MemBuffer>,
     /// Size for which `stack` suffices.
@@ -52,8 +53,7 @@ impl DenseSystem {
         }
         if self.stack.is_none() || self.prepared < n {
             let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
-            let solve = solve::solve_transpose_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
-            self.stack = Some(MemBuffer::new(factor.or(solve)));
+            self.stack = Some(MemBuffer::new(factor));
             self.prepared = n;
         }
         let [forward, inverse] = &mut self.permutation;
@@ -69,15 +69,34 @@ impl DenseSystem {
 
     /// `x ← A⁻¹ x` with the factors of [`Self::factorise`]; whether the result is finite.
     pub fn solve_with(&mut self, x: &mut [f64]) -> bool {
-        let n = self.size;
-        if let Some(stack) = self.stack.as_mut().filter(|_| n > 0) {
-            let factors = MatRef::from_column_major_slice(&self.rows, n, n);
-            let [forward, inverse] = &self.permutation;
-            let permutation = PermRef::new_checked(&forward[..n], &inverse[..n], n);
-            let rhs = MatMut::from_column_major_slice_mut(x, n, 1);
-            solve::solve_transpose_in_place(factors, factors, permutation, rhs, Par::Seq, MemStack::new(stack));
-        }
+        // Aᵀ = P⁻¹ L U, so that A = Uᵀ Lᵀ P.
+        substitute_transposed(&self.rows, x);
+        self.permuted.clear();
+        self.permuted.extend_from_slice(x);
+        let [_, inverse] = &self.permutation;
+        x.iter_mut().zip(inverse).for_each(|(x, &from)| *x = self.permuted[from]);
         x.iter().all(|x| x.is_finite())
+    }
+}
+
+vectorised! {
+    /// `x ← L⁻ᵀ U⁻ᵀ x` with the factors of a matrix, columns one after the other; the diagonal of L is 1.
+    fn substitute_transposed<'a, S>(simd, factors: &'a [f64], x: &'a mut [f64]) {
+        let n = x.len();
+        let product = |a: &[f64], b: &[f64]| {
+            let ((a, a_rest), (b, b_rest)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
+            let zero = simd.splat_f64s(0.0);
+            let sum = a.iter().zip(b).fold(zero, |sum, (&a, &b)| simd.mul_add_e_f64s(a, b, sum));
+            simd.reduce_sum_f64s(sum) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
+        };
+        for j in 0..n {
+            let column = &factors[j * n..(j + 1) * n];
+            x[j] = (x[j] - product(&column[..j], &x[..j])) / column[j];
+        }
+        for j in (0..n).rev() {
+            let column = &factors[j * n..(j + 1) * n];
+            x[j] -= product(&column[j + 1..], &x[j + 1..]);
+        }
     }
 }
 

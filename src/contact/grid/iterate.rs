@@ -44,6 +44,8 @@ pub struct GridScratch {
     pub(super) swelling: [Vec<f64>; 2],
     /// Pull of the hot layers of wheel and rail at the candidates [N/m]; empty without any.
     pub(super) pull: [Vec<f64>; 2],
+    /// Membrane force of a body at the candidates [N].
+    pub(super) along: Vec<f64>,
     /// Displacement of wheel and rail by the membrane forces of their hot layers [m]; empty without any.
     pub(super) membrane: [DVector<f64>; 2],
     pub(super) upwind: Vec<Upwind>,

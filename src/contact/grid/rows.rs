@@ -174,7 +174,11 @@ impl Iterate<'_> {
             self.scratch.known[0].axpy(motion.known_acceleration(), &problem.bodies.inertial.column(k), 1.0);
         }
         self.scratch.gap.clear();
-        self.scratch.gap.extend(grid.x.iter().map(|&x| problem.surfaces.even_gap(x, &problem.placement)));
+        let swelling = &self.scratch.swelling;
+        self.scratch.gap.extend(grid.x.iter().enumerate().map(|(i, &x)| {
+            let swollen = |body: usize| swelling[body].get(i).copied().unwrap_or(0.0);
+            problem.surfaces.round_gap(x, &problem.placement) - (swollen(0) + swollen(1))
+        }));
         self.scratch.slip_offset.clear();
         self.scratch.slip_offset.extend(self.state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
         self.scratch.row.resize(grid.ports(), 0.0);
@@ -226,12 +230,14 @@ impl Iterate<'_> {
     fn warm(&mut self, body: usize) {
         let (grid, problem) = (self.grid, self.problem);
         let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
-        let GridScratch { known, swelling, pull, membrane, row, .. } = &mut *self.scratch;
+        let GridScratch { known, swelling, pull, along, membrane, row, .. } = &mut *self.scratch;
         let (known, swelling, membrane) = (&mut known[body], &mut swelling[body], &mut membrane[body]);
         let pull = &mut pull[body];
         pull.clear();
         swelling.clear();
-        swelling.extend(grid.x.iter().map(|&x| layer.at(x)).filter(|_| !layer.is_empty()));
+        if !layer.is_empty() {
+            layer.sample(&grid.x, swelling);
+        }
         if force.is_empty() {
             *membrane = DVector::zeros(0);
             return;
@@ -240,10 +246,10 @@ impl Iterate<'_> {
         membrane.fill(0.0);
         row.clear();
         row.resize(grid.ports(), 0.0);
+        force.sample(&grid.x, along);
         let last = grid.len().saturating_sub(1);
         for i in 0..=last {
-            let (before, after) = (grid.x[i.saturating_sub(1)], grid.x[(i + 1).min(last)]);
-            pull.push(-0.5 * (force.at(after) - force.at(before)));
+            pull.push(-0.5 * (along[(i + 1).min(last)] - along[i.saturating_sub(1)]));
             row[grid.port(i)] = pull[i];
         }
         add_columns(1.0, problem.bodies.compliance[body].as_slice(), row, membrane.as_mut_slice());

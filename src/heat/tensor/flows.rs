@@ -103,10 +103,12 @@ impl BodyOperator {
                 - film
                 - body.heat_capacity * (modes.content[m] - modes.free[m]) * change[m];
         }
-        let out = self.transport.exit.map_or(0.0, |(node, flux)| {
+        let ahead_exit = self.inverses.present().exit;
+        let out = self.transport.exit.map_or(0.0, |(node, exit)| {
             let nm = modes.len();
             let held = |field: &[f64]| dot(&field[node * nm..(node + 1) * nm], &modes.content);
-            flux * (held(content) + ahead * rate.map_or(0.0, held))
+            // What the stage changes leaves with the stream of the matrix that is inverted.
+            exit * held(content) + ahead_exit * ahead * rate.map_or(0.0, held)
         });
         BodyFlows { stored, air, fixed, out }
     }

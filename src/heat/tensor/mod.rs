@@ -18,6 +18,7 @@ mod depth_modes;
 mod elimination;
 mod field;
 mod flows;
+mod inverse;
 mod layout;
 mod lift;
 mod loads;

@@ -6,7 +6,7 @@
 //! [μ ρc M̃ + β (k λₘ M̃ + F)] xₘ = bₘ ,
 //! ```
 //!
-//! cyclic in the wheel. Nothing is kept from one step to the next, so that step size and speeds may change every time.
+//! cyclic in the wheel. No result depends on the steps before, so that step size and speeds may change every time.
 //! Fields are stored as `field[node · modes + mode]`; all recurrences run over the nodes and are vectors in the modes.
 
 use super::depth_modes::DepthModes;

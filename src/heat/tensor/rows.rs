@@ -151,6 +151,19 @@ vectorised! {
 }
 
 vectorised! {
+    /// `out ← x + factor · y`.
+    fn sum<'a, S>(simd, x: &'a [f64], factor: f64, y: &'a [f64], out: &'a mut [f64]) {
+        let (x, x_rest) = S::as_simd_f64s(x);
+        let ((y, y_rest), (out, out_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(out));
+        let many = simd.splat_f64s(factor);
+        for ((out, &x), &y) in out.iter_mut().zip(x).zip(y) {
+            *out = simd.mul_add_e_f64s(many, y, x);
+        }
+        out_rest.iter_mut().zip(x_rest.iter().zip(y_rest)).for_each(|(out, (x, y))| *out = x + factor * y);
+    }
+}
+
+vectorised! {
     /// Adds `factor` times the product of a row vector `g` with the matrix of three bands (lower, diagonal, upper) to `row`.
     fn add_banded<'a, S>(simd, factor: f64, g: &'a [f64], bands: [&'a [f64]; 3], row: &'a mut [f64]) {
         let _ = simd;

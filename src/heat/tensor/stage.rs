@@ -1,12 +1,11 @@
 //! The matrix of an implicit stage: applied exactly, inverted mode by mode, coupled through the contact.
 
+use super::inverse::{InverseKey, Inverses};
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
-use super::response::SurfaceResponse;
 use super::rows;
 use super::streamline::Transport;
-use super::tridiagonal::TridiagonalFactor;
 use crate::heat::error::HeatError;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use crate::linalg::{DenseSystem, Update};
@@ -35,11 +34,9 @@ pub(super) struct BodyOperator {
     pub(super) transport: Transport,
     /// Conduction alone; set where steel melts.
     still: Transport,
-    factor: TridiagonalFactor,
+    pub(super) inverses: Inverses,
     /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal and upper entries.
     contact: [Vec<f64>; 3],
-    /// Surface temperatures at the contact nodes under unit loads there.
-    response: SurfaceResponse,
     /// Buffer of a field.
     work: Vec<f64>,
     /// Surface temperatures at the contact nodes.
@@ -50,11 +47,13 @@ pub(super) struct BodyOperator {
     pub(super) sums: [Vec<f64>; 2],
 }
 
-/// Speeds, conductance and coefficients that a matrix belongs to.
-#[derive(Clone, Copy, Debug)]
+/// Speeds and coefficients that the matrices of a stage belong to.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StageKey {
     /// Velocity of the wheel's centre [m/s] and angular velocity [rad/s].
     pub speeds: [f64; 2],
+    /// The same of the matrix that is inverted.
+    pub inverted: [f64; 2],
     /// Weights of storage and flow.
     pub coefficients: StageCoefficients,
     /// Inverse of the step that upwinding sees [1/s].
@@ -66,12 +65,9 @@ pub(super) struct StageKey {
 /// Everything needed to apply and to invert the matrix of an implicit stage.
 #[derive(Default)]
 pub(super) struct Stage {
-    /// What the operators below were made for: speeds, conductance, coefficients (`None`: there are no operators), and
-    /// whether conduction along the streamlines is exact.
-    speeds: [f64; 2],
+    /// What the operators below were made for; `None`: there are none.
+    key: Option<StageKey>,
     conductance: Vec<[f64; 3]>,
-    coefficients: Option<StageCoefficients>,
-    curved: bool,
     pub(super) wheel: BodyOperator,
     pub(super) rail: BodyOperator,
     /// Contact elements and nodes, counted from the first of the zone.
@@ -114,39 +110,35 @@ impl BodyOperator {
     }
 
     /// Adds row `i` of `β G C̃` to a row of the coupling matrix.
-    fn add_coupling(&self, flow: f64, i: usize, row: &mut [f64]) {
+    fn add_coupling(&mut self, flow: f64, i: usize, row: &mut [f64]) {
         let [lower, diagonal, upper] = &self.contact;
-        rows::add_banded(flow, self.response.row(i), [lower, diagonal, upper], row);
+        rows::add_banded(flow, self.inverses.present().response.row(i), [lower, diagonal, upper], row);
     }
 }
 
 impl Stage {
     /// Prepares the operators; does nothing where they have not changed.
     pub fn set(&mut self, heat: &Heat, loads: &SurfaceLoads, key: StageKey) -> Result<(), HeatError> {
-        let StageKey { speeds, coefficients, rate, curved } = key;
-        if self.coefficients == Some(coefficients)
-            && self.curved == curved
-            && self.speeds == speeds
-            && self.conductance == loads.conductance
-        {
+        if self.key == Some(key) && self.conductance == loads.conductance {
             return Ok(());
         }
-        self.coefficients = None;
-        (self.speeds, self.curved) = (speeds, curved);
+        self.key = None;
         self.conductance.clone_from(&loads.conductance);
         self.elements = loads.contact();
         self.nodes = if self.elements.is_empty() { 0..0 } else { self.elements.start..self.elements.end + 1 };
-        let [velocity, omega] = speeds;
-        for (body, operator, speed) in
-            [(&heat.wheel, &mut self.wheel, -omega * heat.config.wheel.radius), (&heat.rail, &mut self.rail, -velocity)]
-        {
+        let StageKey { speeds, inverted, coefficients, rate, .. } = key;
+        let around = |[_, omega]: [f64; 2]| -omega * heat.config.wheel.radius;
+        let along = |[velocity, _]: [f64; 2]| -velocity;
+        for (body, operator, speed, inverted) in [
+            (&heat.wheel, &mut self.wheel, around(speeds), around(inverted)),
+            (&heat.rail, &mut self.rail, along(speeds), along(inverted)),
+        ] {
             operator.transport.set(&body.line, speed, rate, body.heat_capacity, body.conductivity);
             let first = body.line.zone;
             let nodes = first + self.nodes.start..first + self.nodes.end;
-            operator.factor.set(body, &operator.transport, coefficients, &nodes)?;
+            operator.inverses.set(body, InverseKey { speed: inverted, coefficients, rate, nodes })?;
             if !self.elements.is_empty() {
                 operator.set_contact(&self.conductance[self.elements.clone()], first + self.elements.start);
-                operator.response.set(&operator.factor, body, nodes);
             }
         }
         let n = self.nodes.len();
@@ -160,7 +152,7 @@ impl Stage {
         if !self.coupling.factorise() {
             return Err(HeatError::Singular { unknowns: n });
         }
-        self.coefficients = Some(coefficients);
+        self.key = Some(key);
         Ok(())
     }
 
@@ -239,7 +231,7 @@ impl Stage {
     fn add_conduction(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let x_wheel = &x[..heat.wheel.size()];
         let (wheel, rail) = out.split_at_mut(heat.wheel.size());
-        if self.curved {
+        if self.key.is_some_and(|key| key.curved) {
             heat.wheel.add_curvature(coefficients, x_wheel, wheel, &mut self.wheel.work);
         }
         if self.coupled() {
@@ -275,13 +267,14 @@ impl Stage {
 
     /// `x ← P⁻¹ x` with the operator of the modal solver.
     fn invert(&mut self, heat: &Heat, x: &mut [f64]) {
-        let (Some(coefficients), size) = (self.coefficients, heat.wheel.size()) else { return };
+        let (Some(StageKey { coefficients, .. }), size) = (self.key, heat.wheel.size()) else { return };
         let nodes = [&heat.wheel, &heat.rail].map(|body| self.contact_nodes(body));
         let coupled = self.coupled();
         let (wheel, rail) = x.split_at_mut(size);
         let bodies = [(&heat.wheel, &mut self.wheel, wheel), (&heat.rail, &mut self.rail, rail)];
         for ((body, operator, x), nodes) in bodies.into_iter().zip(&nodes) {
-            let BodyOperator { factor, trace, .. } = operator;
+            let BodyOperator { inverses, trace, .. } = operator;
+            let factor = &mut inverses.present().factor;
             factor.eliminate(body, x);
             if coupled {
                 factor.trace(body, nodes, x, trace);
@@ -300,15 +293,18 @@ impl Stage {
         for ((body, operator, flow, x), nodes) in bodies.into_iter().zip(&nodes) {
             if coupled {
                 operator.set_contact_load(flow, &self.jump);
-                operator.factor.add_eliminated(body, nodes, &operator.load, x);
             }
-            operator.factor.substitute(body, x);
+            let factor = &mut operator.inverses.present().factor;
+            if coupled {
+                factor.add_eliminated(body, nodes, &operator.load, x);
+            }
+            factor.substitute(body, x);
         }
     }
 
     /// `x ← S⁻¹ x` with the exact operator where it matters; iterations of its correction.
     pub fn solve(&mut self, heat: &Heat, coefficients: StageCoefficients, x: &mut [f64]) -> Result<usize, HeatError> {
-        if !self.curved {
+        if !self.key.is_some_and(|key| key.curved) {
             self.invert(heat, x);
             return Ok(0);
         }
@@ -344,7 +340,7 @@ impl LinearSystem for Exact<'_> {
 #[cfg(test)]
 impl Stage {
     /// Surface temperatures of the rail at the contact nodes under a wheel at a uniform temperature; the nodes.
-    pub fn rail_under_uniform_wheel(&self, wheel: f64) -> (Range<usize>, Vec<f64>) {
+    pub fn rail_under_uniform_wheel(&mut self, wheel: f64) -> (Range<usize>, Vec<f64>) {
         let n = self.nodes.len();
         let (mut matrix, mut surface) = (DenseSystem::default(), vec![0.0; n]);
         matrix.reset(n);

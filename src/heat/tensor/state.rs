@@ -23,6 +23,27 @@ pub struct HeatState {
     pub(super) range: [f64; 2],
 }
 
+/// Digits after the first of the binary numbers to which shared speeds are rounded.
+const SHARED_DIGITS: u32 = 8;
+
+impl HeatState {
+    /// Speeds near the present ones that many steps share: those of the last step, rounded. Where one has changed by more than
+    /// rounding does, the present one takes its place.
+    ///
+    /// They follow from the state, so that a step depends smoothly on its inputs.
+    pub(super) fn shared_speeds(&self, speeds: [f64; 2]) -> [f64; 2] {
+        let near = |shared: f64, speed: f64| (shared - speed).abs() <= speed.abs() / f64::from(1 << SHARED_DIGITS);
+        let Some(last) = self.last else { return speeds };
+        [0, 1].map(|i| Some(rounded(last.speeds[i])).filter(|shared| near(*shared, speeds[i])).unwrap_or(speeds[i]))
+    }
+}
+
+/// The nearest number with [`SHARED_DIGITS`] binary digits after the first.
+fn rounded(value: f64) -> f64 {
+    let rest = f64::MANTISSA_DIGITS - 1 - SHARED_DIGITS;
+    f64::from_bits((value.to_bits() + (1 << (rest - 1))) >> rest << rest)
+}
+
 /// Speeds and totals of what acts during a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct BoundaryState {

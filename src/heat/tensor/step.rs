@@ -117,22 +117,28 @@ impl Heat {
         let (gamma, stages) = if two { (1.0 - FRAC_1_SQRT_2, 2) } else { (1.0, 1) };
         let coefficients = StageCoefficients { storage: 1.0, flow: gamma * dt };
         let curved = speeds[1].abs() < CURVED_BELOW && dt >= CURVED_STEP;
-        stage.set(self, loads, StageKey { speeds, coefficients, rate: 1.0 / (gamma * dt), curved })?;
+        // Two stages bear a neighbouring matrix: where nothing changes in time, their result does not depend on it.
+        let inverted = if two && !curved { state.shared_speeds(speeds) } else { speeds };
+        stage.set(self, loads, StageKey { speeds, inverted, coefficients, rate: 1.0 / (gamma * dt), curved })?;
         let held = 1.0 + excess;
         // The friction power of the stages is that whose mean over the step is the given one; at the end it is the last
         // one's, unless the first one had to cool for that.
         let first = 1.0 + excess / (1.0 - gamma);
         let shares = if stages == 2 && first >= 0.0 { [first, 1.0] } else { [held, held] };
         let known = &mut next.field;
-        known.clone_from(&state.field);
-        stage.set_sums(self, known);
+        if melting.is_some() {
+            known.clone_from(&state.field);
+        }
+        known.resize(state.field.len(), 0.0);
+        stage.set_sums(self, &state.field);
         let mut flows = HeatFlows::default();
         for index in 1..=stages {
             // Both the weight of the stage and the share of the step by which it takes the field on.
             let weight = if index == stages { gamma } else { 1.0 - gamma };
             loads.friction_share = shares[index - 1];
             rate.resize(known.len(), 0.0);
-            stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, known, rate);
+            let from = if index == 1 { &state.field } else { &*known };
+            stage.multiply(self, StageCoefficients { storage: 0.0, flow: -1.0 }, from, rate);
             stage.add_loads(self, loads, rate);
             flows.iterations += match &melting {
                 None => stage.solve(self, coefficients, rate)?,
@@ -148,9 +154,13 @@ impl Heat {
                 let ends = StageEnd { temperature, content: known, rate: Some(rate), ahead: 0.0 };
                 stage.add_flows(self, loads, &ends, weight, &mut flows);
             } else {
-                let ends = StageEnd { temperature: known, content: known, rate: Some(rate), ahead: gamma * dt };
+                let from = if index == 1 { &state.field } else { &*known };
+                let ends = StageEnd { temperature: from, content: from, rate: Some(rate), ahead: gamma * dt };
                 stage.add_flows(self, loads, &ends, weight, &mut flows);
-                rows::add(weight * dt, rate, known);
+                match index {
+                    1 => rows::sum(&state.field, weight * dt, rate, known),
+                    _ => rows::add(weight * dt, rate, known),
+                }
                 stage.advance_sums(weight * dt);
             }
         }
@@ -167,7 +177,7 @@ impl Heat {
         self.set_loads(exchange, &mut loads)?;
         let storage = REGULARISATION * self.config.diffusivity() / self.config.wheel.radius.powi(2);
         let coefficients = StageCoefficients { storage, flow: 1.0 };
-        stage.set(self, &loads, StageKey { speeds, coefficients, rate: 0.0, curved: true })?;
+        stage.set(self, &loads, StageKey { speeds, inverted: speeds, coefficients, rate: 0.0, curved: true })?;
         let mut field = vec![0.0; self.wheel.size() + self.rail.size()];
         stage.add_loads(self, &loads, &mut field);
         let solved = stage.solve(self, StageCoefficients { storage: 0.0, flow: 1.0 }, &mut field);
@@ -208,7 +218,7 @@ impl Heat {
         self.set_loads(&even, &mut loads)?;
         let storage = REGULARISATION * self.config.diffusivity() / self.config.wheel.radius.powi(2);
         let coefficients = StageCoefficients { storage, flow: 1.0 };
-        stage.set(self, &loads, StageKey { speeds, coefficients, rate: 0.0, curved: false })?;
+        stage.set(self, &loads, StageKey { speeds, inverted: speeds, coefficients, rate: 0.0, curved: false })?;
         let mut field = vec![0.0; self.wheel.size() + self.rail.size()];
         stage.add_loads(self, &loads, &mut field);
         stage.solve(self, coefficients, &mut field)?;

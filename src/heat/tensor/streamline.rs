@@ -157,13 +157,17 @@ impl Transport {
 /// Shakib, Hughes & Johan, *Comput. Methods Appl. Mech. Eng.* 89 (1991), with the exact one-dimensional parameter.
 fn upwind(speed: f64, length: f64, diffusivity: f64, rate: f64) -> f64 {
     let peclet = 0.5 * speed.abs() * length / diffusivity;
-    let magic =
-        if peclet < 0.05 { peclet / 3.0 * (1.0 - peclet * peclet / 15.0) } else { 1.0 / peclet.tanh() - 1.0 / peclet };
+    let magic = if peclet < 0.05 {
+        peclet / 3.0 * (1.0 - peclet * peclet / 15.0)
+    } else {
+        // Beyond 20 the hyperbolic cotangent is 1 to the last bit.
+        (if peclet < 20.0 { 1.0 / peclet.tanh() } else { 1.0 }) - 1.0 / peclet
+    };
     let steady = 0.5 * magic;
     if steady == 0.0 {
         return 0.0;
     }
     // In units of h/|v|: τ = 1/√(1/steady² + (2 rate h/|v|)²).
     let transient = 2.0 * rate * length / speed.abs() * steady;
-    (steady / 1.0_f64.hypot(transient)).copysign(speed)
+    (steady / (1.0 + transient * transient).sqrt()).copysign(speed)
 }

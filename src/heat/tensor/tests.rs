@@ -1,16 +1,22 @@
 //! Closed forms that need volume sources or prescribed boundary temperatures, and the parts of the solver.
 
 use super::depth_modes::DepthModes;
+use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
 use super::response::SurfaceResponse;
 use super::section::Section;
 use super::stage::{Stage, StageKey};
+use super::state::HeatState;
+use super::step::Scratch;
 use super::streamline::{Streamline, Transport};
 use super::tridiagonal::TridiagonalFactor;
+use crate::config::{ConductanceLaw, Config, Hub};
 use crate::fem::grading::graded;
+use crate::heat::{Exchange, HeatConfig, HeatModel, Interval, Observation};
 use crate::linalg::Update;
 use crate::linalg::gmres::{Gmres, LinearSystem};
+use crate::piecewise::Piecewise;
 use std::f64::consts::PI;
 
 const R: f64 = 0.5;
@@ -128,12 +134,8 @@ fn erfcx(z: f64) -> f64 {
     2.0 / PI.sqrt() * h / 3.0 * (0..=n).map(|i| weight(i) * f(f64::from(i) * h)).sum::<f64>()
 }
 
-#[test]
-fn entry_into_a_conducting_contact_follows_its_closed_form() {
-    use super::layout::Heat;
-    use crate::config::{ConductanceLaw, Config, Hub};
-    use crate::heat::{Exchange, HeatConfig, HeatModel, Interval};
-    let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
+/// Both bodies for a contact of the half-width `a` \[m] at the speed `v` [m/s] with the conductance `k_c` [W/(m² K)].
+fn both(a: f64, v: f64, k_c: f64) -> Heat {
     let mut config: Config = crate::config::presets::parse(include_str!("../../../resources/paper_b.json")).unwrap();
     (config.wheel.radius, config.wheel.hub_radius, config.rail.length, config.rail.height) = (R, HUB, 1.0, 0.1);
     (config.material.conductivity, config.material.density, config.material.specific_heat) =
@@ -143,7 +145,7 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
     (thermal.hub, thermal.conductance_law, thermal.conductance) = (Hub::Fixed, ConductanceLaw::Constant, k_c);
     let Config { wheel, rail, material, thermal, .. } = config;
     let (half_width, zone) = (a, 1.5 * a);
-    let heat = Heat::new(&HeatConfig {
+    let contact = HeatConfig {
         wheel,
         rail,
         material,
@@ -153,14 +155,69 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
         half_width,
         zone,
         reach: zone,
-    })
-    .unwrap();
+    };
+    Heat::new(&contact).unwrap()
+}
+
+/// A wheel slows down from 50 km/h at 2 m/s² while its friction heat swings by a fifth.
+#[test]
+fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat() {
+    let (a, v) = (0.761e-3, 50.0 / 3.6);
+    let heat = both(a, v, 1e7);
+    let run = |shared: bool, scratch: &mut dyn FnMut(usize) -> Scratch| {
+        let (mut state, mut next, mut seen) = (heat.initial(0.0), HeatState::default(), Observation::default());
+        let mut maxima = Vec::new();
+        for k in 0..400 {
+            let time = 1e-3 * k as f64;
+            let speed = v - 2.0 * time;
+            let power = 1e6 * (1.0 + 0.2 * (200.0 * time).sin());
+            let exchange = Exchange {
+                patches: vec![Interval { low: -a, high: a }],
+                friction_power: Piecewise::sampled(-a, a, 41, |x| power * (1.0 - x / a)),
+                ..Exchange::default()
+            };
+            if !shared && let Some(last) = &mut state.last {
+                // Speeds that no rounding brings near the present ones; no jump either.
+                last.speeds = last.speeds.map(|speed| 1.1 * speed);
+            }
+            let mut scratch = scratch(k);
+            let flows = heat.step(&state, &mut next, 1e-3, speed, 1.001 * speed / R, &exchange, &mut scratch).unwrap();
+            std::mem::swap(&mut state, &mut next);
+            assert!(flows.relative_imbalance() < 1e-12, "{k}: {:e}", flows.relative_imbalance());
+            heat.observe(&state, &mut seen).unwrap();
+            maxima.push([seen.temperatures.wheel_max, seen.temperatures.rail_max]);
+        }
+        (maxima, state)
+    };
+    let (shared, state) = run(true, &mut |_| Scratch::default());
+    let (own, other) = run(false, &mut |_| Scratch::default());
+    let differences = shared.iter().flatten().zip(own.iter().flatten()).map(|(a, b)| (a / b - 1.0).abs());
+    let largest = differences.fold(0.0, f64::max);
+    println!("largest relative difference of a temperature rise {largest:.1e}");
+    assert!(largest < 1e-4 && state.field != other.field, "{largest:e}");
+    // Neither does it matter what was computed before in the same memory.
+    let mut kept = Some(Scratch::default());
+    let mut advance = |state: &HeatState, speed: f64| {
+        let (mut next, mut scratch) = (HeatState::default(), kept.take().unwrap());
+        heat.step(state, &mut next, 1e-3, speed, speed / R, &Exchange::default(), &mut scratch).unwrap();
+        kept = Some(scratch);
+        next
+    };
+    let speeds = [13.0, 13.001, 12.9, 13.0];
+    let [first, .., again] = speeds.map(|speed| advance(&state, speed));
+    assert_eq!(first.field, again.field);
+}
+
+#[test]
+fn entry_into_a_conducting_contact_follows_its_closed_form() {
+    let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
+    let heat = both(a, v, k_c);
     let exchange = Exchange { patches: vec![Interval { low: -a, high: a }], ..Exchange::default() };
     let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
     heat.set_loads(&exchange, &mut loads).unwrap();
-    stage
-        .set(&heat, &loads, StageKey { speeds: [v, v / R], coefficients: STATIONARY, rate: 0.0, curved: false })
-        .unwrap();
+    let speeds = [v, v / R];
+    let key = StageKey { speeds, inverted: speeds, coefficients: STATIONARY, rate: 0.0, curved: false };
+    stage.set(&heat, &loads, key).unwrap();
     let (nodes, temperatures) = stage.rail_under_uniform_wheel(1.0);
     let surface: Vec<[f64; 2]> = heat.zone_x()[nodes].iter().zip(temperatures).map(|(&x, t)| [x, t]).collect();
     let effusivity = (CONDUCTIVITY * HEAT_CAPACITY).sqrt();
