@@ -49,15 +49,16 @@ vectorised! {
 }
 
 vectorised! {
-    /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, one after the other in `columns`.
-    fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], x: &'a [f64], out: &'a mut [f64]) {
+    /// `out ← out + factor · A x` with the columns of `A`, as long as `out`: the first one of every `every` in `columns`.
+    fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], every: usize, x: &'a [f64], out: &'a mut [f64]) {
         let n = out.len().max(1);
+        let apart = every * n;
         let (out, out_rest) = S::as_mut_simd_f64s(out);
         // Several columns in one pass over the target.
-        for (columns, x) in columns.chunks(COLUMNS * n).zip(x.chunks(COLUMNS)) {
+        for (columns, x) in columns.chunks(COLUMNS * apart).zip(x.chunks(COLUMNS)) {
             if x.len() == COLUMNS {
                 let weights: [f64; COLUMNS] = std::array::from_fn(|j| factor * x[j]);
-                let parts = parts::<_, COLUMNS>(columns, n).map(|column| S::as_simd_f64s(column));
+                let parts: [_; COLUMNS] = std::array::from_fn(|j| S::as_simd_f64s(&columns[j * apart..][..n]));
                 let many = weights.map(|weight| simd.splat_f64s(weight));
                 let [a, b, c, d] = parts.map(|(part, _)| &part[..out.len()]);
                 for (k, out) in out.iter_mut().enumerate() {
@@ -68,8 +69,8 @@ vectorised! {
                     *out += weights.iter().zip(parts).map(|(weight, (_, rest))| weight * rest[k]).sum::<f64>();
                 }
             } else {
-                for (column, x) in columns.chunks_exact(n).zip(x) {
-                    let ((part, rest), weight) = (S::as_simd_f64s(column), factor * x);
+                for (column, x) in columns.chunks(apart).zip(x) {
+                    let ((part, rest), weight) = (S::as_simd_f64s(&column[..n]), factor * x);
                     let many = simd.splat_f64s(weight);
                     out.iter_mut().zip(part).for_each(|(out, &a)| *out = simd.mul_add_e_f64s(many, a, *out));
                     out_rest.iter_mut().zip(rest).for_each(|(out, a)| *out += weight * a);
@@ -178,12 +179,15 @@ mod tests {
     fn columns_of_any_number_and_length_are_added() {
         for (length, count) in [(0, 3), (1, 1), (3, 4), (8, 6), (17, 9)] {
             let number = |i: usize, j: usize| ((5 * i + 3 * j) % 13) as f64 - 6.0;
-            let matrix: Vec<f64> = (0..count).flat_map(|j| (0..length).map(move |i| number(i, j))).collect();
-            let x: Vec<f64> = (0..count).map(|j| j as f64 - 2.0).collect();
-            let mut out: Vec<f64> = (0..length).map(|i| i as f64).collect();
-            add_columns(-2.0, &matrix, &x, &mut out);
-            for (i, out) in out.iter().enumerate() {
-                assert_eq!(*out, i as f64 - 2.0 * (0..count).map(|j| number(i, j) * x[j]).sum::<f64>());
+            for every in [1, 2] {
+                let matrix: Vec<f64> =
+                    (0..count * every).flat_map(|j| (0..length).map(move |i| number(i, j))).collect();
+                let x: Vec<f64> = (0..count).map(|j| j as f64 - 2.0).collect();
+                let mut out: Vec<f64> = (0..length).map(|i| i as f64).collect();
+                add_columns(-2.0, &matrix, every, &x, &mut out);
+                for (i, out) in out.iter().enumerate() {
+                    assert_eq!(*out, i as f64 - 2.0 * (0..count).map(|j| number(i, every * j) * x[j]).sum::<f64>());
+                }
             }
         }
     }

@@ -230,7 +230,7 @@ impl Iterate<'_> {
     fn warm(&mut self, body: usize) {
         let (grid, problem) = (self.grid, self.problem);
         let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
-        let GridScratch { known, swelling, pull, along, membrane, row, .. } = &mut *self.scratch;
+        let GridScratch { known, swelling, pull, along, membrane, .. } = &mut *self.scratch;
         let (known, swelling, membrane) = (&mut known[body], &mut swelling[body], &mut membrane[body]);
         let pull = &mut pull[body];
         pull.clear();
@@ -244,15 +244,14 @@ impl Iterate<'_> {
         }
         copy(membrane, known);
         membrane.fill(0.0);
-        row.clear();
-        row.resize(grid.ports(), 0.0);
         force.sample(&grid.x, along);
         let last = grid.len().saturating_sub(1);
         for i in 0..=last {
             pull.push(-0.5 * (along[(i + 1).min(last)] - along[i.saturating_sub(1)]));
-            row[grid.port(i)] = pull[i];
         }
-        add_columns(1.0, problem.bodies.compliance[body].as_slice(), row, membrane.as_mut_slice());
+        // Every other column belongs to a normal force.
+        let columns = &problem.bodies.compliance[body].as_slice()[grid.port(0) * membrane.len()..];
+        add_columns(1.0, columns, 2, pull, membrane.as_mut_slice());
         *known += &*membrane;
     }
 
@@ -267,7 +266,7 @@ impl Iterate<'_> {
             let surface = &mut self.traction.surface[body];
             copy(surface, &self.scratch.known[body]);
             let columns = &bodies.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
-            add_columns(sign, columns, &forces[loaded.clone()], surface.as_mut_slice());
+            add_columns(sign, columns, 1, &forces[loaded.clone()], surface.as_mut_slice());
         }
         let turn = &mut self.scratch.turn;
         turn.expected = turn.known;
