@@ -33,7 +33,8 @@ impl Iterate<'_> {
             Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane, late: late[1] };
         let [friction, work] = power.friction(&problem.time, &mut state.friction);
         let power = traction.dissipate(friction, work, problem.duration);
-        let slopes = Slopes { grid, gap: &state.gap, dents: &scratch.dents, depth: &scratch.depth };
+        let slopes =
+            Slopes { grid, gap: &state.gap, overlap: &scratch.overlap, dents: &scratch.dents, depth: &scratch.depth };
         traction.resultant = observe::resultant(problem.radius(), &frame, slopes, traction);
         traction.resultant[2] -= problem.radius() * late.iter().sum::<f64>();
         observe::overlap(grid, state, &scratch.overlap, traction);

@@ -302,8 +302,8 @@ impl Iterate<'_> {
     }
 
     fn slopes(&self) -> Slopes<'_> {
-        let GridScratch { dents, depth, .. } = &*self.scratch;
-        Slopes { grid: self.grid, gap: &self.state.gap, dents, depth }
+        let GridScratch { overlap, dents, depth, .. } = &*self.scratch;
+        Slopes { grid: self.grid, gap: &self.state.gap, overlap, dents, depth }
     }
 }
 

@@ -12,6 +12,8 @@ pub(super) struct Slopes<'a> {
     pub grid: &'a ContactGrid,
     /// Gap at the candidates [m].
     pub gap: &'a [f64],
+    /// Depth by which yielding candidates give way, zero elsewhere [m].
+    pub overlap: &'a [f64],
     /// Slope of the depth of the rail at the candidates \[1]; empty: both surfaces are smooth.
     pub dents: &'a [f64],
     /// Depths of wheel and rail below circle and plane at the candidates and one node beyond on each side [m].
@@ -28,7 +30,7 @@ impl Slopes<'_> {
     /// away the power that the outermost nodes would spend on closing the next cells, that of the rail, which presses
     /// through the wheel centre, and what the pressure does not push the wheel back with where this falls away.
     pub fn arm(&self, i: usize) -> f64 {
-        let at = |k: Option<usize>| k.and_then(|k| self.gap.get(k)).copied().unwrap_or(0.0);
+        let at = |k: Option<usize>| k.filter(|k| *k < self.gap.len()).map_or(0.0, |k| self.gap[k] - self.overlap[k]);
         let gap = (at(Some(i + 1)) - at(i.checked_sub(1))) / self.grid.span(i);
         self.dents.get(i).map_or(-gap, |dent| dent - gap + self.falls(i)[0])
     }
