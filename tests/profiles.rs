@@ -8,7 +8,7 @@ use std::sync::Arc;
 use wheelrail::config::Config;
 use wheelrail::mechanics::nominal_half_width;
 use wheelrail::simulation::validity::Limit;
-use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, advice};
+use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, StepError, advice};
 
 fn cold(mut config: Config) -> Config {
     config.thermal.enabled = false;
@@ -294,22 +294,39 @@ fn profiles_without_meaning_are_refused_by_name_and_unresolved_ones_are_announce
     assert_eq!((simulation.exceeded_limits().count(), outputs.internal_steps), (0, 40));
 }
 
-/// A wheel that sinks between the edges of a hole of the rail; with the advice it does so without complaint.
+/// A wheel that sinks between the edges of a hole of the rail, or the rail between those of a hole of the wheel; with the advice
+/// it does so without complaint.
 #[test]
 fn surfaces_that_touch_where_no_contact_is_looked_for_are_refused_with_advice_that_helps() {
+    for name in ["rail.profile", "wheel.profile"] {
+        let mut config = cold(preset("railway", 6));
+        config.physics.yielding = false;
+        let text = "hole(length = 0.06, position = 0.1, depth = 2e-3, every = 1, count = 1)";
+        *(if name == "rail.profile" { &mut config.rail.profile } else { &mut config.wheel.profile }) = text.into();
+        let over = |config: &Config| {
+            let model = model(config.clone());
+            let inputs = without_friction(&model, 1.0);
+            let mut simulation = Simulation::new(model, &inputs).unwrap();
+            (0..200).find_map(|_| simulation.advance(&inputs, 1e-3).err())
+        };
+        let text = advice::failed_step(&over(&config).unwrap(), &config);
+        println!("{text}");
+        let (_, advised) = text.split_once("up to which contact is looked for, to ").unwrap();
+        config.mesh.reach = advised.split_once(' ').unwrap().0.parse().unwrap();
+        assert!(["candidate zone".into(), format!("{name} is too")].iter().all(|word| text.contains(word)));
+        assert_eq!(over(&config), None);
+    }
+}
+
+/// Flats that wear or yielding makes during a run do not widen the zone: the message says what does.
+#[test]
+fn a_flat_that_the_run_has_made_and_that_outgrows_the_zone_is_refused_with_the_reach_to_set() {
     let mut config = cold(preset("railway", 6));
-    config.physics.yielding = false;
-    config.rail.profile = "hole(length = 0.06, position = 0.1, depth = 2e-3)".into();
-    let over = |config: &Config| {
-        let model = model(config.clone());
-        let inputs = without_friction(&model, 1.0);
-        let mut simulation = Simulation::new(model, &inputs).unwrap();
-        (0..200).find_map(|_| simulation.advance(&inputs, 1e-3).err())
-    };
-    let text = advice::failed_step(&over(&config).unwrap(), &config);
+    let error = StepError::ZoneExceeded { zone: 0.03, load: config.model.nominal_load };
+    config.mesh.reach = 0.01;
+    let text = advice::failed_step(&error, &config);
     println!("{text}");
-    let (_, advised) = text.split_once("up to which contact is looked for, to ").unwrap();
-    config.mesh.reach = advised.split_once(' ').unwrap().0.parse().unwrap();
-    assert!(["candidate zone", "rail.profile is too"].iter().all(|word| text.contains(word)));
-    assert_eq!(over(&config), None);
+    assert!(["wear or yielding", "mesh.reach (now 0.01 m)", "0.045 m"].iter().all(|word| text.contains(word)));
+    config.physics.yielding = false;
+    assert!(!advice::failed_step(&error, &config).contains("mesh.reach"));
 }

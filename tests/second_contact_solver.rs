@@ -180,6 +180,7 @@ impl ContactSolver for Hertz {
             dissipation: profile(vec![0.0; PROFILE]),
             overlap: Piecewise::default(),
             plastic_work: 0.0,
+            springing_work: 0.0,
             yielding: 0.0,
             iterations,
         };

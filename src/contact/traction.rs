@@ -60,6 +60,8 @@ pub struct Traction {
     pub overlap: Piecewise,
     /// Work of that part of it which has become permanent in the step [J/m].
     pub plastic_work: f64,
+    /// Work of the rest, which springs back when the pressure falls [J/m].
+    pub springing_work: f64,
     /// Share of the contact length that yields \[1].
     pub yielding: f64,
     /// Iterations until all decisions between open, stick and slip were made, without those of the search for the friction
@@ -93,6 +95,20 @@ impl Traction {
         let power = if friction > ENDING * mean { friction } else { mean };
         self.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
         power
+    }
+
+    /// Work of the pressure where the surfaces have become `deeper` \[m] at the nodes of the overlap, the first and the last of
+    /// which bear nothing [J/m]. Where nodes lie between the lattice points of a dent it keeps a little less than the whole
+    /// overlap, the more the wider the nodes: the rest springs back.
+    pub fn work_of(&self, deeper: impl Fn(f64) -> f64) -> f64 {
+        let x = &self.overlap.x;
+        let width = |i: usize| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);
+        (0..x.len()).map(|i| width(i) * deeper(x[i]) * self.pressure.at(x[i])).sum()
+    }
+
+    /// Work of the pressure on the whole overlap [J/m].
+    pub fn overlap_work(&self) -> f64 {
+        self.work_of(|x| self.overlap.at(x))
     }
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.

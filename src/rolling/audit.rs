@@ -9,12 +9,13 @@ use super::model::Model;
 use super::state::{Audit, State, ThermalDeformation};
 use crate::multistep::TimeDerivative;
 
-/// Kinetic and elastic energy of a state [J/m].
+/// Kinetic and elastic energy of a state, with that of steel which yields and springs back [J/m].
 pub fn energy(model: &Model, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
         + model.bodies.correction_energy(&*model.contact.solver, &state.contact)
+        + state.contact.traction.springing_work
 }
 
 /// Power that damping and open ends take [W/m].

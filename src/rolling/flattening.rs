@@ -7,7 +7,7 @@
 use super::model::Model;
 use super::state::State;
 use crate::contact::Flattening;
-use crate::piecewise::{Interval, Piecewise};
+use crate::piecewise::Interval;
 
 /// Time in which material has to pass the contact so that it keeps no dent [s].
 const PASSING: f64 = 0.01;
@@ -23,7 +23,8 @@ pub fn none(model: &Model) -> [Flattening; 2] {
 /// notes the work.
 pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening.clone_from(&state.flattening);
-    next.contact.traction.plastic_work = 0.0;
+    let traction = &mut next.contact.traction;
+    (traction.plastic_work, traction.springing_work) = (0.0, traction.overlap_work());
     let traction = &next.contact.traction;
     let Some(patch) = traction.extent().filter(|_| !traction.overlap.is_empty()) else { return };
     let stands = standing(model, next, patch);
@@ -42,10 +43,11 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
             next.flattening[body].press(at, &by, spacing);
         }
     }
-    traction.plastic_work = work(&traction.overlap.x, &traction.pressure, |x| {
+    traction.plastic_work = traction.work_of(|x| {
         let deeper = |body: usize, at: f64| next.flattening[body].depth(at + x) - state.flattening[body].depth(at + x);
         deeper(0, place[1] * radius) + deeper(1, place[0])
     });
+    traction.springing_work -= traction.plastic_work;
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
 }
 
@@ -70,12 +72,4 @@ fn share(body: usize, stands: [bool; 2], warmer_wheel: f64) -> f64 {
         _ => 0.0,
     };
     if body == 0 { wheel } else { 1.0 - wheel }
-}
-
-/// Work of the pressure where the surfaces have become `deeper` \[m] at the nodes `x`, the first and the last of which bear
-/// nothing [J/m]. Where nodes lie between the lattice points of a dent it keeps a little less than the whole overlap, the more
-/// the wider the nodes: the rest springs back, and is no work.
-fn work(x: &[f64], pressure: &Piecewise, deeper: impl Fn(f64) -> f64) -> f64 {
-    let width = |i: usize| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);
-    (0..x.len()).map(|i| width(i) * deeper(x[i]) * pressure.at(x[i])).sum()
 }

@@ -2,7 +2,7 @@
 
 use super::validity::ZONE_LOAD;
 use super::{PrepareError, StepError};
-use crate::config::Config;
+use crate::config::{Config, Wear};
 use crate::fem::FemError;
 use crate::heat::HeatError;
 use crate::linalg::LinalgError;
@@ -80,20 +80,23 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
 /// Zone that is advised over the one that was too short \[1].
 const WIDER: f64 = 1.5;
 
-/// Advice where the surfaces may touch beyond the zone because of their profiles; `None` for smooth ones.
+/// Advice where the surfaces may touch beyond the zone because of their profiles, or of the flats that a run gives its wheel;
+/// `None` for wheels and rails that stay smooth.
 fn uneven(zone: f64, config: &Config) -> Option<String> {
     let profiles = [("wheel.profile", &config.wheel.profile), ("rail.profile", &config.rail.profile)];
     let set: Vec<_> = profiles.iter().filter(|(_, text)| !text.is_empty()).map(|(name, _)| *name).collect();
-    (!set.is_empty()).then(|| {
-        format!(
-            "{} is too deep or too long for it: the surfaces touch beyond; set mesh.reach (now {:?} m), up to which contact is \
-             looked for, to {:.3} m or more, or make the profile shallower or shorter. If the zone stays as it is, wheel and \
-             rail have no more room for it",
-            set.join(" or "),
-            config.mesh.reach,
-            WIDER * zone
-        )
-    })
+    let changes = config.physics.yielding || config.damage.wear != Wear::Off;
+    let (cause, cure) = match set.is_empty() {
+        false => (set.join(" or "), "make the profile shallower or shorter"),
+        true if changes => ("what wear or yielding has made of the wheel".to_owned(), "stop before it is so large"),
+        true => return None,
+    };
+    Some(format!(
+        "{cause} is too deep or too long for it: the surfaces touch beyond; set mesh.reach (now {:?} m), up to which contact is \
+         looked for, to {:.3} m or more, or {cure}. If the zone stays as it is, wheel and rail have no more room for it",
+        config.mesh.reach,
+        WIDER * zone
+    ))
 }
 
 /// The initial creepage in words.

@@ -31,7 +31,7 @@ const RESTARTS: [usize; 2] = [20, 31];
 const STRICT_ITERATIONS: usize = 8;
 const GROWTH: f64 = 3.0;
 /// Tolerance of nodal forces in mean nodal loads, at first and at most.
-const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
+pub(super) const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 /// Tolerance of slip velocities in rolling speeds, at first and at most.
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Slip velocity of stuck nodes that is round-off: in rolling speeds \[1], in displacements over the step \[1], and in any case
@@ -55,6 +55,7 @@ impl Iterate<'_> {
             self.found_anew();
         }
         let (penalty, friction) = (self.penalty(), self.problem.friction);
+        self.foresee(penalty);
         self.traction.friction = friction.coefficient(self.traction.tread_slip);
         self.update_upwind();
         self.turn_of_surface = self.frame.angle(&self.traction.surface[0], &self.traction.port_forces);
@@ -366,7 +367,7 @@ impl Iterate<'_> {
 
     /// State of a node that has just closed: that of the nearest closed node, or its own where it founds a patch, as
     /// between the two restarts.
-    fn closing_state(&self, i: usize, iteration: usize) -> Status {
+    pub(super) fn closing_state(&self, i: usize, iteration: usize) -> Status {
         if (RESTARTS[0]..RESTARTS[1]).contains(&iteration) {
             return self.founding_state();
         }
@@ -383,7 +384,7 @@ impl Iterate<'_> {
 }
 
 /// Largest amount, of four at a time.
-fn largest(values: &[f64]) -> f64 {
+pub(super) fn largest(values: &[f64]) -> f64 {
     let larger = |a: f64, b: f64| if b > a { b } else { a };
     let (fours, rest) = values.as_chunks::<4>();
     let four =

@@ -3,6 +3,7 @@
 use super::iterate::{GridScratch, Iterate, copy};
 use super::observe;
 use super::power::Power;
+use super::slopes::Slopes;
 use crate::multistep::History;
 
 impl Iterate<'_> {
@@ -32,7 +33,9 @@ impl Iterate<'_> {
             Power { grid, traction: &*traction, frame: &frame, rim_velocity, slip, swelling, membrane, late: late[1] };
         let [friction, work] = power.friction(&problem.time, &mut state.friction);
         let power = traction.dissipate(friction, work, problem.duration);
-        traction.resultant = observe::resultant(grid, problem.radius(), &frame, state, &scratch.dents, traction);
+        let slopes =
+            Slopes { grid, gap: &state.gap, overlap: &scratch.overlap, dents: &scratch.dents, depth: &scratch.depth };
+        traction.resultant = observe::resultant(problem.radius(), &frame, slopes, traction);
         traction.resultant[2] -= problem.radius() * late.iter().sum::<f64>();
         observe::overlap(grid, state, &scratch.overlap, traction);
         let pressures = scratch.limit.iter().enumerate().map(|(i, force)| force / grid.width(i));

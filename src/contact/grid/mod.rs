@@ -1,7 +1,7 @@
 //! Contact on a grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
 //! [`rows`] writes gap, slip and balance as rows of a linear system, [`streamline`] gives the slip its upwind
-//! differences, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, [`brake`] those of brakes, [`kernel`] corrects the
+//! differences, [`slopes`] sees what the pressure pushes against, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes, which [`foresight`] guesses where surfaces are uneven, [`brake`] those of brakes, [`kernel`] corrects the
 //! compliance at grid scale, [`observe`] reads the traction off the solution, [`power`] balances its power, and [`zone`] watches the ends of the grid. Theory: `docs/theory/contact.md`.
 
 mod active_set;
@@ -9,6 +9,7 @@ mod brake;
 mod candidates;
 mod coefficient;
 mod conclude;
+mod foresight;
 mod frame;
 pub(super) mod iterate;
 pub mod kernel;
@@ -17,6 +18,7 @@ mod nested;
 pub mod observe;
 mod power;
 mod rows;
+mod slopes;
 mod solver;
 pub(super) mod state;
 pub mod streamline;

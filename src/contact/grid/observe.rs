@@ -3,6 +3,7 @@
 
 use super::candidates::ContactGrid;
 use super::frame::RimFrame;
+use super::slopes::Slopes;
 use super::state::{GridState, Status, for_each_patch};
 use super::streamline::edge_offset;
 use crate::contact::traction::Traction;
@@ -21,22 +22,10 @@ const MARGIN: f64 = 1e-3;
 /// turn of the rim and surface displacement.
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
-/// hub, contact and friction. The slope of the gap, zero inside the patch, takes away the power that the nodal
-/// forces of the outermost nodes would spend on closing the neighbouring cells (a rolling resistance of order h²). Where
-/// the rail is uneven the pressure acts across its slope, and that part of it, which `dents` gives, at the arm `r`.
-/// Derivation: `docs/theory/lever-arms.md`.
-pub(super) fn lever_arms(
-    grid: &ContactGrid,
-    (radius, frame, u): (f64, &RimFrame, &DVector<f64>),
-    gap: &[f64],
-    dents: &[f64],
-    i: usize,
-) -> [f64; 2] {
-    let port = grid.port(i);
-    let at = |k: Option<usize>| k.and_then(|k| gap.get(k)).copied().unwrap_or(0.0);
-    let slope = (at(Some(i + 1)) - at(i.checked_sub(1))) / grid.span(i);
-    let dent = radius * dents.get(i).copied().unwrap_or(0.0);
-    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) - radius * slope + dent]
+/// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
+pub(super) fn lever_arms((radius, frame, u): (f64, &RimFrame, &DVector<f64>), slopes: Slopes, i: usize) -> [f64; 2] {
+    let (grid, port) = (slopes.grid, slopes.grid.port(i));
+    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) + radius * slopes.arm(i)]
 }
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
@@ -97,21 +86,15 @@ pub(super) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], tr
 
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling
 /// radius [m].
-pub(super) fn resultant(
-    grid: &ContactGrid,
-    radius: f64,
-    frame: &RimFrame,
-    state: &GridState,
-    dents: &[f64],
-    traction: &Traction,
-) -> [f64; 3] {
+pub(super) fn resultant(radius: f64, frame: &RimFrame, slopes: Slopes, traction: &Traction) -> [f64; 3] {
+    let grid = slopes.grid;
     let wheel = (radius, frame, &traction.surface[0]);
     let mut sum = [0.0; 3];
     for i in 0..grid.len() {
         let port = grid.port(i);
         let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
-        let [arm_t, arm_n] = lever_arms(grid, wheel, &state.gap, dents, i);
-        sum[0] += t + n * dents.get(i).copied().unwrap_or(0.0);
+        let [arm_t, arm_n] = lever_arms(wheel, slopes, i);
+        sum[0] += t + n * slopes.rail(i);
         sum[1] += n;
         sum[2] -= arm_t * t + arm_n * n;
     }

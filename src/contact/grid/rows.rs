@@ -3,6 +3,7 @@
 use super::frame::RimFrame;
 use super::iterate::{GridScratch, Iterate, NEARLY_PLASTIC, copy};
 use super::observe;
+use super::slopes::Slopes;
 use super::streamline::Upwind;
 use crate::linalg::vectorised::{add_columns, vectorised};
 use nalgebra::{DMatrix, DVector};
@@ -136,7 +137,7 @@ impl Iterate<'_> {
             match axis {
                 0 => {
                     forces[port] -= 1.0;
-                    forces[port + 1] -= self.scratch.dents.get(i).copied().unwrap_or(0.0);
+                    forces[port + 1] -= self.slopes().rail(i);
                 }
                 1 => forces[port + 1] -= 1.0,
                 _ => {
@@ -302,7 +303,12 @@ impl Iterate<'_> {
     fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { turn: self.turn_of_surface, ..self.frame };
         let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
-        observe::lever_arms(self.grid, wheel, &self.state.gap, &self.scratch.dents, i)
+        observe::lever_arms(wheel, self.slopes(), i)
+    }
+
+    fn slopes(&self) -> Slopes<'_> {
+        let GridScratch { overlap, dents, depth, .. } = &*self.scratch;
+        Slopes { grid: self.grid, gap: &self.state.gap, overlap, dents, depth }
     }
 }
 

@@ -1,0 +1,70 @@
+//! Sharp edges of rail and wheel: what lies deeper than anything touches counts neither in forces nor in the energy.
+
+mod common;
+
+use common::{model, prescribed, preset};
+use wheelrail::mechanics::nominal_half_width;
+use wheelrail::simulation::{Rotation, Simulation, Translation};
+
+/// Speed [m/s], distance of the edge \[m], steps for the hole, elements per half-width and length of the hole over it.
+const SPEED: f64 = 20.0;
+const PLACE: f64 = 0.01;
+const STEPS: f64 = 20.0;
+const ELEMENTS: usize = 10;
+const SIZE: f64 = 0.8;
+
+/// Largest force x and moment over the load and load times radius, largest energy residual and that in the end, over a shape of
+/// depth `depth`.
+fn over(shape: &str, depth: f64, wheel: bool, free: bool) -> [f64; 4] {
+    let mut config = preset("railway", ELEMENTS);
+    (config.thermal.enabled, config.tuning.tolerance, config.physics.yielding) = (false, 0.0, false);
+    let length = SIZE * nominal_half_width(&config);
+    let text = shape.replace("DEPTH", &format!("{depth:?}")).replace("LENGTH", &format!("{length:?}"));
+    *(if wheel { &mut config.wheel.profile } else { &mut config.rail.profile }) = text;
+    let model = model(config);
+    let mut inputs = prescribed(&model, SPEED, 0.0);
+    if free {
+        inputs.translation = Translation::Force;
+        inputs.rotation = Rotation::Moment;
+    }
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let load = inputs.drive.load;
+    let moment = load * model.config().wheel.radius;
+    let mut most = [0.0f64; 4];
+    for _ in 0..(3.0 * PLACE / length * STEPS) as usize {
+        simulation.advance(&inputs, length / STEPS / SPEED).unwrap();
+        let o = simulation.outputs();
+        let now = [o.contact_force_x / load, o.contact_moment / moment, o.energy_residual];
+        most[3] = o.energy_residual.abs();
+        most.iter_mut().zip(now).for_each(|(most, now)| *most = most.max(now.abs()));
+    }
+    most
+}
+
+#[test]
+fn neither_force_nor_energy_depends_on_the_depth_of_a_hole_beyond_what_touches() {
+    let rail = "hole(position = 0.01, length = LENGTH, depth = DEPTH)";
+    let wheel = "hole(position = 0.01, length = LENGTH, depth = DEPTH, every = 0.1, count = 1)";
+    for (shape, of_wheel) in [(rail, false), (wheel, true)] {
+        for free in [true, false] {
+            let [shallow, deep] = [1e-4, 1e-2].map(|depth| over(shape, depth, of_wheel, free));
+            println!("{shape}, free hub: {free}: force x, moment, residuals {shallow:?}, 10 mm deep {deep:?}");
+            for (shallow, deep) in shallow.iter().zip(deep) {
+                assert!((shallow - deep).abs() < 1e-6 * deep.abs().max(1e-3), "{shallow:e} {deep:e}");
+            }
+            assert!(deep[2] < 0.05 && deep[3] < 0.01, "{deep:?}");
+        }
+    }
+}
+
+/// Down a step of the rail, and over a raised piece of it; while the edges pass the balance is off by more than afterwards.
+#[test]
+fn the_energy_balance_closes_after_steps_down_and_up() {
+    for shape in ["step(position = 0.01, height = -DEPTH)", "step(position = 0.01, height = DEPTH, length = LENGTH)"] {
+        for (free, depth) in [(true, 2e-5), (false, 2e-5), (true, 1e-4)] {
+            let found = over(shape, depth, false, free);
+            println!("{shape}, {depth:e} m, free hub: {free}: force x, moment, residuals {found:?}");
+            assert!(found[2] < 0.2 && found[3] < 0.05, "{found:?}");
+        }
+    }
+}
