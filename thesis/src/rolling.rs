@@ -55,6 +55,8 @@ pub struct System {
     pub size: usize,
     /// Lever arms of each displacement of the hub about the centre, forward moments positive \[m].
     pub arms: Vec<f64>,
+    /// One for each displacement of the hub along the rail \[1].
+    pub along: Vec<f64>,
     /// Number of the wheel's nodes, after which those of the rail come.
     pub wheel_nodes: usize,
     /// Places \[m] in the frame of the rail.
@@ -91,7 +93,7 @@ impl System {
         centrifugal.resize(2 * count, 0.0);
         let lift = |[x, y]: &[f64; 2]| [*x, y + annulus.outer];
         let places = wheel.nodes.iter().map(lift).chain(rail.nodes.iter().copied()).collect();
-        let (unknown, size, arms) = unknowns(wheel, rail, annulus, parameters.plate);
+        let (unknown, size, [arms, along]) = unknowns(wheel, rail, annulus, parameters.plate);
         let slaves = slaves(wheel, annulus, reach);
         let top = |n: &usize| rail.nodes[*n][1].abs() < 1e-9 && rail.nodes[*n][0].abs() < 4.0 * reach;
         let mut masters: Vec<usize> = (0..rail.nodes.len()).filter(top).collect();
@@ -107,6 +109,7 @@ impl System {
             unknown,
             size,
             arms,
+            along,
             wheel_nodes,
             places,
             slaves,
@@ -200,15 +203,21 @@ impl System {
 }
 
 /// Unknown of each displacement, their number, and the lever arms of the hub.
-fn unknowns(wheel: &Mesh, rail: &Mesh, annulus: Annulus, plate: rail::Plate) -> (Vec<Option<usize>>, usize, Vec<f64>) {
+fn unknowns(
+    wheel: &Mesh,
+    rail: &Mesh,
+    annulus: Annulus,
+    plate: rail::Plate,
+) -> (Vec<Option<usize>>, usize, [Vec<f64>; 2]) {
     let (_, hub) = wheel::rims(wheel, annulus);
     let mut free = vec![true; 2 * (wheel.nodes.len() + rail.nodes.len())];
-    let mut arms = vec![0.0; free.len()];
+    let [mut arms, mut along] = [vec![0.0; free.len()], vec![0.0; free.len()]];
     for node in &hub {
         let [x, y] = wheel.nodes[*node];
         (free[2 * node], free[2 * node + 1]) = (false, false);
         // A force on the hub turns it forward by y F_x − x F_y.
         (arms[2 * node], arms[2 * node + 1]) = (y, -x);
+        along[2 * node] = 1.0;
     }
     let base = (0..rail.nodes.len()).filter(|n| rail.nodes[*n][1] < 1e-9 - plate.height);
     for node in base.map(|node| node + wheel.nodes.len()) {
@@ -218,7 +227,7 @@ fn unknowns(wheel: &Mesh, rail: &Mesh, annulus: Annulus, plate: rail::Plate) -> 
     let mut unknown: Vec<Option<usize>> = free.iter().map(|free| if *free { next.next() } else { None }).collect();
     let last = next.start;
     hub.iter().for_each(|node| unknown[2 * node + 1] = Some(last));
-    (unknown, last + 1, arms)
+    (unknown, last + 1, [arms, along])
 }
 
 /// Nodes of the tread within `reach` of the contact, each with the one upstream: material comes from the right.
