@@ -6,6 +6,7 @@ use wheelrail_thesis::mesh::Mesh;
 use wheelrail_thesis::newton::{Condensed, Drive, Newton, State, frictionless, resultant, rolling};
 use wheelrail_thesis::rail::{self, Plate};
 use wheelrail_thesis::rolling::{Motion, Parameters, System};
+use wheelrail_thesis::triangle::Order;
 use wheelrail_thesis::wheel::{self, Annulus};
 
 /// Base of Paper D, with the friction of the regularised law.
@@ -265,4 +266,43 @@ fn a_force_beyond_friction_finds_no_velocity_and_is_refused() {
     let outcome = newton.solve(&state).map(|(found, _)| found.motion.velocity);
     println!("{outcome:?}");
     assert!(outcome.is_err());
+}
+
+/// Hub's way down \[m] under the load at rest, and unknowns, with so many refinements of the whole wheel and the same edges in the contact.
+fn approach(order: Order, share: f64, global: usize) -> (f64, usize) {
+    let a = half_width();
+    let wheel = wheel::rolling(PARAMETERS.annulus, 1.5 * a, share * a, global, PARAMETERS.poisson).unwrap();
+    let rail = rail::rolling(PARAMETERS.plate, 31, 2.0 * a, share * a);
+    let system = System::with_order(PARAMETERS, &wheel, &rail, 2.0 * a, order);
+    (-frictionless(&system).unwrap().q[system.size - 1], system.size)
+}
+
+/// Away from the contact quadratic triangles need no refinement. In it, where both touch at corners only, they are softer, and less so on shorter edges.
+#[test]
+fn a_quadratic_wheel_is_right_on_a_coarse_mesh_but_for_its_contact() {
+    let way = |order, share, global| approach(order, share, global).0;
+    let [linear, quadratic] =
+        [Order::Linear, Order::Quadratic].map(|order| way(order, 0.4, 3) / way(order, 0.4, 0) - 1.0);
+    let off = [0.4, 0.2].map(|share| way(Order::Quadratic, share, 0) / way(Order::Linear, share, 3) - 1.0);
+    println!("three refinements of the whole wheel change linear {linear:+.4}, quadratic {quadratic:+.4}");
+    println!("a coarse quadratic wheel over a fine linear one, edges of 0.4 and 0.2 half-widths: {off:+.4?}");
+    assert!(linear > 0.04 && quadratic.abs() < 0.01);
+    assert!(off[0] > off[1] && off[1] > 0.0 && off[0] < 0.02);
+}
+
+/// Wheels with about as many unknowns: neither is nearer to what both approach.
+#[test]
+fn a_quadratic_wheel_rolls_like_a_linear_one_with_as_many_unknowns() {
+    let (a, parameters) =
+        (half_width(), Parameters { law: Law { regularisation: 1e-3, ..PARAMETERS.law }, ..PARAMETERS });
+    let [linear, quadratic] = [(Order::Linear, 0.2), (Order::Quadratic, 0.4)].map(|(order, share)| {
+        let wheel = wheel::rolling(parameters.annulus, 1.5 * a, share * a, 1, parameters.poisson).unwrap();
+        let rail = rail::rolling(parameters.plate, 31, 2.0 * a, share * a);
+        let system = System::with_order(parameters, &wheel, &rail, 2.0 * a, order);
+        let [traction, braking] = [-1.9e-4, 1.9e-4].map(|creepage| utilisation(&system, creepage).1);
+        println!("{order:?}, {} unknowns: traction {traction:.4}, braking {braking:.4}", system.size);
+        0.5 * (traction - braking)
+    });
+    println!("mean of both signs: linear {linear:.4}, quadratic {quadratic:.4}");
+    assert!((linear - quadratic).abs() < 0.01);
 }
