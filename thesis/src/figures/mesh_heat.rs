@@ -23,7 +23,7 @@ pub(super) const PLATE: Plate = Plate { length: 1.0, height: 0.1 };
 pub(super) const BASE: f64 = 0.25;
 
 /// Half of a contact \[m].
-fn half_width(load: f64) -> f64 {
+pub(super) fn half_width(load: f64) -> f64 {
     hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
 }
 

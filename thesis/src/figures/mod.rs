@@ -5,6 +5,7 @@ mod braking;
 mod closed_forms;
 mod corrugation;
 mod extent;
+mod extrapolation;
 mod friction_heat;
 mod holes;
 mod introduction;
