@@ -11,6 +11,9 @@ use crate::triangle::{Order, Space};
 use crate::wheel::{self, Annulus};
 use crate::{elastic, rail};
 
+/// Nodes nearer to each other than this along the rail lie above one another \[m].
+const SAME: f64 = 1e-12;
+
 /// What rolls on what.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameters {
@@ -160,7 +163,9 @@ impl System {
         // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between two normals.
         let x = |node: usize| self.places[node][0];
         let touch = |&[slave, upstream]: &[usize; 2]| {
-            let right = self.masters.partition_point(|node| x(*node) <= x(slave)).clamp(1, self.masters.len() - 1);
+            // A node right above one of the rail has the segment upstream, whatever the last digits of their places.
+            let right =
+                self.masters.partition_point(|node| x(*node) <= x(slave) + SAME).clamp(1, self.masters.len() - 1);
             let nodes = [slave, upstream, self.masters[right - 1], self.masters[right]];
             let [slave, upstream, left, right] = nodes.map(|node| self.places[node]);
             let centre = [0.0, self.parameters.annulus.outer];
