@@ -17,6 +17,7 @@
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
+#                with FULL=1 on finer meshes, too, and with 16 points or more a curve
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
@@ -114,7 +115,7 @@ locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
 
 thesis:
-	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- --out results/thesis
+	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- $(if $(FULL),--full) --out results/thesis
 	@if command -v octave > /dev/null; then octave --quiet thesis/baseline.m | tee results/thesis/baseline.txt || true; \
 		else echo "monolithic baseline skipped: octave is not installed"; fi
 

@@ -62,16 +62,9 @@ pub fn solve(mesh: Mesh, order: Order, scheme: Scheme, omega: f64) -> Result<Fie
 
 /// Nodes of both rims, middles of their edges included.
 fn rims(mesh: &Mesh, space: &Space) -> Vec<usize> {
-    let boundary: std::collections::HashSet<_> = mesh.boundary().into_iter().collect();
-    let mut found = Vec::new();
-    for nodes in &space.elements {
-        for (i, edge) in crate::mesh::edges([nodes[0], nodes[1], nodes[2]]).into_iter().enumerate() {
-            if boundary.contains(&edge) {
-                found.extend([edge.0, edge.1]);
-                found.extend(nodes.get(3 + i));
-            }
-        }
-    }
+    let sides = space.boundary(mesh);
+    let mut found: Vec<usize> =
+        sides.into_iter().flat_map(|(a, b, middle)| [Some(a), Some(b), middle]).flatten().collect();
     found.sort_unstable();
     found.dedup();
     found

@@ -1,48 +1,39 @@
-//! Linear triangles in plane strain, and what a stationary stream of material adds (\[B] 33, stationary): matrices without
+//! Triangles in plane strain, linear or quadratic, and what a stationary stream of material adds (\[B] 33, stationary): matrices without
 //! velocities, as the decomposition of \[D] 20 wants them.
 
 use crate::mesh::{Mesh, double_area};
 use crate::rail::Plate;
 use crate::sparse::Matrix;
-use crate::triangle::{Order, linear_gradients, points};
+use crate::triangle::{Order, Space, linear_gradients, points};
 
 /// `∫ Bᵀ E B` \[Pa] for Young's modulus \[Pa] and Poisson's ratio; unknowns 2i and 2i + 1 of node i.
-pub fn stiffness(mesh: &Mesh, young: f64, poisson: f64) -> Matrix {
+pub fn stiffness(space: &Space, young: f64, poisson: f64) -> Matrix {
     let shear = 0.5 * young / (1.0 + poisson);
     let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    assemble(mesh, |a, b, p, q, _| {
-        let product = if p == q { a[0] * b[0] + a[1] * b[1] } else { 0.0 };
-        lame * a[p] * b[q] + shear * (a[q] * b[p] + product)
+    assemble(space, |_, a, b| {
+        let product = a[0] * b[0] + a[1] * b[1];
+        let entry =
+            |p: usize, q: usize| lame * a[p] * b[q] + shear * (a[q] * b[p] + if p == q { product } else { 0.0 });
+        [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
     })
 }
 
 /// `ρ ∫ (v·∇N)ᵀ (v·∇N)` for a velocity field of unit coefficient; the stiffness of the stream is minus its square
 /// times this.
-pub fn convection(mesh: &Mesh, density: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Matrix {
-    // Linear functions have constant slopes: only the squares of the velocity are averaged, exactly.
-    let squares = |t: usize| {
-        let corners = mesh.corners(t);
-        let area = 0.5 * double_area(&corners);
-        let mut mean = [[0.0; 2]; 2];
-        for point in points(&corners, Order::Linear) {
-            let v = velocity(point.place);
-            (0..2).for_each(|p| (0..2).for_each(|q| mean[p][q] += point.weight / area * v[p] * v[q]));
-        }
-        mean
-    };
-    assemble(mesh, |a, b, p, q, t| {
-        let v = squares(t);
-        let along: f64 = (0..2).map(|i| (0..2).map(|j| a[i] * v[i][j] * b[j]).sum::<f64>()).sum();
-        if p == q { density * along } else { 0.0 }
+pub fn convection(space: &Space, density: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Matrix {
+    assemble(space, |place, a, b| {
+        let v = velocity(place);
+        let along = density * (v[0] * a[0] + v[1] * a[1]) * (v[0] * b[0] + v[1] * b[1]);
+        [[along, 0.0], [0.0, along]]
     })
 }
 
 /// `ρ ∫ N X` \[kg]: the centrifugal load for a unit angular velocity about the origin.
-pub fn centrifugal(mesh: &Mesh, density: f64) -> Vec<f64> {
-    let mut load = vec![0.0; 2 * mesh.nodes.len()];
-    for (t, triangle) in mesh.triangles.iter().enumerate() {
-        for point in points(&mesh.corners(t), Order::Linear) {
-            for (node, value) in triangle.iter().zip(point.shape.values) {
+pub fn centrifugal(space: &Space, density: f64) -> Vec<f64> {
+    let mut load = vec![0.0; 2 * space.places.len()];
+    for (t, nodes) in space.elements.iter().enumerate() {
+        for point in points(&space.corners(t), space.order) {
+            for (node, value) in nodes.iter().zip(point.shape.values) {
                 (0..2).for_each(|axis| load[2 * node + axis] += density * point.weight * value * point.place[axis]);
             }
         }
@@ -101,19 +92,20 @@ pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) 
     matrix
 }
 
-/// Sums area times `entry(∇N_a, ∇N_b, p, q, triangle)` over all pairs of nodes and directions.
-fn assemble(mesh: &Mesh, entry: impl Fn([f64; 2], [f64; 2], usize, usize, usize) -> f64) -> Matrix {
-    let mut matrix = Matrix::new(2 * mesh.nodes.len());
-    for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = mesh.corners(t);
-        let (area, slopes) = (0.5 * double_area(&corners), linear_gradients(&corners));
-        for (a, i) in slopes.iter().zip(triangle) {
-            for (b, j) in slopes.iter().zip(triangle) {
-                for p in 0..2 {
-                    for q in 0..2 {
-                        matrix.add(2 * i + p, 2 * j + q, area * entry(*a, *b, p, q, t));
-                    }
+/// Integrates `entry(place, ∇N_a, ∇N_b)`, one value for each pair of directions, over all pairs of nodes.
+fn assemble(space: &Space, entry: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> [[f64; 2]; 2]) -> Matrix {
+    let mut matrix = Matrix::new(2 * space.places.len());
+    for (t, nodes) in space.elements.iter().enumerate() {
+        let points = points(&space.corners(t), space.order);
+        for (a, i) in nodes.iter().enumerate() {
+            for (b, j) in nodes.iter().enumerate() {
+                let mut sum = [[0.0; 2]; 2];
+                for point in &points {
+                    let slopes = &point.shape.gradients;
+                    let part = entry(point.place, slopes[a], slopes[b]);
+                    (0..2).for_each(|p| (0..2).for_each(|q| sum[p][q] += point.weight * part[p][q]));
                 }
+                (0..2).for_each(|p| (0..2).for_each(|q| matrix.add(2 * i + p, 2 * j + q, sum[p][q])));
             }
         }
     }
@@ -123,24 +115,89 @@ fn assemble(mesh: &Mesh, entry: impl Fn([f64; 2], [f64; 2], usize, usize, usize)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rail;
     use crate::wheel::coarse;
 
     #[test]
     fn rigid_motions_strain_nothing_and_a_turn_convects_like_its_own_centrifugal_load() {
         let mesh = coarse(&[0.1, 0.3, 0.5], 24);
-        let stiffness = stiffness(&mesh, 200e9, 0.3);
-        let field = |f: &dyn Fn([f64; 2]) -> [f64; 2]| mesh.nodes.iter().flat_map(|n| f(*n)).collect::<Vec<f64>>();
-        for rigid in [field(&|_| [1.0, 0.0]), field(&|_| [0.0, 1.0]), field(&|[x, y]| [y, -x])] {
-            assert!(stiffness.multiply(&rigid).iter().all(|force| force.abs() < 1e-2), "of 1e11");
+        for order in [Order::Linear, Order::Quadratic] {
+            let space = Space::new(&mesh, order);
+            let stiffness = stiffness(&space, 200e9, 0.3);
+            let field =
+                |f: &dyn Fn([f64; 2]) -> [f64; 2]| space.places.iter().flat_map(|n| f(*n)).collect::<Vec<f64>>();
+            for rigid in [field(&|_| [1.0, 0.0]), field(&|_| [0.0, 1.0]), field(&|[x, y]| [y, -x])] {
+                assert!(stiffness.multiply(&rigid).iter().all(|force| force.abs() < 1e-2), "of 1e11");
+            }
+            // (v·∇)X = v and ∫ (v·∇N)·v = −∫ N (v·∇)v = ∫ N X for v = (y, −x), up to the chords of the rims.
+            let turn = |[x, y]: [f64; 2]| [y, -x];
+            let left = convection(&space, 8000.0, turn).multiply(&field(&|place| place));
+            let right = centrifugal(&space, 8000.0);
+            let inner = 24..48;
+            let error = inner.map(|n| (left[2 * n] - right[2 * n]).abs()).fold(0.0, f64::max);
+            let scale = right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            println!("{order:?}: {:.1e}", error / scale);
+            assert!(error < 1e-12 * scale);
         }
-        // (v·∇)X = v and ∫ (v·∇N)·v = −∫ N (v·∇)v = ∫ N X for v = (y, −x), up to the chords of the rims.
-        let turn = |[x, y]: [f64; 2]| [y, -x];
-        let left = convection(&mesh, 8000.0, turn).multiply(&field(&|place| place));
-        let right = centrifugal(&mesh, 8000.0);
-        let inner = 24..48;
-        let error = inner.map(|n| (left[2 * n] - right[2 * n]).abs()).fold(0.0, f64::max);
-        let scale = right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        println!("{:.1e}", error / scale);
-        assert!(error < 1e-12 * scale);
+    }
+
+    /// Error in the mean square of a stream through a held plate with `2n × n` cells, over that of the field.
+    fn stream(order: Order, n: usize) -> f64 {
+        let (plate, [young, poisson, density], speed) = (Plate { length: 2.0, height: 1.0 }, [1.0, 0.3, 0.16], 1.0);
+        let space = Space::new(&rail::coarse(plate, 2 * n + 1, n + 1), order);
+        let exact = |[x, y]: [f64; 2]| [(2.0 * x + y).sin(), (x - 3.0 * y).cos()];
+        // −div σ + ρV² u_xx of these fields.
+        let shear = 0.5 * young / (1.0 + poisson);
+        let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
+        let inertia = density * speed * speed;
+        let force = |[x, y]: [f64; 2]| {
+            let (s, c) = ((2.0 * x + y).sin(), (x - 3.0 * y).cos());
+            [
+                (lame + shear) * (4.0 * s - 3.0 * c) + (5.0 * shear - 4.0 * inertia) * s,
+                (lame + shear) * (2.0 * s + 9.0 * c) + (10.0 * shear - inertia) * c,
+            ]
+        };
+        let mut matrix = Matrix::sum(&[
+            (1.0, &stiffness(&space, young, poisson)),
+            (-speed * speed, &convection(&space, density, |_| [-1.0, 0.0])),
+        ]);
+        let integral = |f: &mut dyn FnMut(&crate::triangle::Point, &[usize])| {
+            for (t, nodes) in space.elements.iter().enumerate() {
+                points(&space.corners(t), order).iter().for_each(|point| f(point, nodes));
+            }
+        };
+        let mut load = vec![0.0; matrix.size];
+        integral(&mut |point, nodes| {
+            let there = force(point.place);
+            for (node, value) in nodes.iter().zip(point.shape.values) {
+                (0..2).for_each(|axis| load[2 * node + axis] += point.weight * value * there[axis]);
+            }
+        });
+        let rim = |[x, y]: [f64; 2]| x.abs() > 1.0 - 1e-9 || (y + 0.5).abs() > 0.5 - 1e-9;
+        let held: Vec<usize> = (0..space.places.len()).filter(|n| rim(space.places[*n])).collect();
+        for node in &held {
+            (0..2).for_each(|axis| load[2 * node + axis] = exact(space.places[*node])[axis]);
+        }
+        matrix.fix(&held.iter().flat_map(|node| [2 * node, 2 * node + 1]).collect::<Vec<_>>());
+        let u = matrix.factorise().unwrap().solve(load).unwrap();
+        let (mut error, mut all) = (0.0, 0.0);
+        integral(&mut |point, nodes| {
+            for (axis, wanted) in exact(point.place).into_iter().enumerate() {
+                let found: f64 = nodes.iter().zip(point.shape.values).map(|(node, v)| v * u[2 * node + axis]).sum();
+                error += point.weight * (found - wanted).powi(2);
+                all += point.weight * wanted * wanted;
+            }
+        });
+        (error / all).sqrt()
+    }
+
+    #[test]
+    fn displacements_in_a_stream_converge_with_order_two_on_linear_and_three_on_quadratic_triangles() {
+        for (order, wanted) in [(Order::Linear, 2.0), (Order::Quadratic, 3.0)] {
+            let errors = [4, 8, 16].map(|n| 100.0 * stream(order, n));
+            let orders = [0, 1].map(|i| (errors[i] / errors[i + 1]).log2());
+            println!("{order:?}: errors {errors:.2?} %, orders {orders:.2?}");
+            assert!((orders[1] - wanted).abs() < 0.15);
+        }
     }
 }

@@ -6,7 +6,7 @@
 use crate::Error;
 use crate::contact::Law;
 use crate::flow::Flow;
-use crate::mesh::{Mesh, edge};
+use crate::mesh::Mesh;
 use crate::newton::{Drive, Newton, State};
 use crate::rolling::System;
 use crate::sparse::Matrix;
@@ -125,31 +125,15 @@ impl Heating<'_> {
 
     /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.
     pub fn let_in(&self, warmth: &Warmth) -> f64 {
-        let boundary: std::collections::HashSet<_> = self.meshes[0].boundary().into_iter().collect();
         let mut sum = 0.0;
-        for nodes in &warmth.space.elements {
-            for i in 0..3 {
-                let (a, b) = (nodes[i], nodes[(i + 1) % 3]);
-                if !boundary.contains(&edge(a, b)) {
-                    continue;
-                }
-                let (p, q) = (warmth.space.places[a], warmth.space.places[b]);
-                let along = [q[0] - p[0], q[1] - p[1]];
-                let value = |node: usize| {
-                    let [x, y] = warmth.space.places[node];
-                    (x * along[0] + y * along[1]) * warmth.theta[node]
-                };
-                // Simpson's rule, exact up to cubics: temperatures are quadratic at most, the velocity is linear.
-                let middle = nodes.get(3 + i).map_or_else(
-                    || {
-                        let place = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
-                        let theta = 0.5 * (warmth.theta[a] + warmth.theta[b]);
-                        (place[0] * along[0] + place[1] * along[1]) * theta
-                    },
-                    |node| value(*node),
-                );
-                sum += (value(a) + 4.0 * middle + value(b)) / 6.0;
-            }
+        for (a, b, middle) in warmth.space.boundary(self.meshes[0]) {
+            let (p, q) = (warmth.space.places[a], warmth.space.places[b]);
+            let along = [q[0] - p[0], q[1] - p[1]];
+            let value = |[x, y]: [f64; 2], theta: f64| (x * along[0] + y * along[1]) * theta;
+            let there = middle.map_or(0.5 * (warmth.theta[a] + warmth.theta[b]), |node| warmth.theta[node]);
+            let half = value([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])], there);
+            // Simpson's rule, exact up to cubics: temperatures are quadratic at most, the velocity is linear.
+            sum += (value(p, warmth.theta[a]) + 4.0 * half + value(q, warmth.theta[b])) / 6.0;
         }
         -self.material[0] * self.motion[0] * sum
     }
@@ -173,18 +157,14 @@ impl Heating<'_> {
         let mesh = self.meshes[0];
         let (tread, _) = rims(mesh, self.annulus);
         let on_tread: std::collections::HashSet<usize> = tread.into_iter().collect();
-        let boundary: std::collections::HashSet<_> = mesh.boundary().into_iter().collect();
         let mut parts = Vec::new();
-        for nodes in &space.elements {
-            for i in 0..3 {
-                let (a, b) = (nodes[i], nodes[(i + 1) % 3]);
-                if boundary.contains(&edge(a, b)) && on_tread.contains(&a) && on_tread.contains(&b) {
-                    let (p, q) = (space.places[a], space.places[b]);
-                    let angle = (p[0] + q[0]).atan2(-p[1] - q[1]).abs();
-                    if (angle - FRAC_PI_2).abs() < FRAC_PI_8 {
-                        parts.push((a, b, nodes.get(3 + i).copied(), (p[0] - q[0]).hypot(p[1] - q[1])));
-                    }
-                }
+        for (a, b, middle) in
+            space.boundary(mesh).into_iter().filter(|(a, b, _)| on_tread.contains(a) && on_tread.contains(b))
+        {
+            let (p, q) = (space.places[a], space.places[b]);
+            let angle = (p[0] + q[0]).atan2(-p[1] - q[1]).abs();
+            if (angle - FRAC_PI_2).abs() < FRAC_PI_8 {
+                parts.push((a, b, middle, (p[0] - q[0]).hypot(p[1] - q[1])));
             }
         }
         let total: f64 = parts.iter().map(|part| part.3).sum();
@@ -202,16 +182,8 @@ impl Heating<'_> {
         let first = spaces[0].places.len();
         let ends = (0..spaces[1].places.len()).filter(|n| spaces[1].places[*n][0].abs() > end).map(|n| n + first);
         let (_, hub) = rims(self.meshes[0], self.annulus);
-        let hub: std::collections::HashSet<usize> = hub.into_iter().collect();
-        let mut cold: Vec<usize> = Vec::new();
-        for nodes in spaces[0].elements.iter().filter(|_| self.cold_hub) {
-            for i in 0..3 {
-                if hub.contains(&nodes[i]) {
-                    cold.push(nodes[i]);
-                    cold.extend(nodes.get(3 + i).filter(|_| hub.contains(&nodes[(i + 1) % 3])));
-                }
-            }
-        }
+        let sides = spaces[0].boundary(self.meshes[0]).into_iter().filter(|(a, ..)| self.cold_hub && hub.contains(a));
+        let cold = sides.flat_map(|(a, _, middle)| [Some(a), middle]).flatten();
         let mut fixed: Vec<usize> = ends.chain(cold).collect();
         fixed.sort_unstable();
         fixed.dedup();

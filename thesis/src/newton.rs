@@ -7,13 +7,15 @@ use crate::sparse::Matrix;
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 
-/// What drives the wheel; the velocity of travel is prescribed.
+/// What drives the wheel (\[D] 23 to 28). Moment and force at once would prescribe the creepage twice and the velocity not at all.
 #[derive(Clone, Copy, Debug)]
 pub enum Drive {
-    /// Its angular velocity is prescribed.
+    /// Both velocities are prescribed.
     Velocity,
-    /// The moment on its hub is prescribed, forward \[N]; the angular velocity is found.
+    /// The moment on its hub is prescribed, forward \[N], and the velocity of travel; the angular velocity is found.
     Moment(f64),
+    /// The force on its hub is prescribed, forward [N/m], and the angular velocity; the velocity of travel is found.
+    Force(f64),
 }
 
 /// Unknowns and motion.
@@ -25,7 +27,7 @@ pub struct State {
     pub motion: Motion,
 }
 
-/// Residual of a state \[N/m], and its last entry with a prescribed moment \[N].
+/// Residual of a state [N/m], and its last entry with a prescribed moment \[N] or force [N/m].
 pub type Residual = Vec<f64>;
 
 /// Residual over the load at which an iteration has converged \[1].
@@ -62,25 +64,36 @@ impl Newton<'_> {
         }
         let mut residual = system.gather(&forces);
         residual[system.size - 1] += system.parameters.load;
-        if let Drive::Moment(moment) = self.drive {
-            let reaction: f64 = forces.iter().zip(&system.arms).map(|(force, arm)| force * arm).sum();
-            residual.push(reaction - moment);
+        if let Some((weights, prescribed)) = self.prescribed() {
+            let reaction: f64 = forces.iter().zip(weights).map(|(force, weight)| force * weight).sum();
+            residual.push(reaction - prescribed);
         }
         (residual, touches)
     }
 
-    /// Derivative of the residual (\[D] 29 to 44): contact included, and with a prescribed moment one more column and row.
+    /// What is prescribed instead of a velocity: weights of the forces on the hub, and what their sum must be.
+    fn prescribed(&self) -> Option<(&[f64], f64)> {
+        match self.drive {
+            Drive::Velocity => None,
+            Drive::Moment(moment) => Some((&self.system.arms, moment)),
+            Drive::Force(force) => Some((&self.system.along, force)),
+        }
+    }
+
+    /// Derivative of the residual (\[D] 29 to 44): contact included, and with a prescribed moment or force one more column and row.
     pub fn tangent(&self, state: &State, touches: &[Touch]) -> Matrix {
         let system = self.system;
         let full = system.stiffness(state.motion);
         let mut tangent = system.reduce(&full);
         let last = system.size;
-        let mut with_omega = vec![0.0; system.arms.len()];
+        // The velocity that is found and the place of its derivative in a contact element.
+        let travels = matches!(self.drive, Drive::Force(_));
+        let mut with_velocity = vec![0.0; system.arms.len()];
         for touch in touches {
             for (row, force) in [touch.nodes[0], touch.nodes[2], touch.nodes[3]].into_iter().zip(touch.forces.on) {
                 for (axis, part) in force.iter().enumerate() {
                     let slopes = part.slopes;
-                    with_omega[2 * row + axis] -= slopes[8];
+                    with_velocity[2 * row + axis] -= slopes[if travels { 9 } else { 8 }];
                     let Some(i) = system.unknown[2 * row + axis] else { continue };
                     for (k, slope) in slopes[..8].iter().enumerate() {
                         system.unknown[2 * touch.nodes[k / 2] + k % 2].iter().for_each(|j| tangent.add(i, *j, -slope));
@@ -88,18 +101,22 @@ impl Newton<'_> {
                 }
             }
         }
-        if matches!(self.drive, Drive::Moment(_)) {
+        if let Some((weights, _)) = self.prescribed() {
             tangent.size += 1;
-            let turned = system.turning.multiply(&system.expand(&state.q));
-            for (i, value) in with_omega.iter_mut().enumerate() {
-                *value -= 2.0 * state.motion.omega * (turned[i] + system.centrifugal[i]);
+            let u = system.expand(&state.q);
+            if travels {
+                let streamed = system.streaming.multiply(&u);
+                with_velocity.iter_mut().zip(&streamed).for_each(|(d, s)| *d -= 2.0 * state.motion.velocity * s);
+            } else {
+                let turned = system.turning.multiply(&u);
+                let loads = turned.iter().zip(&system.centrifugal);
+                with_velocity.iter_mut().zip(loads).for_each(|(d, (t, c))| *d -= 2.0 * state.motion.omega * (t + c));
             }
-            let column = system.gather(&with_omega);
+            let column = system.gather(&with_velocity);
             column.iter().enumerate().for_each(|(i, value)| tangent.add(i, last, *value));
-            let corner = with_omega.iter().zip(&system.arms).map(|(value, arm)| value * arm).sum();
-            tangent.add(last, last, corner);
-            for (i, j, value) in full.entries.iter().filter(|entry| system.arms[entry.0] != 0.0) {
-                system.unknown[*j].iter().for_each(|j| tangent.add(last, *j, system.arms[*i] * value));
+            tangent.add(last, last, with_velocity.iter().zip(weights).map(|(value, weight)| value * weight).sum());
+            for (i, j, value) in full.entries.iter().filter(|entry| weights[entry.0] != 0.0) {
+                system.unknown[*j].iter().for_each(|j| tangent.add(last, *j, weights[*i] * value));
             }
         }
         tangent
@@ -108,10 +125,11 @@ impl Newton<'_> {
     /// Size of a residual over the load \[1]; moments over the radius.
     pub fn size(&self, residual: &[f64]) -> f64 {
         let parameters = &self.system.parameters;
-        let (forces, moments) = residual.split_at(self.system.size);
+        let arm = if matches!(self.drive, Drive::Moment(_)) { parameters.annulus.outer } else { 1.0 };
+        let (forces, prescribed) = residual.split_at(self.system.size);
         let sum: f64 = forces.iter().map(|force| force * force).sum();
-        let moment: f64 = moments.iter().map(|moment| (moment / parameters.annulus.outer).powi(2)).sum();
-        (sum + moment).sqrt() / parameters.load
+        let rest: f64 = prescribed.iter().map(|rest| (rest / arm).powi(2)).sum();
+        (sum + rest).sqrt() / parameters.load
     }
 
     /// The step of a state.
@@ -123,8 +141,13 @@ impl Newton<'_> {
     /// The state a share of a step further on.
     pub fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
         let q = state.q.iter().zip(step).map(|(q, d)| q + share * d).collect();
-        let omega = state.motion.omega + share * step.get(state.q.len()).copied().unwrap_or_default();
-        State { q, motion: Motion { omega, ..state.motion } }
+        let change = share * step.get(state.q.len()).copied().unwrap_or_default();
+        let Motion { omega, velocity } = state.motion;
+        let motion = match self.drive {
+            Drive::Force(_) => Motion { omega, velocity: velocity + change },
+            _ => Motion { omega: omega + change, velocity },
+        };
+        State { q, motion }
     }
 
     /// Solves from a start; returns the state and the number of steps. Steps are halved while the residual would grow.

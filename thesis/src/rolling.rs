@@ -1,13 +1,18 @@
 //! Stationary rolling of wheel and rail on triangles: what is linear, and the search for contact (\[C] 3 to 5, \[D] 5).
 //!
-//! Both bodies are of linear triangles, as in Paper A. The hub is rigid, held in x and free in y, where it carries the load;
+//! Both bodies are of linear triangles, as in Paper A, or the wheel of quadratic ones, as in Papers B to D; contact is between corners
+//! in both cases. The hub is rigid, held in x and free in y, where it carries the load;
 //! the base of the rail is held; its ends let material pass without traction of their own (Robin condition).
 
 use crate::contact::{Forces, Law, Pair};
 use crate::mesh::Mesh;
 use crate::sparse::Matrix;
+use crate::triangle::{Order, Space};
 use crate::wheel::{self, Annulus};
 use crate::{elastic, rail};
+
+/// Nodes nearer to each other than this along the rail lie above one another \[m].
+const SAME: f64 = 1e-12;
 
 /// What rolls on what.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +60,8 @@ pub struct System {
     pub size: usize,
     /// Lever arms of each displacement of the hub about the centre, forward moments positive \[m].
     pub arms: Vec<f64>,
+    /// One for each displacement of the hub along the rail \[1].
+    pub along: Vec<f64>,
     /// Number of the wheel's nodes, after which those of the rail come.
     pub wheel_nodes: usize,
     /// Places \[m] in the frame of the rail.
@@ -77,21 +84,27 @@ impl System {
     /// Assembles both bodies. `wheel` lies about the origin, the surface of `rail` at y = 0; nodes of the tread within `reach`
     /// \[m] of the contact may touch.
     pub fn new(parameters: Parameters, wheel: &Mesh, rail: &Mesh, reach: f64) -> Self {
+        Self::with_order(parameters, wheel, rail, reach, Order::Linear)
+    }
+
+    /// The same with linear or quadratic triangles in the wheel.
+    pub fn with_order(parameters: Parameters, wheel: &Mesh, rail: &Mesh, reach: f64, order: Order) -> Self {
+        let [turned, streamed] = [Space::new(wheel, order), Space::new(rail, Order::Linear)];
         let Parameters { young, poisson, density, annulus, .. } = parameters;
-        let (first, count) = (wheel.nodes.len(), wheel.nodes.len() + rail.nodes.len());
+        let (first, count) = (turned.places.len(), turned.places.len() + rail.nodes.len());
         let shifted = |matrix: Matrix, by: usize| {
             let entries = matrix.entries.into_iter().map(|(i, j, value)| (i + 2 * by, j + 2 * by, value)).collect();
             Matrix { size: 2 * count, entries }
         };
-        let mut elastic = shifted(elastic::stiffness(wheel, young, poisson), 0);
-        elastic.entries.extend(shifted(elastic::stiffness(rail, young, poisson), first).entries);
-        let turning = shifted(elastic::convection(wheel, density, |[x, y]| [y, -x]), 0);
-        let streaming = shifted(elastic::convection(rail, density, |_| [-1.0, 0.0]), first);
-        let mut centrifugal = elastic::centrifugal(wheel, density);
+        let mut elastic = shifted(elastic::stiffness(&turned, young, poisson), 0);
+        elastic.entries.extend(shifted(elastic::stiffness(&streamed, young, poisson), first).entries);
+        let turning = shifted(elastic::convection(&turned, density, |[x, y]| [y, -x]), 0);
+        let streaming = shifted(elastic::convection(&streamed, density, |_| [-1.0, 0.0]), first);
+        let mut centrifugal = elastic::centrifugal(&turned, density);
         centrifugal.resize(2 * count, 0.0);
         let lift = |[x, y]: &[f64; 2]| [*x, y + annulus.outer];
-        let places = wheel.nodes.iter().map(lift).chain(rail.nodes.iter().copied()).collect();
-        let (unknown, size, arms) = unknowns(wheel, rail, annulus, parameters.plate);
+        let places = turned.places.iter().map(lift).chain(rail.nodes.iter().copied()).collect();
+        let (unknown, size, [arms, along]) = unknowns(wheel, &turned, rail, annulus, parameters.plate);
         let slaves = slaves(wheel, annulus, reach);
         let top = |n: &usize| rail.nodes[*n][1].abs() < 1e-9 && rail.nodes[*n][0].abs() < 4.0 * reach;
         let mut masters: Vec<usize> = (0..rail.nodes.len()).filter(top).collect();
@@ -107,6 +120,7 @@ impl System {
             unknown,
             size,
             arms,
+            along,
             wheel_nodes,
             places,
             slaves,
@@ -149,7 +163,9 @@ impl System {
         // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between two normals.
         let x = |node: usize| self.places[node][0];
         let touch = |&[slave, upstream]: &[usize; 2]| {
-            let right = self.masters.partition_point(|node| x(*node) <= x(slave)).clamp(1, self.masters.len() - 1);
+            // A node right above one of the rail has the segment upstream, whatever the last digits of their places.
+            let right =
+                self.masters.partition_point(|node| x(*node) <= x(slave) + SAME).clamp(1, self.masters.len() - 1);
             let nodes = [slave, upstream, self.masters[right - 1], self.masters[right]];
             let [slave, upstream, left, right] = nodes.map(|node| self.places[node]);
             let centre = [0.0, self.parameters.annulus.outer];
@@ -199,26 +215,36 @@ impl System {
     }
 }
 
-/// Unknown of each displacement, their number, and the lever arms of the hub.
-fn unknowns(wheel: &Mesh, rail: &Mesh, annulus: Annulus, plate: rail::Plate) -> (Vec<Option<usize>>, usize, Vec<f64>) {
-    let (_, hub) = wheel::rims(wheel, annulus);
-    let mut free = vec![true; 2 * (wheel.nodes.len() + rail.nodes.len())];
-    let mut arms = vec![0.0; free.len()];
+/// Unknown of each displacement, their number, and for those of the hub lever arms and directions along the rail.
+fn unknowns(
+    wheel: &Mesh,
+    turned: &Space,
+    rail: &Mesh,
+    annulus: Annulus,
+    plate: rail::Plate,
+) -> (Vec<Option<usize>>, usize, [Vec<f64>; 2]) {
+    let first = turned.places.len();
+    let (_, corners) = wheel::rims(wheel, annulus);
+    let middles = turned.boundary(wheel).into_iter().filter(|(a, ..)| corners.contains(a)).filter_map(|side| side.2);
+    let hub: Vec<usize> = corners.iter().copied().chain(middles).collect();
+    let mut free = vec![true; 2 * (first + rail.nodes.len())];
+    let [mut arms, mut along] = [vec![0.0; free.len()], vec![0.0; free.len()]];
     for node in &hub {
-        let [x, y] = wheel.nodes[*node];
+        let [x, y] = turned.places[*node];
         (free[2 * node], free[2 * node + 1]) = (false, false);
         // A force on the hub turns it forward by y F_x − x F_y.
         (arms[2 * node], arms[2 * node + 1]) = (y, -x);
+        along[2 * node] = 1.0;
     }
     let base = (0..rail.nodes.len()).filter(|n| rail.nodes[*n][1] < 1e-9 - plate.height);
-    for node in base.map(|node| node + wheel.nodes.len()) {
+    for node in base.map(|node| node + first) {
         (free[2 * node], free[2 * node + 1]) = (false, false);
     }
     let mut next = 0..;
     let mut unknown: Vec<Option<usize>> = free.iter().map(|free| if *free { next.next() } else { None }).collect();
     let last = next.start;
     hub.iter().for_each(|node| unknown[2 * node + 1] = Some(last));
-    (unknown, last + 1, arms)
+    (unknown, last + 1, [arms, along])
 }
 
 /// Nodes of the tread within `reach` of the contact, each with the one upstream: material comes from the right.

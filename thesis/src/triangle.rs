@@ -2,8 +2,8 @@
 //!
 //! Local nodes: the three corners, then for quadratic functions the middles of the edges 01, 12 and 20.
 
-use crate::mesh::{Mesh, double_area, edges};
-use std::collections::HashMap;
+use crate::mesh::{Mesh, double_area, edge, edges};
+use std::collections::{HashMap, HashSet};
 
 /// Degree of the shape functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,6 +153,18 @@ impl Space {
             elements.push(nodes);
         }
         Self { order, places, elements }
+    }
+
+    /// Corners of triangle `t` \[m].
+    pub fn corners(&self, t: usize) -> [[f64; 2]; 3] {
+        [0, 1, 2].map(|i| self.places[self.elements[t][i]])
+    }
+
+    /// Both ends of each edge on the boundary of the mesh, counter-clockwise, and its middle node where there is one.
+    pub fn boundary(&self, mesh: &Mesh) -> Vec<(usize, usize, Option<usize>)> {
+        let boundary: HashSet<_> = mesh.boundary().into_iter().collect();
+        let sides = |nodes: &Vec<usize>| [0, 1, 2].map(|i| (nodes[i], nodes[(i + 1) % 3], nodes.get(3 + i).copied()));
+        self.elements.iter().flat_map(sides).filter(|(a, b, _)| boundary.contains(&edge(*a, *b))).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use crate::Error;
 use crate::elastic;
 use crate::mesh::Mesh;
 use crate::rivara;
+use crate::triangle::{Order, Space};
 use std::f64::consts::TAU;
 
 /// Radii of an annulus \[m].
@@ -82,7 +83,7 @@ pub fn centre(mesh: &mut Mesh, annulus: Annulus, poisson: f64) -> Result<[f64; 2
     let hub_area = polygon_area(mesh, &hub);
     let (area, centroid) = (mesh.area(), mesh.centroid());
     let way = centroid.map(|c| area * c / hub_area);
-    let mut matrix = elastic::stiffness(mesh, 1.0, poisson);
+    let mut matrix = elastic::stiffness(&Space::new(mesh, Order::Linear), 1.0, poisson);
     let fixed: Vec<usize> = tread.iter().chain(&hub).flat_map(|node| [2 * node, 2 * node + 1]).collect();
     let mut load = vec![0.0; matrix.size];
     hub.iter().for_each(|node| (0..2).for_each(|axis| load[2 * node + axis] = way[axis]));

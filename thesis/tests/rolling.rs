@@ -6,6 +6,7 @@ use wheelrail_thesis::mesh::Mesh;
 use wheelrail_thesis::newton::{Condensed, Drive, Newton, State, frictionless, resultant, rolling};
 use wheelrail_thesis::rail::{self, Plate};
 use wheelrail_thesis::rolling::{Motion, Parameters, System};
+use wheelrail_thesis::triangle::Order;
 use wheelrail_thesis::wheel::{self, Annulus};
 
 /// Base of Paper D, with the friction of the regularised law.
@@ -92,33 +93,36 @@ fn friction_follows_the_slip_up_to_its_limit_and_open_gaps_carry_nothing() {
     }
 }
 
+/// Moments with an unknown angular velocity and forces with an unknown velocity of travel.
 #[test]
-fn the_tangent_of_the_system_is_that_of_differences_with_its_column_and_row_of_the_moment() {
+fn the_tangent_of_the_system_is_that_of_differences_with_its_column_and_row_of_the_moment_or_force() {
     let system = system(0.5, Law { regularisation: 1e-2, ..PARAMETERS.law });
     let mut state = frictionless(&system).unwrap();
     state.motion = motion(-2e-4);
-    let newton = Newton { system: &system, law: system.parameters.law, drive: Drive::Moment(1000.0) };
-    let (_, touches) = newton.residual(&state);
-    assert!(touches.len() > 2);
-    let tangent = newton.tangent(&state, &touches);
-    let contact = system.contact_unknowns();
-    // Unknowns of the contact, some others, and the angular velocity.
-    let columns = contact.iter().copied().chain((0..system.size).step_by(97)).chain([system.size]);
-    let mut worst = 0.0_f64;
-    for column in columns {
-        let h = if column == system.size { 1e-5 } else { 1e-10 };
-        let mut unit = vec![0.0; system.size + 1];
-        unit[column] = 1.0;
-        let [ahead, back] = [h, -h].map(|share| newton.residual(&newton.moved(&state, &unit, share)).0);
-        let exact = tangent.multiply(&unit);
-        let largest = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        for (i, value) in exact.iter().enumerate() {
-            let difference = (ahead[i] - back[i]) / (2.0 * h);
-            worst = worst.max((value - difference).abs() / largest);
+    for drive in [Drive::Moment(1000.0), Drive::Force(-1000.0)] {
+        let newton = Newton { system: &system, law: system.parameters.law, drive };
+        let (_, touches) = newton.residual(&state);
+        assert!(touches.len() > 2);
+        let tangent = newton.tangent(&state, &touches);
+        let contact = system.contact_unknowns();
+        // Unknowns of the contact, some others, and the velocity.
+        let columns = contact.iter().copied().chain((0..system.size).step_by(97)).chain([system.size]);
+        let mut worst = 0.0_f64;
+        for column in columns {
+            let h = if column == system.size { 1e-5 } else { 1e-10 };
+            let mut unit = vec![0.0; system.size + 1];
+            unit[column] = 1.0;
+            let [ahead, back] = [h, -h].map(|share| newton.residual(&newton.moved(&state, &unit, share)).0);
+            let exact = tangent.multiply(&unit);
+            let largest = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            for (i, value) in exact.iter().enumerate() {
+                let difference = (ahead[i] - back[i]) / (2.0 * h);
+                worst = worst.max((value - difference).abs() / largest);
+            }
         }
+        println!("{drive:?}: worst difference {worst:.1e}");
+        assert!(worst < 1e-6);
     }
-    println!("worst difference {worst:.1e}");
-    assert!(worst < 1e-6);
 }
 
 #[test]
@@ -214,4 +218,91 @@ fn a_prescribed_moment_gives_back_the_creepage_that_needs_it() {
     let error = found.motion.omega / state.motion.omega - 1.0;
     println!("moment {moment:.1} N, angular velocity off by {error:.1e} after {steps} steps");
     assert!(error.abs() < 1e-8);
+}
+
+/// Prescribed by a run under prescribed velocities: the force on the hub that it finds, and from there the velocity that the force finds.
+#[test]
+fn a_prescribed_force_gives_back_the_velocity_that_needs_it_and_that_velocity_the_force() {
+    for (load, creepage, mistaken) in
+        [(1.0, -3e-4, -2.8e-4), (1.0, 3e-4, 2.8e-4), (0.1, -8e-5, -7e-5), (1.9, -3e-4, -2.8e-4)]
+    {
+        let parameters = Parameters {
+            load: load * PARAMETERS.load,
+            law: Law { regularisation: 1e-3, ..PARAMETERS.law },
+            ..PARAMETERS
+        };
+        let a = half_width() * load.sqrt();
+        let wheel = wheel::rolling(parameters.annulus, 1.5 * a, 0.5 * a, 1, parameters.poisson).unwrap();
+        let rail = rail::rolling(parameters.plate, 31, 2.0 * a, 0.5 * a);
+        let system = System::new(parameters, &wheel, &rail, 2.0 * a);
+        let (state, _) = rolling(&system, motion(creepage)).unwrap();
+        let free = Newton { system: &system, law: parameters.law, drive: Drive::Force(0.0) };
+        let (residual, touches) = free.residual(&state);
+        let force = *residual.last().unwrap();
+        // The hub is pushed against what the contact does to the wheel; momentum that streams through the rail is its own affair.
+        let [forward, _] = resultant(&touches);
+        assert!((force + forward).abs() < 1e-6 * parameters.load, "{force} {forward}");
+        let mut start = state.clone();
+        start.motion.velocity *= motion(mistaken).omega / motion(creepage).omega;
+        let newton = Newton { drive: Drive::Force(force), ..free };
+        let (found, steps) = newton.solve(&start).unwrap();
+        let error = found.motion.velocity / VELOCITY - 1.0;
+        let held = Newton { drive: Drive::Velocity, ..newton };
+        let (again, _) = held.solve(&State { q: start.q.clone(), motion: found.motion }).unwrap();
+        let back = -resultant(&held.residual(&again).1)[0] / force - 1.0;
+        println!(
+            "load {load}, creepage {creepage:e}: force {force:.1} N/m, velocity off by {error:.1e} after {steps} steps, force by {back:.1e}"
+        );
+        assert!(error.abs() < 1e-8 && back.abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_force_beyond_friction_finds_no_velocity_and_is_refused() {
+    let system = system(0.5, Law { regularisation: 1e-3, ..PARAMETERS.law });
+    let (state, _, _) = utilisation(&system, -3e-4);
+    let newton =
+        Newton { system: &system, law: system.parameters.law, drive: Drive::Force(-1.1 * 0.4 * PARAMETERS.load) };
+    let outcome = newton.solve(&state).map(|(found, _)| found.motion.velocity);
+    println!("{outcome:?}");
+    assert!(outcome.is_err());
+}
+
+/// Hub's way down \[m] under the load at rest, and unknowns, with so many refinements of the whole wheel and the same edges in the contact.
+fn approach(order: Order, share: f64, global: usize) -> (f64, usize) {
+    let a = half_width();
+    let wheel = wheel::rolling(PARAMETERS.annulus, 1.5 * a, share * a, global, PARAMETERS.poisson).unwrap();
+    let rail = rail::rolling(PARAMETERS.plate, 31, 2.0 * a, share * a);
+    let system = System::with_order(PARAMETERS, &wheel, &rail, 2.0 * a, order);
+    (-frictionless(&system).unwrap().q[system.size - 1], system.size)
+}
+
+/// Away from the contact quadratic triangles need no refinement. In it, where both touch at corners only, they are softer, and less so on shorter edges.
+#[test]
+fn a_quadratic_wheel_is_right_on_a_coarse_mesh_but_for_its_contact() {
+    let way = |order, share, global| approach(order, share, global).0;
+    let [linear, quadratic] =
+        [Order::Linear, Order::Quadratic].map(|order| way(order, 0.4, 3) / way(order, 0.4, 0) - 1.0);
+    let off = [0.4, 0.2].map(|share| way(Order::Quadratic, share, 0) / way(Order::Linear, share, 3) - 1.0);
+    println!("three refinements of the whole wheel change linear {linear:+.4}, quadratic {quadratic:+.4}");
+    println!("a coarse quadratic wheel over a fine linear one, edges of 0.4 and 0.2 half-widths: {off:+.4?}");
+    assert!(linear > 0.04 && quadratic.abs() < 0.01);
+    assert!(off[0] > off[1] && off[1] > 0.0 && off[0] < 0.02);
+}
+
+/// Wheels with about as many unknowns: neither is nearer to what both approach.
+#[test]
+fn a_quadratic_wheel_rolls_like_a_linear_one_with_as_many_unknowns() {
+    let (a, parameters) =
+        (half_width(), Parameters { law: Law { regularisation: 1e-3, ..PARAMETERS.law }, ..PARAMETERS });
+    let [linear, quadratic] = [(Order::Linear, 0.2), (Order::Quadratic, 0.4)].map(|(order, share)| {
+        let wheel = wheel::rolling(parameters.annulus, 1.5 * a, share * a, 1, parameters.poisson).unwrap();
+        let rail = rail::rolling(parameters.plate, 31, 2.0 * a, share * a);
+        let system = System::with_order(parameters, &wheel, &rail, 2.0 * a, order);
+        let [traction, braking] = [-1.9e-4, 1.9e-4].map(|creepage| utilisation(&system, creepage).1);
+        println!("{order:?}, {} unknowns: traction {traction:.4}, braking {braking:.4}", system.size);
+        0.5 * (traction - braking)
+    });
+    println!("mean of both signs: linear {linear:.4}, quadratic {quadratic:.4}");
+    assert!((linear - quadratic).abs() < 0.01);
 }

@@ -1,7 +1,7 @@
 //! Paper A, tables 1 to 3 and figures 11 and 12: a wheel on waves, by the thesis's scheme, the product and the closed form.
 
 use super::closed_forms::corrugation_force;
-use super::{Figure, curve, must};
+use super::{Extent, Figure, curve, must};
 use crate::paper_a::{
     self as a, BASE, Meshes, PLATE, SPEED, STEP, WAVE, amplitude, case, meshes, our_amplitude, product,
 };
@@ -248,12 +248,13 @@ fn vertex([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> f64 {
 }
 
 /// Figure A 12: amplitude over the excitation.
-pub fn excitation() -> Result<Figure, String> {
-    const KMH: [f64; 11] = [30.0, 50.0, 65.0, 75.0, 83.0, 86.0, 89.0, 93.0, 100.0, 120.0, 150.0];
+pub fn excitation(extent: Extent) -> Result<Figure, String> {
+    const LIST: [f64; 11] = [30.0, 50.0, 65.0, 75.0, 83.0, 86.0, 89.0, 93.0, 100.0, 120.0, 150.0];
     let (mesh, product) = (standard(), product(&a::waves(WAVE[0]), |_| ())?);
     let omega = |kmh: f64| TAU * kmh / 3.6 / WAVE[1];
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
-    for kmh in KMH {
+    let kmh = extent.axis(&LIST);
+    for kmh in kmh.values.iter().copied() {
         let velocity = kmh / 3.6;
         ours.push([omega(kmh), our_amplitude(&product, velocity, WAVE[1] / velocity / 80.0)?]);
         theirs.push([omega(kmh), amplitude(Case { velocity, ..case() }, &mesh)?]);
@@ -262,8 +263,8 @@ pub fn excitation() -> Result<Figure, String> {
         let part = points[from..to].iter();
         part.fold(0.0_f64, |worst, [w, force]| worst.max((force / corrugation_force(*w) - 1.0).abs()))
     };
-    let [near, far] = [off(&ours, 0, 9), off(&ours, 9, 11)];
-    let peaks = [&ours, &theirs].map(|points| vertex([points[4], points[5], points[6]]));
+    let [near, far] = [off(&ours, 0, 8 * kmh.every + 1), off(&ours, 8 * kmh.every + 1, ours.len())];
+    let peaks = [&ours, &theirs].map(|points| vertex([4, 5, 6].map(|i| *kmh.listed(points, i))));
     let closed =
         (0..5000).map(|i| 500.0 + f64::from(i)).max_by(|a, b| corrugation_force(*a).total_cmp(&corrugation_force(*b)));
     let closed = closed.unwrap_or_default();

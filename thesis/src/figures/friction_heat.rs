@@ -1,6 +1,6 @@
 //! Paper C: tractions and friction heat of stationary rolling and sliding, by the product beside Carter, references and balances.
 
-use super::{Figure, curve, must};
+use super::{Extent, Figure, curve, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::ours::{Product, Run};
 use crate::plot::{Curve, Plot, Source};
@@ -208,9 +208,10 @@ fn means(axis: &[f64], warmth: &[[f64; 2]], name: &str) -> [Curve; 2] {
 }
 
 /// Figure C 14: mean temperatures over the velocity at four creepages.
-pub fn velocity() -> Result<Figure, String> {
+pub fn velocity(extent: Extent) -> Result<Figure, String> {
     let product = paper_c(|_| ())?;
-    let kmh = [10.0, 20.0, 35.0, 50.0, 75.0, 100.0];
+    let axis = extent.axis(&[10.0, 20.0, 35.0, 50.0, 75.0, 100.0]);
+    let kmh = &axis.values;
     let creepages = [-5e-5, -1.25e-4, -2.5e-4, 2.0];
     let (mut all, mut balance, mut plots) = (Vec::new(), [0.0_f64; 2], [Vec::new(), Vec::new()]);
     for creepage in creepages {
@@ -224,21 +225,22 @@ pub fn velocity() -> Result<Figure, String> {
             balance[0] = if creepage < 1.0 { balance[0].max(off[0].abs()) } else { balance[0] };
             balance[1] = balance[1].max(off[1].abs());
         }
-        let [wheel, rail] = means(&kmh, &warmth, &format!("ξ = {creepage:e}"));
+        let [wheel, rail] = means(kmh, &warmth, &format!("ξ = {creepage:e}"));
         plots[0].push(wheel);
         plots[1].push(rail);
         all.push(warmth);
     }
     let rises = |body: usize| all.iter().all(|w| w.windows(2).all(|pair| pair[1][body] > pair[0][body]));
     let more = |i: usize| (0..kmh.len()).all(|k| (0..2).all(|body| all[i + 1][k][body] > all[i][k][body]));
-    let [wheel, rail] = all[0][3];
+    let at_50: Vec<[f64; 2]> = all.iter().map(|warmth| *axis.listed(warmth, 3)).collect();
+    let [wheel, rail] = at_50[0];
     let [wheels, rails] = plots;
     let plot = |body: &str, curves| Plot {
         axes: ["velocity in km/h".into(), format!("lg of the mean temperature of the {body} in K")],
         curves,
     };
     let off = [wheel / 7.521_697e-5 - 1.0, rail / 1.113_944e-8 - 1.0];
-    let spread = all[0][5][1] / all[0][0][1] - 1.0;
+    let spread = axis.listed(&all[0], 5)[1] / all[0][0][1] - 1.0;
     Ok(Figure {
         item: "C 14",
         title: "Mean temperatures over the velocity",
@@ -255,8 +257,8 @@ pub fn velocity() -> Result<Figure, String> {
         values: vec![
             ("c14.wheel".into(), wheel),
             ("c14.rail".into(), rail),
-            ("c14.wheel.locked".into(), all[3][3][0]),
-            ("c14.rail.locked".into(), all[3][3][1]),
+            ("c14.wheel.locked".into(), at_50[3][0]),
+            ("c14.rail.locked".into(), at_50[3][1]),
         ],
         predicates: vec![
             must(
@@ -281,8 +283,9 @@ pub fn velocity() -> Result<Figure, String> {
 }
 
 /// Figure C 15: mean temperatures over the conductance of the contact.
-pub fn conductance() -> Result<Figure, String> {
-    let powers: Vec<f64> = (0..=8).map(|i| 5.0 + 0.5 * f64::from(i)).collect();
+pub fn conductance(extent: Extent) -> Result<Figure, String> {
+    let axis = extent.axis(&[5.0, 5.5, 6.0, 6.5, 7.0, 7.5, 8.0, 8.5, 9.0]);
+    let powers = &axis.values;
     let at = |power: &f64| {
         let product = paper_c(|config| config.thermal.conductance = 10f64.powf(*power))?;
         let run = product.rolling(SPEED, -5e-5, |_| ())?;
@@ -294,12 +297,12 @@ pub fn conductance() -> Result<Figure, String> {
     let balance = all.iter().flat_map(|(_, off)| off).fold(0.0_f64, |worst, off| worst.max(off.abs()));
     let [first, last] = [warmth[0], warmth[powers.len() - 1]];
     let falls = warmth.windows(2).all(|pair| pair[1][0] < pair[0][0] && pair[1][1] > pair[0][1]);
-    let (saturated, stated) = (warmth[7][0] / last[0] - 1.0, 1.0 - last[0] / warmth[4][0]);
+    let (saturated, stated) = (axis.listed(&warmth, 7)[0] / last[0] - 1.0, 1.0 - last[0] / axis.listed(&warmth, 4)[0]);
     // Without conduction the wheel keeps its half of the friction heat.
     let product = paper_c(|config| config.thermal.conductance = 1.0)?;
     let apart = product.rolling(SPEED, -5e-5, |_| ())?;
     let kept = apart.outputs().heat_to_wheel / (0.05 * apart.outputs().friction_power);
-    let [wheel, rail] = means(&powers, &warmth, "ours");
+    let [wheel, rail] = means(powers, &warmth, "ours");
     let plot = |body: &str, line| Plot {
         axes: ["lg of the conductance in W/(m² K)".into(), format!("lg of the mean temperature of the {body} in K")],
         curves: vec![line],

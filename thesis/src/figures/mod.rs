@@ -4,6 +4,8 @@ mod annulus;
 mod braking;
 mod closed_forms;
 mod corrugation;
+mod extent;
+mod extrapolation;
 mod friction_heat;
 mod holes;
 mod introduction;
@@ -16,6 +18,8 @@ mod rough;
 mod share;
 mod tread_heat;
 mod tread_map;
+
+pub use extent::Extent;
 
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
@@ -105,49 +109,70 @@ pub const ITEMS: &[&str] = &[
 ];
 
 /// Computes one figure, or says why not.
-pub type Recipe = fn() -> Result<Figure, String>;
+#[derive(Clone, Copy)]
+pub enum Recipe {
+    /// In one extent.
+    Fixed(fn() -> Result<Figure, String>),
+    /// With more points or meshes in full.
+    Extended(fn(Extent) -> Result<Figure, String>),
+}
+
+impl Recipe {
+    /// Whether it has more points or meshes in full.
+    pub fn grows(self) -> bool {
+        matches!(self, Self::Extended(_))
+    }
+
+    /// The figure.
+    pub fn compute(self, extent: Extent) -> Result<Figure, String> {
+        match self {
+            Self::Fixed(recipe) => recipe(),
+            Self::Extended(recipe) => recipe(extent),
+        }
+    }
+}
 
 /// What is recomputed so far, with the items that each function covers.
 pub const ALL: &[(&str, Recipe)] = &[
-    ("I 4.2", introduction::rod),
-    ("I 5.1", introduction::schemes),
-    ("A text", closed_forms::hertz),
-    ("A T1", corrugation::mesh),
-    ("A T2", corrugation::step),
-    ("A T3", corrugation::ends),
-    ("A 5–6", plate::energy),
-    ("A 7", rough::spectrum),
-    ("A 8–10", rough::densities),
-    ("A 11", corrugation::force),
-    ("A 12", corrugation::excitation),
-    ("A 13–14", holes::discontinuity),
-    ("B 5", annulus::galerkin),
-    ("B 6", annulus::supg),
-    ("B 7", annulus::bubble),
-    ("B 11", mesh_heat::convergence),
-    ("B 12", tread_map::map),
-    ("B 13", tread_heat::pressure),
-    ("B 14", tread_heat::velocity),
-    ("B 15", tread_heat::conductance),
-    ("B 16", tread_heat::load),
-    ("B 17", tread_heat::transient),
-    ("B 18–19", holes::small),
-    ("C 6", mesh_heat::regularisation),
-    ("C 7", rolling::paper_c),
-    ("C 8–11", friction_heat::profiles),
-    ("C 12", lost_heat::temperature),
-    ("C 13", friction_heat::locked),
-    ("C 14", friction_heat::velocity),
-    ("C 15", friction_heat::conductance),
-    ("D 6", rolling::paper_d),
-    ("D T1", ramps::table),
-    ("D 7–8", ramps::force),
-    ("D 9", ramps::profiles),
-    ("D 10", ramps::temperature),
-    ("D 11–15", braking::velocities),
-    ("D 16–17", braking::moment),
-    ("D 18", share::braking),
-    ("D 19–21", holes::sharp),
+    ("I 4.2", Recipe::Fixed(introduction::rod)),
+    ("I 5.1", Recipe::Fixed(introduction::schemes)),
+    ("A text", Recipe::Fixed(closed_forms::hertz)),
+    ("A T1", Recipe::Fixed(corrugation::mesh)),
+    ("A T2", Recipe::Fixed(corrugation::step)),
+    ("A T3", Recipe::Fixed(corrugation::ends)),
+    ("A 5–6", Recipe::Fixed(plate::energy)),
+    ("A 7", Recipe::Fixed(rough::spectrum)),
+    ("A 8–10", Recipe::Fixed(rough::densities)),
+    ("A 11", Recipe::Fixed(corrugation::force)),
+    ("A 12", Recipe::Extended(corrugation::excitation)),
+    ("A 13–14", Recipe::Fixed(holes::discontinuity)),
+    ("B 5", Recipe::Fixed(annulus::galerkin)),
+    ("B 6", Recipe::Fixed(annulus::supg)),
+    ("B 7", Recipe::Fixed(annulus::bubble)),
+    ("B 11", Recipe::Extended(mesh_heat::convergence)),
+    ("B 12", Recipe::Fixed(tread_map::map)),
+    ("B 13", Recipe::Fixed(tread_heat::pressure)),
+    ("B 14", Recipe::Extended(tread_heat::velocity)),
+    ("B 15", Recipe::Extended(tread_heat::conductance)),
+    ("B 16", Recipe::Extended(tread_heat::load)),
+    ("B 17", Recipe::Fixed(tread_heat::transient)),
+    ("B 18–19", Recipe::Fixed(holes::small)),
+    ("C 6", Recipe::Extended(mesh_heat::regularisation)),
+    ("C 7", Recipe::Fixed(rolling::paper_c)),
+    ("C 8–11", Recipe::Fixed(friction_heat::profiles)),
+    ("C 12", Recipe::Extended(lost_heat::temperature)),
+    ("C 13", Recipe::Fixed(friction_heat::locked)),
+    ("C 14", Recipe::Extended(friction_heat::velocity)),
+    ("C 15", Recipe::Extended(friction_heat::conductance)),
+    ("D 6", Recipe::Extended(rolling::paper_d)),
+    ("D T1", Recipe::Fixed(ramps::table)),
+    ("D 7–8", Recipe::Fixed(ramps::force)),
+    ("D 9", Recipe::Fixed(ramps::profiles)),
+    ("D 10", Recipe::Fixed(ramps::temperature)),
+    ("D 11–15", Recipe::Fixed(braking::velocities)),
+    ("D 16–17", Recipe::Fixed(braking::moment)),
+    ("D 18", Recipe::Extended(share::braking)),
+    ("D 19–21", Recipe::Fixed(holes::sharp)),
 ];
 
 /// What is not recomputed yet.

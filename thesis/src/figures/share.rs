@@ -1,7 +1,7 @@
 //! Text to Paper D, figure 18: the share of the limit at a creepage, and how much of it is the mesh.
 
 use super::mesh_heat::{meshes, roll};
-use super::{Figure, curve, must};
+use super::{Extent, Figure, curve, must};
 use crate::annulus::OUTER;
 use crate::contact::Law;
 use crate::plot::{Plot, Source};
@@ -14,21 +14,22 @@ const LAW: Law = Law { penalty: 5e12, friction: 0.4, regularisation: 1e-4 };
 /// Edges under the contact over half of it before the wheel is refined as a whole: a row fixed before anything was computed, each 2^(−1/2) of the one before
 /// down to about that of figure B 11. All of them are shown with each number of refinements.
 const EDGES: [f64; 4] = [0.8, 0.566, 0.4, 0.283];
-/// Refinements of the whole wheel.
-const REFINEMENTS: [usize; 2] = [1, 2];
+/// Refinements of the whole wheel; in full, one more.
+const REFINEMENTS: [usize; 3] = [1, 2, 3];
 
-/// Text to D 18: share of the limit at the largest creepage.
-pub fn braking() -> Result<Figure, String> {
-    shares(&EDGES, &REFINEMENTS)
+/// Edges and refinements of the meshes, none left out of the row.
+fn row(extent: Extent) -> Vec<(f64, usize)> {
+    let refinements = &REFINEMENTS[..extent.choose(2, 3)];
+    EDGES.iter().flat_map(|base| refinements.iter().map(move |global| (*base, *global))).collect()
 }
 
-/// Shares on all meshes.
-fn shares(edges: &[f64], refinements: &[usize]) -> Result<Figure, String> {
+/// Text to D 18: share of the limit at the largest creepage.
+pub fn braking(extent: Extent) -> Result<Figure, String> {
     let a = hertz_half_width(LOAD, OUTER, contact_modulus(200e9, 0.3));
     let full = carter_full_slip(LAW.friction, a, OUTER);
     let share = carter_force(-CREEPAGE, full);
     let mut rows = Vec::new();
-    for (base, global) in edges.iter().flat_map(|base| refinements.iter().map(move |global| (*base, *global))) {
+    for (base, global) in row(extent) {
         let bodies = meshes(LOAD, base, global)?;
         let at = |creepage: f64| roll(LOAD, LAW, &bodies, creepage).map(|(force, _)| force);
         let count = (bodies[0].triangles.len() + bodies[1].triangles.len()) as f64;
@@ -102,4 +103,17 @@ fn shares(edges: &[f64], refinements: &[usize]) -> Result<Figure, String> {
             ),
         ],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_full_the_row_of_meshes_has_all_the_quick_ones_and_one_more_refinement_of_each() {
+        let (quick, full) = (row(Extent::Quick), row(Extent::Full));
+        assert_eq!((quick.len(), full.len()), (8, 12));
+        assert!(quick.iter().all(|mesh| full.contains(mesh)));
+        assert!(full.iter().filter(|mesh| !quick.contains(mesh)).all(|(_, global)| *global == 3));
+    }
 }
