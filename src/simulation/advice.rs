@@ -17,9 +17,9 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         config.tuning.max_step, config.tuning.tolerance
     );
     let advice = match error {
-        StepError::ZoneExceeded { load, zone: reached } => {
-            zone(*load, config).or_else(|| uneven(*reached, config)).unwrap_or(shorter)
-        }
+        StepError::ZoneExceeded { load, zone: reached } => zone(*load, config)
+            .or_else(|| uneven(*reached, config))
+            .unwrap_or_else(|| flattened(*reached, config, shorter)),
         StepError::Contact { .. } | StepError::NotFinite { .. } => shorter,
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
@@ -80,23 +80,33 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
 /// Zone that is advised over the one that was too short \[1].
 const WIDER: f64 = 1.5;
 
-/// Advice where the surfaces may touch beyond the zone because of their profiles, or of the flats that a run gives its wheel;
-/// `None` for wheels and rails that stay smooth.
+/// Advice where the surfaces may touch beyond the zone because of their profiles; `None` for smooth ones.
 fn uneven(zone: f64, config: &Config) -> Option<String> {
     let profiles = [("wheel.profile", &config.wheel.profile), ("rail.profile", &config.rail.profile)];
     let set: Vec<_> = profiles.iter().filter(|(_, text)| !text.is_empty()).map(|(name, _)| *name).collect();
-    let changes = config.physics.yielding || config.damage.wear != Wear::Off;
-    let (cause, cure) = match set.is_empty() {
-        false => (set.join(" or "), "make the profile shallower or shorter"),
-        true if changes => ("what wear or yielding has made of the wheel".to_owned(), "stop before it is so large"),
-        true => return None,
-    };
-    Some(format!(
-        "{cause} is too deep or too long for it: the surfaces touch beyond; set mesh.reach (now {:?} m), up to which contact is \
-         looked for, to {:.3} m or more, or {cure}. If the zone stays as it is, wheel and rail have no more room for it",
-        config.mesh.reach,
-        WIDER * zone
-    ))
+    (!set.is_empty()).then(|| {
+        format!(
+            "{} is too deep or too long for it: the surfaces touch beyond; {}, or make the profile shallower or shorter. If \
+             the zone stays as it is, wheel and rail have no more room for it",
+            set.join(" or "),
+            wider(zone, config)
+        )
+    })
+}
+
+/// The advice `otherwise`, and what helps where the run has flattened the wheel beyond the zone.
+fn flattened(zone: f64, config: &Config, otherwise: String) -> String {
+    if config.physics.yielding || config.damage.wear != Wear::Off {
+        format!("{otherwise}; where wear or yielding has flattened the wheel, {}", wider(zone, config))
+    } else {
+        otherwise
+    }
+}
+
+/// Advice to look for contact farther than in a zone of the half-width `zone` \[m].
+fn wider(zone: f64, config: &Config) -> String {
+    let (reach, enough) = (config.mesh.reach, WIDER * zone);
+    format!("set mesh.reach (now {reach:?} m), up to which contact is looked for, to {enough:.3} m or more")
 }
 
 /// The initial creepage in words.
