@@ -38,10 +38,10 @@ def run(wheels, steps, pool, threads):
     return seconds
 
 
-def measure(fmu, heat, steps, threads):
+def measure(fmu, settings, steps, threads):
     """Simulated over wall time, of the fastest batch and on average, and the last forces, on so many threads."""
     with ExitStack() as stack:
-        parameters = START | {"thermal.enabled": heat}
+        parameters = START | settings
         wheels = [stack.enter_context(Wheel(fmu, parameters, {"drive.moment": moment})) for moment in MOMENTS]
         pool = stack.enter_context(ThreadPoolExecutor(threads)) if threads > 1 else None
         run(wheels, 100, pool, threads)
@@ -56,6 +56,7 @@ def main():
     parser.add_argument("--fmu", default="target/wheelrail.fmu")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--steps", type=int, default=1000, help=f"at least {BATCH}")
+    parser.add_argument("--contact", default="grid", choices=("grid", "patch", "auto"), help="solver.contact")
     options = parser.parse_args()
     if options.steps < BATCH:
         parser.error(f"--steps {options.steps} is below {BATCH}, the number of steps that are timed together")
@@ -63,7 +64,8 @@ def main():
     print(f"{'':14}{'one thread':>16}{f'{options.threads} threads':>16}")
     with Fmu(options.fmu) as fmu:
         for name, heat in (("with heat", True), ("without heat", False)):
-            (alone, forces), (together, same) = (measure(fmu, heat, options.steps, n) for n in (1, options.threads))
+            settings = {"thermal.enabled": heat, "solver.contact": options.contact}
+            (alone, forces), (together, same) = (measure(fmu, settings, options.steps, n) for n in (1, options.threads))
             if forces != same:
                 raise SystemExit(f"{name}: threads changed the forces: {forces} and {same} N")
             columns = (f"{fastest:.2f} ({mean:.2f})" for fastest, mean in (alone, together))
