@@ -2,8 +2,8 @@
 
     make eight-wheels
 
-A master in Python steps wheels at the same time with nothing but threads: while the FMU computes, its caller does not hold the
-lock of the interpreter. Every instance has its own state; equal ones share their model. Wheels whose brakes differ take steps of
+A master in Python steps wheels at the same time with nothing but threads: while the FMU computes, its caller does not hold
+the lock of the interpreter. Every instance has its own state; equal ones share their model. Wheels whose brakes differ take steps of
 different length, so that every step waits for the slowest wheel.
 """
 

@@ -2,9 +2,8 @@
 //!
 //! The contact is Carter's in closed form, so that only the scheme for the heat is measured.
 
-use super::lost_heat::CREEPAGE;
 use super::mesh_heat::{ANNULUS, PLATE, Thermal, half_width, thermal};
-use super::tread_heat::{LOAD, SPEED};
+use super::tread_heat::{CREEPAGE, LOAD, SPEED};
 use crate::annulus::OUTER;
 use crate::heat::Spot;
 use crate::mesh::{Mesh, double_area};
@@ -155,7 +154,7 @@ pub(super) fn limit(sequence: &[f64]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::lost_heat::REFERENCE;
+    use crate::figures::tread_heat::REFERENCE;
     use wheelrail::analytic::carter_force;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::extrapolation::{Sequence, limit, sequence};
 use super::mesh_heat::{BASE, BUBBLES, Thermal, meshes, paper_c, roll, thermal};
-use super::tread_heat::{LOAD, SPEED};
+use super::tread_heat::{CREEPAGE, LOAD, REFERENCE, SPEED};
 use super::{Extent, Figure, curve, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::heat::{Spot, Warmth};
@@ -16,9 +16,6 @@ use std::f64::consts::TAU;
 
 /// Stated means of wheel and rail \[K].
 const STATED: [f64; 2] = [2.26e-6, 4.45e-9];
-pub(super) const CREEPAGE: f64 = -5e-5;
-/// Mean of the wheel in the reference \[K].
-pub(super) const REFERENCE: f64 = 7.5217e-5;
 const LINEAR: (Order, Scheme) = (Order::Linear, Scheme::Supg);
 /// Size of edges under the contact before any refinement of the whole wheel, so that there are about the thesis's 8017 triangles without one.
 const FINE: f64 = 0.1;

@@ -14,6 +14,10 @@ pub(super) const HEAT: f64 = 60.0;
 pub(super) const LOAD: f64 = 10e3;
 pub(super) const SPEED: f64 = 50.0 / 3.6;
 const MESH: usize = 10;
+/// Creepage at which the thesis states mean temperatures \[1].
+pub(super) const CREEPAGE: f64 = -5e-5;
+/// Mean of the wheel there in the reference \[K].
+pub(super) const REFERENCE: f64 = 7.5217e-5;
 /// Heat capacity of steel by volume [J/(m³ K)], length and height of the rail [m].
 pub(super) const CAPACITY: f64 = 8000.0 * 460.0;
 const HEIGHT: f64 = 0.1;
