@@ -152,9 +152,9 @@ fn missing(model: Arc<Model>, inputs: &Inputs, length: f64) -> [f64; 3] {
 }
 
 /// The same with Rayleigh damping, within each wave: the damped layer under the contact answers the forces of before, which
-/// do work on its slope. In rolling the damped modes themselves miss 2.6 % of what they take (`damping_rolling.rs`), the less, the
-/// more modes are kept: the first cases have 160 and 80, the last one has the default. Without what late layers spare the hub a
-/// quarter of what is dissipated with the default modes would be missing.
+/// do work on its slope, and the stream carries the static answer of the truncated modes into the rates of the kept ones. The
+/// first cases have 160 and 80 modes, the last two the default. Without what late layers spare the hub a quarter of what is
+/// dissipated with the default modes would be missing, without what the stream carries 3.1 %.
 #[test]
 fn what_the_hub_does_on_damped_waves_is_stored_or_dissipated() {
     let radius = preset("paper_a", 10).wheel.radius;
@@ -172,16 +172,17 @@ fn what_the_hub_does_on_damped_waves_is_stored_or_dissipated() {
     (driven.translation, driven.drive.velocity) = (Translation::Velocity, 10.0);
     driven.drive.moment = -2e4;
     let cases = [
-        ("rail", inputs(&rail, 10.0), &rail, 0.0),
-        ("wheel", inputs(&wheel, 10.0), &wheel, 0.0),
-        ("rail, fast", inputs(&rail, 23.8), &rail, 0.0),
-        ("rail, locked", locked, &rail, 0.0),
-        ("rail, braked", driven, &rail, 0.0),
-        ("rail, usual modes", inputs(&usual, 23.8), &usual, 0.03),
+        ("rail", inputs(&rail, 10.0), &rail),
+        ("wheel", inputs(&wheel, 10.0), &wheel),
+        ("rail, fast", inputs(&rail, 23.8), &rail),
+        ("rail, locked", locked, &rail),
+        ("rail, braked", driven, &rail),
+        ("rail, usual modes", inputs(&usual, 10.0), &usual),
+        ("rail, usual modes, fast", inputs(&usual, 23.8), &usual),
     ];
-    for (name, inputs, model, of_modes) in cases {
+    for (name, inputs, model) in cases {
         let [lost, moved, damped] = missing(model.clone(), &inputs, length);
         println!("{name}: {lost:.4} J are missing, {damped:.2} J damped, {moved:.2} J moved");
-        assert!(lost < 0.02 * moved.min(damped) + of_modes * damped, "{name}: {lost} {moved} {damped}");
+        assert!(lost < 0.02 * moved.min(damped), "{name}: {lost} {moved} {damped}");
     }
 }

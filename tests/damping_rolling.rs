@@ -44,7 +44,9 @@ fn stationary_rolling_costs_what_friction_and_damping_dissipate() {
             println!(
                 "{name}, {velocity} m/s, creepage {creepage}: {damping:.4} W of damping, hub gives {ratio:.4} of it"
             );
-            assert!(damping > 0.0 && (ratio - 1.0).abs() < 0.05);
+            // Of a rail with ratios alone the stream carries the kept modes only.
+            let tolerance = if *name == "Rayleigh" { 0.02 } else { 0.05 };
+            assert!(damping > 0.0 && (ratio - 1.0).abs() < tolerance);
         }
     }
 }

@@ -58,7 +58,7 @@ pub enum BasisError {
 
 /// Name of the basis for a configuration: UUID version 5 of the parameters it depends on.
 ///
-/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load and numbers of modes, and the code; not masses, friction or time
+/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load and numbers of modes, whether stiffness damps, and the code; not masses, friction or time
 /// scheme.
 pub fn key(config: &Config) -> String {
     let Config { model, wheel, rail, material, mesh, solver, .. } = config;
@@ -67,7 +67,9 @@ pub fn key(config: &Config) -> String {
     let zone = [contact_zone(config).reach];
     let line_load = [model.nominal_load / model.contact_width];
     let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
+    let streaming = config.damping.rayleigh_stiffness > 0.0;
     let mut bytes = CODE.as_bytes().to_vec();
+    bytes.extend(streaming.then_some(1));
     bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).chain(&zone).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()
@@ -76,12 +78,12 @@ pub fn key(config: &Config) -> String {
 /// One body, reduced to the number of `modes` that `parameter` gives.
 fn reduced(
     parameter: &'static str,
-    modes: usize,
+    (modes, streaming): (usize, bool),
     system: impl Fn() -> Result<BodySystem, MechanicsError>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ReducedBasis, MechanicsError> {
     progress(0.0);
-    ReducedBasis::compute(&system()?, modes, progress).map_err(|error| match error {
+    ReducedBasis::compute_with(&system()?, modes, streaming, progress).map_err(|error| match error {
         MechanicsError::Linalg(source) => MechanicsError::Modes { parameter, modes, source },
         other => other,
     })
@@ -91,12 +93,13 @@ impl Basis {
     /// Meshes, assembles and reduces both bodies (about a second); `progress` receives the activity and its share done.
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
         check_size(config)?;
+        let streaming = config.damping.rayleigh_stiffness > 0.0;
         let (parameter, modes) = ("solver.modes_wheel", config.solver.modes_wheel);
-        let wheel = reduced(parameter, modes, || wheel_system(config), &mut |share| {
+        let wheel = reduced(parameter, (modes, streaming), || wheel_system(config), &mut |share| {
             progress("vibration modes of the wheel", share);
         })?;
         let (parameter, modes) = ("solver.modes_rail", config.solver.modes_rail);
-        let rail = reduced(parameter, modes, || rail_system(config), &mut |share| {
+        let rail = reduced(parameter, (modes, streaming), || rail_system(config), &mut |share| {
             progress("vibration modes of the rail", share);
         })?;
         Ok(Self { key: key(config), wheel, rail })

@@ -118,8 +118,6 @@ pub(super) struct DampedModes {
     pub shapes: Arc<DMatrix<f64>>,
     /// Squared frequencies [rad²/s²].
     pub squared_frequencies: DVector<f64>,
-    /// See [`ModeCharacter::transport`].
-    pub transport: DMatrix<f64>,
     /// Damping by ratios, Rayleigh damping left out [1/s].
     pub rates: DVector<f64>,
 }
@@ -133,7 +131,6 @@ impl DampedModes {
             rates: damping.modal(&squared_frequencies, &character),
             shapes: Arc::new(modes.rows(0..system.unknowns())),
             squared_frequencies,
-            transport: character.transport,
         })
     }
 }
@@ -251,7 +248,7 @@ mod tests {
         let config = paper_d(5);
         let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2], mass: 30.0, stiffness: 2e-6 };
         for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
-            let basis = ReducedBasis::compute(&system, 40, &mut |_| {}).unwrap();
+            let basis = ReducedBasis::compute_with(&system, 40, true, &mut |_| {}).unwrap();
             let reduced = ReducedBody::new(basis, false, &damping);
             let full = FullBody::damped(system, false, &damping, 40).unwrap();
             let dt = 2e-4;

@@ -121,13 +121,13 @@ impl FullDamping {
         Ok(Correction { shapes: Arc::new(answers), weights })
     }
 
-    /// `v ← v + s Φ (Φᵀ T Φ) Φᵀ M y`: the rate of the material, from that at a fixed place of the frame.
+    /// `v ← v + s Φ Φᵀ T y`: the rate of the material, from that at a fixed place of the frame.
     fn follow_stream(&self, system: &BodySystem, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>) {
         if speed == 0.0 {
             return;
         }
         let shapes = &self.modes.shapes;
-        let modal = &self.modes.transport * shapes.tr_mul(&product(&system.mass, y));
+        let modal = shapes.tr_mul(&product(&system.transport, y));
         velocity.gemv(speed, shapes, &modal, 1.0);
     }
 }
@@ -172,12 +172,12 @@ impl Equations for FullBody {
         self.damping.is_some() || self.system.damping.is_some()
     }
 
-    fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
+    fn subtract_damping(&self, speed: f64, state: &BodyState, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
         if let Some(dashpots) = &self.system.damping {
             dashpots.multiply_add(-1.0, velocity.as_slice(), load.as_mut_slice());
         }
         let Some(damping) = &self.damping else { return };
-        damping.follow_stream(&self.system, speed, y, velocity);
+        damping.follow_stream(&self.system, speed, &state.displacement, velocity);
         let DampedModes { shapes, rates, .. } = &*damping.modes;
         let modal = shapes.tr_mul(&product(&self.system.mass, velocity)).component_mul(rates);
         let [mass, stiffness] = damping.rayleigh;

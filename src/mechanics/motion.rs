@@ -17,8 +17,9 @@ pub(super) trait Equations {
     /// Whether there is a damping matrix at all.
     fn is_damped(&self) -> bool;
 
-    /// `load ← load − D (v + s L y)` at the stream speed `s`; `velocity` comes as `v` and is used up.
-    fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>);
+    /// `load ← load − D (v + s L y)` at the stream speed `s` with the deformation `y` of `state`; `velocity` comes as `v` and is
+    /// used up.
+    fn subtract_damping(&self, speed: f64, state: &BodyState, velocity: &mut DVector<f64>, load: &mut DVector<f64>);
 
     /// Residual flexibility that answers late.
     fn layer(&self) -> Option<&RetardedLayer>;
@@ -58,7 +59,7 @@ pub(super) fn free_response(
     body.set_inertia(acceleration, load);
     if body.is_damped() {
         state.velocity_offsets(td, velocity);
-        body.subtract_damping(stream.speed, &state.displacement, velocity, load);
+        body.subtract_damping(stream.speed, state, velocity, load);
     }
     let square = stream.speed * stream.speed;
     if stream.speed != 0.0 || stream.acceleration != 0.0 {

@@ -65,6 +65,13 @@ impl ReducedBody {
         Self { basis, centrifugal, modal, layer }
     }
 
+    /// What the stream carries of the truncated modes into the rates of the kept ones, per force, and the forces that
+    /// deform them; `None` without a late layer.
+    fn carried<'a>(&'a self, state: &'a BodyState) -> Option<(&'a DMatrix<f64>, &'a DVector<f64>)> {
+        let forces = &state.retarded.now;
+        self.basis.carried.as_ref().filter(|carried| carried.nrows() == forces.len()).map(|carried| (carried, forces))
+    }
+
     fn factorised(&self, a0: f64) -> Result<Factorised, MechanicsError> {
         let ReducedBasis { squared_frequencies, shapes, rigid, damping, .. } = &self.basis;
         let square = a0 * a0;
@@ -95,13 +102,16 @@ impl Equations for ReducedBody {
         self.modal.is_some() || self.basis.damping.is_some()
     }
 
-    fn subtract_damping(&self, speed: f64, y: &DVector<f64>, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
+    fn subtract_damping(&self, speed: f64, state: &BodyState, velocity: &mut DVector<f64>, load: &mut DVector<f64>) {
         if let Some(damping) = &self.basis.damping {
             add_product(-1.0, damping, velocity, load);
         }
         if let Some(modal) = &self.modal {
             if speed != 0.0 {
-                add_products(speed, &modal.transport, y, velocity);
+                add_products(speed, &modal.transport, &state.displacement, velocity);
+                if let Some((carried, forces)) = self.carried(state) {
+                    add_products(speed, carried, forces, velocity);
+                }
             }
             load.cmpy(-1.0, &modal.rates, velocity, 1.0);
         }
@@ -205,9 +215,12 @@ impl BodyResponse for ReducedBody {
         let (y, v) = (&state.displacement, &state.velocity);
         let dashpots = self.basis.damping.as_ref().map_or(0.0, |damping| quadratic_form(damping, v));
         let modes = self.modal.as_ref().map_or(0.0, |ModalRates { rates, transport }| {
-            let power =
-                |(i, rate): (usize, &f64)| rate * (v[i] + speed * dot(column(transport, i), y.as_slice())).powi(2);
-            rates.iter().enumerate().map(power).sum()
+            let carried = |i: usize| match self.carried(state) {
+                Some((carried, forces)) => dot(column(carried, i), forces.as_slice()),
+                None => 0.0,
+            };
+            let rate_of = |i: usize| v[i] + speed * (dot(column(transport, i), y.as_slice()) + carried(i));
+            rates.iter().enumerate().map(|(i, rate)| rate * rate_of(i).powi(2)).sum()
         });
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }

@@ -36,11 +36,24 @@ pub struct ReducedBasis {
     pub damping: Option<DMatrix<f64>>,
     /// Which ratios damp the modes, and their rate in the stream.
     pub character: ModeCharacter,
+    /// Rate that the static answer of the truncated modes to surface forces adds to the modes as the stream carries it,
+    /// transposed: `S K⁻¹ Tᵀ Φ` less what the modes hold of it, `2n × m`; `None`: not asked for.
+    pub carried: Option<DMatrix<f64>>,
 }
 
 impl ReducedBasis {
     /// Reduces a body to its `count` lowest modes; `progress` receives the share of the work done.
     pub fn compute(system: &BodySystem, count: usize, progress: &mut dyn FnMut(f64)) -> Result<Self, MechanicsError> {
+        Self::compute_with(system, count, false, progress)
+    }
+
+    /// The same; `streaming`: with what the stream carries of the truncated modes ([`Self::carried`]).
+    pub fn compute_with(
+        system: &BodySystem,
+        count: usize,
+        streaming: bool,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, MechanicsError> {
         let parts = StaticPart::all(system)?;
         let (squared_frequencies, modes) = Shapes::lowest(&parts, count, &mut |share| progress(0.9 * share))?;
         let flexibility = squared_frequencies.map(f64::recip);
@@ -60,6 +73,13 @@ impl ReducedBasis {
         symmetrise(&mut residual);
         let rigid = modes.project_loads(&system.rigid);
         let centrifugal = modes.project_loads(&centrifugal_load).column(0).into_owned();
+        let character = ModeCharacter::new(system, &modes);
+        let carried = streaming.then(|| {
+            let loads = modes.transposed_images(&system.transport, n);
+            let mut carried = DMatrix::zeros(ports, count);
+            parts.iter().for_each(|part| part.add_surface_answer(system, &loads, &mut carried));
+            carried - &weighted * character.transport.transpose()
+        });
         let basis = Self {
             rigid_residual: rigid_static - &weighted * &rigid,
             centrifugal_residual: centrifugal_static.column(0) - &weighted * &centrifugal,
@@ -71,7 +91,8 @@ impl ReducedBasis {
                 symmetrise(&mut damping);
                 damping
             }),
-            character: ModeCharacter::new(system, &modes),
+            character,
+            carried,
             squared_frequencies,
             shapes,
             residual,
@@ -91,6 +112,7 @@ impl ReducedBasis {
             residual: square.into_owned(),
             rigid_residual: self.rigid_residual.rows(first, count).into_owned(),
             centrifugal_residual: self.centrifugal_residual.rows(first, count).into_owned(),
+            carried: self.carried.as_ref().map(|carried| carried.rows(first, count).into_owned()),
             ..self.clone()
         }
     }
@@ -101,8 +123,8 @@ impl ReducedBasis {
     }
 
     fn matrices(&self) -> impl Iterator<Item = &DMatrix<f64>> {
-        let Self { shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia, damping, .. } = self;
-        [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping)
+        let Self { shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia, damping, carried, .. } = self;
+        [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping).chain(carried)
     }
 
     /// Whether all arrays belong to `ports` surface components and hold finite numbers.
@@ -118,6 +140,7 @@ impl ReducedBasis {
             && self.ale_inertia.shape() == (m, m)
             && self.character.is_consistent(m)
             && self.damping.as_ref().is_none_or(|damping| damping.shape() == (m, m))
+            && self.carried.as_ref().is_none_or(|carried| carried.shape() == (ports, m))
             && self.squared_frequencies.iter().all(|w| *w > 0.0 && w.is_finite())
             && self.matrices().all(|matrix| matrix.iter().all(|x| x.is_finite()))
             && self.centrifugal.iter().chain(&self.centrifugal_residual).all(|x| x.is_finite())

@@ -24,7 +24,11 @@ pub fn none(model: &Model) -> [Flattening; 2] {
 pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening.clone_from(&state.flattening);
     let traction = &mut next.contact.traction;
-    (traction.plastic_work, traction.springing_work) = (0.0, traction.overlap_work());
+    traction.plastic_work = 0.0;
+    let whole = traction.overlap_work();
+    if whole <= 0.0 {
+        traction.springing_work = 0.0;
+    }
     let traction = &next.contact.traction;
     let Some(patch) = traction.extent().filter(|_| !traction.overlap.is_empty()) else { return };
     let stands = standing(model, next, patch);
@@ -47,7 +51,9 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
         let deeper = |body: usize, at: f64| next.flattening[body].depth(at + x) - state.flattening[body].depth(at + x);
         deeper(0, place[1] * radius) + deeper(1, place[0])
     });
-    traction.springing_work -= traction.plastic_work;
+    if whole > 0.0 {
+        traction.springing_work *= 1.0 - traction.plastic_work / whole;
+    }
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
 }
 

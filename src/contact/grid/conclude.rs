@@ -38,6 +38,8 @@ impl Iterate<'_> {
         traction.resultant = observe::resultant(problem.radius(), &frame, slopes, traction);
         traction.resultant[2] -= problem.radius() * late.iter().sum::<f64>();
         observe::overlap(grid, state, &scratch.overlap, traction);
+        let moving = if problem.time.is_stationary() { 0.0 } else { 1.0 };
+        traction.springing_work = moving * observe::springing_work(grid, &scratch.overlap, &scratch.limit, traction);
         let pressures = scratch.limit.iter().enumerate().map(|(i, force)| force / grid.width(i));
         let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
         observe::read_off(grid, (power, limit), state, &scratch.centred_slip, traction);

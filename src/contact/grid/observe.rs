@@ -84,6 +84,14 @@ pub(super) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], tr
     }
 }
 
+/// Work [J/m] that yielding candidates would give back if none of their depth `overlap` \[m] stayed. Their force rises with the
+/// depth from the `limit` on [N/m] and falls with it again, so that the work is that of the mean of both.
+pub(super) fn springing_work(grid: &ContactGrid, overlap: &[f64], limit: &[f64], traction: &Traction) -> f64 {
+    let mean = |i: usize, limit: f64| 0.5 * (limit + traction.port_forces[grid.port(i) + 1]);
+    let of_node = |(i, (depth, limit)): (usize, (&f64, &f64))| if *depth > 0.0 { depth * mean(i, *limit) } else { 0.0 };
+    overlap.iter().zip(limit).enumerate().map(of_node).sum()
+}
+
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling
 /// radius [m].
 pub(super) fn resultant(radius: f64, frame: &RimFrame, slopes: Slopes, traction: &Traction) -> [f64; 3] {
