@@ -3,6 +3,7 @@
 use crate::errors;
 use crate::figures::{Figure, MISSING};
 use crate::quoted::{Quoted, Status};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 const STYLE: &str = "body{font:15px/1.5 Georgia,serif;max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a}\
@@ -98,4 +99,39 @@ pub fn csv(figures: &[(Figure, f64)]) -> String {
         }
     }
     text
+}
+
+/// The values that `make thesis` last gave, in the form of [`csv`].
+pub const COMMITTED: &str = include_str!("../values.csv");
+/// Largest relative difference to them \[1], and what counts as nothing whatever the unit.
+const SAME: [f64; 2] = [1e-3, 1e-12];
+
+/// What differs between two tables of values: numbers by more than a thousandth, and names that only one of them has.
+pub fn departures(committed: &str, found: &str) -> Vec<String> {
+    let table = |text: &str| -> BTreeMap<String, f64> {
+        let rows = text.lines().skip(1).filter_map(|line| line.rsplit_once(','));
+        rows.map(|(name, value)| (name.to_owned(), value.parse().unwrap_or(f64::NAN))).collect()
+    };
+    let (committed, found) = (table(committed), table(found));
+    let names: BTreeSet<&String> = committed.keys().chain(found.keys()).collect();
+    let differs = |name: &&String| match (committed.get(*name), found.get(*name)) {
+        (Some(before), Some(now)) if (now - before).abs() <= SAME[0] * before.abs() + SAME[1] => None,
+        (before, now) => Some(format!("{name}: committed {before:?}, now {now:?}")),
+    };
+    names.iter().filter_map(differs).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_changed_by_more_than_a_thousandth_are_found_and_so_are_names_of_one_table_only() {
+        let table = |rows: &str| format!("item,name,value\n{rows}");
+        let committed = table("A,x,1.0e3\nA,y,2.0e-9\nA,z,3e-16\n");
+        assert!(departures(&committed, &table("A,z,5e-16\nA,y,2.001e-9\nA,x,1.0009e3\n")).is_empty());
+        assert_eq!(departures(&committed, &table("A,x,1.0e3\nA,y,2.01e-9\nA,z,0\n")).len(), 1);
+        assert_eq!(departures(&committed, &table("A,x,NaN\nA,y,2.0e-9\nB,z,0\n")).len(), 3);
+        assert!(departures(COMMITTED, COMMITTED).is_empty() && COMMITTED.lines().count() > 150);
+    }
 }

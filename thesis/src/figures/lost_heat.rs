@@ -178,7 +178,7 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
              That it was computed with them is an inference. On graded meshes of {} triangles, each with half the edges of the one before, under Carter's contact, quadratic bubbles \
              have {} K where the contact has the weights of their edges: order {order:.2}, {extrapolated:.2e} K for ever shorter edges, {:+.1} % off the reference. With the contact at \
              corners alone, as the thesis has it, a quadratic edge takes the same friction power in at points: {} K, order {corner_order:.2}, {from_corners:.2e} K. These edges are \
-             too long for that order: with those in the contact alone halved again and again from a half of its half-width on, it lacks {percent} % of the other contact's mean, half as much \
+             too long for that order: with those in the contact alone halved again and again from a quarter of its half-width on, it lacks {percent} % of the other contact's mean, half as much \
              each time in the end, so that both have one limit.",
             ours.wheel_mean,
             ours.wheel_mean / STATED[0],
