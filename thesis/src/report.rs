@@ -11,7 +11,7 @@ h1,h2,h3,th,.status,svg,.legend{font-family:system-ui,sans-serif}table{border-co
 td,th{border-bottom:1px solid #ccc;padding:.3rem .5rem;text-align:left;vertical-align:top}\
 svg{width:100%;font-size:12px}.grid{stroke:#e2e2e2}.legend{font-size:12px;margin-top:0}\
 .agrees{color:#1b6e2c}.thesis_error{color:#a3260f}.not_stated{color:#7a5b00}.open{color:#666}\
-section{break-inside:avoid}@media print{body{max-width:none;margin:0}h2{break-before:page}}";
+section,tr{break-inside:avoid}@media print{body{max-width:none;margin:0}h2{break-before:page}}";
 
 /// Status in words.
 fn words(status: Status) -> &'static str {
@@ -28,6 +28,15 @@ fn badge(status: Status) -> String {
     format!("<span class=\"status {}\">{}</span>", status.name(), words(status))
 }
 
+/// How many of the quoted numbers have each status, in a sentence.
+fn counts(quoted: &[Quoted]) -> String {
+    let known = [Status::Agrees, Status::ThesisError, Status::NotStated, Status::Qualitative, Status::Open];
+    let count = |status: Status| quoted.iter().filter(|entry| entry.status == status).count();
+    let part = |status: &Status| format!("{} {}", count(*status), badge(*status));
+    let parts: Vec<String> = known.iter().filter(|status| count(**status) > 0).map(part).collect();
+    format!("<p>Quoted numbers, {} in all: {}. The last table lists them.</p>", quoted.len(), parts.join(", "))
+}
+
 /// Text with the characters that mean something in HTML replaced.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
@@ -40,7 +49,8 @@ pub fn html(figures: &[(Figure, f64)], quoted: &[Quoted]) -> String {
          <style>{STYLE}</style></head><body><h1>The thesis recomputed</h1>\
          <p>A. Draganis, <i>Numerical simulation of thermomechanically coupled transient rolling contact</i>, Chalmers 2014. The \
          thesis's own method is dashed, ours solid, closed forms are dots, quoted numbers thin lines. I is the introduction, A to D \
-         are the papers.</p><h3>Summary</h3><table><tr><th>item</th><th>shows</th><th>status</th><th>found</th></tr>"
+         are the papers.</p><h3>Summary</h3>{}<table><tr><th>item</th><th>shows</th><th>status</th><th>found</th></tr>",
+        counts(quoted)
     );
     for (figure, _) in figures {
         let (item, finding) = (figure.item.replace(' ', ""), escape(&figure.finding));
@@ -124,6 +134,16 @@ pub fn departures(committed: &str, found: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_summary_counts_every_quoted_number_once() {
+        let page = html(&[], &crate::quoted::all().unwrap());
+        let sentence = page.split("Quoted numbers, ").nth(1).unwrap().split("</p>").next().unwrap();
+        let parts = sentence.split(&[' ', '>'][..]).filter_map(|word| word.parse::<usize>().ok());
+        let numbers: Vec<usize> = parts.collect();
+        println!("{sentence}");
+        assert!(numbers.len() > 3 && numbers[0] == numbers[1..].iter().sum::<usize>());
+    }
 
     #[test]
     fn values_that_changed_by_more_than_a_thousandth_are_found_and_so_are_names_of_one_table_only() {
