@@ -67,8 +67,8 @@ impl Matrix {
         self.entries.extend(fixed.iter().map(|row| (*row, *row, 1.0)));
     }
 
-    /// LU factors with partial pivoting, of rows whose largest entries are one. Pivots are chosen by size: beside a stiffness of 1e11 N/m
-    /// the row of a fixed displacement would be none, and its value lost in those of its neighbours.
+    /// LU factors with partial pivoting, of rows whose largest entries are one: pivots are chosen by size, and a row that fixes a
+    /// displacement is to count as much as one of stiffnesses.
     pub fn factorise(&self) -> Result<Factors, Error> {
         let singular = |reason: String| Error::Singular { size: self.size, reason };
         let mut largest = vec![0.0_f64; self.size];
