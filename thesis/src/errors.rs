@@ -31,7 +31,8 @@ pub const ALL: &[Mistake] = &[
         says: "mean wheel temperature 2.26e-6 K",
         right: "7.52e-5 K, 33 times as much",
         proof: "The annulus conducts Q ln(r/r_i)/2πk to its hub, so that 2.26e-6 K would be 0.6 % of the heat that friction puts \
-                into the wheel. Recomputed under C 12: linear triangles lose as much (figures B 5 to B 7), the quadratic ones described do not.",
+                into the wheel; the product and the scheme of the thesis on ever shorter edges have 7.5e-5 K, two independent ways. Recomputed under C 12: linear \
+                triangles lose as much (figures B 5 to B 7), the quadratic ones described do not.",
     },
     Mistake {
         place: "C, text to Fig. 12",

@@ -1,6 +1,7 @@
 //! `wheelrail-thesis [--full] [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads and writes the report.
 //!
-//! Ends with an error if a figure shows something else than it must, or a quoted number has the wrong status.
+//! Ends with an error if a figure shows something else than it must, a quoted number has the wrong status, or, of all figures without `--full`, if
+//! a value is not the one of `thesis/values.csv` or they took longer than they may.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -12,6 +13,8 @@ use wheelrail_thesis::figures::{ALL, Extent, Figure, Recipe};
 use wheelrail_thesis::{quoted, report};
 
 const THREADS: usize = 2;
+/// Longest time for all figures without `--full` \[s].
+const LONGEST: f64 = 720.0;
 
 fn main() -> ExitCode {
     match run() {
@@ -40,7 +43,10 @@ fn run() -> Result<(), String> {
     }
     let recipes: Vec<_> =
         ALL.iter().filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|w| w == name)).collect();
+    let start = Instant::now();
     let figures = compute(&recipes, extent)?;
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{seconds:.0} s in all; {}", slowest(&figures));
     let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
     let quoted = quoted::all()?;
     std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
@@ -57,7 +63,21 @@ fn run() -> Result<(), String> {
             }
         }
     }
+    if wanted.is_empty() && extent == Extent::Quick {
+        wrong.extend(report::departures(report::COMMITTED, &report::csv(&figures)));
+        if seconds > LONGEST {
+            wrong.push(format!("{seconds:.0} s instead of at most {LONGEST} s; {}", slowest(&figures)));
+        }
+    }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
+}
+
+/// The three figures that took longest.
+fn slowest(figures: &[(Figure, f64)]) -> String {
+    let mut times: Vec<_> = figures.iter().map(|(figure, seconds)| (*seconds, figure.item)).collect();
+    times.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let named: Vec<String> = times.iter().take(3).map(|(seconds, item)| format!("{item} {seconds:.0} s")).collect();
+    format!("slowest: {}", named.join(", "))
 }
 
 /// All figures in their order, each with its time \[s].

@@ -306,3 +306,17 @@ fn a_quadratic_wheel_rolls_like_a_linear_one_with_as_many_unknowns() {
     println!("mean of both signs: linear {linear:.4}, quadratic {quadratic:.4}");
     assert!((linear - quadratic).abs() < 0.01);
 }
+
+/// What the meshes of wheel and rail add to the force. It is the same on mirrored meshes.
+#[test]
+fn the_force_without_creepage_fades_with_the_edges_in_the_contact() {
+    let a = half_width();
+    let law = Law { regularisation: 1e-3, ..PARAMETERS.law };
+    let bias = [0.4, 0.2, 0.1].map(|share| {
+        let wheel = wheel::rolling(PARAMETERS.annulus, 1.5 * a, share * a, 1, PARAMETERS.poisson).unwrap();
+        let rail = rail::rolling(PARAMETERS.plate, 61, 2.0 * a, share * a);
+        utilisation(&System::new(Parameters { law, ..PARAMETERS }, &wheel, &rail, 2.0 * a), 0.0).1
+    });
+    println!("over the limit, edges of 0.4, 0.2 and 0.1 a: {bias:+.4?}");
+    assert!(bias.windows(2).all(|pair| pair[1] > 0.0 && pair[1] < 0.6 * pair[0]) && bias[2] < 0.02);
+}

@@ -1,6 +1,6 @@
 //! Text to Paper C, figure 12: the mean temperatures of wheel and rail, and which change of the scheme gives the thesis's numbers.
 
-use super::extrapolation::{Sequence, limit, sequence};
+use super::extrapolation::{Sequence, lacking, limit, sequence};
 use super::mesh_heat::{BASE, BUBBLES, Thermal, meshes, paper_c, roll, thermal};
 use super::tread_heat::{CREEPAGE, LOAD, REFERENCE, SPEED};
 use super::{Extent, Figure, curve, must};
@@ -79,6 +79,7 @@ fn changes(described: &Rolled) -> Result<Vec<Candidate>, String> {
         with("conductance 1e5 W/(m² K)", Thermal { contact: [1e5, base.contact[1]], ..base })?,
         with("conductance 1e12 W/(m² K)", Thermal { contact: [1e12, base.contact[1]], ..base })?,
         with("share γ_f taken twice", Thermal { contact: [base.contact[0], base.contact[1].powi(2)], ..base })?,
+        with("no stream in the wheel", Thermal { motion: [0.0, base.motion[1]], ..base })?,
         with("hub insulated", Thermal { cold_hub: false, ..base })?,
     ];
     let warmth = described.warmth(BUBBLES)?;
@@ -155,6 +156,8 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
     let [whole, corners] = [sequence(halvings, false)?, sequence(halvings, true)?];
     let ([order, extrapolated], [corner_order, from_corners]) = (limit(&whole.means), limit(&corners.means));
     let off = extrapolated / REFERENCE - 1.0;
+    let lack = lacking(1, 0..extent.choose(5, 7))?;
+    let percent = lack.iter().map(|share| format!("{:.1}", 100.0 * share)).collect::<Vec<_>>().join(", ");
     let row = |c: &Candidate| format!("{}: {:.2e} and {:.2e} K", c.name, c.means[0], c.means[1]);
     let list = |all: &[Candidate]| all.iter().map(row).collect::<Vec<_>>().join("; ");
     let over = |means: &[f64]| rolled.iter().zip(means).map(|(m, t)| [m.count() as f64, t.log10()]).collect::<Vec<_>>();
@@ -174,7 +177,9 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
              has the loss of linear triangles, which figures B 5 to B 7 show, and not that of the quadratic ones with bubbles that it describes. \
              That it was computed with them is an inference. On graded meshes of {} triangles, each with half the edges of the one before, under Carter's contact, quadratic bubbles \
              have {} K where the contact has the weights of their edges: order {order:.2}, {extrapolated:.2e} K for ever shorter edges, {:+.1} % off the reference. With the contact at \
-             corners alone, as the thesis has it, a quadratic edge takes its heat in at points: {} K, order {corner_order:.2}, {from_corners:.2e} K.",
+             corners alone, as the thesis has it, a quadratic edge takes the same friction power in at points: {} K, order {corner_order:.2}, {from_corners:.2e} K. These edges are \
+             too long for that order: with those in the contact alone halved again and again from a quarter of its half-width on, it lacks {percent} % of the other contact's mean, half as much \
+             each time in the end, so that both have one limit.",
             ours.wheel_mean,
             ours.wheel_mean / STATED[0],
             shares[0],
@@ -244,6 +249,10 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
                 off.abs() < 0.05 && order > 1.5 && whole.means.windows(2).all(|pair| pair[1] > pair[0]),
             ),
             must(
+                format!("halved edges in the contact take half of that away in the end: {percent} %"),
+                lack.windows(2).next_back().is_some_and(|pair| pair[1] < 0.6 * pair[0]),
+            ),
+            must(
                 format!("the contact at corners loses a tenth or more on the same meshes: {}", kelvin(&corners.means)),
                 whole.means.iter().zip(&corners.means).all(|(whole, corners)| *corners < 0.9 * whole),
             ),
@@ -255,9 +264,23 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
 mod tests {
     use super::*;
 
-    /// What the specification expected of the described scheme is true of linear triangles and of them alone.
+    /// The specification expected the described scheme within a factor of three of the stated mean on a mesh of the thesis's size. That was an estimate, and it is
+    /// refuted: the mesh described and one refined at the contact alone, both of about 8017 triangles, are too warm by a factor of 20. Linear triangles on
+    /// the second have what is stated.
     #[test]
-    fn linear_triangles_lose_the_heat_of_the_wheel_as_the_thesis_does_and_quadratic_ones_do_not() {
+    fn the_described_wheel_is_twenty_times_warmer_than_stated_on_meshes_of_its_size_and_a_linear_one_as_stated() {
+        let sizes = [Rolled::new(BASE, 2), Rolled::new(FINE, 0)].map(Result::unwrap);
+        assert!(sizes.iter().all(|mesh| (mesh.count() as f64 / 8017.0 - 1.0).abs() < 0.05));
+        let over = |mesh: &Rolled, wheel| mesh.warmth(wheel).unwrap().means[0] / STATED[0];
+        let described = [0, 1].map(|k| over(&sizes[k], BUBBLES));
+        let linear = [0, 1].map(|k| over(&sizes[k], LINEAR));
+        println!("times the stated mean: described {described:.3?}, linear {linear:.3?}");
+        assert!(described.iter().all(|factor| (20.0..24.0).contains(factor)));
+        assert!((3.5..4.5).contains(&linear[0]) && (linear[1] - 1.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn a_wheel_of_linear_triangles_warms_with_every_refinement() {
         let (_, [linear, quadratic]) = refinement(0..2).unwrap();
         println!("linear {}, quadratic {}", kelvin(&linear), kelvin(&quadratic));
         assert!(linear[1] > linear[0] && linear.iter().all(|mean| *mean > 1.9e-6 && *mean < 3.3e-6));
