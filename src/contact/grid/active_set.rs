@@ -14,13 +14,10 @@
 //! within which a node keeps its state grows from iteration to iteration.
 
 use super::coefficient::CoefficientSearch;
-use super::iterate::{GridScratch, Iterate};
-use super::rows::AffineRow;
+use super::iterate::Iterate;
 use super::state::Status;
 use super::streamline::upwind_rows;
 use crate::contact::error::ContactError;
-use crate::linalg::DenseSystem;
-use std::ops::Range;
 
 /// Iterations allowed.
 pub const MAX_ITERATIONS: usize = 40;
@@ -184,110 +181,6 @@ impl Iterate<'_> {
         stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= round_off
     }
 
-    /// Solves the linear problem of the present states; fills forces, rigid values, displacements, slips and gaps.
-    fn solve_linear(&mut self) -> Result<(), ContactError> {
-        self.list_unknowns();
-        self.write_turn();
-        let singular = ContactError::Singular { closed: self.scratch.closed.len() };
-        let mut system = std::mem::take(&mut self.scratch.system);
-        self.assemble(&mut system);
-        // Nothing is unknown when a wheel with prescribed motions is off the rail.
-        let solved = system.solve().map(|x| self.accept(x));
-        self.scratch.system = system;
-        solved.ok_or(singular)?;
-        self.evaluate();
-        Ok(())
-    }
-
-    fn list_unknowns(&mut self) {
-        let mut friction = std::mem::take(&mut self.scratch.friction);
-        let status = &self.state.status;
-        let GridScratch { closed, stuck, axes, .. } = &mut *self.scratch;
-        closed.clear();
-        closed.extend((0..status.len()).filter(|&i| status[i].is_active()));
-        stuck.clear();
-        stuck.extend(closed.iter().filter(|&&i| status[i] == Status::Stick));
-        axes.clear();
-        axes.extend((0..3).filter(|&k| self.problem.rigid[k].target().is_none()));
-        friction.clear();
-        friction.extend(self.scratch.closed.iter().map(|&i| status[i].friction_direction() * self.coefficient(i)));
-        self.scratch.friction = friction;
-    }
-
-    /// Writes the equations: no gap at closed nodes, no slip at stuck ones, balances of the free axes.
-    fn assemble(&mut self, system: &mut DenseSystem) {
-        let (closed, stuck, axes) = (self.scratch.closed.len(), self.scratch.stuck.len(), self.scratch.axes.len());
-        system.reset(closed + stuck + axes);
-        let mut forces = std::mem::take(&mut self.scratch.row);
-        let window = self.window();
-        for r in 0..closed {
-            let row = self.gap_row(self.scratch.closed[r], window.clone(), &mut forces);
-            self.write(system.row(r), &row, &forces);
-        }
-        for r in 0..stuck {
-            let row = self.slip_row(self.scratch.stuck[r], window.clone(), &mut forces);
-            self.write(system.row(closed + r), &row, &forces);
-        }
-        for r in 0..axes {
-            let row = self.axis_row(self.scratch.axes[r], &mut forces);
-            self.write(system.row(closed + stuck + r), &row, &forces);
-        }
-        self.scratch.row = forces;
-    }
-
-    /// Ports from the first to the last closed node.
-    fn window(&self) -> Range<usize> {
-        match (self.scratch.closed.first(), self.scratch.closed.last()) {
-            (Some(&first), Some(&last)) => self.grid.port(first)..self.grid.port(last) + 2,
-            _ => 0..0,
-        }
-    }
-
-    /// Writes one equation, scaled to a largest coefficient of one.
-    fn write(&self, (target, rhs): (&mut [f64], &mut f64), row: &AffineRow, forces: &[f64]) {
-        let GridScratch { closed, friction, stuck, axes, .. } = &*self.scratch;
-        let (normal, rest) = target.split_at_mut(closed.len());
-        let (tangential, rigid) = rest.split_at_mut(stuck.len());
-        for ((value, &i), friction) in normal.iter_mut().zip(closed).zip(friction) {
-            let port = self.grid.port(i);
-            *value = forces[port + 1] + friction * forces[port];
-        }
-        for (value, &i) in tangential.iter_mut().zip(stuck) {
-            *value = forces[self.grid.port(i)];
-        }
-        let mut constant = row.constant;
-        for (k, motion) in self.problem.rigid.iter().enumerate() {
-            constant += row.rigid[k] * motion.target().unwrap_or(0.0);
-        }
-        for (value, &k) in rigid.iter_mut().zip(axes) {
-            *value = row.rigid[k];
-        }
-        let largest = largest(target);
-        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        target.iter_mut().for_each(|value| *value *= scale);
-        *rhs = -constant * scale;
-    }
-
-    /// Takes the solution of the linear problem: port forces and free motions.
-    fn accept(&mut self, solution: &[f64]) {
-        let GridScratch { closed, friction, stuck, axes, .. } = &*self.scratch;
-        let forces = &mut self.traction.port_forces;
-        let (normal, rest) = solution.split_at(closed.len());
-        let (tangential, rigid) = rest.split_at(stuck.len());
-        forces.fill(0.0);
-        for ((&i, force), friction) in closed.iter().zip(normal).zip(friction) {
-            let port = self.grid.port(i);
-            forces[port + 1] = *force;
-            forces[port] = friction * force;
-        }
-        for (force, &i) in tangential.iter().zip(stuck) {
-            forces[self.grid.port(i)] = *force;
-        }
-        for (value, &k) in rigid.iter().zip(axes) {
-            self.traction.rigid[k] = if self.holds(k) { 0.0 } else { *value };
-        }
-    }
-
     /// New states from forces, gaps and slips; returns whether any changed.
     fn update_states(&mut self, penalty: f64, iteration: usize) -> bool {
         let growth = GROWTH.powi(iteration.saturating_sub(STRICT_ITERATIONS) as i32);
@@ -381,13 +274,4 @@ impl Iterate<'_> {
             (None, None) => self.founding_state(),
         }
     }
-}
-
-/// Largest amount, of four at a time.
-pub(super) fn largest(values: &[f64]) -> f64 {
-    let larger = |a: f64, b: f64| if b > a { b } else { a };
-    let (fours, rest) = values.as_chunks::<4>();
-    let four =
-        fours.iter().fold([0.0; 4], |most: [f64; 4], four| std::array::from_fn(|k| larger(most[k], four[k].abs())));
-    rest.iter().map(|value| value.abs()).chain(four).fold(0.0, larger)
 }

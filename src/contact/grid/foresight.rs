@@ -5,8 +5,9 @@
 //! nodes and normal forces are first found by themselves, with the shear forces and velocities of before: half of the unknowns,
 //! an eighth of the work. The guess decides nothing; where it fails the search starts from the states of before.
 
-use super::active_set::{FORCE_TOLERANCE, largest};
+use super::active_set::FORCE_TOLERANCE;
 use super::iterate::Iterate;
+use super::linear::largest;
 use super::state::Status;
 use crate::linalg::DenseSystem;
 use crate::linalg::vectorised::dot;

@@ -2,17 +2,23 @@
 
 use super::candidates::ContactGrid;
 use super::frame::RimFrame;
+use super::patch_inverse::KeptInverses;
 use super::state::{GridState, Status};
 use super::streamline::Upwind;
+use super::turns::Turns;
 use crate::contact::problem::ContactProblem;
 use crate::contact::traction::Traction;
 use crate::linalg::DenseSystem;
 use nalgebra::DVector;
 
-/// Buffers of the solver on a grid; nothing in them outlives a solution.
+/// Buffers of the solver on a grid; of what they hold, only functions of the operators outlive a solution.
 #[derive(Default)]
 pub struct GridScratch {
     pub(super) system: DenseSystem,
+    /// Equations of a single patch.
+    pub(super) turns: Turns,
+    /// Inverses of the last patches.
+    pub(super) kept: KeptInverses,
     /// Nodes and axes whose forces and motions are unknown.
     pub(super) closed: Vec<usize>,
     /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks [1].
@@ -76,6 +82,8 @@ pub(super) struct Late {
 pub(super) struct AffineTurn {
     /// Coefficients of all port forces [rad/(N/m)].
     pub forces: Vec<f64>,
+    /// Of the displacements at the tangential ports from the first loaded one on [1/m].
+    pub weights: Vec<f64>,
     /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
     pub inertial: [f64; 3],
     /// What is known of it [rad].

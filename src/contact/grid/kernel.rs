@@ -55,14 +55,14 @@ impl KernelCorrection {
 impl KernelCorrection {
     /// Elastic energy of the correction under nodal forces [J/m].
     pub fn energy(&self, forces: &nalgebra::DVector<f64>) -> f64 {
-        let nodes = forces.len() / 2;
+        let forces = forces.as_slice();
         let mut energy = 0.0;
-        for i in 0..nodes {
-            for j in i.saturating_sub(REACH - 1)..(i + REACH).min(nodes) {
-                let k = i.abs_diff(j);
-                energy += 0.5 * self.tangential[k] * forces[2 * i] * forces[2 * j];
-                energy += 0.5 * self.normal[k] * forces[2 * i + 1] * forces[2 * j + 1];
-            }
+        for k in 0..REACH.min(forces.len() / 2) {
+            // Pairs of neighbours stand for both orders.
+            let share = if k == 0 { 0.5 } else { 1.0 };
+            let (nodes, others) = (forces.as_chunks::<2>().0, forces[2 * k..].as_chunks::<2>().0);
+            let products = nodes.iter().zip(others).fold([0.0; 2], |[t, n], (a, b)| [t + a[0] * b[0], n + a[1] * b[1]]);
+            energy += share * (self.tangential[k] * products[0] + self.normal[k] * products[1]);
         }
         energy
     }

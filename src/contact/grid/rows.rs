@@ -50,21 +50,43 @@ impl Iterate<'_> {
         turn.forces.clear();
         turn.forces.resize(grid.ports(), 0.0);
         (turn.inertial, turn.known) = ([0.0; 3], 0.0);
+        turn.weights.clear();
+        let mut first = 0;
         for (port, weight) in self.frame.weights(&self.traction.port_forces) {
-            let compliance = column(bodies.compliance[0], port);
-            turn.forces.iter_mut().zip(compliance).for_each(|(t, c)| *t += weight * c);
+            if turn.weights.is_empty() {
+                first = port;
+            }
+            // Nodes without force weigh nothing.
+            turn.weights.resize((port - first) / 2, 0.0);
+            turn.weights.push(weight);
             turn.inertial.iter_mut().enumerate().for_each(|(k, t)| *t += weight * bodies.inertial[(port, k)]);
             turn.known += weight * self.scratch.known[0][port];
         }
+        // Every other column belongs to a normal force.
+        let columns = &bodies.compliance[0].as_slice()[first * grid.ports()..];
+        add_columns(1.0, columns, 2, &turn.weights, &mut turn.forces);
         self.scratch.turn = turn;
     }
 
     /// `g = 0` at a closed node, `g + c (λ_n − Λ) = 0` at one that yields above the force `Λ`. Writes the force coefficients of the ports `window` to `forces`.
     pub(super) fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        let (turn, x, port) = (&self.scratch.turn, self.grid.x[i], self.grid.port(i) + 1);
+        let compliance =
+            column(self.problem.bodies.relative, port)[window.clone()].iter().zip(&turn.forces[window.clone()]);
+        forces[window].iter_mut().zip(compliance).for_each(|(f, (c, t))| *f = c - x * t);
+        let mut row = self.gap_terms(i);
+        if self.state.yielded[i] {
+            let creep = self.creep(i);
+            forces[port] += creep;
+            row.constant -= creep * self.scratch.limit[i];
+        }
+        row
+    }
+
+    /// The gap at a node without that by contact forces and by the turn of the rim with them.
+    pub(super) fn gap_terms(&self, i: usize) -> AffineRow {
         let (bodies, turn, x) = (&self.problem.bodies, &self.scratch.turn, self.grid.x[i]);
         let port = self.grid.port(i) + 1;
-        let compliance = column(bodies.relative, port)[window.clone()].iter().zip(&turn.forces[window.clone()]);
-        forces[window].iter_mut().zip(compliance).for_each(|(f, (c, t))| *f = c - x * t);
         let mut rigid = [0.0, 1.0, 0.0];
         for (k, motion) in self.problem.rigid.iter().enumerate() {
             if motion.target().is_none() {
@@ -72,12 +94,7 @@ impl Iterate<'_> {
             }
         }
         let [wheel, rail] = &self.scratch.known;
-        let mut constant = self.scratch.gap[i] + wheel[port] - x * turn.known - rail[port];
-        if self.state.yielded[i] {
-            let creep = self.creep(i);
-            forces[port] += creep;
-            constant -= creep * self.scratch.limit[i];
-        }
+        let constant = self.scratch.gap[i] + wheel[port] - x * turn.known - rail[port];
         AffineRow { rigid, constant }
     }
 
