@@ -93,3 +93,27 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_the_grid_tends_t
     let away = theirs.map(|shift| shift - ours[2]);
     assert!(away[1] > 0.0 && away[1] < 0.65 * away[0]);
 }
+
+/// A slide heats the contact within a step to where its friction film decides: `auto` leaves it to the grid.
+#[test]
+fn a_locked_hot_slide_is_that_of_the_grid_with_auto() {
+    let run = |method| {
+        let model = solved_by(method, "railway", |config| {
+            (config.thermal.enabled, config.mesh.elements_per_half_width) = (true, 10);
+            (config.tuning.softening, config.initial.velocity) = (0.0, 60.0 * KMH);
+        });
+        let mut inputs = prescribed(&model, 60.0 * KMH, 0.0);
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        assert_eq!(is_patch(&simulation), method == ContactMethod::Auto);
+        (inputs.drive.omega, inputs.drive.friction) = (0.0, 0.4);
+        for _ in 0..30 {
+            simulation.advance(&inputs, 1e-3).unwrap();
+            assert!(!is_patch(&simulation));
+        }
+        simulation.outputs().clone()
+    };
+    let [ours, theirs] = [ContactMethod::Auto, ContactMethod::Grid].map(run);
+    let (a, b) = (ours.temperature_wheel_max, theirs.temperature_wheel_max);
+    println!("{a:.2} and {b:.2} K, {:.3} and {:.3} kN", 1e-3 * ours.contact_force_x, 1e-3 * theirs.contact_force_x);
+    assert!((a / b - 1.0).abs() < 1e-3 && (ours.contact_force_x / theirs.contact_force_x - 1.0).abs() < 1e-3);
+}

@@ -73,15 +73,20 @@ impl Turns {
 
     /// Solves by turns; `false`: they do not converge.
     pub fn solve(&mut self, patch: &PatchMatrices) -> bool {
+        if !self.factorise() {
+            return false;
+        }
         self.raise(patch);
-        let (mut before, solvable) = (f64::INFINITY, self.factorise());
-        for _ in 0..if solvable { MOST_TURNS } else { 0 } {
-            let change = self.press(patch).max(self.shear());
-            // What the next turn would change.
-            if change <= PRECISION || before.is_finite() && change * (change / before).min(1.0) <= PRECISION {
+        let mut before = None;
+        for _ in 0..MOST_TURNS {
+            // A sum, so that what is no number is not lost.
+            let change = self.find_pressure(patch) + self.find_shear();
+            // What the next turn will change, if they go on converging so.
+            let next = before.map_or(change, |before| change * f64::min(change / before, 1.0));
+            if next <= PRECISION {
                 return true;
             }
-            before = change;
+            before = Some(change);
         }
         false
     }
@@ -107,7 +112,7 @@ impl Turns {
     }
 
     /// Finds normal forces and height for the present shear; returns the largest change of the forces over the largest force.
-    fn press(&mut self, patch: &PatchMatrices) -> f64 {
+    fn find_pressure(&mut self, patch: &PatchMatrices) -> f64 {
         let (closed, width) = (self.gap.len(), self.unknowns.len());
         let (normal, others) = self.unknowns.split_at_mut(closed);
         self.shear.clear();
@@ -139,7 +144,7 @@ impl Turns {
 
     /// Finds the sheared unknowns for the present normal forces and height; returns the largest change of the tangential forces
     /// over the largest normal force.
-    fn shear(&mut self) -> f64 {
+    fn find_shear(&mut self) -> f64 {
         let (closed, width, sheared) = (self.gap.len(), self.unknowns.len(), self.sheared);
         let (normal, others) = self.unknowns.split_at_mut(closed);
         self.sides.clear();

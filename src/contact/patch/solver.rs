@@ -19,6 +19,10 @@ use nalgebra::{DMatrix, DVector};
 /// carried through it.
 const SHORTEST_WAY: f64 = 0.01;
 
+/// Largest difference of the velocities of both surfaces over their mean \[1]: beyond, the wheel slides, and its heat changes within
+/// a step what the series take from the step before.
+const MOST_SLIDING: f64 = 0.05;
+
 /// Largest half-width of a start over the reach of the bodies \[1].
 const LARGEST_START: f64 = 0.9;
 
@@ -62,7 +66,11 @@ impl PatchSolver {
         if problem.time.b1 != 0.0 {
             return refuse("the time formula remembers rates");
         }
-        let speed = problem.rigid[0].start().abs() + (problem.radius() * problem.rigid[2].start()).abs();
+        let [travel, rim] = [problem.rigid[0].start(), problem.radius() * problem.rigid[2].start()];
+        let speed = travel.abs() + rim.abs();
+        if !self.only && (travel - rim).abs() > 0.5 * MOST_SLIDING * speed {
+            return refuse("the wheel slides");
+        }
         let slow = 0.5 * speed < SHORTEST_WAY * before.tractions.pressure.half_width * problem.time.a0;
         if slow { refuse("the material hardly moves") } else { Ok(()) }
     }
@@ -158,6 +166,10 @@ impl ContactSolver for PatchSolver {
             return None;
         }
         self.grid.narrowed(state, nominal_load).or_else(|| {
+            let (travel, slip) = (state.traction.rigid[0], state.traction.tread_slip);
+            if slip.abs() > MOST_SLIDING * travel.abs() {
+                return None;
+            }
             let grid = self.grid.grid(state.traction.port_forces.len())?;
             transfer::to_patch(&self.constants, grid, state)
         })
