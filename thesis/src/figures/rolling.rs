@@ -119,7 +119,7 @@ pub fn paper_d(extent: Extent) -> Result<Figure, String> {
                      heat.",
         finding: format!(
             "Full slip at ∓{full:.3e} after Carter, stated −6e-4. F(0) = {free:.4} of the limit, not quite zero. The \
-             thesis's path has {biases} there, a bias of its uneven mesh, and {soft:.3} at 1.9e-4 in the mean of \
+             thesis's path has {biases} there, a bias of its meshes, and {soft:.3} at 1.9e-4 in the mean of \
              traction and braking."
         ),
         plots: vec![plot(all)],
