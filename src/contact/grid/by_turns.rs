@@ -4,7 +4,7 @@
 //! So the pressures, with the height of the hub, are found for given shear, then the shear of the stuck nodes, with the velocities
 //! of the hub, for these pressures, and so on until nothing changes any more ([`Turns`]). The matrix of the pressures is a part of
 //! the compliance, whose inverse belongs to the place of the patch alone and is kept (see [`KeptInverses`](super::patch_inverse::KeptInverses)).
-//! What is written and factorised in a step are the equations of the stuck nodes: less than a tenth of the work.
+//! What is written and factorised in a step are the equations of the stuck nodes and free motions alone.
 
 use super::iterate::{GridScratch, Iterate};
 use super::turns::Turns;
