@@ -27,13 +27,16 @@ def step_each(wheels):
 
 
 def run(wheels, steps, pool, threads):
-    """Steps all wheels, a share of them on every thread; wall seconds of every batch of steps."""
+    """Steps all wheels, a share of them on this thread and on every one of `pool`; wall seconds of every batch of steps."""
     shares, seconds = [wheels[k::threads] for k in range(threads)], []
     for _ in range(steps // BATCH):
         begin = perf_counter()
         for _ in range(BATCH):
-            # One task per thread and step, not one per wheel: handing over a task takes as long as a step without heat.
-            list(pool.map(step_each, shares)) if pool else step_each(wheels)
+            # One task per further thread and step, not one per wheel: handing it over takes as long as a step without heat.
+            others = [pool.submit(step_each, share) for share in shares[1:]]
+            step_each(shares[0])
+            for other in others:
+                other.result()
         seconds.append(perf_counter() - begin)
     return seconds
 
@@ -43,7 +46,7 @@ def measure(fmu, settings, steps, threads):
     with ExitStack() as stack:
         parameters = START | settings
         wheels = [stack.enter_context(Wheel(fmu, parameters, {"drive.moment": moment})) for moment in MOMENTS]
-        pool = stack.enter_context(ThreadPoolExecutor(threads)) if threads > 1 else None
+        pool = stack.enter_context(ThreadPoolExecutor(threads - 1)) if threads > 1 else None
         run(wheels, 100, pool, threads)
         seconds = run(wheels, steps, pool, threads)
         simulated = BATCH * STEP

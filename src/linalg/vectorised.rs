@@ -49,6 +49,31 @@ vectorised! {
 }
 
 vectorised! {
+    /// `xᵀ A x` of a symmetric matrix with the given columns; entries of zero in `x` cost little.
+    fn quadratic_form<'a, S>(simd, columns: &'a [f64], x: &'a [f64]) -> f64 {
+        let (n, zero) = (x.len(), simd.splat_f64s(0.0));
+        let first = x.iter().position(|value| *value != 0.0).unwrap_or(n);
+        let mut total = 0.0;
+        for j in (first..n).filter(|&j| x[j] != 0.0) {
+            let column = &columns[j * n..(j + 1) * n];
+            let ((a, a_rest), (b, b_rest)) = (S::as_simd_f64s(&column[first..j]), S::as_simd_f64s(&x[first..j]));
+            let (mut sums, (a_twos, a_one), (b_twos, b_one)) = ([zero; 2], a.as_chunks::<2>(), b.as_chunks::<2>());
+            for (a, b) in a_twos.iter().zip(b_twos) {
+                sums[0] = simd.mul_add_e_f64s(a[0], b[0], sums[0]);
+                sums[1] = simd.mul_add_e_f64s(a[1], b[1], sums[1]);
+            }
+            for (&a, &b) in a_one.iter().zip(b_one) {
+                sums[0] = simd.mul_add_e_f64s(a, b, sums[0]);
+            }
+            let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+            let above = simd.reduce_sum_f64s(simd.add_f64s(sums[0], sums[1])) + rest;
+            total += x[j] * (column[j] * x[j] + 2.0 * above);
+        }
+        total
+    }
+}
+
+vectorised! {
     /// `out ← out + factor · A x` with the columns of `A`, as long as `out`: the first one of every `every` in `columns`.
     fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], every: usize, x: &'a [f64], out: &'a mut [f64]) {
         let n = out.len().max(1);

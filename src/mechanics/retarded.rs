@@ -3,7 +3,7 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
-use crate::linalg::vectorised::{add_columns, dot};
+use crate::linalg::vectorised::{self, add_columns};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -115,15 +115,9 @@ pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: 
     add_columns(factor, a.as_slice(), 1, x.as_slice(), out.as_mut_slice());
 }
 
-/// `xᵀ A x` of a symmetric matrix without a temporary; entries of zero in `x` (nodes out of contact) cost little.
+/// `xᵀ A x` of a symmetric matrix; entries of zero in `x` (nodes out of contact) cost little.
 pub(super) fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
-    let (n, columns, x) = (a.nrows(), a.as_slice(), x.as_slice());
-    let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
-    let term = |j: usize| {
-        let above = dot(&columns[j * n + first..j * n + j], &x[first..j]);
-        x[j] * (columns[j * n + j] * x[j] + 2.0 * above)
-    };
-    (first..x.len()).filter(|&j| x[j] != 0.0).map(term).sum()
+    vectorised::quadratic_form(a.as_slice(), x.as_slice())
 }
 
 /// Cuts as many values off both ends, or adds as many zeros to them, as give `len` values.

@@ -1,6 +1,7 @@
 //! Inverses of the matrices of one body, kept for the steps that share them.
 
 use super::modal::{HeatBody, StageCoefficients};
+use super::recent::Recent;
 use super::response::SurfaceResponse;
 use super::streamline::Transport;
 use super::tridiagonal::TridiagonalFactor;
@@ -23,58 +24,60 @@ pub(super) struct InverseKey {
 /// Factors of the matrix of one body, and how its surface responds to loads on the contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inverse {
-    /// `None`: nothing is prepared.
-    key: Option<InverseKey>,
     pub factor: TridiagonalFactor,
     /// Surface temperatures at the contact nodes under unit loads there.
     pub response: SurfaceResponse,
+    /// Upwinding `τ v / h` on the elements of the contact [1].
+    pub upwind: Vec<f64>,
     /// `ρc|v|` where the stream leaves an open streamline [W/(m² K)].
     pub exit: f64,
 }
 
-/// The inverses that were used last, the present one first.
+/// The inverses that were used last.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inverses {
-    kept: Vec<Inverse>,
+    recent: Recent<InverseKey, Inverse>,
     /// Matrices along the streamlines from which the last inverse was made.
     transport: Transport,
 }
 
-/// Inverses that are kept of one body: eight wheels that drive in turn may need two each.
-const KEPT: usize = 16;
-
 impl Inverses {
     /// Makes the inverse of `key` the present one; computes it unless it is kept.
-    pub fn set(&mut self, body: &HeatBody, key: InverseKey) -> Result<(), HeatError> {
-        let known = self.kept.iter().position(|inverse| inverse.key.as_ref() == Some(&key));
-        let place = known.unwrap_or_else(|| {
-            if self.kept.len() < KEPT {
-                self.kept.push(Inverse::default());
+    pub fn set(&mut self, body: &HeatBody, key: &InverseKey) -> Result<(), HeatError> {
+        let transport = &mut self.transport;
+        self.recent.set(key.clone(), |inverse| {
+            let InverseKey { speed, coefficients, rate, ref nodes } = *key;
+            transport.set(&body.line, speed, rate, body.heat_capacity, body.conductivity);
+            inverse.exit = transport.exit.map_or(0.0, |(_, flux)| flux);
+            inverse.factor.set(body, transport, coefficients, nodes)?;
+            inverse.upwind.clear();
+            if !nodes.is_empty() {
+                inverse.upwind.extend_from_slice(&transport.upwind[nodes.start..nodes.end - 1]);
+                inverse.response.set(&inverse.factor, body, nodes.clone());
             }
-            self.kept.len() - 1
-        });
-        self.kept[..=place].rotate_right(1);
-        if known.is_some() {
-            return Ok(());
-        }
-        let Self { kept, transport } = self;
-        let present = &mut kept[0];
-        present.key = None;
-        transport.set(&body.line, key.speed, key.rate, body.heat_capacity, body.conductivity);
-        present.exit = transport.exit.map_or(0.0, |(_, flux)| flux);
-        present.factor.set(body, transport, key.coefficients, &key.nodes)?;
-        if !key.nodes.is_empty() {
-            present.response.set(&present.factor, body, key.nodes.clone());
-        }
-        present.key = Some(key);
-        Ok(())
+            Ok(())
+        })
     }
 
     /// The present inverse.
     ///
     /// # Panics
     /// If none was ever set.
-    pub fn present(&mut self) -> &mut Inverse {
-        &mut self.kept[0]
+    pub fn present(&self) -> &Inverse {
+        self.recent.present()
+    }
+
+    /// Its factors, with their buffers.
+    ///
+    /// # Panics
+    /// If none was ever set.
+    pub fn factor(&mut self) -> &mut TridiagonalFactor {
+        &mut self.recent.present_mut().factor
+    }
+
+    /// What the present inverse belongs to.
+    #[cfg(test)]
+    pub fn key(&self) -> &InverseKey {
+        self.recent.key().unwrap()
     }
 }

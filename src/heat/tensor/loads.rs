@@ -105,18 +105,17 @@ impl Heat {
 
     fn add_conductance(&self, exchange: &Exchange, out: &mut [[f64; 3]]) -> Result<(), HeatError> {
         let thermal = &self.config.thermal;
-        let value = thermal.conductance;
         for patch in &exchange.patches {
             if patch.low.is_nan() || patch.high.is_nan() || patch.low > patch.high {
                 return Err(HeatError::Patch { low: patch.low, high: patch.high });
             }
-            if thermal.conductance_law == ConductanceLaw::Constant {
+            if let Some(value) = self.even_conductance() {
                 self.over_elements("contact patch", [patch.low, patch.high], &mut |e, xi, _, length| {
                     add_moments(&mut out[e], xi, length, &|_| value);
                 })?;
                 continue;
             }
-            let law = |p: f64| value * (p.max(0.0) / thermal.reference_pressure).powf(PRESSURE_EXPONENT);
+            let law = |p: f64| thermal.conductance * (p.max(0.0) / thermal.reference_pressure).powf(PRESSURE_EXPONENT);
             check("contact pressure", &exchange.pressure)?;
             for (x, p) in exchange.pressure.segments() {
                 let inside = [x[0].max(patch.low), x[1].min(patch.high)];
@@ -132,6 +131,12 @@ impl Heat {
             }
         }
         Ok(())
+    }
+
+    /// Conductance of all places in contact [W/(m² K)]; `None`: it depends on the pressure.
+    pub(super) fn even_conductance(&self) -> Option<f64> {
+        let thermal = &self.config.thermal;
+        (thermal.conductance_law == ConductanceLaw::Constant).then_some(thermal.conductance)
     }
 
     fn add_tread(&self, segments: &[TreadHeat], out: &mut Vec<[f64; 2]>) -> Result<(), HeatError> {

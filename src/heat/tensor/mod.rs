@@ -14,6 +14,7 @@
 
 mod bounds;
 mod column;
+mod coupling;
 mod depth_modes;
 mod elimination;
 mod field;
@@ -26,6 +27,7 @@ mod melt;
 mod modal;
 mod nodal;
 mod radiation;
+mod recent;
 mod response;
 mod rows;
 mod section;
@@ -92,18 +94,21 @@ impl HeatModel for Heat {
         let (wheel, rail) = self.split(state);
         let mut volume_means = [0.0; 2];
         for (i, (body, field)) in [(&self.wheel, wheel), (&self.rail, rail)].into_iter().enumerate() {
-            let nodes = self.zone_nodes(body);
-            body.trace(nodes.clone(), field, &mut seen.surface[i]);
+            let (nodes, nm) = (self.zone_nodes(body), body.modes.len());
+            let (weights, moments) = (&self.layer_weights[i], &self.layer_moments[i]);
+            let zone = &field[nodes.start * nm..nodes.end * nm];
+            let out = [&mut seen.surface[i], &mut seen.layer[i], &mut seen.moments].map(|values| {
+                values.resize(nodes.len(), 0.0);
+                &mut values[..]
+            });
+            rows::products_of_three(zone, [&body.modes.surface, weights, moments], out);
             body.integrate(field, &mut seen.sums);
             volume_means[i] = body.heat_capacity * dot(&seen.sums, &body.modes.content) / self.heat_capacity(body);
-            let (weights, moments) = (&self.layer_weights[i], &self.layer_moments[i]);
             let mean = |weights: &[f64]| {
                 if body.line.closed > 0.0 { dot(&seen.sums, weights) / body.line.closed } else { 0.0 }
             };
             let (along, moment_along) = (mean(weights), mean(moments));
-            body.products(nodes.clone(), field, weights, &mut seen.layer[i]);
             seen.layer[i].iter_mut().for_each(|content| *content -= along);
-            body.products(nodes, field, moments, &mut seen.moments);
             let moments = seen.moments.iter().map(|moment| moment - moment_along);
             seen.layer_depth[i] = mean_depth(moments, &seen.layer[i]);
         }

@@ -101,14 +101,9 @@ impl HeatBody {
 
     /// Surface values at a range of nodes.
     pub fn trace(&self, nodes: Range<usize>, x: &[f64], out: &mut Vec<f64>) {
-        self.products(nodes, x, &self.modes.surface, out);
-    }
-
-    /// Sums of the modes at a range of nodes with the given weights.
-    pub fn products(&self, nodes: Range<usize>, x: &[f64], weights: &[f64], out: &mut Vec<f64>) {
         let nm = self.modes.len();
         out.resize(nodes.len(), 0.0);
-        rows::products(&x[nodes.start * nm..nodes.end * nm], weights, out);
+        rows::products(&x[nodes.start * nm..nodes.end * nm], &self.modes.surface, out);
     }
 
     /// `∫ x ds` of every mode.

@@ -2,6 +2,7 @@
 
 use super::depth_modes::DepthModes;
 use super::modal::dot;
+use super::rows;
 use crate::heat::error::HeatError;
 use nalgebra::DMatrix;
 
@@ -97,15 +98,16 @@ impl Nodal {
     /// Bounds of the field `to`, where `before` are those of the field `from`: exact at the nodes that change by more than
     /// `slight` or might leave the bounds `allowed`.
     pub fn bounds_after(&self, [from, to]: [&[f64]; 2], known: &Known) -> [f64; 2] {
-        let rows = from.chunks_exact(self.modes).zip(to.chunks_exact(self.modes));
+        let pairs = from.chunks_exact(self.modes).zip(to.chunks_exact(self.modes));
         let bounds = |range: [f64; 2], (from, to): (&[f64], &[f64])| {
-            let change = self.largest_change(from, to);
+            // The largest change at any node below, or more.
+            let change = rows::weighted_change(from, to, &self.peaks);
             let bounds = [known.before[0] - change, known.before[1] + change];
             // Written so that what is not a number is not taken for known.
             let clear = change <= known.slight && bounds[0] >= known.allowed[0] && bounds[1] <= known.allowed[1];
             joined(range, if clear { bounds } else { self.extremes_of_row(to) })
         };
-        rows.fold(NOTHING, bounds)
+        pairs.fold(NOTHING, bounds)
     }
 
     /// Lowest and highest value below one surface node, some nodes at a time: their sums stay in registers.
@@ -128,16 +130,6 @@ impl Nodal {
             range = joined(range, [value; 2]);
         }
         range
-    }
-
-    /// Largest change at any node below one surface node between two fields, or more.
-    fn largest_change(&self, from: &[f64], to: &[f64]) -> f64 {
-        let mut sums = [0.0; 4];
-        let lanes = from.chunks_exact(4).zip(to.chunks_exact(4)).zip(self.peaks.chunks_exact(4));
-        for ((a, b), peak) in lanes {
-            (0..4).for_each(|l| sums[l] += (b[l] - a[l]).abs() * peak[l]);
-        }
-        sums.iter().sum()
     }
 }
 

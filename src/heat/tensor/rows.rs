@@ -209,6 +209,33 @@ vectorised! {
 }
 
 vectorised! {
+    /// Scalar products of all rows of `x` with three shapes.
+    fn products_of_three<'a, S>(simd, x: &'a [f64], shapes: [&'a [f64]; 3], out: [&'a mut [f64]; 3]) {
+        let ([a, b, c], x) = (shapes.map(|shape| S::as_simd_f64s(shape).0), S::as_simd_f64s(x).0);
+        for (i, x) in x.chunks_exact(a.len()).enumerate() {
+            let mut sums = [simd.splat_f64s(0.0); 3];
+            for (&x, ((&a, &b), &c)) in x.iter().zip(a.iter().zip(b).zip(c)) {
+                sums[0] = simd.mul_add_e_f64s(x, a, sums[0]);
+                sums[1] = simd.mul_add_e_f64s(x, b, sums[1]);
+                sums[2] = simd.mul_add_e_f64s(x, c, sums[2]);
+            }
+            (0..3).for_each(|k| out[k][i] = simd.reduce_sum_f64s(sums[k]));
+        }
+    }
+}
+
+vectorised! {
+    /// `Σ |bₘ − aₘ| weightₘ`.
+    fn weighted_change<'a, S>(simd, a: &'a [f64], b: &'a [f64], weights: &'a [f64]) -> f64 {
+        let (a, b, weights) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0, S::as_simd_f64s(weights).0);
+        let sum = a.iter().zip(b).zip(weights).fold(simd.splat_f64s(0.0), |sum, ((&a, &b), &weight)| {
+            simd.mul_add_e_f64s(simd.abs_f64s(simd.sub_f64s(b, a)), weight, sum)
+        });
+        simd.reduce_sum_f64s(sum)
+    }
+}
+
+vectorised! {
     /// `(α M̃ + β F) x` for the rows of a body, with `α = a + b λ` of the modes' `values` λ; it replaces `out` or is added to it.
     /// Ends of an open streamline have no outer neighbour; the entries there are zero.
     fn tridiagonal_product<'a, S>(

@@ -1,14 +1,14 @@
 //! The matrix of an implicit stage: applied exactly, inverted mode by mode, coupled through the contact.
 
+use super::coupling::{Conduction, ContactBands, Coupling};
 use super::inverse::{InverseKey, Inverses};
 use super::layout::Heat;
 use super::loads::SurfaceLoads;
 use super::modal::{HeatBody, StageCoefficients};
-use super::rows;
 use super::streamline::Transport;
 use crate::heat::error::HeatError;
+use crate::linalg::Update;
 use crate::linalg::gmres::{Gmres, LinearSystem};
-use crate::linalg::{DenseSystem, Update};
 use std::ops::Range;
 
 /// Angular velocity [rad/s] below which, and step [s] from which on, conduction along the streamlines is computed exactly.
@@ -35,8 +35,9 @@ pub(super) struct BodyOperator {
     /// Conduction alone; set where steel melts.
     still: Transport,
     pub(super) inverses: Inverses,
-    /// Rows of `∫ k_c N w̃` on the contact nodes: lower, diagonal and upper entries.
-    contact: [Vec<f64>; 3],
+    /// Conductance on the contact nodes: of the present stream, and of that of the inverse.
+    contact: ContactBands,
+    inverted: ContactBands,
     /// Buffer of a field.
     work: Vec<f64>,
     /// Surface temperatures at the contact nodes.
@@ -74,46 +75,12 @@ pub(super) struct Stage {
     pub(super) elements: Range<usize>,
     nodes: Range<usize>,
     /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature difference.
-    coupling: DenseSystem,
-    /// Temperature of the wheel less that of the rail at the contact nodes.
+    coupling: Coupling,
+    /// Temperature of the wheel less that of the rail at the contact nodes, of the field that was multiplied last.
     pub(super) jump: Vec<f64>,
-    /// Rate of it.
-    growth: Vec<f64>,
+    /// The same of the field that was solved for last: the rate of the jump.
+    pub(super) growth: Vec<f64>,
     gmres: Gmres,
-}
-
-impl BodyOperator {
-    /// `∫ k_c Nⱼ w̃ᵢ` on the contact nodes `first..` from the moments of the elements between them.
-    fn set_contact(&mut self, moments: &[[f64; 3]], element: usize) {
-        let [lower, diagonal, upper] = &mut self.contact;
-        for band in [&mut *lower, diagonal, upper] {
-            band.clear();
-            band.resize(moments.len() + 1, 0.0);
-        }
-        for (i, c) in moments.iter().enumerate() {
-            let sigma = self.transport.upwind_of(element + i, [c[0], c[1]]);
-            let (left, right) = (c[0] - c[1], c[1]);
-            diagonal[i] += left - right + c[2] - sigma * left;
-            upper[i] += right - c[2] - sigma * right;
-            lower[i + 1] += right - c[2] + sigma * left;
-            diagonal[i + 1] += c[2] + sigma * right;
-        }
-    }
-
-    /// Replaces `load` by `factor · ∫ k_c d w̃`, `d` given at the contact nodes.
-    fn set_contact_load(&mut self, factor: f64, jump: &[f64]) {
-        let [lower, diagonal, upper] = &self.contact;
-        self.load.clear();
-        self.load.extend(diagonal.iter().zip(jump).map(|(c, d)| factor * c * d));
-        self.load.iter_mut().zip(upper.iter().zip(&jump[1..])).for_each(|(load, (c, d))| *load += factor * c * d);
-        self.load[1..].iter_mut().zip(lower[1..].iter().zip(jump)).for_each(|(load, (c, d))| *load += factor * c * d);
-    }
-
-    /// Adds row `i` of `β G C̃` to a row of the coupling matrix.
-    fn add_coupling(&mut self, flow: f64, i: usize, row: &mut [f64]) {
-        let [lower, diagonal, upper] = &self.contact;
-        rows::add_banded(flow, self.inverses.present().response.row(i), [lower, diagonal, upper], row);
-    }
 }
 
 impl Stage {
@@ -127,33 +94,42 @@ impl Stage {
         self.elements = loads.contact();
         self.nodes = if self.elements.is_empty() { 0..0 } else { self.elements.start..self.elements.end + 1 };
         let StageKey { speeds, inverted, coefficients, rate, .. } = key;
-        let around = |[_, omega]: [f64; 2]| -omega * heat.config.wheel.radius;
-        let along = |[velocity, _]: [f64; 2]| -velocity;
-        for (body, operator, speed, inverted) in [
-            (&heat.wheel, &mut self.wheel, around(speeds), around(inverted)),
-            (&heat.rail, &mut self.rail, along(speeds), along(inverted)),
-        ] {
+        let radius = heat.config.wheel.radius;
+        let streams = |[velocity, omega]: [f64; 2]| [-omega * radius, -velocity];
+        let (present, shared) = (streams(speeds), streams(inverted));
+        let keys = [(&heat.wheel, shared[0]), (&heat.rail, shared[1])].map(|(body, speed)| InverseKey {
+            speed,
+            coefficients,
+            rate,
+            nodes: self.contact_nodes(body),
+        });
+        let moments = &self.conductance[self.elements.clone()];
+        let bodies = [(&heat.wheel, &mut self.wheel), (&heat.rail, &mut self.rail)];
+        for (((body, operator), speed), key) in bodies.into_iter().zip(present).zip(&keys) {
             operator.transport.set(&body.line, speed, rate, body.heat_capacity, body.conductivity);
-            let first = body.line.zone;
-            let nodes = first + self.nodes.start..first + self.nodes.end;
-            operator.inverses.set(body, InverseKey { speed: inverted, coefficients, rate, nodes })?;
-            if !self.elements.is_empty() {
-                operator.set_contact(&self.conductance[self.elements.clone()], first + self.elements.start);
+            operator.inverses.set(body, key)?;
+            if !moments.is_empty() {
+                operator.contact.set(moments, &operator.transport.upwind[key.nodes.start..]);
+                operator.inverted.set(moments, &operator.inverses.present().upwind);
             }
         }
-        let n = self.nodes.len();
-        self.coupling.reset(n);
-        for i in 0..n {
-            let (row, _) = self.coupling.row(i);
-            row[i] = 1.0;
-            self.wheel.add_coupling(coefficients.flow, i, row);
-            self.rail.add_coupling(coefficients.flow, i, row);
-        }
-        if !self.coupling.factorise() {
-            return Err(HeatError::Singular { unknowns: n });
+        if !moments.is_empty() {
+            self.set_coupling(heat, keys, heat.even_conductance())?;
         }
         self.key = Some(key);
         Ok(())
+    }
+
+    /// Prepares conduction through the contact between the present inverses; `even` is the conductance of all places.
+    fn set_coupling(&mut self, heat: &Heat, keys: [InverseKey; 2], even: Option<f64>) -> Result<(), HeatError> {
+        let conduction = Conduction {
+            moments: &self.conductance[self.elements.clone()],
+            lengths: &heat.wheel.line.lengths[keys[0].nodes.start..keys[0].nodes.end - 1],
+            even,
+            flow: keys[0].coefficients.flow,
+            sides: [&self.wheel, &self.rail].map(|body| (body.inverses.present(), &body.inverted)),
+        };
+        self.coupling.set(keys, &conduction)
     }
 
     /// Whether heat is conducted through the contact.
@@ -240,13 +216,13 @@ impl Stage {
                 (&heat.wheel, &mut self.wheel, coefficients.flow, wheel),
                 (&heat.rail, &mut self.rail, -coefficients.flow, rail),
             ] {
-                operator.set_contact_load(factor, &self.jump);
+                operator.contact.set_load(factor, &self.jump, &mut operator.load);
                 body.add_surface_load(body.line.zone + self.nodes.start, &operator.load, out);
             }
         }
     }
 
-    /// Takes the temperature of the wheel less that of the rail at the contact nodes.
+    /// Fills [`Self::jump`] for the field `x`.
     pub(super) fn set_jump(&mut self, heat: &Heat, x: &[f64]) {
         let (wheel, rail) = x.split_at(heat.wheel.size());
         let (at_wheel, at_rail) = (self.contact_nodes(&heat.wheel), self.contact_nodes(&heat.rail));
@@ -256,12 +232,15 @@ impl Stage {
         self.jump.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
     }
 
-    /// The same for `x` and `ahead` times its rate.
+    /// The same for `x` and `ahead` times its rate, which a stage from `x` has just been solved for.
     pub(super) fn set_jump_ahead(&mut self, heat: &Heat, x: &[f64], rate: Option<&[f64]>, ahead: f64) {
         let Some(rate) = rate.filter(|_| ahead != 0.0) else { return self.set_jump(heat, x) };
-        self.set_jump(heat, rate);
-        std::mem::swap(&mut self.jump, &mut self.growth);
-        self.set_jump(heat, x);
+        // The modal solver leaves both; an iteration around it does not.
+        if self.key.is_some_and(|key| key.curved) {
+            self.set_jump(heat, rate);
+            std::mem::swap(&mut self.jump, &mut self.growth);
+            self.set_jump(heat, x);
+        }
         self.jump.iter_mut().zip(&self.growth).for_each(|(jump, growth)| *jump += ahead * growth);
     }
 
@@ -274,16 +253,16 @@ impl Stage {
         let bodies = [(&heat.wheel, &mut self.wheel, wheel), (&heat.rail, &mut self.rail, rail)];
         for ((body, operator, x), nodes) in bodies.into_iter().zip(&nodes) {
             let BodyOperator { inverses, trace, .. } = operator;
-            let factor = &mut inverses.present().factor;
+            let factor = inverses.factor();
             factor.eliminate(body, x);
             if coupled {
                 factor.trace(body, nodes, x, trace);
             }
         }
         if coupled {
-            self.jump.clear();
-            self.jump.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
-            self.coupling.solve_with(&mut self.jump);
+            self.growth.clear();
+            self.growth.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
+            self.coupling.solve(&mut self.growth);
         }
         let (wheel, rail) = x.split_at_mut(size);
         let bodies = [
@@ -292,9 +271,9 @@ impl Stage {
         ];
         for ((body, operator, flow, x), nodes) in bodies.into_iter().zip(&nodes) {
             if coupled {
-                operator.set_contact_load(flow, &self.jump);
+                operator.inverted.set_load(flow, &self.growth, &mut operator.load);
             }
-            let factor = &mut operator.inverses.present().factor;
+            let factor = operator.inverses.factor();
             if coupled {
                 factor.add_eliminated(body, nodes, &operator.load, x);
             }
@@ -339,14 +318,25 @@ impl LinearSystem for Exact<'_> {
 
 #[cfg(test)]
 impl Stage {
+    /// What conduction through the contact leaves of `jump`, by kept factors where it is `even`, else by those of the matrix itself.
+    pub fn left_of(&mut self, heat: &Heat, even: Option<f64>, jump: &[f64]) -> Vec<f64> {
+        let key = |operator: &BodyOperator| operator.inverses.key().clone();
+        let keys = [key(&self.wheel), key(&self.rail)];
+        self.set_coupling(heat, keys, even).unwrap();
+        assert_eq!(self.coupling.is_kept(), even.is_some());
+        let mut left = jump.to_vec();
+        self.coupling.solve(&mut left);
+        left
+    }
+
     /// Surface temperatures of the rail at the contact nodes under a wheel at a uniform temperature; the nodes.
     pub fn rail_under_uniform_wheel(&mut self, wheel: f64) -> (Range<usize>, Vec<f64>) {
         let n = self.nodes.len();
-        let (mut matrix, mut surface) = (DenseSystem::default(), vec![0.0; n]);
+        let (mut matrix, mut surface) = (crate::linalg::DenseSystem::default(), vec![0.0; n]);
         matrix.reset(n);
         for (i, gain) in surface.iter_mut().enumerate() {
             let row = matrix.row(i).0;
-            self.rail.add_coupling(1.0, i, row);
+            self.rail.inverted.add_coupling(1.0, self.rail.inverses.present().response.row(i), row);
             *gain = wheel * row.iter().sum::<f64>();
             row[i] += 1.0;
         }

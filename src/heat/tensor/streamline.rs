@@ -95,17 +95,18 @@ impl Transport {
         }
         self.upwind.clear();
         let advection = heat_capacity * speed;
+        let upwind = Upwind::new(speed, conductivity / heat_capacity, rate);
         for (e, &h) in line.lengths.iter().enumerate() {
             let (a, b) = (e, line.after(e));
-            let sigma = upwind(speed, h, conductivity / heat_capacity, rate);
+            let sigma = upwind.of(h);
             self.upwind.push(sigma);
-            let shift = sigma * h;
+            let (shift, conduction) = (sigma * h, conductivity / h);
             self.mass[a] += h / 3.0 - 0.5 * shift;
             self.mass_upper[a] += h / 6.0 - 0.5 * shift;
             self.mass_lower[b] += h / 6.0 + 0.5 * shift;
             self.mass[b] += h / 3.0 + 0.5 * shift;
-            self.flow_upper[a] += advection * (0.5 - sigma) - conductivity / h;
-            self.flow_lower[b] += -advection * (0.5 + sigma) - conductivity / h;
+            self.flow_upper[a] += advection * (0.5 - sigma) - conduction;
+            self.flow_lower[b] += -advection * (0.5 + sigma) - conduction;
         }
         let ends = if speed > 0.0 { (0, n - 1) } else { (n - 1, 0) };
         let open = line.closed == 0.0 && speed != 0.0;
@@ -140,34 +141,49 @@ impl Transport {
         load[element] += moments[0] - moments[1] - shifted;
         load[line.after(element)] += moments[1] + shifted;
     }
+}
 
-    /// Upwinding of the test functions for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds` on an element.
-    ///
-    /// Where the contact begins or ends within the element, full upwinding would give the node upstream a share below
-    /// zero, and its temperature would undershoot: both shares keep the sign of the whole.
-    pub fn upwind_of(&self, element: usize, [whole, first]: [f64; 2]) -> f64 {
-        let sigma = self.upwind[element];
-        let centroid = first / whole;
-        if centroid.is_finite() { sigma.max(-centroid).min(1.0 - centroid) } else { sigma }
-    }
+/// Upwinding of the test functions on an element for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds`, instead of
+/// `sigma`.
+///
+/// Where the contact begins or ends within the element, full upwinding would give the node upstream a share below
+/// zero, and its temperature would undershoot: both shares keep the sign of the whole.
+pub(super) fn upwind_within(sigma: f64, [whole, first, _]: [f64; 3]) -> f64 {
+    let centroid = first / whole;
+    if centroid.is_finite() { sigma.max(-centroid).min(1.0 - centroid) } else { sigma }
 }
 
 /// `τ v / h` with `τ⁻² = [h/(2|v|)(coth Pe − 1/Pe)]⁻² + (2/Δt)²`, `Pe = |v|h/2κ`; zero at `v = 0`.
 ///
 /// Shakib, Hughes & Johan, *Comput. Methods Appl. Mech. Eng.* 89 (1991), with the exact one-dimensional parameter.
-fn upwind(speed: f64, length: f64, diffusivity: f64, rate: f64) -> f64 {
-    let peclet = 0.5 * speed.abs() * length / diffusivity;
-    let magic = if peclet < 0.05 {
-        peclet / 3.0 * (1.0 - peclet * peclet / 15.0)
-    } else {
-        // Beyond 20 the hyperbolic cotangent is 1 to the last bit.
-        (if peclet < 20.0 { 1.0 / peclet.tanh() } else { 1.0 }) - 1.0 / peclet
-    };
-    let steady = 0.5 * magic;
-    if steady == 0.0 {
-        return 0.0;
+struct Upwind {
+    speed: f64,
+    /// `Pe/h` [1/m].
+    peclet: f64,
+    /// `2 rate/|v|` [1/m].
+    transient: f64,
+}
+
+impl Upwind {
+    fn new(speed: f64, diffusivity: f64, rate: f64) -> Self {
+        Self { speed, peclet: 0.5 * speed.abs() / diffusivity, transient: 2.0 * rate / speed.abs() }
     }
-    // In units of h/|v|: τ = 1/√(1/steady² + (2 rate h/|v|)²).
-    let transient = 2.0 * rate * length / speed.abs() * steady;
-    (steady / (1.0 + transient * transient).sqrt()).copysign(speed)
+
+    /// For an element of the given length.
+    fn of(&self, length: f64) -> f64 {
+        let peclet = self.peclet * length;
+        let magic = if peclet < 0.05 {
+            peclet / 3.0 * (1.0 - peclet * peclet / 15.0)
+        } else {
+            // Beyond 20 the hyperbolic cotangent is 1 to the last bit.
+            (if peclet < 20.0 { 1.0 / peclet.tanh() } else { 1.0 }) - 1.0 / peclet
+        };
+        let steady = 0.5 * magic;
+        if steady == 0.0 {
+            return 0.0;
+        }
+        // In units of h/|v|: τ = 1/√(1/steady² + (2 rate h/|v|)²).
+        let transient = self.transient * length * steady;
+        (steady / (1.0 + transient * transient).sqrt()).copysign(self.speed)
+    }
 }

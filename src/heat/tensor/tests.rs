@@ -209,6 +209,34 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
 }
 
 #[test]
+fn kept_factors_of_a_full_contact_and_its_two_ends_are_the_factors_of_the_contact() {
+    let (a, v) = (0.761e-3, 50.0 / 3.6);
+    for (k_c, share, tolerance) in [(1e7, 0.5, 1e-13), (1e8, 1e-6, 1e-12), (1e12, 0.999, 1e-9)] {
+        let heat = both(a, v, k_c);
+        // Ends within an element: of which the given share is in contact.
+        let end = |towards: f64| {
+            let x = heat.zone_x();
+            let (outer, inner) = if towards < 0.0 { (x[3], x[4]) } else { (x[x.len() - 6], x[x.len() - 7]) };
+            inner + share * (outer - inner)
+        };
+        let exchange = Exchange { patches: vec![Interval { low: end(-1.0), high: end(1.0) }], ..Exchange::default() };
+        let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
+        heat.set_loads(&exchange, &mut loads).unwrap();
+        let coefficients = StageCoefficients { storage: 1.0, flow: 0.3e-3 };
+        let (speeds, inverted) = ([v, 0.98 * v / R], [1.003 * v, 0.978 * v / R]);
+        stage
+            .set(&heat, &loads, StageKey { speeds, inverted, coefficients, rate: 1.0 / 0.3e-3, curved: false })
+            .unwrap();
+        let jump: Vec<f64> = (0..loads.contact().len() + 1).map(|i| 100.0 + (7.0 * i as f64).sin()).collect();
+        let [kept, direct] = [Some(k_c), None].map(|even| stage.left_of(&heat, even, &jump));
+        let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let apart: Vec<f64> = kept.iter().zip(&direct).map(|(a, b)| a - b).collect();
+        println!("k_c {k_c:e}: {:.1e} of {:.1e} K", largest(&apart), largest(&direct));
+        assert!(largest(&apart) < tolerance * largest(&direct));
+    }
+}
+
+#[test]
 fn entry_into_a_conducting_contact_follows_its_closed_form() {
     let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
     let heat = both(a, v, k_c);
