@@ -7,6 +7,8 @@ use super::reduction::ReducedBasis;
 use super::{BodySystem, MechanicsError, check_size, contact_zone, rail_system, wheel_system};
 use crate::config::Config;
 use serde::{Deserialize, Serialize};
+use std::sync::mpsc;
+use std::{panic, thread};
 use uuid::Uuid;
 
 const MAGIC: &[u8; 8] = b"WHLRAIL3";
@@ -90,19 +92,29 @@ fn reduced(
 }
 
 impl Basis {
-    /// Meshes, assembles and reduces both bodies (about a second); `progress` receives the activity and its share done.
+    /// Meshes, assembles and reduces both bodies, each on a thread of its own (about a second); `progress` receives the activity and
+    /// its share done.
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
         check_size(config)?;
         let streaming = config.damping.rayleigh_stiffness > 0.0;
-        let (parameter, modes) = ("solver.modes_wheel", config.solver.modes_wheel);
-        let wheel = reduced(parameter, (modes, streaming), || wheel_system(config), &mut |share| {
-            progress("vibration modes of the wheel", share);
-        })?;
-        let (parameter, modes) = ("solver.modes_rail", config.solver.modes_rail);
-        let rail = reduced(parameter, (modes, streaming), || rail_system(config), &mut |share| {
-            progress("vibration modes of the rail", share);
-        })?;
-        Ok(Self { key: key(config), wheel, rail })
+        let (sender, shares) = mpsc::channel();
+        thread::scope(|scope| {
+            let rail = scope.spawn(move || {
+                let (parameter, modes) = ("solver.modes_rail", config.solver.modes_rail);
+                let mut report = |share| {
+                    // Nobody listens where the wheel has failed.
+                    let _ = sender.send(share);
+                };
+                reduced(parameter, (modes, streaming), || rail_system(config), &mut report)
+            });
+            let (parameter, modes) = ("solver.modes_wheel", config.solver.modes_wheel);
+            let wheel = reduced(parameter, (modes, streaming), || wheel_system(config), &mut |share| {
+                progress("vibration modes of the wheel", share);
+            })?;
+            shares.iter().for_each(|share| progress("vibration modes of the rail", share));
+            let rail = rail.join().unwrap_or_else(|panic| panic::resume_unwind(panic))?;
+            Ok(Self { key: key(config), wheel, rail })
+        })
     }
 
     /// Whether this basis belongs to a configuration.

@@ -20,7 +20,11 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
     let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
     let (t_gamma, area) = (per_metre(state.friction_power * width, v, v_c), width * traction.touching());
     let points = profile_points(model.zone);
-    let sampled = |profile: &Piecewise| points.iter().map(|&x| profile.at(x)).collect();
+    let sampled = |profile: &Piecewise| {
+        let mut values = Vec::with_capacity(points.len());
+        profile.sample(&points, &mut values);
+        values
+    };
     Outputs {
         contact_force_x: force_x,
         contact_force_y: force_y,
