@@ -97,22 +97,28 @@ impl Basis {
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
         check_size(config)?;
         let streaming = config.damping.rayleigh_stiffness > 0.0;
+        let (wheel_modes, rail_modes) = (config.solver.modes_wheel, config.solver.modes_rail);
+        let rail = |report: &mut dyn FnMut(f64)| {
+            reduced("solver.modes_rail", (rail_modes, streaming), || rail_system(config), report)
+        };
         let (sender, shares) = mpsc::channel();
         thread::scope(|scope| {
-            let rail = scope.spawn(move || {
-                let (parameter, modes) = ("solver.modes_rail", config.solver.modes_rail);
-                let mut report = |share| {
-                    // Nobody listens where the wheel has failed.
-                    let _ = sender.send(share);
-                };
-                reduced(parameter, (modes, streaming), || rail_system(config), &mut report)
-            });
-            let (parameter, modes) = ("solver.modes_wheel", config.solver.modes_wheel);
-            let wheel = reduced(parameter, (modes, streaming), || wheel_system(config), &mut |share| {
-                progress("vibration modes of the wheel", share);
-            })?;
-            shares.iter().for_each(|share| progress("vibration modes of the rail", share));
-            let rail = rail.join().unwrap_or_else(|panic| panic::resume_unwind(panic))?;
+            // Nobody listens where the wheel has failed.
+            let elsewhere =
+                thread::Builder::new().spawn_scoped(scope, move || rail(&mut |share| _ = sender.send(share)));
+            let wheel =
+                reduced("solver.modes_wheel", (wheel_modes, streaming), || wheel_system(config), &mut |share| {
+                    progress("vibration modes of the wheel", share);
+                })?;
+            let mut report = |share| progress("vibration modes of the rail", share);
+            let rail = match elsewhere {
+                Ok(thread) => {
+                    shares.iter().for_each(&mut report);
+                    thread.join().unwrap_or_else(|panic| panic::resume_unwind(panic))?
+                }
+                // The system grants no thread.
+                Err(_) => rail(&mut report)?,
+            };
             Ok(Self { key: key(config), wheel, rail })
         })
     }

@@ -234,10 +234,12 @@ impl BodyResponse for ReducedBody {
     }
 }
 
-/// `out ← out + factor · Aᵀ x`.
+/// `out ← out + factor · Aᵀ x`; zeros at the ends of `x` cost nothing.
 fn add_products(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+    let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
+    let filled = first..x.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
     for (j, out) in out.iter_mut().enumerate() {
-        *out += factor * dot(column(a, j), x.as_slice());
+        *out += factor * dot(&column(a, j)[filled.clone()], &x.as_slice()[filled.clone()]);
     }
 }
 
