@@ -1,12 +1,14 @@
 //! All eigenpairs of a small dense symmetric pencil with 32 digits.
 //!
 //! For pencils whose eigenvalues span so many decades that the smallest drown in the round-off of the largest. Only the
-//! scalar type is faer's: its routines multiply matrices in blocks, and version 0.24.4 panics there for this type.
+//! scalar type is that of faer: its routines multiply matrices in blocks, and version 0.24.4 panics there for this type.
 
 use super::LinalgError;
+use super::vectorised::vectorised;
+use qd::simd::{add_estimate, mul, sub_estimate};
 
 /// A number of 32 digits.
-pub use faer::fx128 as Wide;
+pub use qd::Quad as Wide;
 
 /// A double as a number of 32 digits.
 pub fn wide(value: f64) -> Wide {
@@ -102,53 +104,114 @@ fn solve_upper(factor: &[Wide], matrix: &mut [Wide], size: usize) {
     }
 }
 
+/// Rows of numbers of 32 digits: their leading parts and the rest, each as long as fills whole vector registers.
+struct Rows {
+    stride: usize,
+    high: Vec<f64>,
+    low: Vec<f64>,
+}
+
+/// Length of rows is a multiple of this.
+const PADDED: usize = 8;
+
+impl Rows {
+    /// `count` rows of as many zeros.
+    fn square(count: usize) -> Self {
+        let stride = count.next_multiple_of(PADDED);
+        Self { stride, high: vec![0.0; count * stride], low: vec![0.0; count * stride] }
+    }
+
+    fn get(&self, i: usize, j: usize) -> Wide {
+        let at = i * self.stride + j;
+        Wide(self.high[at], self.low[at])
+    }
+
+    fn set(&mut self, i: usize, j: usize, value: Wide) {
+        let at = i * self.stride + j;
+        (self.high[at], self.low[at]) = (value.0, value.1);
+    }
+
+    /// Rotates row `p` and a later one: `(c x − s y, s x + c y)`.
+    fn rotate(&mut self, p: usize, q: usize, rotation: [Wide; 2]) {
+        let width = self.stride;
+        let rows = [&mut self.high, &mut self.low].map(|values| {
+            let (before, from) = values.split_at_mut(q * width);
+            [&mut before[p * width..(p + 1) * width], &mut from[..width]]
+        });
+        rotate(rotation, rows);
+    }
+}
+
+vectorised! {
+    /// `(x, y) ← (c x − s y, s x + c y)` for the rotation `[c, s]`; the leading parts of both rows, and the rest of both.
+    fn rotate<'a, S>(simd, rotation: [Wide; 2], rows: [[&'a mut [f64]; 2]; 2]) {
+        let [c, s] = rotation.map(|value| Wide(simd.splat_f64s(value.0), simd.splat_f64s(value.1)));
+        let [[x, y], [x_low, y_low]] = rows.map(|pair| pair.map(|row| S::as_mut_simd_f64s(row).0));
+        for ((x, x_low), (y, y_low)) in x.iter_mut().zip(x_low).zip(y.iter_mut().zip(y_low)) {
+            let (a, b) = (Wide(*x, *x_low), Wide(*y, *y_low));
+            let first = sub_estimate(simd, mul(simd, c, a), mul(simd, s, b));
+            let second = add_estimate(simd, mul(simd, s, a), mul(simd, c, b));
+            (*x, *x_low, *y, *y_low) = (first.0, first.1, second.0, second.1);
+        }
+    }
+}
+
 /// Cyclic Jacobi iteration (Golub & Van Loan, *Matrix Computations*, 4th ed., 8.5): leaves the eigenvalues on the
-/// diagonal of `a` and returns the eigenvectors as columns; `None` without convergence.
-fn jacobi(a: &mut [Wide], n: usize) -> Option<Vec<Wide>> {
+/// diagonal of `matrix` and returns the eigenvectors as columns; `None` without convergence.
+fn jacobi(matrix: &mut [Wide], n: usize) -> Option<Vec<Wide>> {
     const SWEEPS: usize = 60;
-    let mut v = vec![Wide::ZERO; n * n];
+    let (mut a, mut vectors) = (Rows::square(n), Rows::square(n));
     for i in 0..n {
-        v[i * n + i] = Wide::ONE;
+        vectors.set(i, i, Wide::ONE);
+        (0..n).for_each(|j| a.set(i, j, matrix[i * n + j]));
     }
     // Entries at the round-off of the matrix are zero, whatever the diagonal (eigenvalue zero of an insulated body).
-    let floor = 1e-31 * (0..n).map(|i| a[i * n + i].0).fold(0.0, f64::max);
+    let floor = 1e-31 * (0..n).map(|i| a.get(i, i).0).fold(0.0, f64::max);
     for _ in 0..SWEEPS {
         let mut largest: f64 = 0.0;
         for p in 0..n {
             for q in p + 1..n {
-                let (app, aqq, apq) = (a[p * n + p], a[q * n + q], a[p * n + q]);
-                let scale = (app.0.abs() * aqq.0.abs()).sqrt();
-                if apq.0.abs() <= floor.max(1e-28 * scale) {
+                let size = a.get(p, q).0.abs();
+                let scale = (a.get(p, p).0.abs() * a.get(q, q).0.abs()).sqrt();
+                if size <= floor.max(1e-28 * scale) {
                     continue;
                 }
-                let relative = apq.0.abs() / scale.max(floor);
-                largest = largest.max(relative);
-                let theta = (aqq - app) / (wide(2.0) * apq);
-                let root = (theta * theta + Wide::ONE).sqrt();
-                let t = if theta.0 >= 0.0 { Wide::ONE / (theta + root) } else { Wide::ONE / (theta - root) };
-                let c = Wide::ONE / (t * t + Wide::ONE).sqrt();
-                let s = t * c;
-                for l in 0..n {
-                    let (x, y) = (a[l * n + p], a[l * n + q]);
-                    (a[l * n + p], a[l * n + q]) = (c * x - s * y, s * x + c * y);
-                }
-                for l in 0..n {
-                    let (x, y) = (a[p * n + l], a[q * n + l]);
-                    (a[p * n + l], a[q * n + l]) = (c * x - s * y, s * x + c * y);
-                    let (x, y) = (v[l * n + p], v[l * n + q]);
-                    (v[l * n + p], v[l * n + q]) = (c * x - s * y, s * x + c * y);
-                }
-                (a[p * n + q], a[q * n + p]) = (Wide::ZERO, Wide::ZERO);
+                largest = largest.max(size / scale.max(floor));
+                let rotation = annihilate(&mut a, p, q);
+                vectors.rotate(p, q, rotation);
             }
         }
         if largest.is_nan() {
             return None;
         }
         if largest < 1e-20 {
-            return Some(v);
+            (0..n).for_each(|i| matrix[i * (n + 1)] = a.get(i, i));
+            return Some((0..n * n).map(|at| vectors.get(at % n, at / n)).collect());
         }
     }
     None
+}
+
+/// Turns the rows and columns `p` and `q` of a symmetric matrix until their common entry is zero; `[c, s]` of the rotation.
+fn annihilate(a: &mut Rows, p: usize, q: usize) -> [Wide; 2] {
+    let theta = (a.get(q, q) - a.get(p, p)) / (wide(2.0) * a.get(p, q));
+    let root = (theta * theta + Wide::ONE).sqrt();
+    let t = if theta.0 >= 0.0 { Wide::ONE / (theta + root) } else { Wide::ONE / (theta - root) };
+    let c = Wide::ONE / (t * t + Wide::ONE).sqrt();
+    let s = t * c;
+    a.rotate(p, q, [c, s]);
+    // Now the columns: those of the other rows are what their rows have become.
+    let [pp, pq, qp, qq] = [(p, p), (p, q), (q, p), (q, q)].map(|(i, j)| a.get(i, j));
+    a.set(p, p, c * pp - s * pq);
+    a.set(q, q, s * qp + c * qq);
+    a.set(p, q, Wide::ZERO);
+    a.set(q, p, Wide::ZERO);
+    let rows = a.high.len() / a.stride;
+    for l in (0..rows).filter(|&l| l != p && l != q) {
+        a.set(l, p, a.get(p, l));
+        a.set(l, q, a.get(q, l));
+    }
+    [c, s]
 }
 
 #[cfg(test)]
