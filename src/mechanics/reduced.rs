@@ -15,7 +15,7 @@ use super::damping::BodyDamping;
 use super::motion::{self, Equations};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
-use super::retarded::{RetardedLayer, add_product, quadratic_form};
+use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::linalg::dense::symmetrise;
 use crate::linalg::vectorised::dot;
@@ -231,15 +231,6 @@ impl BodyResponse for ReducedBody {
 
     fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
         self.layer.as_mut().map(Arc::make_mut).map(|layer| layer.flexibility += flexibility).is_some()
-    }
-}
-
-/// `out ← out + factor · Aᵀ x`; zeros at the ends of `x` cost nothing.
-fn add_products(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
-    let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
-    let filled = first..x.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
-    for (j, out) in out.iter_mut().enumerate() {
-        *out += factor * dot(&column(a, j)[filled.clone()], &x.as_slice()[filled.clone()]);
     }
 }
 

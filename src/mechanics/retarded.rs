@@ -3,7 +3,7 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
-use crate::linalg::vectorised::{self, add_columns};
+use crate::linalg::vectorised::{self, add_columns, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -113,6 +113,15 @@ impl RetardedLayer {
 /// `out ← out + factor · A x`.
 pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
     add_columns(factor, a.as_slice(), 1, x.as_slice(), out.as_mut_slice());
+}
+
+/// `out ← out + factor · Aᵀ x`; zeros at the ends of `x` cost nothing.
+pub(super) fn add_products(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+    let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
+    let filled = first..x.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
+    for (column, out) in a.as_slice().chunks(a.nrows().max(1)).zip(out.iter_mut()) {
+        *out += factor * dot(&column[filled.clone()], &x.as_slice()[filled.clone()]);
+    }
 }
 
 /// `xᵀ A x` of a symmetric matrix; entries of zero in `x` (nodes out of contact) cost little.

@@ -20,11 +20,6 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
     let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
     let (t_gamma, area) = (per_metre(state.friction_power * width, v, v_c), width * traction.touching());
     let points = profile_points(model.zone);
-    let sampled = |profile: &Piecewise| {
-        let mut values = Vec::with_capacity(points.len());
-        profile.sample(&points, &mut values);
-        values
-    };
     Outputs {
         contact_force_x: force_x,
         contact_force_y: force_y,
@@ -86,12 +81,19 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         iterations: state.iterations,
         energy_residual: state.audit.residual(model.contact.nominal_energy()),
         suggested_step: suggested_step(model, state),
-        profile_pressure: sampled(&traction.pressure),
-        profile_shear: sampled(&traction.shear),
-        profile_slip: sampled(&traction.slip),
+        profile_pressure: sampled(&traction.pressure, &points),
+        profile_shear: sampled(&traction.shear, &points),
+        profile_slip: sampled(&traction.slip, &points),
         profile_x: points,
         ..surface_outputs(model, state)
     }
+}
+
+/// Values of a profile at ascending positions.
+fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
+    let mut values = Vec::with_capacity(points.len());
+    profile.sample(points, &mut values);
+    values
 }
 
 /// What the surfaces have lost, and the outputs about heat; everything else zero.
