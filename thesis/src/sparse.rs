@@ -59,12 +59,14 @@ impl Matrix {
         y
     }
 
-    /// Replaces the rows of `fixed` by those of the identity.
-    pub fn fix(&mut self, fixed: &[usize]) {
+    /// Replaces the rows of `fixed` by those of the identity. Returns the former rows: times the solution, less the former load, they are what holds
+    /// the fixed unknowns.
+    pub fn fix(&mut self, fixed: &[usize]) -> Self {
         let mut is_fixed = vec![false; self.size];
         fixed.iter().for_each(|row| is_fixed[*row] = true);
-        self.entries.retain(|entry| !is_fixed[entry.0]);
+        let held = self.entries.extract_if(.., |entry| is_fixed[entry.0]).collect();
         self.entries.extend(fixed.iter().map(|row| (*row, *row, 1.0)));
+        Self { size: self.size, entries: held }
     }
 
     /// LU factors with partial pivoting, of rows whose largest entries are one: pivots are chosen by size, and a row that fixes a

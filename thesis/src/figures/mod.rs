@@ -183,6 +183,16 @@ fn must(says: impl Into<String>, holds: bool) -> Predicate {
     Predicate { says: says.into(), holds }
 }
 
+/// That stationary heat balances: put in is what leaves, as far as `worst` \[1] of it. Not where a number is missing.
+fn balanced(worst: f64) -> Predicate {
+    must(format!("heat put in and heat that leaves agree within 1e-8 of it: {worst:.1e}"), worst <= 1e-8)
+}
+
+/// The largest of some numbers, NaN if one of them is.
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, value| if value > most || value.is_nan() { value } else { most })
+}
+
 /// A curve of given points.
 fn curve(source: Source, name: impl Into<String>, points: Vec<[f64; 2]>) -> Curve {
     Curve { source, name: name.into(), points }
