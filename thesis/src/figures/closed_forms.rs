@@ -144,14 +144,22 @@ fn bessel(x: f64) -> f64 {
     sum
 }
 
-/// Amplitude of the force [N/m] on the waves of Paper A at an angular frequency [rad/s]: `|K* m ω²/(K* − m ω²)|` times the wave as the
-/// patch sees it, with `K* = K (1 + iωα)`.
+/// What the patch leaves of waves of a `length` \[m] \[1].
+pub(super) fn filter(length: f64) -> f64 {
+    bessel(TAU * hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON)) / length)
+}
+
+/// Amplitude of the force over that of the wave as the patch sees it [N/m²] at an angular frequency [rad/s]: `|K* m ω²/(K* − m ω²)|` with
+/// `K* = K (1 + iωα)`.
+pub(super) fn unfiltered(omega: f64) -> f64 {
+    let stiffness = MASS * 2922.0 * 2922.0;
+    let (inertia, loss) = (MASS * omega * omega, stiffness * omega * DAMPING);
+    stiffness.hypot(loss) * inertia / (stiffness - inertia).hypot(loss)
+}
+
+/// Amplitude of the force [N/m] on the waves of Paper A at an angular frequency [rad/s].
 pub(super) fn corrugation_force(omega: f64) -> f64 {
-    let (mass, natural, damping, [amplitude, wavelength]) = (MASS, 2922.0, DAMPING, WAVE);
-    let stiffness = mass * natural * natural;
-    let filter = bessel(TAU * hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON)) / wavelength);
-    let (inertia, loss) = (mass * omega * omega, stiffness * omega * damping);
-    amplitude * filter * stiffness.hypot(loss) * inertia / (stiffness - inertia).hypot(loss)
+    WAVE[0] * filter(WAVE[1]) * unfiltered(omega)
 }
 
 #[cfg(test)]
@@ -165,8 +173,7 @@ mod tests {
             let found = 1e-6 * corrugation_force(TAU * kmh / 3.6 / WAVE[1]);
             (found - force).abs() < 1e-3
         }));
-        let a = hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON));
-        assert!(bessel(TAU * a / 0.01308).abs() < 1e-3, "first null of the filter");
+        assert!(filter(0.01308).abs() < 1e-3, "first null of the filter");
     }
 
     #[test]
