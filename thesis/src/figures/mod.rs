@@ -18,6 +18,7 @@ mod rough;
 mod share;
 mod tread_heat;
 mod tread_map;
+mod validation;
 
 pub use extent::Extent;
 
