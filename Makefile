@@ -116,7 +116,7 @@ locked-wheels: $(BUILT)
 
 thesis:
 	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- $(if $(FULL),--full) --out results/thesis
-	@if command -v octave > /dev/null; then octave --quiet thesis/baseline.m | tee results/thesis/baseline.txt || true; \
+	@if command -v octave > /dev/null; then octave --quiet thesis/baseline.m results/thesis/step.txt | tee results/thesis/baseline.txt || true; \
 		else echo "monolithic baseline skipped: octave is not installed"; fi
 
 bench:

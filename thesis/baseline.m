@@ -1,6 +1,7 @@
 % Time of one monolithic step as the thesis takes it: all displacements of wheel and rail, penalty contact without friction,
 % backward Euler, Newton with one sparse factorisation in each iteration. Paper A's bodies and load at rest, on structured
-% meshes of about its size. Prints seconds and Newton iterations per step; `make thesis` runs it where Octave is installed.
+% meshes of about its size. Prints seconds and Newton iterations per step; `make thesis` runs it where Octave is installed, with a file
+% that holds the seconds of a step of the product, and then it prints the ratio, too.
 1;
 
 % Stiffness and mass of linear triangles in plane strain; unknowns 2i - 1 and 2i of node i.
@@ -95,3 +96,7 @@ end
 seconds = toc / steps;
 printf("%d triangles, %.3g s and %.1f Newton iterations per step, contact force %.4g N/m\n", rows(t), seconds, iterations / steps, ...
        -stiffness * sum(min(gap0 + G * u, 0)));
+if numel(argv()) > 0
+  ours = dlmread(argv(){1});
+  printf("%.0f times as long as a step of the product, %.3g s\n", seconds / ours(1), ours(1));
+end

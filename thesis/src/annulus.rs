@@ -36,6 +36,8 @@ pub struct Field {
     space: Space,
     /// Temperatures of the nodes \[K].
     pub theta: Vec<f64>,
+    /// Heat of the source less that which leaves through the rims by their reactions, over that of the source \[1].
+    pub imbalance: f64,
 }
 
 /// Temperature of an annulus that turns with `omega` [rad/s] as the thesis has it, `v = ω (y, −x)`.
@@ -54,10 +56,11 @@ pub fn solve(mesh: Mesh, order: Order, scheme: Scheme, omega: f64) -> Result<Fie
         }
     }
     let rims = rims(&mesh, &space);
-    matrix.fix(&rims);
-    rims.iter().for_each(|node| load[*node] = 0.0);
+    let (rows, heat) = (matrix.fix(&rims), load.iter().sum::<f64>());
+    let mut leaves: f64 = rims.iter().map(|node| std::mem::take(&mut load[*node])).sum();
     let theta = matrix.factorise()?.solve(load)?;
-    Ok(Field { mesh, space, theta })
+    leaves -= rows.multiply(&theta).iter().sum::<f64>();
+    Ok(Field { mesh, space, theta, imbalance: (leaves / heat - 1.0).abs() })
 }
 
 /// Nodes of both rims, middles of their edges included.

@@ -26,27 +26,26 @@ impl Flow<'_> {
     /// The element on a triangle.
     pub fn element(&self, corners: &[[f64; 2]; 3], order: Order, scheme: Scheme) -> Element {
         match scheme {
-            Scheme::Galerkin => self.weighted(corners, order, 0.0),
+            Scheme::Galerkin => self.weighted(corners, order, |_| 0.0),
             Scheme::Supg => {
                 let velocity = (self.velocity)(place(corners, [1.0 / 3.0; 3]));
-                let length = stream_length(&linear_gradients(corners), velocity);
-                // A quadratic element has twice the nodes along the stream.
-                let length = if order == Order::Quadratic { 0.5 * length } else { length };
                 let speed = velocity[0].hypot(velocity[1]);
-                self.weighted(corners, order, intrinsic_time(length, self.capacity, speed, self.conductivity))
+                let time = |length: f64| intrinsic_time(length, self.capacity, speed, self.conductivity);
+                self.weighted(corners, order, |slopes| time(stream_length(slopes, velocity)))
             }
             Scheme::Bubble => self.with_bubble(corners, order),
         }
     }
 
-    /// Element with the weight `w + τ ρc v·∇w`; `tau` [m³ K/W].
-    fn weighted(&self, corners: &[[f64; 2]; 3], order: Order, tau: f64) -> Element {
+    /// Element with the weight `w + τ ρc v·∇w`; `tau` [m³ K/W] of the gradients of the element's functions [1/m] at a place.
+    fn weighted(&self, corners: &[[f64; 2]; 3], order: Order, tau: impl Fn(&[[f64; 2]]) -> f64) -> Element {
         let n = order.count();
         let curvature = laplacians(corners, order);
         let (mut matrix, mut load) = (DMatrix::zeros(n, n), DVector::zeros(n));
         for point in points(corners, order) {
             let (values, slopes) = (point.shape.values, point.shape.gradients);
             let velocity = (self.velocity)(point.place);
+            let tau = tau(&slopes[..n]);
             let convect = |i: usize| self.capacity * (slopes[i][0] * velocity[0] + slopes[i][1] * velocity[1]);
             for i in 0..n {
                 let weight = values[i] + tau * convect(i);
@@ -74,7 +73,7 @@ impl Flow<'_> {
                 Order::Linear => vec![i, next, 3],
                 Order::Quadratic => vec![i, next, 6, 3 + i, 7 + next, 7 + i],
             };
-            let (part, share) = self.weighted(&[corners[i], corners[next], node], order, 0.0);
+            let (part, share) = self.weighted(&[corners[i], corners[next], node], order, |_| 0.0);
             for (a, &row) in nodes.iter().enumerate() {
                 load[row] += share[a];
                 for (b, &column) in nodes.iter().enumerate() {
@@ -141,9 +140,9 @@ mod tests {
     #[test]
     fn supg_without_a_stream_adds_nothing_and_a_bubble_only_its_load() {
         let still = |_: [f64; 2]| [0.0, 0.0];
-        let (matrix, load) = flow(&still).weighted(&CORNERS, Order::Linear, 0.0);
+        let (matrix, load) = flow(&still).weighted(&CORNERS, Order::Linear, |_| 0.0);
         // With τ from the limit of a vanishing stream the weights are unchanged, since v itself vanishes.
-        let (upwinded, upwinded_load) = flow(&still).weighted(&CORNERS, Order::Linear, 7.0);
+        let (upwinded, upwinded_load) = flow(&still).weighted(&CORNERS, Order::Linear, |_| 7.0);
         assert_eq!((&matrix, &load), (&upwinded, &upwinded_load));
         // Linear functions are harmonic, so a bubble does not see them: same matrix; and constants keep all of the load.
         let (bubble, bubble_load) = flow(&still).element(&CORNERS, Order::Linear, Scheme::Bubble);

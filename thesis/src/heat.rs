@@ -60,6 +60,8 @@ pub struct Warmth {
     pub means: [f64; 2],
     /// Heat from the wheel to the rail by conduction, and friction heat into both bodies [W/m].
     pub flows: [f64; 2],
+    /// Heat that leaves through nodes at the reference, those of the wheel and those of the rail, by their reactions [W/m].
+    pub leaves: [f64; 2],
 }
 
 /// Nodes in contact of a mechanical solution, with their friction power.
@@ -112,15 +114,25 @@ impl Heating<'_> {
         self.exchange(first, &mut matrix, &mut load);
         self.heat_arcs(&spaces[0], &mut load);
         let fixed = self.fixed(&spaces);
-        matrix.fix(&fixed);
+        let rows = matrix.fix(&fixed);
+        let free = load.clone();
         fixed.iter().for_each(|node| load[*node] = 0.0);
         let theta = matrix.compressed().factorise()?.solve(load)?;
+        let held = rows.multiply(&theta);
+        let mut leaves = [0.0; 2];
+        fixed.iter().for_each(|node| leaves[usize::from(*node >= first)] += free[*node] - held[*node]);
         let means = [mean(wheel, &spaces[0], &theta[..first]), mean(rail, &spaces[1], &theta[first..])];
         let conducted =
             self.spots.iter().map(|spot| self.contact[0] * spot.length * difference(spot, &theta, first)).sum();
         let friction = self.contact[1] * self.spots.iter().map(|spot| spot.friction).sum::<f64>();
         let [space, _] = spaces;
-        Ok(Warmth { space, theta, means, flows: [conducted, friction] })
+        Ok(Warmth { space, theta, means, flows: [conducted, friction], leaves })
+    }
+
+    /// Heat put in, by the arcs, friction and the chords, less that which leaves, over that of arcs and friction \[1].
+    pub fn imbalance(&self, warmth: &Warmth) -> f64 {
+        let given = 2.0 * self.arcs + warmth.flows[1];
+        ((given + self.let_in(warmth) - warmth.leaves.iter().sum::<f64>()) / given).abs()
     }
 
     /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.

@@ -30,6 +30,7 @@ pub mod sparse;
 pub mod stabilise;
 pub mod transient;
 pub mod triangle;
+pub mod unstructured;
 pub mod waves;
 pub mod wheel;
 

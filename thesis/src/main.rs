@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use wheelrail_thesis::figures::{ALL, Extent, Figure, Recipe};
-use wheelrail_thesis::{quoted, report};
+use wheelrail_thesis::{paper_a, quoted, report};
 
 const THREADS: usize = 2;
 /// Longest time for all figures without `--full` \[s].
@@ -50,7 +50,14 @@ fn run() -> Result<(), String> {
     let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
     let quoted = quoted::all()?;
     std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
-    for (name, text) in [("index.html", report::html(&figures, &quoted)), ("values.csv", report::csv(&figures))] {
+    let pace = pace()?;
+    println!("a step of the product takes {:.0} µs", 1e6 * pace);
+    // The last file is for thesis/baseline.m.
+    for (name, text) in [
+        ("index.html", report::html(&figures, &quoted)),
+        ("values.csv", report::csv(&figures)),
+        ("step.txt", format!("{pace:e}\n")),
+    ] {
         let file = out.join(name);
         std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
         println!("{}", file.display());
@@ -70,6 +77,18 @@ fn run() -> Result<(), String> {
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
+}
+
+/// Time that the product takes for a step of Paper A on a smooth rail \[s]: the shortest of some runs.
+fn pace() -> Result<f64, String> {
+    let product = paper_a::product("", |_| ())?;
+    let run = || -> Result<f64, String> {
+        let mut run = product.rolling(paper_a::SPEED, 0.0, |_| ())?;
+        let start = Instant::now();
+        paper_a::follow(&mut run, paper_a::STEP, 200)?;
+        Ok(start.elapsed().as_secs_f64() / 200.0)
+    };
+    (0..5).try_fold(f64::INFINITY, |least, _| Ok(least.min(run()?)))
 }
 
 /// The three figures that took longest.

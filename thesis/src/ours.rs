@@ -97,6 +97,13 @@ impl Run {
         self.simulation.state().thermal.as_ref().map(|thermal| thermal.temperatures).unwrap_or_default()
     }
 
+    /// Largest part of the heat put in that a body neither passes on nor stores \[1], by the nodal reactions of its equations; NaN without heat.
+    pub fn heat_imbalance(&self) -> f64 {
+        let Some(thermal) = &self.simulation.state().thermal else { return f64::NAN };
+        let flows = &thermal.flows;
+        flows.wheel_imbalance().abs().max(flows.rail_imbalance().abs()) / (flows.friction + flows.tread)
+    }
+
     /// Temperatures over the reference \[K] at all nodes of wheel (about its centre) and rail.
     pub fn fields(&self) -> Result<[TemperatureField; 2], String> {
         let fields = self.simulation.temperature_fields().map_err(|error| error.to_string())?;

@@ -78,9 +78,14 @@ pub fn profile(text: &str) -> Result<Profile, String> {
     Profile::parse(text, None, Body::Rail).map_err(|error| error.to_string())
 }
 
-/// Waves of an amplitude \[m], as text.
+/// Waves of an amplitude and the length of the studies \[m], as text.
 pub fn waves(amplitude: f64) -> String {
-    format!("sinusoid(amplitude = {amplitude:?}, wavelength = {:?})", WAVE[1])
+    waves_of([amplitude, WAVE[1]])
+}
+
+/// Waves of an amplitude and a length \[m], as text.
+fn waves_of([amplitude, length]: [f64; 2]) -> String {
+    format!("sinusoid(amplitude = {amplitude:?}, wavelength = {length:?})")
 }
 
 /// Way \[m] and force [N/m] after each of so many steps of the thesis's scheme.
@@ -97,20 +102,20 @@ pub fn history(case: Case, meshes: &Meshes, text: &str, steps: usize) -> Result<
     Ok(points)
 }
 
-/// Amplitude [N/m] of a force over the way at the length of the waves, over the last five of them.
-pub fn harmonic(points: &[[f64; 2]]) -> f64 {
+/// Amplitude [N/m] of a force over the way at the `length` \[m] of the waves, over the last five of them.
+pub fn harmonic(points: &[[f64; 2]], length: f64) -> f64 {
     let end = points.last().map_or(0.0, |point| point[0]);
-    let kept: Vec<_> = points.iter().filter(|point| point[0] > end - 5.0 * WAVE[1] + 1e-9).collect();
+    let kept: Vec<_> = points.iter().filter(|point| point[0] > end - 5.0 * length + 1e-9).collect();
     let sum = kept.iter().fold([0.0; 2], |[a, b], [way, force]| {
-        let (sin, cos) = (TAU * way / WAVE[1]).sin_cos();
+        let (sin, cos) = (TAU * way / length).sin_cos();
         [a + force * sin, b + force * cos]
     });
     2.0 * sum[0].hypot(sum[1]) / kept.len() as f64
 }
 
-/// Steps of equal length nearest to `step` that divide a wave at this velocity, and how many of them: 25 ms, and five waves.
-pub fn division(velocity: f64, step: f64) -> (f64, usize) {
-    let period = WAVE[1] / velocity;
+/// Steps of equal length nearest to `step` that divide a wave of `length` \[m] at this velocity, and how many of them: 25 ms, and five waves.
+fn division(length: f64, velocity: f64, step: f64) -> (f64, usize) {
+    let period = length / velocity;
     let per_wave = (period / step).round().max(1.0);
     let waves = (0.025 / period).ceil() + 5.0;
     (period / per_wave, (waves * per_wave) as usize)
@@ -118,8 +123,8 @@ pub fn division(velocity: f64, step: f64) -> (f64, usize) {
 
 /// Amplitude on waves by the thesis's scheme.
 pub fn amplitude(case: Case, meshes: &Meshes) -> Result<f64, String> {
-    let (step, steps) = division(case.velocity, case.step);
-    Ok(harmonic(&history(Case { step, ..case }, meshes, &waves(WAVE[0]), steps)?))
+    let (step, steps) = division(WAVE[1], case.velocity, case.step);
+    Ok(harmonic(&history(Case { step, ..case }, meshes, &waves(WAVE[0]), steps)?, WAVE[1]))
 }
 
 /// The product as Paper A wants it, on a profile, with changes.
@@ -147,6 +152,18 @@ pub fn follow(run: &mut Run, step: f64, steps: usize) -> Result<Vec<[f64; 2]>, S
 
 /// Amplitude on waves by the product.
 pub fn our_amplitude(product: &Product, velocity: f64, step: f64) -> Result<f64, String> {
-    let (step, steps) = division(velocity, step);
-    Ok(harmonic(&follow(&mut product.rolling(velocity, 0.0, |_| ())?, step, steps)?))
+    answer(product, WAVE[1], velocity, step)
+}
+
+fn answer(product: &Product, length: f64, velocity: f64, step: f64) -> Result<f64, String> {
+    let (step, steps) = division(length, velocity, step);
+    Ok(harmonic(&follow(&mut product.rolling(velocity, 0.0, |_| ())?, step, steps)?, length))
+}
+
+/// Amplitude on waves of the given amplitude and length \[m] that pass with the angular frequency `omega` [rad/s], by the product with 20 elements in
+/// half a contact.
+pub fn our_answer(wave: [f64; 2], omega: f64) -> Result<f64, String> {
+    let velocity = omega * wave[1] / TAU;
+    let product = product(&waves_of(wave), |config| config.mesh.elements_per_half_width = 20)?;
+    answer(&product, wave[1], velocity, wave[1] / velocity / 80.0)
 }

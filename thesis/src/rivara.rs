@@ -13,18 +13,12 @@ type Neighbours = HashMap<(usize, usize), [Option<usize>; 2]>;
 
 /// Cuts each of the `marked` triangles at least once; one that a neighbour's walk has cut already is done.
 pub fn refine(mesh: &mut Mesh, marked: &[usize]) {
-    cut(mesh, marked, false);
-}
-
-/// Cuts `marked` triangles; `again` those, too, that a neighbour's walk has cut before their turn.
-fn cut(mesh: &mut Mesh, marked: &[usize], again: bool) {
     let mut beside = Neighbours::new();
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         edges(*triangle).into_iter().for_each(|edge| replace(&mut beside, edge, None, Some(t)));
     }
-    let first: Vec<[usize; 3]> = marked.iter().map(|t| mesh.triangles[*t]).collect();
-    for (&t, first) in marked.iter().zip(first) {
-        let before = if again { mesh.triangles[t] } else { first };
+    let before: Vec<[usize; 3]> = marked.iter().map(|t| mesh.triangles[*t]).collect();
+    for (&t, before) in marked.iter().zip(before) {
         while mesh.triangles[t] == before {
             let terminal = terminal_edge(mesh, &beside, t);
             bisect(mesh, &mut beside, terminal);
@@ -47,17 +41,6 @@ pub fn refine_while(mesh: &mut Mesh, coarse: impl Fn(&[[f64; 2]; 3]) -> bool) {
             return;
         }
         refine(mesh, &marked);
-    }
-}
-
-/// The same with triangles cut again that a neighbour's walk has cut before their turn: a less even mesh.
-pub fn refine_unevenly_while(mesh: &mut Mesh, coarse: impl Fn(&[[f64; 2]; 3]) -> bool) {
-    loop {
-        let marked: Vec<usize> = (0..mesh.triangles.len()).filter(|t| coarse(&mesh.corners(*t))).collect();
-        if marked.is_empty() {
-            return;
-        }
-        cut(mesh, &marked, true);
     }
 }
 

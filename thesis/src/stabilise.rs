@@ -39,9 +39,9 @@ pub fn intrinsic_time(length: f64, capacity: f64, speed: f64, conductivity: f64)
     0.25 * length * length / conductivity * upwind(half_peclet) / half_peclet
 }
 
-/// Length of a triangle along the stream, `2|v|/Σ|v·∇Nᵢ|` \[m]; `gradients` [1/m] of the linear shape functions. Zero
-/// without a stream.
-pub fn stream_length(gradients: &[[f64; 2]; 3], velocity: [f64; 2]) -> f64 {
+/// Length along the stream, `2|v|/Σ|v·∇Nᵢ|` \[m]; `gradients` [1/m] of all shape functions of the element at a place. Those of linear
+/// functions give the longest chord through a corner, those of quadratic ones less, the less the nearer to a corner. Zero without a stream.
+pub fn stream_length(gradients: &[[f64; 2]], velocity: [f64; 2]) -> f64 {
     let sum: f64 = gradients.iter().map(|g| (g[0] * velocity[0] + g[1] * velocity[1]).abs()).sum();
     if sum == 0.0 { 0.0 } else { 2.0 * velocity[0].hypot(velocity[1]) / sum }
 }

@@ -11,6 +11,7 @@ use crate::mesh::Mesh;
 use crate::rail::Plate;
 use crate::rolling::{Motion, Parameters, System};
 use crate::sparse::{Factors, Matrix};
+use crate::triangle::linear_gradients;
 use crate::wheel::Annulus;
 use nalgebra::{DMatrix, DVector};
 use wheelrail::config::RailEnds;
@@ -55,6 +56,8 @@ struct Pair {
 pub struct Rolling {
     case: Case,
     pairs: Vec<Pair>,
+    /// Unknowns of the wheel's nodes, along and upward.
+    wheel: Vec<Option<usize>>,
     /// Constant forces on the unknowns.
     load: Vec<f64>,
     factors: Factors,
@@ -86,6 +89,7 @@ impl Rolling {
         let stiffness = system.reduce(&system.stiffness(motion)).compressed();
         let [mass, damping] = inertia(&system, &case, wheel, rail, motion);
         let pairs = pairs(&system);
+        let numbers = system.unknown[..2 * system.wheel_nodes].to_vec();
         let mut load = system.gather(&system.centrifugal);
         load.iter_mut().for_each(|force| *force *= motion.omega.powi(2));
         load[system.size - 1] -= case.load;
@@ -96,7 +100,8 @@ impl Rolling {
         let (columns, gaps) = answers(&factors, &pairs, system.size)?;
         let (displacement, forces) = rest(&system, &stiffness, &pairs, &load, case.load, profile)?;
         let velocity = vec![0.0; displacement.len()];
-        Ok(Self { case, pairs, load, factors, before, columns, gaps, displacement, velocity, forces, way: 0.0 })
+        let (wheel, way) = (numbers, 0.0);
+        Ok(Self { case, pairs, wheel, load, factors, before, columns, gaps, displacement, velocity, forces, way })
     }
 
     /// A time step.
@@ -128,6 +133,25 @@ impl Rolling {
     /// Place \[m] and pressure \[Pa] of the nodes of the tread.
     pub fn pressure(&self) -> Vec<[f64; 2]> {
         self.pairs.iter().zip(&self.forces).map(|(pair, force)| [pair.place[0], force / pair.place[2]]).collect()
+    }
+}
+
+impl Rolling {
+    /// Largest vertical pressure in a triangle of the wheel, and largest mean over the triangles at a node \[Pa].
+    pub fn stresses(&self, wheel: &Mesh) -> [f64; 2] {
+        let [young, poisson, _] = STEEL;
+        let shear = 0.5 * young / (1.0 + poisson);
+        let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
+        let moved = |node: usize, axis: usize| self.wheel[2 * node + axis].map_or(0.0, |i| self.displacement[i]);
+        let (mut most, mut sums) = (0.0_f64, vec![[0.0; 2]; wheel.nodes.len()]);
+        for (t, nodes) in wheel.triangles.iter().enumerate() {
+            let slopes = linear_gradients(&wheel.corners(t));
+            let strain = |axis: usize| (0..3).map(|i| slopes[i][axis] * moved(nodes[i], axis)).sum::<f64>();
+            let pressure = -lame * strain(0) - (lame + 2.0 * shear) * strain(1);
+            most = most.max(pressure);
+            nodes.iter().for_each(|node| sums[*node] = [sums[*node][0] + pressure, sums[*node][1] + 1.0]);
+        }
+        [most, sums.iter().fold(0.0, |most, [sum, count]| f64::max(most, sum / count))]
     }
 }
 

@@ -158,32 +158,3 @@ fn refine_tread(mesh: &mut Mesh, annulus: Annulus) {
         rivara::refine(mesh, &marked);
     }
 }
-
-/// Unstructured annulus for the test of \[B] 4: refined after Rivara until edges are shorter than `size` \[m], its inner
-/// nodes then moved by pseudo-random shares of up to `disorder` of their distance to the nearest neighbour.
-pub fn unstructured(annulus: Annulus, size: f64, disorder: f64) -> Mesh {
-    // Rings that widen like the circles on which they lie: about equal sides everywhere.
-    let rings = 4;
-    let radius = |k: i32| annulus.inner * (annulus.outer / annulus.inner).powf(f64::from(k) / f64::from(rings));
-    let mut mesh = coarse(&(0..=rings).map(radius).collect::<Vec<_>>(), 9);
-    rivara::refine_unevenly_while(&mut mesh, |corners| rivara::longest(corners) > size * size);
-    make_round(&mut mesh, annulus);
-    let boundary: std::collections::BTreeSet<usize> = mesh.boundary().into_iter().flat_map(|(a, b)| [a, b]).collect();
-    let mut nearest = vec![f64::INFINITY; mesh.nodes.len()];
-    for (a, b) in mesh.edge_counts().into_keys() {
-        let (p, q) = (mesh.nodes[a], mesh.nodes[b]);
-        let length = (p[0] - q[0]).hypot(p[1] - q[1]);
-        nearest[a] = nearest[a].min(length);
-        nearest[b] = nearest[b].min(length);
-    }
-    let mut seed = 1_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    for (i, node) in mesh.nodes.iter_mut().enumerate().filter(|(i, _)| !boundary.contains(i)) {
-        let reach = disorder * nearest[i];
-        *node = [node[0] + reach * random(), node[1] + reach * random()];
-    }
-    mesh
-}

@@ -95,6 +95,10 @@ fn heat_of_the_arcs_leaves_through_the_contact_but_for_what_chords_let_in() {
         assert!(warmth.means[0] > warmth.means[1] && warmth.means[1] > 0.0);
         assert!(omega > 0.0 || let_in == 0.0);
         assert!(((arrives - let_in) / 60.0 - 1.0).abs() < 1e-6, "{arrives} {let_in}");
+        // Reactions of the held nodes: nothing at the insulated hub, and what arrives at the ends of the rail.
+        let imbalance = heating.imbalance(&warmth);
+        println!("leaves {:.4?} W/m, imbalance {imbalance:.1e}", warmth.leaves);
+        assert!(warmth.leaves[0] == 0.0 && imbalance < 1e-8);
         assert!((arrives / 60.0 - 1.0).abs() < 0.2);
     }
 }

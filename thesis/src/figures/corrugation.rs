@@ -1,6 +1,6 @@
 //! Paper A, tables 1 to 3 and figures 11 and 12: a wheel on waves, by the thesis's scheme, the product and the closed form.
 
-use super::closed_forms::corrugation_force;
+use super::closed_forms::{corrugation_force, filter, unfiltered};
 use super::{Extent, Figure, curve, must};
 use crate::paper_a::{
     self as a, BASE, Meshes, PLATE, SPEED, STEP, WAVE, amplitude, case, meshes, our_amplitude, product,
@@ -213,8 +213,8 @@ pub fn force() -> Result<Figure, String> {
         let product = product(&a::waves(size), |_| ())?;
         let ours = a::follow(&mut product.rolling(SPEED, 0.0, |_| ())?, STEP, steps)?;
         let theirs = a::history(case(), &mesh, &a::waves(size), steps)?;
-        slopes.push(a::harmonic(&ours) / size);
-        own.push(a::harmonic(&theirs) / size);
+        slopes.push(a::harmonic(&ours, WAVE[1]) / size);
+        own.push(a::harmonic(&theirs, WAVE[1]) / size);
         let shown = |points: &[[f64; 2]]| points[..400].iter().map(|[way, f]| [1e3 * way / SPEED, 1e-6 * f]).collect();
         curves.push(curve(Source::Ours, format!("ours, {:.1} µm", 1e6 * size), shown(&ours)));
         curves.push(curve(Source::Method, format!("thesis's method, {:.1} µm", 1e6 * size), shown(&theirs)));
@@ -247,6 +247,25 @@ fn vertex([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> f64 {
     0.5 * (x0 + x1) - 0.5 * left * (x2 - x0) / (right - left)
 }
 
+/// Waves of 0.5 µm and so many lengths \[m] that pass with this angular frequency [rad/s]; the patch evens out the last ones.
+const FILTERED: [f64; 6] = [0.05, 0.03, 0.02, 0.017, 0.015, 0.01308];
+const PASSING: f64 = 2000.0;
+
+/// Share of the force that the patch leaves over the length of the waves; the share at the last length, and how far shares are from `|J₀|` at most.
+fn filtered() -> Result<(Plot, f64, f64), String> {
+    let size = 0.5e-6;
+    let left = |length: f64| Ok([length, a::our_answer([size, length], PASSING)? / (size * unfiltered(PASSING))]);
+    let left = FILTERED.into_iter().map(left).collect::<Result<Vec<[f64; 2]>, String>>()?;
+    let misses = left.iter().fold(0.0_f64, |worst, [length, share]| worst.max((share - filter(*length).abs()).abs()));
+    let exact = (26..=100).map(|i| 0.5 * f64::from(i)).map(|x| [x, filter(1e-3 * x).abs()]).collect();
+    let shown = left.iter().map(|[x, share]| [1e3 * x, *share]).collect();
+    let plot = Plot {
+        axes: ["length of the waves in mm".into(), "share of the force that the patch leaves".into()],
+        curves: vec![curve(Source::Ours, "ours, 0.5 µm", shown), curve(Source::Exact, "|J₀(2πa/λ)|", exact)],
+    };
+    Ok((plot, left[FILTERED.len() - 1][1], misses))
+}
+
 /// Figure A 12: amplitude over the excitation.
 pub fn excitation(extent: Extent) -> Result<Figure, String> {
     const LIST: [f64; 11] = [30.0, 50.0, 65.0, 75.0, 83.0, 86.0, 89.0, 93.0, 100.0, 120.0, 150.0];
@@ -259,6 +278,7 @@ pub fn excitation(extent: Extent) -> Result<Figure, String> {
         ours.push([omega(kmh), our_amplitude(&product, velocity, WAVE[1] / velocity / 80.0)?]);
         theirs.push([omega(kmh), amplitude(Case { velocity, ..case() }, &mesh)?]);
     }
+    let (filter, null, misses) = filtered()?;
     let off = |points: &[[f64; 2]], from: usize, to: usize| {
         let part = points[from..to].iter();
         part.fold(0.0_f64, |worst, [w, force]| worst.max((force / corrugation_force(*w) - 1.0).abs()))
@@ -279,26 +299,32 @@ pub fn excitation(extent: Extent) -> Result<Figure, String> {
                      Closed form: mass 5265 kg/m on the contact resonance of 2922 rad/s, filter J₀(2πa/λ), α₁ = 1e-4 s.",
         finding: format!(
             "Peak at ω = {closed:.0} rad/s, {top:.3} MN/m in closed form, {:.0} rad/s in ours, {:.0} rad/s by the thesis's method with its \
-             step and a mesh of its size, stated 3.05e3 rad/s: they are ω = 2πV/λ. V/λ, as the thesis has it, is {:.0} 1/s there.",
+             step and a mesh of its size, stated 3.05e3 rad/s: they are ω = 2πV/λ. V/λ, as the thesis has it, is {:.0} 1/s there. Waves of 13.08 mm, the first null of the \
+             patch as a filter, leave {:.1} % of the force that they would have without it.",
             peaks[0],
             peaks[1],
-            closed / TAU
+            closed / TAU,
+            100.0 * null
         ),
-        plots: vec![Plot {
-            axes: ["ω = 2πV/λ in rad/s".into(), "amplitude in MN/m".into()],
-            curves: vec![
-                curve(Source::Ours, "ours", shown(&ours)),
-                curve(Source::Method, "thesis's method", shown(&theirs)),
-                curve(Source::Exact, "closed form", shown(&exact)),
-                curve(Source::Quoted, "stated peak", vec![[3050.0, 0.0], [3050.0, top]]),
-            ],
-        }],
+        plots: vec![
+            Plot {
+                axes: ["ω = 2πV/λ in rad/s".into(), "amplitude in MN/m".into()],
+                curves: vec![
+                    curve(Source::Ours, "ours", shown(&ours)),
+                    curve(Source::Method, "thesis's method", shown(&theirs)),
+                    curve(Source::Exact, "closed form", shown(&exact)),
+                    curve(Source::Quoted, "stated peak", vec![[3050.0, 0.0], [3050.0, top]]),
+                ],
+            },
+            filter,
+        ],
         values: vec![
             ("a12.peak".into(), peaks[0]),
             ("a12.peak.closed".into(), closed),
             ("a12.peak.method".into(), peaks[1]),
             ("a12.peak_without_2pi".into(), closed / TAU),
             ("a12.peak_force".into(), 1e6 * top),
+            ("a12.null".into(), null),
         ],
         predicates: vec![
             must(
@@ -311,6 +337,8 @@ pub fn excitation(extent: Extent) -> Result<Figure, String> {
                 format!("ours peaks within 1 % of 2992 rad/s: {:.0}", peaks[0]),
                 (peaks[0] / 2992.0 - 1.0).abs() < 0.01,
             ),
+            must(format!("waves of 13.08 mm leave less than 3 % of the force: {null:.4}"), null < 0.03),
+            must(format!("waves of all lengths leave |J₀| within 0.03: {misses:.4}"), misses < 0.03),
             must(
                 format!("the thesis's method within 10 % of ours at all velocities: {:.4}", apart(&ours, &theirs)),
                 apart(&ours, &theirs) < 0.1,

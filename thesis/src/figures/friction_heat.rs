@@ -1,6 +1,6 @@
 //! Paper C: tractions and friction heat of stationary rolling and sliding, by the product beside Carter, references and balances.
 
-use super::{Extent, Figure, curve, must};
+use super::{Extent, Figure, balanced, curve, largest, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::ours::{Product, Run};
 use crate::plot::{Curve, Plot, Source};
@@ -142,7 +142,8 @@ pub fn locked() -> Result<Figure, String> {
         (config.physics.centrifugal, config.physics.thermal_expansion) = (false, false);
         config.thermal.max_speed = 30.0;
     })?;
-    let reference = heavy.rolling(SPEED, 2.0, |_| ())?.warmth();
+    let heavy = heavy.rolling(SPEED, 2.0, |_| ())?;
+    let (reference, heavy_imbalance) = (heavy.warmth(), heavy.heat_imbalance());
     let off = [reference.wheel_centre / 28.639_17 - 1.0, reference.rail_centre / 26.402_03 - 1.0];
     // A rail that takes all heat in, with the root of the velocity.
     let power = 0.1 * FRICTION * LOAD * SPEED;
@@ -189,6 +190,7 @@ pub fn locked() -> Result<Figure, String> {
                 ),
                 off.iter().all(|off| off.abs() < 0.01),
             ),
+            balanced(largest([run.heat_imbalance(), heavy_imbalance])),
             must(
                 format!("hottest rail 0.9 to 1 of that which takes all heat: {share:.3}"),
                 (0.9..1.0).contains(&share),
@@ -214,12 +216,14 @@ pub fn velocity(extent: Extent) -> Result<Figure, String> {
     let kmh = &axis.values;
     let creepages = [-5e-5, -1.25e-4, -2.5e-4, 2.0];
     let (mut all, mut balance, mut plots) = (Vec::new(), [0.0_f64; 2], [Vec::new(), Vec::new()]);
+    let mut lost = Vec::new();
     for creepage in creepages {
         let mut warmth = Vec::new();
         for v in kmh {
             let run = product.rolling(v / 3.6, creepage, |_| ())?;
             let mean = run.warmth();
             warmth.push([mean.wheel_mean, mean.rail_mean]);
+            lost.push(run.heat_imbalance());
             let off = imbalance(&run);
             // A locked wheel does not turn its heat round.
             balance[0] = if creepage < 1.0 { balance[0].max(off[0].abs()) } else { balance[0] };
@@ -265,6 +269,7 @@ pub fn velocity(extent: Extent) -> Result<Figure, String> {
                 format!("within 1 % of the references 7.5217e-5 and 1.1139e-8 K: {:+.4}, {:+.4}", off[0], off[1]),
                 off.iter().all(|off| off.abs() < 0.01),
             ),
+            balanced(largest(lost)),
             must("the wheel's mean rises with the velocity at all creepages", rises(0)),
             must("both means rise with |ξ|", (0..3).all(more)),
             must(
@@ -290,11 +295,11 @@ pub fn conductance(extent: Extent) -> Result<Figure, String> {
         let product = paper_c(|config| config.thermal.conductance = 10f64.powf(*power))?;
         let run = product.rolling(SPEED, -5e-5, |_| ())?;
         let warmth = run.warmth();
-        Ok(([warmth.wheel_mean, warmth.rail_mean], imbalance(&run)))
+        Ok(([warmth.wheel_mean, warmth.rail_mean], imbalance(&run), run.heat_imbalance()))
     };
     let all = powers.iter().map(at).collect::<Result<Vec<_>, String>>()?;
-    let warmth: Vec<[f64; 2]> = all.iter().map(|(warmth, _)| *warmth).collect();
-    let balance = all.iter().flat_map(|(_, off)| off).fold(0.0_f64, |worst, off| worst.max(off.abs()));
+    let warmth: Vec<[f64; 2]> = all.iter().map(|(warmth, ..)| *warmth).collect();
+    let balance = all.iter().flat_map(|(_, off, _)| off).fold(0.0_f64, |worst, off| worst.max(off.abs()));
     let [first, last] = [warmth[0], warmth[powers.len() - 1]];
     let falls = warmth.windows(2).all(|pair| pair[1][0] < pair[0][0] && pair[1][1] > pair[0][1]);
     let (saturated, stated) = (axis.listed(&warmth, 7)[0] / last[0] - 1.0, 1.0 - last[0] / axis.listed(&warmth, 4)[0]);
@@ -324,6 +329,7 @@ pub fn conductance(extent: Extent) -> Result<Figure, String> {
         values: vec![("c15.perfect".into(), last[0]), ("c15.left".into(), stated)],
         predicates: vec![
             must("the wheel's mean falls and the rail's rises with the conductance", falls),
+            balanced(largest(all.iter().map(|(.., lost)| *lost).chain([apart.heat_imbalance()]))),
             must(format!("saturated: 1e8.5 within 1 % of 1e9: {saturated:.4}"), saturated < 0.01),
             must(format!("means follow from the heat flows within 0.5 %: {balance:.1e}"), balance < 5e-3),
             must(

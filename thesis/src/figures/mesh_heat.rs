@@ -1,7 +1,7 @@
 //! Heat and friction of rolling by the thesis's own method: Paper B figure 11, Paper C figure 6.
 
 use super::tread_heat::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
-use super::{Extent, Figure, curve, must};
+use super::{Extent, Figure, balanced, curve, largest, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::contact::Law;
 use crate::heat::{Heating, Spot, Warmth, spots};
@@ -82,9 +82,12 @@ fn heating<'a>([first, second]: &'a [Mesh; 2], spots: &'a [Spot], thermal: Therm
     Heating { meshes: [first, second], annulus: ANNULUS, wheel, material, motion, spots, contact, arcs, cold_hub }
 }
 
-/// Temperatures under the given contact.
+/// Temperatures under the given contact. Refused where heat put in and heat that leaves differ by more than 1e-8 of it.
 pub(super) fn thermal(bodies: &[Mesh; 2], spots: &[Spot], thermal: Thermal) -> Result<Warmth, String> {
-    heating(bodies, spots, thermal).solve().map_err(|error| error.to_string())
+    let heating = heating(bodies, spots, thermal);
+    let warmth = heating.solve().map_err(|error| error.to_string())?;
+    let imbalance = heating.imbalance(&warmth);
+    if imbalance <= 1e-8 { Ok(warmth) } else { Err(format!("heat does not balance: {imbalance:.1e} of it")) }
 }
 
 /// Quadratic bubbles, as the thesis has them.
@@ -104,7 +107,7 @@ pub fn convergence(extent: Extent) -> Result<Figure, String> {
     let law = Law { penalty: 5e12, friction: 0.0, regularisation: 1.0 };
     let depth = 2.0 * half_width(LOAD) / 5.0;
     let (mut curves, mut surface, mut means, mut counts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (mut arrives, mut lost) = (Vec::new(), 0.0_f64);
+    let (mut arrives, mut lost, mut imbalance) = (Vec::new(), 0.0_f64, Vec::new());
     for global in 0..extent.choose(4, 5) {
         let bodies = meshes(LOAD, BASE, global)?;
         let system = system(LOAD, law, &bodies);
@@ -113,6 +116,7 @@ pub fn convergence(extent: Extent) -> Result<Figure, String> {
         let heating = heating(&bodies, &spots, Thermal { arcs: 0.5 * HEAT, cold_hub: false, ..Thermal::paper_c() });
         let warmth = heating.solve().map_err(|error| error.to_string())?;
         let let_in = heating.let_in(&warmth);
+        imbalance.push(heating.imbalance(&warmth));
         let points = below(&warmth, depth);
         surface.push(points.last().map_or(f64::NAN, |point| point[1]));
         means.push(warmth.means[0]);
@@ -165,6 +169,7 @@ pub fn convergence(extent: Extent) -> Result<Figure, String> {
                 ),
                 lost < 1e-6,
             ),
+            balanced(largest(imbalance)),
             must(
                 format!("n_r = 2 has the thesis's numbers of triangles and nodes within 5 %: {triangles}, {nodes}"),
                 (triangles as f64 / 8017.0 - 1.0).abs() < 0.05 && (nodes as f64 / 12608.0 - 1.0).abs() < 0.05,

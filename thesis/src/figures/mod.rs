@@ -18,6 +18,7 @@ mod rough;
 mod share;
 mod tread_heat;
 mod tread_map;
+mod validation;
 
 pub use extent::Extent;
 
@@ -181,6 +182,16 @@ pub const MISSING: &[&str] = &[];
 /// A statement and whether it holds.
 fn must(says: impl Into<String>, holds: bool) -> Predicate {
     Predicate { says: says.into(), holds }
+}
+
+/// That stationary heat balances: put in is what leaves, as far as `worst` \[1] of it. Not where a number is missing.
+fn balanced(worst: f64) -> Predicate {
+    must(format!("heat put in and heat that leaves agree within 1e-8 of it: {worst:.1e}"), worst <= 1e-8)
+}
+
+/// The largest of some numbers, NaN if one of them is.
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, value| if value > most || value.is_nan() { value } else { most })
 }
 
 /// A curve of given points.

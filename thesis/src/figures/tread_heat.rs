@@ -1,6 +1,6 @@
 //! Paper B: a wheel heated at its tread and cooled by the rail, by the product beside Hertz, references and balances.
 
-use super::{Extent, Figure, curve, must};
+use super::{Extent, Figure, balanced, curve, largest, must};
 use crate::annulus::{CONDUCTIVITY, OUTER};
 use crate::ours::{Product, Run};
 use crate::plot::{Plot, Source};
@@ -103,8 +103,8 @@ pub fn velocity(extent: Extent) -> Result<Figure, String> {
     let product = paper_b(|_| ())?;
     let axis = extent.axis(&[5.0, 10.0, 20.0, 35.0, 50.0, 75.0, 100.0]);
     let kmh = &axis.values;
-    let runs = kmh.iter().map(|v| heated(&product, v / 3.6, LOAD).map(|run| run.warmth()));
-    let warmth = runs.collect::<Result<Vec<_>, _>>()?;
+    let runs = kmh.iter().map(|v| heated(&product, v / 3.6, LOAD)).collect::<Result<Vec<_>, _>>()?;
+    let warmth: Vec<_> = runs.iter().map(Run::warmth).collect();
     let wheel: Vec<[f64; 2]> = kmh.iter().zip(&warmth).map(|(v, t)| [*v, t.wheel_mean]).collect();
     let rail: Vec<[f64; 2]> = kmh.iter().zip(&warmth).map(|(v, t)| [*v, t.rail_mean]).collect();
     let balance: Vec<[f64; 2]> = kmh.iter().map(|v| [*v, rail_mean(v / 3.6)]).collect();
@@ -149,6 +149,7 @@ pub fn velocity(extent: Extent) -> Result<Figure, String> {
                 (at_50 / 0.110_789_9 - 1.0).abs() < 0.01 && (at_100 / 0.081_412_3 - 1.0).abs() < 0.01,
             ),
             must("both means fall with the velocity", trend && shed),
+            balanced(largest(runs.iter().map(Run::heat_imbalance))),
             must(format!("the rail carries all heat within 0.2 %: {lost:.1e}"), lost < 2e-3),
         ],
     })
@@ -160,9 +161,10 @@ pub fn conductance(extent: Extent) -> Result<Figure, String> {
     let powers = &axis.values;
     let at = |power: &f64| {
         let product = paper_b(|config| config.thermal.conductance = 10f64.powf(*power))?;
-        heated(&product, SPEED, LOAD).map(|run| run.warmth())
+        heated(&product, SPEED, LOAD)
     };
-    let warmth = powers.iter().map(at).collect::<Result<Vec<_>, _>>()?;
+    let runs = powers.iter().map(at).collect::<Result<Vec<_>, _>>()?;
+    let warmth: Vec<_> = runs.iter().map(Run::warmth).collect();
     let wheel: Vec<f64> = warmth.iter().map(|t| t.wheel_mean).collect();
     let jump: Vec<f64> = warmth.iter().map(|t| t.wheel_centre - t.rail_centre).collect();
     let rail = warmth.iter().map(|t| t.rail_mean / rail_mean(SPEED) - 1.0).fold(0.0_f64, |a, b| a.max(b.abs()));
@@ -204,6 +206,7 @@ pub fn conductance(extent: Extent) -> Result<Figure, String> {
         ],
         predicates: vec![
             must("mean and jump fall with the conductance", falls(&wheel) && falls(&jump)),
+            balanced(largest(runs.iter().map(Run::heat_imbalance))),
             must(format!("9 ± 0.5 % are left at 1e7: {stated:.4}"), (stated - 0.09).abs() < 5e-3),
             must(format!("saturated: 1e8.5 within 1 % of 1e9: {saturated:.4}"), saturated < 0.01),
             must(
@@ -223,10 +226,9 @@ pub fn load(extent: Extent) -> Result<Figure, String> {
     })?;
     let axis = extent.axis(&[2.5e3, 5e3, 10e3, 20e3, 40e3]);
     let loads = &axis.values;
-    let at = |load: &f64| heated(&product, SPEED, *load).map(|run| (run.warmth(), run.outputs().contact_half_width));
-    let runs = loads.iter().map(at).collect::<Result<Vec<_>, _>>()?;
-    let wheel: Vec<f64> = runs.iter().map(|(t, _)| t.wheel_mean).collect();
-    let width: Vec<f64> = runs.iter().map(|(_, a)| 2.0 * a).collect();
+    let runs = loads.iter().map(|load| heated(&product, SPEED, *load)).collect::<Result<Vec<_>, _>>()?;
+    let wheel: Vec<f64> = runs.iter().map(|run| run.warmth().wheel_mean).collect();
+    let width: Vec<f64> = runs.iter().map(|run| 2.0 * run.outputs().contact_half_width).collect();
     let hertz: Vec<f64> = loads.iter().map(|load| 2.0 * half_width(*load)).collect();
     let wide = width.iter().zip(&hertz).fold(0.0_f64, |worst, (a, b)| worst.max((a / b - 1.0).abs()));
     let over = |values: &[f64], scale: f64| loads.iter().zip(values).map(|(p, v)| [1e-3 * p, scale * v]).collect();
@@ -253,6 +255,7 @@ pub fn load(extent: Extent) -> Result<Figure, String> {
         values: vec![("b16.wheel.10".into(), at_10), ("b16.ratio".into(), ratio)],
         predicates: vec![
             must(format!("width within 2 % of Hertz: {wide:.4}"), wide < 0.02),
+            balanced(largest(runs.iter().map(Run::heat_imbalance))),
             must("the wheel is the less warm the larger the load", wheel.windows(2).all(|pair| pair[1] < pair[0])),
             must(
                 format!("at 10 kN/m within 1 % of the reference 0.11079 K: {at_10:.5}"),

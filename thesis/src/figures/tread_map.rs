@@ -1,7 +1,7 @@
 //! Paper B, figure 12: temperatures beside the contact, by the product.
 
 use super::tread_heat::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
-use super::{Figure, curve, must};
+use super::{Figure, balanced, curve, must};
 use crate::annulus::OUTER;
 use crate::plot::{Plot, Source};
 use crate::quoted::Status;
@@ -75,6 +75,7 @@ pub fn map() -> Result<Figure, String> {
         plots,
         values: vec![("b12.wheel".into(), warmth.wheel_centre), ("b12.rail".into(), warmth.rail_centre)],
         predicates: vec![
+            balanced(run.heat_imbalance()),
             must(
                 format!("within 1 % of the references 0.06040 and 0.05081 K: {:+.4}, {:+.4}", off[0], off[1]),
                 off.iter().all(|off| off.abs() < 0.01),
