@@ -147,7 +147,7 @@ impl Iterate<'_> {
         let Foresight { normal, factor, product, .. } = memory;
         let patch = self.single_patch();
         let mut kept = std::mem::take(&mut self.scratch.kept);
-        let known = patch.and_then(|patch| Some(kept.of(self.problem, self.grid, &patch)?.factor));
+        let known = patch.and_then(|patch| kept.factor(self.problem, self.grid, &patch));
         let factor = match known {
             Some(factor) => Some(factor),
             None => self.factorise(factor).map(|()| &*factor),

@@ -1,7 +1,7 @@
 //! Pressures that close a given patch: the inverse of the normal part of the compliance, kept from step to step.
 //!
-//! Patches that begin at the same node share one factor: the longer one only has more rows. So hardly an inverse is ever made
-//! anew where uneven surfaces move the edges. What is kept has the same bits whatever came before ([`InverseFactor`]), so that a
+//! Patches that begin at the same node share one factor: the longer one only has more rows. So an inverse costs little where
+//! uneven surfaces move the edges, and the [guess](super::foresight) of the closed nodes needs the factor alone. What is kept has the same bits whatever came before ([`InverseFactor`]), so that a
 //! step is a function of the state alone.
 
 use super::candidates::ContactGrid;
@@ -9,14 +9,14 @@ use crate::contact::problem::ContactProblem;
 use crate::linalg::InverseFactor;
 use std::ops::Range;
 
-/// Step sizes for which factors are kept, and first nodes of each.
-const KEPT: [usize; 2] = [4, 16];
+/// Step sizes for which anything is kept, and factors and inverses of each.
+const KEPT: [usize; 3] = [4, 16, 8];
 
 /// What belongs to one patch of neighbouring nodes and to one step size.
 #[derive(Clone, Copy)]
 pub(super) struct PatchInverse<'a> {
-    /// Normal forces per gap [N/m per m].
-    pub factor: &'a InverseFactor,
+    /// Normal forces at the closed nodes per gap [N/m per m], by columns.
+    pub inverse: &'a [f64],
     /// Columns of the gap at the closed nodes per tangential force there [m/(N/m)], which are `apart` entries apart.
     pub coupling: &'a [f64],
     pub apart: usize,
@@ -32,6 +32,8 @@ struct OfStep {
     coupling: Vec<f64>,
     /// First closed nodes and their factors, the last one used at the end.
     factors: Vec<(usize, InverseFactor)>,
+    /// Patches and their inverses, the last one used at the end: products with them are cheaper than with their factors.
+    inverses: Vec<(Range<usize>, Vec<f64>)>,
 }
 
 /// Inverses of the last patches.
@@ -55,6 +57,7 @@ impl OfStep {
             column: first_column(problem, grid).to_vec(),
             coupling: nodes.clone().flat_map(of_shear).collect(),
             factors: Vec::new(),
+            inverses: Vec::new(),
         }
     }
 
@@ -77,6 +80,28 @@ impl OfStep {
         }
         Some(factor)
     }
+
+    /// The inverse of a patch; `None` if there is none.
+    fn inverse(&mut self, problem: &ContactProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<()> {
+        if let Some(at) = self.inverses.iter().position(|(of, _)| of == patch) {
+            self.inverses[at..].rotate_left(1);
+            return Some(());
+        }
+        self.factor(problem, grid, patch)?;
+        let factor = &self.factors.last()?.1;
+        let mut inverse = if self.inverses.len() < KEPT[2] { Vec::new() } else { self.inverses.remove(0).1 };
+        inverse.clear();
+        let (mut column, mut product) = (Vec::new(), Vec::new());
+        for j in 0..patch.len() {
+            column.clear();
+            column.resize(patch.len(), 0.0);
+            column[j] = 1.0;
+            factor.solve(&mut column, &mut product);
+            inverse.extend_from_slice(&column);
+        }
+        self.inverses.push((patch.clone(), inverse));
+        Some(())
+    }
 }
 
 /// The column of the first candidate's normal force in the compliance.
@@ -93,6 +118,23 @@ impl KeptInverses {
         grid: &ContactGrid,
         patch: &Range<usize>,
     ) -> Option<PatchInverse<'_>> {
+        let kept = self.of_step(problem, grid)?;
+        kept.inverse(problem, grid, patch)?;
+        let (coupling, apart) = (&kept.coupling[patch.start * (grid.len() + 1)..], grid.len());
+        Some(PatchInverse { inverse: &kept.inverses.last()?.1, coupling, apart })
+    }
+
+    /// A factor of the inverse of a patch, which may have more rows.
+    pub fn factor(
+        &mut self,
+        problem: &ContactProblem,
+        grid: &ContactGrid,
+        patch: &Range<usize>,
+    ) -> Option<&InverseFactor> {
+        self.of_step(problem, grid)?.factor(problem, grid, patch)
+    }
+
+    fn of_step(&mut self, problem: &ContactProblem, grid: &ContactGrid) -> Option<&mut OfStep> {
         let column = first_column(problem, grid);
         match self.recent.iter().position(|kept| kept.a0 == problem.time.a0 && kept.column == column) {
             Some(at) => self.recent[at..].rotate_left(1),
@@ -103,9 +145,6 @@ impl KeptInverses {
                 self.recent.push(OfStep::new(problem, grid));
             }
         }
-        let kept = self.recent.last_mut()?;
-        kept.factor(problem, grid, patch)?;
-        let (coupling, apart) = (&kept.coupling[patch.start * (grid.len() + 1)..], grid.len());
-        Some(PatchInverse { factor: &kept.factors.last()?.1, coupling, apart })
+        self.recent.last_mut()
     }
 }

@@ -41,9 +41,9 @@ pub(super) struct Turns {
     raised: Vec<f64>,
     /// Tangential forces at the closed nodes [N/m].
     shear: Vec<f64>,
-    /// Gap to be closed \[m], then the normal forces that close it [N/m].
+    /// Gap to be closed \[m], and the normal forces that close it [N/m].
+    open: Vec<f64>,
     normal: Vec<f64>,
-    product: Vec<f64>,
 }
 
 impl Turns {
@@ -98,8 +98,8 @@ impl Turns {
         let height = self.constants.len() > self.sheared;
         self.raised.clear();
         if height && let Some(by_height) = self.motions.iter().rfind(|motion| !motion.is_empty()) {
-            self.raised.extend(by_height.iter().map(|by| -by));
-            patch.factor.solve(&mut self.raised, &mut self.product);
+            self.raised.resize(by_height.len(), 0.0);
+            add_columns(-1.0, patch.inverse, by_height.len(), by_height, &mut self.raised);
         }
     }
 
@@ -111,15 +111,16 @@ impl Turns {
         self.shear.extend(normal.iter().zip(&self.friction).map(|(normal, friction)| friction * normal));
         self.stuck.iter().zip(&*others).for_each(|(&i, force)| self.shear[i] = *force);
         let turned = dot(&self.turn[0], normal) + dot(&self.turn[1], &self.shear);
-        // The gap that is left, whose sign the forces against it take.
-        self.normal.clear();
-        self.normal.extend(self.gap.iter().zip(&self.place).map(|(gap, x)| x * turned - gap));
-        add_columns(-1.0, patch.coupling, patch.apart, &self.shear, &mut self.normal);
+        self.open.clear();
+        self.open.extend(self.gap.iter().zip(&self.place).map(|(gap, x)| gap - x * turned));
+        add_columns(1.0, patch.coupling, patch.apart, &self.shear, &mut self.open);
         let free_velocities = &others[self.stuck.len()..self.sheared];
         for (motion, value) in self.motions.iter().zip(free_velocities) {
-            self.normal.iter_mut().zip(motion).for_each(|(open, by_motion)| *open -= by_motion * value);
+            self.open.iter_mut().zip(motion).for_each(|(open, by_motion)| *open += by_motion * value);
         }
-        patch.factor.solve(&mut self.normal, &mut self.product);
+        self.normal.clear();
+        self.normal.resize(closed, 0.0);
+        add_columns(-1.0, patch.inverse, closed, &self.open, &mut self.normal);
         if let (Some(constant), Some(row)) =
             (self.constants.get(self.sheared), self.rows.chunks(width).nth(self.sheared))
         {
@@ -167,7 +168,6 @@ fn take(forces: &mut [f64], new: &[f64], scale: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::InverseFactor;
     use nalgebra::DMatrix;
 
     const CLOSED: usize = 12;
@@ -221,11 +221,8 @@ mod tests {
     }
 
     fn solve(turns: &mut Turns, [compliance, coupling]: &[DMatrix<f64>; 2]) -> bool {
-        let mut factor = InverseFactor::default();
-        for i in 0..CLOSED {
-            factor.append((0..i).map(|j| compliance[(i, j)]), compliance[(i, i)]).unwrap();
-        }
-        turns.solve(PatchInverse { factor: &factor, coupling: coupling.as_slice(), apart: CLOSED })
+        let inverse = compliance.clone().try_inverse().unwrap();
+        turns.solve(PatchInverse { inverse: inverse.as_slice(), coupling: coupling.as_slice(), apart: CLOSED })
     }
 
     #[test]
