@@ -24,6 +24,8 @@ mod lock;
 mod plausible;
 mod shared;
 mod store;
+#[cfg(test)]
+mod tests;
 mod tools;
 pub mod validity;
 

@@ -2,6 +2,11 @@
 
 use crate::piecewise::{Piecewise, interpolate};
 
+/// Pressure above the limit per depth by which the surface gives way in a step [Pa/m]: so small that 100 µm take 1 MPa, but enough to
+/// hold the wheel up where the whole contact yields. It belongs to the depth and not to the time: steel that rolls through gives
+/// way by the whole depth in every step, however short that is.
+pub const RESISTANCE: f64 = 1e10;
+
 /// Limits of the contact forces. In the plane, the pressure under which steel flows sideways is that of a rigid-plastic
 /// half-plane under a punch (see [`crate::material::INDENTATION`]); it falls with the temperature of what lies below.
 #[derive(Clone, Copy, Debug)]
@@ -10,8 +15,6 @@ pub struct Limits<'a> {
     pub pressure: f64,
     /// Smallest largest pressure \[Pa]: steel that bears less would spread beyond the contact zone.
     pub least: f64,
-    /// Viscosity of yielding steel: pressure above the limit per velocity with which the surface gives way [Pa s/m].
-    pub viscosity: f64,
     /// Largest friction traction of yielding steel over its pressure \[1].
     pub shear: f64,
     /// Share of the largest pressure that remains, over x \[1]; empty: all of it.
@@ -23,7 +26,7 @@ pub struct Limits<'a> {
 impl<'a> Limits<'a> {
     /// No limit at all; `all` is an empty function.
     pub fn none(all: &'a Piecewise) -> Self {
-        Self { pressure: f64::INFINITY, least: 0.0, viscosity: 1.0, shear: f64::INFINITY, softened: all, film: all }
+        Self { pressure: f64::INFINITY, least: 0.0, shear: f64::INFINITY, softened: all, film: all }
     }
 
     /// Whether the pressure is limited at all.

@@ -3,7 +3,6 @@
 use super::vectorised::vectorised;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor;
-use faer::linalg::solvers::DenseSolveCore;
 use faer::{MatMut, Par};
 use nalgebra::DMatrix;
 
@@ -99,14 +98,6 @@ vectorised! {
             x[j] -= product(&column[j + 1..], &x[j + 1..]);
         }
     }
-}
-
-/// Inverse of a symmetric positive definite matrix; `None` if it is not.
-pub fn inverse_of_definite(a: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let n = a.nrows();
-    let a = faer::MatRef::from_column_major_slice(a.as_slice(), n, n);
-    let inverse = a.llt(faer::Side::Lower).ok()?.inverse();
-    Some(DMatrix::from_fn(n, n, |i, j| inverse[(i, j)]))
 }
 
 /// Removes the round-off between `a_ij` and `a_ji`.

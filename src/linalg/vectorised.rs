@@ -74,10 +74,12 @@ vectorised! {
 }
 
 vectorised! {
-    /// `out ← out + factor · A x` with the columns of `A`, as long as `out`: the first one of every `every` in `columns`.
-    fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], every: usize, x: &'a [f64], out: &'a mut [f64]) {
-        let n = out.len().max(1);
-        let apart = every * n;
+    /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, whose first entries are `apart` entries apart.
+    fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
+        let n = out.len();
+        if n == 0 {
+            return;
+        }
         let (out, out_rest) = S::as_mut_simd_f64s(out);
         // Several columns in one pass over the target.
         for (columns, x) in columns.chunks(COLUMNS * apart).zip(x.chunks(COLUMNS)) {
@@ -209,7 +211,7 @@ mod tests {
                     (0..count * every).flat_map(|j| (0..length).map(move |i| number(i, j))).collect();
                 let x: Vec<f64> = (0..count).map(|j| j as f64 - 2.0).collect();
                 let mut out: Vec<f64> = (0..length).map(|i| i as f64).collect();
-                add_columns(-2.0, &matrix, every, &x, &mut out);
+                add_columns(-2.0, &matrix, every * length, &x, &mut out);
                 for (i, out) in out.iter().enumerate() {
                     assert_eq!(*out, i as f64 - 2.0 * (0..count).map(|j| number(i, every * j) * x[j]).sum::<f64>());
                 }

@@ -112,7 +112,7 @@ impl RetardedLayer {
 
 /// `out ← out + factor · A x`.
 pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
-    add_columns(factor, a.as_slice(), 1, x.as_slice(), out.as_mut_slice());
+    add_columns(factor, a.as_slice(), out.len(), x.as_slice(), out.as_mut_slice());
 }
 
 /// `out ← out + factor · Aᵀ x`; zeros at the ends of `x` cost nothing.

@@ -147,7 +147,6 @@ impl ContactModel {
             limits: Limits {
                 pressure: self.yield_pressure,
                 least: self.least_pressure(start.traction.resultant[1]),
-                viscosity: VISCOSITY,
                 shear: SHEAR,
                 softened: &step.weakening.strength,
                 film: &step.weakening.film,
@@ -205,10 +204,6 @@ const JUMP: f64 = 0.02;
 
 /// Length of the contact zone over the longest patch of softened steel \[1].
 const SPREAD: f64 = 1.15;
-
-/// Viscosity of yielding steel [Pa s/m]: so low that pressures exceed the limit by less than a thousandth, but enough for a
-/// definite rate of flattening where the whole contact yields.
-const VISCOSITY: f64 = 1e8;
 
 /// The friction law with the present tunable parameters.
 pub fn friction_law(tuning: &Tuning) -> FrictionLaw {

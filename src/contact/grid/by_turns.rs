@@ -31,7 +31,7 @@ impl Iterate<'_> {
     }
 
     /// The closed nodes, if they are neighbours and none of them yields. Stationary problems are solved directly.
-    fn single_patch(&self) -> Option<Range<usize>> {
+    pub(super) fn single_patch(&self) -> Option<Range<usize>> {
         let closed = &self.scratch.closed;
         let (&first, &last) = (closed.first()?, closed.last()?);
         let single = last + 1 - first == closed.len() && !self.problem.time.is_stationary();

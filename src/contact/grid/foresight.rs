@@ -2,19 +2,25 @@
 //!
 //! New material comes under the contact in every step, so that the edges of the patches move, and the search for all
 //! states takes two or three iterations where on smooth surfaces it takes one. Pressures hardly depend on the shear. So closed
-//! nodes and normal forces are first found by themselves, with the shear forces and velocities of before: half of the unknowns,
-//! an eighth of the work. The guess decides nothing; where it fails the search starts from the states of before.
+//! nodes and normal forces are first found by themselves, with the shear forces and velocities of before and the inverses that
+//! the [turns](super::by_turns) keep. The guess decides nothing; where it fails the search starts from the states of before.
 
 use super::active_set::FORCE_TOLERANCE;
-use super::iterate::Iterate;
-use super::linear::largest;
+use super::iterate::{Foresight, Iterate};
+use super::patch_inverse::compliance;
 use super::state::Status;
-use crate::linalg::DenseSystem;
-use crate::linalg::vectorised::dot;
-use std::ops::Range;
+use crate::linalg::InverseFactor;
+use crate::linalg::vectorised::add_columns;
 
 /// Guesses of the closed nodes at most.
 const MAX_GUESSES: usize = 6;
+
+/// Balance of the height of the hub.
+struct HeightBalance {
+    /// Coefficient of the height, and what is known.
+    by_height: f64,
+    known: f64,
+}
 
 impl Iterate<'_> {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and velocities at
@@ -23,22 +29,26 @@ impl Iterate<'_> {
         if self.scratch.dents.is_empty() || self.problem.time.is_stationary() {
             return;
         }
-        let before = (self.state.status.clone(), self.traction.port_forces.clone(), self.traction.rigid);
-        let mut system = std::mem::take(&mut self.scratch.system);
-        let found = self.guess(penalty, &mut system);
-        self.scratch.system = system;
-        if found.is_none() {
-            (self.state.status, self.traction.port_forces, self.traction.rigid) = before;
+        let mut memory = std::mem::take(&mut self.scratch.foresight);
+        memory.status.clone_from(&self.state.status);
+        memory.port_forces.clone_from(&self.traction.port_forces);
+        let height = self.traction.rigid[1];
+        if self.guess(penalty, &mut memory).is_none() {
+            self.state.status.clone_from(&memory.status);
+            self.traction.port_forces.clone_from(&memory.port_forces);
+            self.traction.rigid[1] = height;
         }
+        self.scratch.foresight = memory;
     }
 
     /// Guesses until the closed nodes stay; `None` if nothing is closed or they do not.
-    fn guess(&mut self, penalty: f64, system: &mut DenseSystem) -> Option<()> {
-        let mut row = std::mem::take(&mut self.scratch.row);
+    fn guess(&mut self, penalty: f64, memory: &mut Foresight) -> Option<()> {
         self.write_turn();
+        let mut row = std::mem::take(&mut self.scratch.row);
+        let balance = self.write_base(memory, &mut row);
         let mut settled = false;
         for _ in 0..MAX_GUESSES {
-            settled = self.press(system, &mut row).is_some_and(|window| !self.close(penalty, window, &mut row));
+            settled = self.press(memory, &row, &balance).is_some() && !self.close(penalty, memory);
             if settled || self.scratch.closed.is_empty() {
                 break;
             }
@@ -47,14 +57,78 @@ impl Iterate<'_> {
         settled.then_some(())
     }
 
-    /// Solves for the normal forces of the closed nodes, and for the height of the hub if that is free. Returns the ports
-    /// from the first to the last closed node.
-    fn press(&mut self, system: &mut DenseSystem, row: &mut [f64]) -> Option<Range<usize>> {
+    /// Writes the gap without normal forces and height, and the balance of the height, whose force coefficients go to `row`;
+    /// `None` if the height is prescribed.
+    fn write_base(&self, memory: &mut Foresight, row: &mut [f64]) -> Option<HeightBalance> {
+        let (free, [v, height, omega]) = (self.problem.rigid[1].target().is_none(), self.traction.rigid);
+        let motions = [v, if free { 0.0 } else { height }, omega];
+        let of_motions = |rigid: [f64; 3]| rigid.iter().zip(motions).map(|(by, value)| by * value).sum::<f64>();
+        let Foresight { base, by_height, displaced, forces, .. } = memory;
+        forces.clear();
+        forces.extend((0..self.grid.len()).map(|i| self.tangential(i)));
+        self.displace(0, forces, displaced);
+        let turned: f64 = (0..self.grid.len()).map(|i| self.scratch.turn.forces[self.grid.port(i)] * forces[i]).sum();
+        base.clear();
+        by_height.clear();
+        for i in 0..self.grid.len() {
+            let terms = self.gap_terms(i);
+            let of_forces = displaced[self.grid.port(i) + 1] - self.grid.x[i] * turned;
+            base.push(terms.constant + of_motions(terms.rigid) + of_forces);
+            by_height.push(if free { terms.rigid[1] } else { 0.0 });
+        }
+        free.then(|| {
+            let terms = self.axis_row(1, row);
+            let of_shear: f64 = forces.iter().enumerate().map(|(i, force)| row[self.grid.port(i)] * force).sum();
+            HeightBalance { by_height: terms.rigid[1], known: -terms.constant - of_motions(terms.rigid) - of_shear }
+        })
+    }
+
+    /// Displacements of all ports by normal (`offset` 1) or tangential (0) forces at the candidates.
+    fn displace(&self, offset: usize, forces: &[f64], displaced: &mut Vec<f64>) {
+        let relative = self.problem.bodies.relative;
+        displaced.clear();
+        displaced.resize(relative.nrows(), 0.0);
+        let columns = &relative.as_slice()[(self.grid.port(0) + offset) * relative.nrows()..];
+        add_columns(1.0, columns, 2 * relative.nrows(), forces, displaced);
+    }
+
+    /// Solves for the normal forces of the closed nodes, and for the height of the hub if that is free; `row`: force coefficients
+    /// of its balance.
+    fn press(&mut self, memory: &mut Foresight, row: &[f64], balance: &Option<HeightBalance>) -> Option<()> {
         let mut closed = std::mem::take(&mut self.scratch.closed);
         closed.clear();
         closed.extend((0..self.grid.len()).filter(|&i| self.state.status[i].is_active()));
-        let window = self.grid.port(*closed.first()?)..self.grid.port(*closed.last()?) + 2;
-        let free = self.problem.rigid[1].target().is_none();
+        self.scratch.closed = closed;
+        let closed = &self.scratch.closed;
+        let Foresight { base, by_height, normal: [known, raised, tilted], .. } = memory;
+        [&mut *known, &mut *raised, &mut *tilted].into_iter().for_each(Vec::clear);
+        known.extend(closed.iter().map(|&i| {
+            let yields = if self.state.yielded[i] { self.creep(i) * self.scratch.limit[i] } else { 0.0 };
+            yields - base[i]
+        }));
+        raised.extend(closed.iter().map(|&i| -by_height[i]));
+        tilted.extend(closed.iter().map(|&i| self.grid.x[i]));
+        self.solve_pressures(memory)?;
+        let Foresight { normal: [known, raised, tilted], .. } = memory;
+        let sum = |coefficients: &[f64], forces: &[f64]| -> f64 {
+            let closed = self.scratch.closed.iter();
+            closed.zip(forces).map(|(&i, force)| coefficients[self.grid.port(i) + 1] * force).sum()
+        };
+        // Height and turn of the rim by these forces: two equations.
+        let turned = [&*known, raised, tilted].map(|forces| sum(&self.scratch.turn.forces, forces));
+        let (height, turn) = match balance {
+            Some(balance) => {
+                let of = [&*known, raised, tilted].map(|forces| sum(row, forces));
+                let (side, by_height) = (balance.known - of[0], balance.by_height + of[1]);
+                let turn =
+                    (turned[0] * by_height + turned[1] * side) / ((1.0 - turned[2]) * by_height + turned[1] * of[2]);
+                ((side - of[2] * turn) / by_height, turn)
+            }
+            None => (0.0, turned[0] / (1.0 - turned[2])),
+        };
+        if balance.is_some() {
+            self.traction.rigid[1] = height;
+        }
         for i in 0..self.grid.len() {
             let port = self.grid.port(i);
             self.traction.port_forces[port + 1] = 0.0;
@@ -62,45 +136,56 @@ impl Iterate<'_> {
                 self.traction.port_forces[port] = 0.0;
             }
         }
-        system.reset(closed.len() + usize::from(free));
-        for r in 0..closed.len() + usize::from(free) {
-            let affine = match closed.get(r) {
-                Some(&i) => self.gap_row(i, window.clone(), row),
-                None => self.axis_row(1, row),
-            };
-            let (target, rhs) = system.row(r);
-            target.iter_mut().zip(&closed).for_each(|(value, &i)| *value = row[self.grid.port(i) + 1]);
-            *rhs = -affine.constant - dot(&row[window.clone()], &self.traction.port_forces.as_slice()[window.clone()]);
-            for k in (0..3).filter(|k| !free || *k != 1) {
-                *rhs -= affine.rigid[k] * self.traction.rigid[k];
-            }
-            if free {
-                target[closed.len()] = affine.rigid[1];
-            }
-            let scale = 1.0 / largest(target);
-            target.iter_mut().for_each(|value| *value *= scale);
-            *rhs *= scale;
+        for (n, &i) in self.scratch.closed.iter().enumerate() {
+            self.traction.port_forces[self.grid.port(i) + 1] = known[n] + height * raised[n] + turn * tilted[n];
         }
-        self.scratch.closed = closed;
-        let solution = system.solve()?;
-        for (&i, force) in self.scratch.closed.iter().zip(solution) {
-            self.traction.port_forces[self.grid.port(i) + 1] = *force;
+        (height + turn).is_finite().then_some(())
+    }
+
+    /// Replaces gaps to be closed by the forces that close them.
+    fn solve_pressures(&mut self, memory: &mut Foresight) -> Option<()> {
+        let Foresight { normal, factor, product, .. } = memory;
+        let patch = self.single_patch();
+        let mut kept = std::mem::take(&mut self.scratch.kept);
+        let known = patch.and_then(|patch| kept.factor(self.problem, self.grid, &patch));
+        let factor = match known {
+            Some(factor) => Some(factor),
+            None => self.factorise(factor).map(|()| &*factor),
+        };
+        let solved = factor.map(|factor| normal.iter_mut().for_each(|forces| factor.solve(forces, product)));
+        self.scratch.kept = kept;
+        solved
+    }
+
+    /// Factorises the compliance of the closed nodes, of which some may yield.
+    fn factorise(&self, factor: &mut InverseFactor) -> Option<()> {
+        let closed = &self.scratch.closed;
+        factor.truncate(0);
+        for (n, &i) in closed.iter().enumerate() {
+            let creep = if self.state.yielded[i] { self.creep(i) } else { 0.0 };
+            let beside = closed[..n].iter().map(|&j| compliance(self.problem, self.grid, i, j));
+            factor.append(beside, compliance(self.problem, self.grid, i, i) + creep)?;
         }
-        if free {
-            self.traction.rigid[1] = *solution.last()?;
-        }
-        Some(window)
+        Some(())
     }
 
     /// Opens closed nodes that pull and closes open ones that overlap; returns whether there were any.
-    fn close(&mut self, penalty: f64, window: Range<usize>, row: &mut [f64]) -> bool {
+    fn close(&mut self, penalty: f64, memory: &mut Foresight) -> bool {
         let tolerance = FORCE_TOLERANCE[0] * self.problem.nominal_load / self.grid.len() as f64;
+        let Foresight { base, by_height, displaced, forces, .. } = memory;
+        forces.clear();
+        forces.extend((0..self.grid.len()).map(|i| self.normal(i)));
+        self.displace(1, forces, displaced);
+        let turned: f64 =
+            (0..self.grid.len()).map(|i| self.scratch.turn.forces[self.grid.port(i) + 1] * forces[i]).sum();
         self.scratch.status_before.clone_from(&self.state.status);
         let mut changed = false;
         for i in 0..self.grid.len() {
             let old = self.scratch.status_before[i];
-            self.state.gap[i] = if old.is_active() { 0.0 } else { self.gap_at(i, window.clone(), row) };
-            let indicator = if old.is_active() { self.normal(i) } else { -penalty * self.state.gap[i] };
+            let gap = base[i] + by_height[i] * self.traction.rigid[1] + displaced[self.grid.port(i) + 1]
+                - self.grid.x[i] * turned;
+            self.state.gap[i] = if old.is_active() { 0.0 } else { gap };
+            let indicator = if old.is_active() { self.normal(i) } else { -penalty * gap };
             if indicator.abs() <= tolerance || (indicator > 0.0) == old.is_active() {
                 continue;
             }
@@ -108,13 +193,5 @@ impl Iterate<'_> {
             changed = true;
         }
         changed
-    }
-
-    /// Gap at an open candidate [m].
-    fn gap_at(&self, i: usize, window: Range<usize>, row: &mut [f64]) -> f64 {
-        let affine = self.gap_row(i, window.clone(), row);
-        let of_forces = dot(&row[window.clone()], &self.traction.port_forces.as_slice()[window]);
-        let of_motions = affine.rigid.iter().zip(self.traction.rigid).map(|(c, v)| c * v);
-        affine.constant + of_forces + of_motions.sum::<f64>()
     }
 }

@@ -6,9 +6,10 @@ use super::patch_inverse::KeptInverses;
 use super::state::{GridState, Status};
 use super::streamline::Upwind;
 use super::turns::Turns;
+use crate::contact::limits::RESISTANCE;
 use crate::contact::problem::ContactProblem;
 use crate::contact::traction::Traction;
-use crate::linalg::DenseSystem;
+use crate::linalg::{DenseSystem, InverseFactor};
 use nalgebra::DVector;
 
 /// Buffers of the solver on a grid; of what they hold, only functions of the operators outlive a solution.
@@ -19,6 +20,10 @@ pub struct GridScratch {
     pub(super) turns: Turns,
     /// Inverses of the last patches.
     pub(super) kept: KeptInverses,
+    /// Guess of the closed nodes.
+    pub(super) foresight: Foresight,
+    /// Linear problems solved so far by turns, and all equations together: ordinary steps need no others than the first.
+    pub solved: [u64; 2],
     /// Nodes and axes whose forces and motions are unknown.
     pub(super) closed: Vec<usize>,
     /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks [1].
@@ -64,6 +69,27 @@ pub struct GridScratch {
     pub(super) row: Vec<f64>,
     /// Slip velocity with centred differences: what dissipates. The upwind one counts its own numerical dissipation.
     pub(super) centred_slip: Vec<f64>,
+}
+
+/// Memory of the guess of the closed nodes, see [`Iterate::foresee`].
+#[derive(Default)]
+pub(super) struct Foresight {
+    /// Gap at the candidates without normal forces and height of the hub [m].
+    pub base: Vec<f64>,
+    /// Its change with the height of the hub \[1]; zero if that is prescribed.
+    pub by_height: Vec<f64>,
+    /// Normal forces at the closed nodes without height and turn of the rim [N/m], and their change with either.
+    pub normal: [Vec<f64>; 3],
+    /// Displacement of all ports by forces at the candidates [m].
+    pub displaced: Vec<f64>,
+    /// Forces at the candidates [N/m].
+    pub forces: Vec<f64>,
+    /// Inverse where the closed nodes are no single patch or some of them yield.
+    pub factor: InverseFactor,
+    pub product: Vec<f64>,
+    /// What the guess began with.
+    pub status: Vec<Status>,
+    pub port_forces: DVector<f64>,
 }
 
 /// What each of the layers that answer late spares the hub, and the memory to compute it.
@@ -131,9 +157,9 @@ impl Iterate<'_> {
 
     /// Depth [m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
     pub fn creep(&self, i: usize) -> f64 {
-        let (duration, port) = (self.problem.duration, self.grid.port(i) + 1);
-        if duration > 0.0 {
-            duration / (self.problem.limits.viscosity * self.grid.width(i))
+        let port = self.grid.port(i) + 1;
+        if self.problem.duration > 0.0 {
+            1.0 / (RESISTANCE * self.grid.width(i))
         } else {
             SOFTER * self.problem.bodies.relative[(port, port)]
         }

@@ -14,9 +14,11 @@ impl Iterate<'_> {
     pub(super) fn solve_linear(&mut self) -> Result<(), ContactError> {
         self.list_unknowns();
         self.write_turn();
-        if !self.solve_by_turns() {
+        let by_turns = self.solve_by_turns();
+        if !by_turns {
             self.solve_together()?;
         }
+        self.scratch.solved[usize::from(!by_turns)] += 1;
         self.evaluate();
         Ok(())
     }

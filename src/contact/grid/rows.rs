@@ -64,7 +64,7 @@ impl Iterate<'_> {
         }
         // Every other column belongs to a normal force.
         let columns = &bodies.compliance[0].as_slice()[first * grid.ports()..];
-        add_columns(1.0, columns, 2, &turn.weights, &mut turn.forces);
+        add_columns(1.0, columns, 2 * grid.ports(), &turn.weights, &mut turn.forces);
         self.scratch.turn = turn;
     }
 
@@ -269,7 +269,7 @@ impl Iterate<'_> {
         }
         // Every other column belongs to a normal force.
         let columns = &problem.bodies.compliance[body].as_slice()[grid.port(0) * membrane.len()..];
-        add_columns(1.0, columns, 2, pull, membrane.as_mut_slice());
+        add_columns(1.0, columns, 2 * membrane.len(), pull, membrane.as_mut_slice());
         *known += &*membrane;
     }
 
@@ -284,7 +284,7 @@ impl Iterate<'_> {
             let surface = &mut self.traction.surface[body];
             copy(surface, &self.scratch.known[body]);
             let columns = &bodies.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
-            add_columns(sign, columns, 1, &forces[loaded.clone()], surface.as_mut_slice());
+            add_columns(sign, columns, surface.len(), &forces[loaded.clone()], surface.as_mut_slice());
         }
         let turn = &mut self.scratch.turn;
         turn.expected = turn.known;

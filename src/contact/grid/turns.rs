@@ -3,22 +3,14 @@
 //! Unknowns are the normal forces of the closed nodes, the *sheared* unknowns (tangential forces of the stuck nodes, velocities
 //! of the hub that are free), and the height of the hub where it is free, in this order.
 
+use super::patch_inverse::PatchInverse;
 use crate::linalg::DenseSystem;
 use crate::linalg::vectorised::{add_columns, dot};
-use nalgebra::DMatrix;
 
 /// Turns allowed: ordinary steps take three or four.
 const MOST_TURNS: usize = 10;
 /// Error that counts as none, over the largest nodal force \[1].
 const PRECISION: f64 = 1e-13;
-
-/// What the equations of a patch have in common in all steps of one size.
-pub(super) struct PatchMatrices {
-    /// Normal forces at the closed nodes per gap [N/m per m].
-    pub inverse: DMatrix<f64>,
-    /// Gap at the closed nodes per tangential force there [m/(N/m)].
-    pub coupling: DMatrix<f64>,
-}
 
 /// Equations and unknowns of one patch, and the memory to solve them.
 #[derive(Default)]
@@ -72,7 +64,7 @@ impl Turns {
     }
 
     /// Solves by turns; `false`: they do not converge.
-    pub fn solve(&mut self, patch: &PatchMatrices) -> bool {
+    pub fn solve(&mut self, patch: PatchInverse) -> bool {
         if !self.factorise() {
             return false;
         }
@@ -102,17 +94,17 @@ impl Turns {
     }
 
     /// What the height of the hub does to the normal forces.
-    fn raise(&mut self, patch: &PatchMatrices) {
-        let (closed, height) = (self.gap.len(), self.constants.len() > self.sheared);
+    fn raise(&mut self, patch: PatchInverse) {
+        let height = self.constants.len() > self.sheared;
         self.raised.clear();
-        self.raised.resize(if height { closed } else { 0 }, 0.0);
         if height && let Some(by_height) = self.motions.iter().rfind(|motion| !motion.is_empty()) {
-            add_columns(-1.0, patch.inverse.as_slice(), 1, by_height, &mut self.raised);
+            self.raised.resize(by_height.len(), 0.0);
+            add_columns(-1.0, patch.inverse, by_height.len(), by_height, &mut self.raised);
         }
     }
 
     /// Finds normal forces and height for the present shear; returns the largest change of the forces over the largest force.
-    fn find_pressure(&mut self, patch: &PatchMatrices) -> f64 {
+    fn find_pressure(&mut self, patch: PatchInverse) -> f64 {
         let (closed, width) = (self.gap.len(), self.unknowns.len());
         let (normal, others) = self.unknowns.split_at_mut(closed);
         self.shear.clear();
@@ -121,14 +113,14 @@ impl Turns {
         let turned = dot(&self.turn[0], normal) + dot(&self.turn[1], &self.shear);
         self.open.clear();
         self.open.extend(self.gap.iter().zip(&self.place).map(|(gap, x)| gap - x * turned));
-        add_columns(1.0, patch.coupling.as_slice(), 1, &self.shear, &mut self.open);
+        add_columns(1.0, patch.coupling, patch.apart, &self.shear, &mut self.open);
         let free_velocities = &others[self.stuck.len()..self.sheared];
         for (motion, value) in self.motions.iter().zip(free_velocities) {
             self.open.iter_mut().zip(motion).for_each(|(open, by_motion)| *open += by_motion * value);
         }
         self.normal.clear();
         self.normal.resize(closed, 0.0);
-        add_columns(-1.0, patch.inverse.as_slice(), 1, &self.open, &mut self.normal);
+        add_columns(-1.0, patch.inverse, closed, &self.open, &mut self.normal);
         if let (Some(constant), Some(row)) =
             (self.constants.get(self.sheared), self.rows.chunks(width).nth(self.sheared))
         {
@@ -176,13 +168,14 @@ fn take(forces: &mut [f64], new: &[f64], scale: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DMatrix;
 
     const CLOSED: usize = 12;
     const STUCK: usize = 7;
 
     /// A made-up patch whose shear opens the gap by `share` of what pressure does: a free velocity, a free height. Beside its
     /// equations those of all unknowns together.
-    fn patch(share: f64) -> (Turns, PatchMatrices, DMatrix<f64>, Vec<f64>) {
+    fn patch(share: f64) -> (Turns, [DMatrix<f64>; 2], DMatrix<f64>, Vec<f64>) {
         let wave = |i: usize, j: usize| ((3 * i + 5 * j) as f64).sin();
         let near = |i: usize, j: usize| (-0.7 * (i as f64 - j as f64).abs()).exp();
         let compliance = DMatrix::from_fn(CLOSED, CLOSED, near);
@@ -224,21 +217,25 @@ mod tests {
             all.row_mut(CLOSED + r).iter_mut().zip(turns.row(r).0).for_each(|(a, value)| *a = *value);
         }
         let sides = turns.gap.iter().map(|gap| -gap).chain(turns.constants.iter().copied()).collect();
-        let inverse = compliance.try_inverse().unwrap();
-        (turns, PatchMatrices { inverse, coupling }, all, sides)
+        (turns, [compliance, coupling], all, sides)
+    }
+
+    fn solve(turns: &mut Turns, [compliance, coupling]: &[DMatrix<f64>; 2]) -> bool {
+        let inverse = compliance.clone().try_inverse().unwrap();
+        turns.solve(PatchInverse { inverse: inverse.as_slice(), coupling: coupling.as_slice(), apart: CLOSED })
     }
 
     #[test]
     fn turns_end_at_the_solution_of_all_equations_together() {
         for share in [0.0, 1e-3, 0.01] {
             let (mut turns, matrices, all, sides) = patch(share);
-            assert!(turns.solve(&matrices), "{share}");
+            assert!(solve(&mut turns, &matrices), "{share}");
             let exact = all.lu().solve(&nalgebra::DVector::from_vec(sides)).unwrap();
             let error = (nalgebra::DVector::from_vec(turns.unknowns.clone()) - &exact).amax() / exact.amax();
             assert!(error < 1e-12, "{share}: {error:e}");
             // From the solution itself hardly a turn is needed, and nothing moves.
             let found = turns.unknowns.clone();
-            assert!(turns.solve(&matrices));
+            assert!(solve(&mut turns, &matrices));
             assert!(turns.unknowns.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-12 * exact.amax()));
         }
     }
@@ -246,9 +243,9 @@ mod tests {
     #[test]
     fn turns_that_do_not_settle_are_given_up() {
         let (mut turns, matrices, ..) = patch(10.0);
-        assert!(!turns.solve(&matrices));
+        assert!(!solve(&mut turns, &matrices));
         let (mut turns, matrices, ..) = patch(1e-3);
         turns.gap[3] = f64::NAN;
-        assert!(!turns.solve(&matrices));
+        assert!(!solve(&mut turns, &matrices));
     }
 }

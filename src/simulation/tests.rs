@@ -1,0 +1,36 @@
+//! What a step does that its results do not show.
+
+use super::*;
+use std::path::Path;
+
+/// Linear problems of the contact that 200 steps of 0.1 ms solve by turns, and all equations together.
+fn solved(profile: &str, moment: f64) -> [u64; 2] {
+    let store = BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
+    let mut config = Config::default();
+    (config.thermal.enabled, config.tuning.tolerance) = (false, 0.0);
+    config.rail.profile = profile.to_owned();
+    let model = Model::prepare(config, &store, &mut |_, _| {}).unwrap();
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    inputs.drive.moment = moment;
+    let (mut tools, mut before) = (Box::<Tools>::default(), [0; 2]);
+    for step in 0..220 {
+        // The first steps follow the change of the moment.
+        if step == 20 {
+            before = tools.workspace.contact.grid.solved;
+        }
+        simulation.advance_with(&inputs, 1e-4, &mut tools).unwrap();
+    }
+    let after = tools.workspace.contact.grid.solved;
+    [after[0] - before[0], after[1] - before[1]]
+}
+
+#[test]
+fn ordinary_steps_are_solved_by_turns() {
+    let rough = "roughness(spectrum = EN_ISO_3095)";
+    for (profile, moment, most) in [("", 0.0, 220), ("", -7000.0, 300), (rough, 0.0, 300), (rough, -7000.0, 450)] {
+        let [by_turns, together] = solved(profile, moment);
+        println!("{profile}, {moment} N m: {by_turns} by turns, {together} together");
+        assert!(together == 0 && (200..most).contains(&by_turns), "{profile}, {moment} N m: {by_turns}, {together}");
+    }
+}
