@@ -41,6 +41,27 @@ fn pressure_beyond_what_steel_carries_is_told_with_both_numbers() {
 }
 
 #[test]
+fn contact_near_the_end_of_where_it_is_looked_for_is_told_before_it_is_refused_and_the_advice_helps() {
+    let over_a_hole = |length: f64, reach: f64| {
+        let config = small(|config| {
+            config.thermal.enabled = false;
+            config.mesh.reach = reach;
+            config.rail.profile = format!("hole(length = {length}, depth = 0.005, position = 0)");
+        });
+        let inputs = Inputs::rolling(&config);
+        Simulation::new(model(config), &inputs).map(|simulation| (limits(&simulation), simulation))
+    };
+    let (near, simulation) = over_a_hole(0.042, 0.0).unwrap();
+    assert!(near.contains(&Limit::Reach));
+    let text = simulation.describe_limit(Limit::Reach);
+    println!("{text}");
+    let advised = text.split("m) to ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+    assert!(!over_a_hole(0.02, 0.0).unwrap().0.contains(&Limit::Reach));
+    assert!(over_a_hole(0.05, 0.0).is_err());
+    assert!(!over_a_hole(0.042, advised).unwrap().0.contains(&Limit::Reach));
+}
+
+#[test]
 fn a_melting_contact_is_told() {
     let simulation = at_start(small(|config| {
         config.thermal.wheel_excess = 1500.0;

@@ -30,6 +30,8 @@ pub struct Model {
     pub thermal: Option<ThermalModel>,
     /// Half-length of the zone in which ordinary contact is looked for \[m].
     pub zone: f64,
+    /// Half-length of the zone beyond which contact is never looked for \[m].
+    pub reach: f64,
     /// Torsion of the wheel on its hub, which falling friction can excite [rad/s].
     pub torsion: f64,
 }
@@ -112,6 +114,7 @@ impl Model {
             wheel: RigidWheel::new(&config),
             bodies: Bodies::new(bodies, TrackSupport::new(&config), &*solver),
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach)),
+            reach: zone.max(reach),
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
             zone,

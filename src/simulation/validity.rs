@@ -15,6 +15,8 @@ pub enum Limit {
     Patch,
     /// Load for which the candidate zone is laid out.
     Zone,
+    /// Distance from the contact point up to which contact is looked for.
+    Reach,
     /// Pressure that steel carries, where it is not limited by yielding.
     Yield,
     /// Pressure under which softened steel spreads as far as the contact zone shows.
@@ -33,9 +35,9 @@ pub enum Limit {
 
 impl Limit {
     /// All of them.
-    const ALL: [Self; 11] = {
+    const ALL: [Self; 12] = {
         use Limit::*;
-        [Speed, ThermalLoad, Patch, Zone, Yield, Softening, Melting, StickSlip, Chatter, Waves, Sampling]
+        [Speed, ThermalLoad, Patch, Zone, Reach, Yield, Softening, Melting, StickSlip, Chatter, Waves, Sampling]
     };
 }
 
@@ -49,6 +51,8 @@ const FEWEST_PER_WAVE: f64 = 4.0;
 const HOLE: f64 = 0.2;
 /// Load that the candidate zone carries in any case, over the nominal load.
 pub(super) const ZONE_LOAD: f64 = 2.0;
+/// Share of the zone in which contact is looked for from which on its end is near \[1].
+const NEAR_END: f64 = 0.8;
 /// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
 /// formula damps it by a ratio of a quarter of its cube, 2e-3.
 const RESOLVED_PHASE: f64 = 0.2;
@@ -62,12 +66,10 @@ impl Simulation {
         Limit::ALL.into_iter().filter(|limit| {
             let (value, bound) = self.against(*limit);
             match limit {
-                Limit::Speed | Limit::Zone | Limit::Yield | Limit::Melting | Limit::StickSlip | Limit::Sampling => {
-                    value > bound
-                }
                 Limit::ThermalLoad | Limit::Patch | Limit::Softening | Limit::Chatter | Limit::Waves => {
                     value > 0.0 && value < bound
                 }
+                _ => value > bound,
             }
         })
     }
@@ -87,6 +89,10 @@ impl Simulation {
                 (outputs.contact_half_width / element, FEWEST_ELEMENTS)
             }
             Limit::Zone => (load, ZONE_LOAD * nominal),
+            Limit::Reach => {
+                let extent = self.state().contact.traction.extent();
+                (extent.map_or(0.0, |patch| f64::max(-patch.low, patch.high)), NEAR_END * self.model().rolling.reach)
+            }
             Limit::Yield => {
                 let elastic = if config.physics.yielding { 0.0 } else { 1.0 };
                 (elastic * outputs.contact_pressure_max, INDENTATION * config.material.yield_strength)
@@ -176,6 +182,14 @@ impl Simulation {
                 "contact load {value:.0} N is above {ZONE_LOAD:.0} x model.nominal_load = {bound:.0} N, for which the \
                  contact zone is laid out: the patch may reach its end; raise model.nominal_load and set drive.load, \
                  which follows it unless set"
+            ),
+            Limit::Reach => format!(
+                "the surfaces touch {:.1} mm from the contact point, and steps in which they touch beyond {:.1} mm are refused: a wider \
+                 flat, patch or hole has no room; set mesh.reach (now {:?} m) to {:.3} m or more",
+                1e3 * value,
+                1e3 * bound / NEAR_END,
+                self.model().config().mesh.reach,
+                2.0 * value
             ),
             Limit::Yield => format!(
                 "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
