@@ -25,13 +25,14 @@ impl Product {
         Self::with(preset, |config| config.physics.centrifugal = centrifugal)
     }
 
-    /// A preset with changes. Reduced bases are kept in the target directory.
+    /// A preset with changes, of steel that does not yield, as in the thesis. Reduced bases are kept in the target directory.
     pub fn with(preset: &str, change: impl FnOnce(&mut Config)) -> Result<Self, String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let file = root.join("resources").join(format!("{preset}.json"));
         let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
         let store = BasisStore::within(&root.join("target"));
         let mut config = presets::parse(&text)?;
+        config.physics.yielding = false;
         change(&mut config);
         Model::shared(config, &store, &mut |_, _| {}).map(Self).map_err(|error| error.to_string())
     }
