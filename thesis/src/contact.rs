@@ -28,6 +28,15 @@ pub struct Pair {
     pub centre: [f64; 2],
 }
 
+/// How the nodes of a contact element came where they are within a time step: backward differences give `d_t u` (\[D] 17).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Past {
+    /// Displacements of slave, upstream node and both masters at the beginning of the step \[m].
+    pub from: [[f64; 2]; 4],
+    /// Inverse of the step \[1/s]; zero in stationary rolling.
+    pub rate: f64,
+}
+
 /// What a contact element does; forces [N/m] on the slave node and the two ends of the segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces {
@@ -64,6 +73,18 @@ impl Law {
     /// Normal and tangent are those of the deformed segment. The velocity of deformed material is `(1 + ∇u)·v̄`, with ∇u of
     /// the boundary element upstream on the wheel and of the segment on the rail.
     pub fn forces(&self, pair: &Pair, u: &[[f64; 2]; 4], omega: f64, velocity: f64) -> Option<Forces> {
+        self.forces_in_time(pair, u, &Past::default(), omega, velocity)
+    }
+
+    /// The same in a time step: the slip has a part of the rates, too.
+    pub fn forces_in_time(
+        &self,
+        pair: &Pair,
+        u: &[[f64; 2]; 4],
+        past: &Past,
+        omega: f64,
+        velocity: f64,
+    ) -> Option<Forces> {
         let moved: [Vector; 4] = std::array::from_fn(|k| [0, 1].map(|axis| Dual::variable(u[k][axis], 2 * k + axis)));
         let (omega, velocity) = (Dual::variable(omega, 8), Dual::variable(velocity, 9));
         let fixed = |place: [f64; 2]| place.map(Dual::constant);
@@ -78,12 +99,16 @@ impl Law {
         if gap.value >= 0.0 {
             return None;
         }
-        let slip = dot(minus(self.wheel_velocity(pair, &moved, omega), rail_velocity(pair, &moved, velocity)), tangent);
+        let share = dot(from_left, tangent) / length;
+        let rate = |k: usize| minus(moved[k], fixed(past.from[k])).map(|way| way * Dual::constant(past.rate));
+        let below = plus(scaled(rate(2), Dual::constant(1.0) - share), scaled(rate(3), share));
+        let wheel = plus(self.wheel_velocity(pair, &moved, omega), rate(0));
+        let rail = plus(rail_velocity(pair, &moved, velocity), below);
+        let slip = dot(minus(wheel, rail), tangent);
         let normal_force = -gap * Dual::constant(self.penalty);
         let tangential =
             -normal_force * (slip / Dual::constant(self.regularisation)).tanh() * Dual::constant(self.friction);
         let force = plus(scaled(normal, normal_force), scaled(tangent, tangential));
-        let share = dot(from_left, tangent) / length;
         let on = [force, scaled(force, share - Dual::constant(1.0)), scaled(force, -share)];
         Some(Forces { gap, slip, on })
     }

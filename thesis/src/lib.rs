@@ -9,7 +9,9 @@
 
 pub mod annulus;
 pub mod contact;
+pub mod decomposition;
 pub mod dual;
+pub mod dynamic;
 pub mod elastic;
 pub mod errors;
 pub mod figures;

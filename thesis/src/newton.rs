@@ -150,30 +150,61 @@ impl Newton<'_> {
         State { q, motion }
     }
 
-    /// Solves from a start; returns the state and the number of steps. Steps are halved while the residual would grow.
+    /// Solves from a start; returns the state and the number of steps.
     pub fn solve(&self, start: &State) -> Result<(State, usize), Error> {
-        let mut state = start.clone();
-        let mut residual = self.size(&self.residual(&state).0);
-        let mut jumps = 0;
-        for iterations in 0..ITERATIONS {
-            if residual < TOLERANCE {
-                return Ok((state, iterations));
-            }
-            let step = self.step(&state)?;
-            let try_share = |k: usize| {
-                let next = self.moved(&state, &step, 0.5_f64.powi(k as i32));
-                let size = self.size(&self.residual(&next).0);
-                (next, size)
-            };
-            let better = (0..HALVINGS).map(try_share).find(|(_, size)| *size < residual);
-            jumps += usize::from(better.is_none());
-            if jumps > JUMPS {
-                return Err(Error::NotConverged { iterations, residual });
-            }
-            (state, residual) = better.unwrap_or_else(|| try_share(0));
-        }
-        Err(Error::NotConverged { iterations: ITERATIONS, residual })
+        iterate(self, start)
     }
+}
+
+impl Equations for Newton<'_> {
+    fn imbalance(&self, state: &State) -> f64 {
+        self.size(&self.residual(state).0)
+    }
+
+    fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
+        Newton::step(self, state)
+    }
+
+    fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
+        Newton::moved(self, state, step, share)
+    }
+}
+
+/// Equations that Newton's iteration solves.
+pub trait Equations {
+    /// Size of the residual of a state over the load \[1].
+    fn imbalance(&self, state: &State) -> f64;
+
+    /// The step of a state.
+    fn step(&self, state: &State) -> Result<Vec<f64>, Error>;
+
+    /// The state a share of a step further on.
+    fn moved(&self, state: &State, step: &[f64], share: f64) -> State;
+}
+
+/// Solves from a start; returns the state and the number of steps. Steps are halved while the residual would grow.
+pub fn iterate(equations: &impl Equations, start: &State) -> Result<(State, usize), Error> {
+    let mut state = start.clone();
+    let mut residual = equations.imbalance(&state);
+    let mut jumps = 0;
+    for iterations in 0..ITERATIONS {
+        if residual < TOLERANCE {
+            return Ok((state, iterations));
+        }
+        let step = equations.step(&state)?;
+        let try_share = |k: usize| {
+            let next = equations.moved(&state, &step, 0.5_f64.powi(k as i32));
+            let size = equations.imbalance(&next);
+            (next, size)
+        };
+        let better = (0..HALVINGS).map(try_share).find(|(_, size)| *size < residual);
+        jumps += usize::from(better.is_none());
+        if jumps > JUMPS {
+            return Err(Error::NotConverged { iterations, residual });
+        }
+        (state, residual) = better.unwrap_or_else(|| try_share(0));
+    }
+    Err(Error::NotConverged { iterations: ITERATIONS, residual })
 }
 
 /// Contact without friction at rest: from bodies loaded by Hertz' pressure, brought together until they carry the load.

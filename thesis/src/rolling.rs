@@ -4,7 +4,7 @@
 //! in both cases. The hub is rigid, held in x and free in y, where it carries the load;
 //! the base of the rail is held; its ends let material pass without traction of their own (Robin condition).
 
-use crate::contact::{Forces, Law, Pair};
+use crate::contact::{Forces, Law, Pair, Past};
 use crate::mesh::Mesh;
 use crate::sparse::Matrix;
 use crate::triangle::{Order, Space};
@@ -157,8 +157,13 @@ impl System {
         Matrix { size: self.size, entries: full.entries.iter().filter_map(entry).collect() }
     }
 
-    /// Where the bodies touch; `law` replaces the system's own.
+    /// Where the bodies touch in stationary rolling; `law` replaces the system's own.
     pub fn touches(&self, u: &[f64], motion: Motion, law: Law) -> Vec<Touch> {
+        self.touches_in_time(u, None, motion, law)
+    }
+
+    /// The same at the end of a time step; `past`: displacements at its beginning, and its inverse \[1/s].
+    pub fn touches_in_time(&self, u: &[f64], past: Option<(&[f64], f64)>, motion: Motion, law: Law) -> Vec<Touch> {
         let at = |node: usize| [u[2 * node], u[2 * node + 1]];
         // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between two normals.
         let x = |node: usize| self.places[node][0];
@@ -170,7 +175,12 @@ impl System {
             let [slave, upstream, left, right] = nodes.map(|node| self.places[node]);
             let centre = [0.0, self.parameters.annulus.outer];
             let pair = Pair { slave, upstream, master: [left, right], centre };
-            law.forces(&pair, &nodes.map(at), motion.omega, motion.velocity).map(|forces| Touch { nodes, forces })
+            let past = past.map_or_else(Past::default, |(before, rate)| Past {
+                from: nodes.map(|node| [before[2 * node], before[2 * node + 1]]),
+                rate,
+            });
+            let forces = law.forces_in_time(&pair, &nodes.map(at), &past, motion.omega, motion.velocity);
+            forces.map(|forces| Touch { nodes, forces })
         };
         self.slaves.iter().filter_map(touch).collect()
     }
