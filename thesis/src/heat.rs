@@ -13,10 +13,11 @@ use crate::sparse::Matrix;
 use crate::stabilise::Scheme;
 use crate::triangle::{Order, Space, points};
 use crate::wheel::{Annulus, rims};
+use nalgebra::DMatrix;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 /// A node of the tread in contact.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// Node of the wheel.
     pub slave: usize,
@@ -29,6 +30,7 @@ pub struct Spot {
 }
 
 /// What is heated and how.
+#[derive(Clone, Copy)]
 pub struct Heating<'a> {
     /// Wheel and rail.
     pub meshes: [&'a Mesh; 2],
@@ -89,28 +91,10 @@ pub fn spots(system: &System, state: &State) -> Vec<Spot> {
 impl Heating<'_> {
     /// Stationary temperatures.
     pub fn solve(&self) -> Result<Warmth, Error> {
-        let [wheel, rail] = self.meshes;
-        let [omega, velocity] = self.motion;
-        let spaces = [Space::new(wheel, self.wheel.0), Space::new(rail, Order::Linear)];
+        let spaces = self.spaces();
         let first = spaces[0].places.len();
-        let size = first + spaces[1].places.len();
-        let (mut matrix, mut load) = (Matrix::new(size), vec![0.0; size]);
-        let turning = |[x, y]: [f64; 2]| [omega * y, -omega * x];
-        let streaming = |_: [f64; 2]| [-velocity, 0.0];
-        let [capacity, conductivity] = self.material;
-        let flows: [&dyn Fn([f64; 2]) -> [f64; 2]; 2] = [&turning, &streaming];
-        for (body, (space, velocity)) in spaces.iter().zip(flows).enumerate() {
-            let flow = Flow { capacity, conductivity, velocity, source: 0.0 };
-            let (order, scheme) = if body == 0 { self.wheel } else { (Order::Linear, Scheme::Supg) };
-            for (t, nodes) in space.elements.iter().enumerate() {
-                let (part, _) = flow.element(&self.meshes[body].corners(t), order, scheme);
-                for (a, row) in nodes.iter().enumerate() {
-                    nodes.iter().enumerate().for_each(|(b, column)| {
-                        matrix.add(row + body * first, column + body * first, part[(a, b)]);
-                    });
-                }
-            }
-        }
+        let mut matrix = self.stabilised(&spaces);
+        let mut load = vec![0.0; matrix.size];
         self.exchange(first, &mut matrix, &mut load);
         self.heat_arcs(&spaces[0], &mut load);
         let fixed = self.fixed(&spaces);
@@ -121,7 +105,7 @@ impl Heating<'_> {
         let held = rows.multiply(&theta);
         let mut leaves = [0.0; 2];
         fixed.iter().for_each(|node| leaves[usize::from(*node >= first)] += free[*node] - held[*node]);
-        let means = [mean(wheel, &spaces[0], &theta[..first]), mean(rail, &spaces[1], &theta[first..])];
+        let means = self.means(&spaces, &theta);
         let conducted =
             self.spots.iter().map(|spot| self.contact[0] * spot.length * difference(spot, &theta, first)).sum();
         let friction = self.contact[1] * self.spots.iter().map(|spot| spot.friction).sum::<f64>();
@@ -129,29 +113,79 @@ impl Heating<'_> {
         Ok(Warmth { space, theta, means, flows: [conducted, friction], leaves })
     }
 
+    /// Nodes of wheel and rail.
+    pub fn spaces(&self) -> [Space; 2] {
+        let [wheel, rail] = self.meshes;
+        [Space::new(wheel, self.wheel.0), Space::new(rail, Order::Linear)]
+    }
+
+    /// Conduction and convection of both bodies with their stabilisation.
+    pub fn stabilised(&self, spaces: &[Space; 2]) -> Matrix {
+        self.flowing(spaces, [self.wheel.1, Scheme::Supg], self.material[1], self.motion)
+    }
+
+    /// The same with given schemes, conductivity and velocities.
+    pub(crate) fn flowing(&self, spaces: &[Space; 2], schemes: [Scheme; 2], k: f64, motion: [f64; 2]) -> Matrix {
+        let [omega, velocity] = motion;
+        let turning = |[x, y]: [f64; 2]| [omega * y, -omega * x];
+        let streaming = |_: [f64; 2]| [-velocity, 0.0];
+        let flows: [&dyn Fn([f64; 2]) -> [f64; 2]; 2] = [&turning, &streaming];
+        self.assemble(spaces, |body, corners| {
+            let flow = Flow { capacity: self.material[0], conductivity: k, velocity: flows[body], source: 0.0 };
+            flow.element(corners, spaces[body].order, schemes[body]).0
+        })
+    }
+
+    /// Sums up elements of both bodies.
+    pub(crate) fn assemble(
+        &self,
+        spaces: &[Space; 2],
+        element: impl Fn(usize, &[[f64; 2]; 3]) -> DMatrix<f64>,
+    ) -> Matrix {
+        let first = spaces[0].places.len();
+        let mut matrix = Matrix::new(first + spaces[1].places.len());
+        for (body, space) in spaces.iter().enumerate() {
+            for (t, nodes) in space.elements.iter().enumerate() {
+                let part = element(body, &self.meshes[body].corners(t));
+                for (a, row) in nodes.iter().enumerate() {
+                    nodes.iter().enumerate().for_each(|(b, column)| {
+                        matrix.add(row + body * first, column + body * first, part[(a, b)]);
+                    });
+                }
+            }
+        }
+        matrix
+    }
+
+    /// Mean temperatures of wheel and rail \[K].
+    pub(crate) fn means(&self, spaces: &[Space; 2], theta: &[f64]) -> [f64; 2] {
+        let (wheel, rail) = theta.split_at(spaces[0].places.len());
+        [mean(self.meshes[0], &spaces[0], wheel), mean(self.meshes[1], &spaces[1], rail)]
+    }
+
     /// Heat put in, by the arcs, friction and the chords, less that which leaves, over that of arcs and friction \[1].
     pub fn imbalance(&self, warmth: &Warmth) -> f64 {
         let given = 2.0 * self.arcs + warmth.flows[1];
-        ((given + self.let_in(warmth) - warmth.leaves.iter().sum::<f64>()) / given).abs()
+        ((given + self.let_in(&warmth.space, &warmth.theta) - warmth.leaves.iter().sum::<f64>()) / given).abs()
     }
 
     /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.
-    pub fn let_in(&self, warmth: &Warmth) -> f64 {
+    pub fn let_in(&self, space: &Space, theta: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for (a, b, middle) in warmth.space.boundary(self.meshes[0]) {
-            let (p, q) = (warmth.space.places[a], warmth.space.places[b]);
+        for (a, b, middle) in space.boundary(self.meshes[0]) {
+            let (p, q) = (space.places[a], space.places[b]);
             let along = [q[0] - p[0], q[1] - p[1]];
             let value = |[x, y]: [f64; 2], theta: f64| (x * along[0] + y * along[1]) * theta;
-            let there = middle.map_or(0.5 * (warmth.theta[a] + warmth.theta[b]), |node| warmth.theta[node]);
+            let there = middle.map_or(0.5 * (theta[a] + theta[b]), |node| theta[node]);
             let half = value([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])], there);
             // Simpson's rule, exact up to cubics: temperatures are quadratic at most, the velocity is linear.
-            sum += (value(p, warmth.theta[a]) + 4.0 * half + value(q, warmth.theta[b])) / 6.0;
+            sum += (value(p, theta[a]) + 4.0 * half + value(q, theta[b])) / 6.0;
         }
         -self.material[0] * self.motion[0] * sum
     }
 
     /// Conductance and friction heat, half of it to each side.
-    fn exchange(&self, first: usize, matrix: &mut Matrix, load: &mut [f64]) {
+    pub(crate) fn exchange(&self, first: usize, matrix: &mut Matrix, load: &mut [f64]) {
         for spot in self.spots {
             let [(left, a), (right, b)] = spot.masters;
             let sides = [(spot.slave, 1.0), (first + left, -a), (first + right, -b)];
@@ -165,7 +199,7 @@ impl Heating<'_> {
     }
 
     /// Heat of both arcs by edges of the tread whose middle lies on them.
-    fn heat_arcs(&self, space: &Space, load: &mut [f64]) {
+    pub(crate) fn heat_arcs(&self, space: &Space, load: &mut [f64]) {
         let mesh = self.meshes[0];
         let (tread, _) = rims(mesh, self.annulus);
         let on_tread: std::collections::HashSet<usize> = tread.into_iter().collect();
@@ -189,7 +223,7 @@ impl Heating<'_> {
     }
 
     /// Nodes at the reference: the rail's ends, and the hub where it is cold.
-    fn fixed(&self, spaces: &[Space; 2]) -> Vec<usize> {
+    pub(crate) fn fixed(&self, spaces: &[Space; 2]) -> Vec<usize> {
         let end = spaces[1].places.iter().fold(0.0_f64, |most, place| most.max(place[0].abs())) - 1e-9;
         let first = spaces[0].places.len();
         let ends = (0..spaces[1].places.len()).filter(|n| spaces[1].places[*n][0].abs() > end).map(|n| n + first);

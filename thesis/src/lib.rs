@@ -33,6 +33,7 @@ pub mod stabilise;
 pub mod transient;
 pub mod triangle;
 pub mod unstructured;
+pub mod warming;
 pub mod waves;
 pub mod wheel;
 

@@ -4,8 +4,8 @@ use wheelrail::analytic::{contact_modulus, hertz_half_width};
 use wheelrail_thesis::contact::Law;
 use wheelrail_thesis::dynamic::{Prescribed, Rolling};
 use wheelrail_thesis::mesh::Mesh;
-use wheelrail_thesis::newton::{Equations, rolling};
 use wheelrail_thesis::newton::resultant;
+use wheelrail_thesis::newton::{Equations, rolling};
 use wheelrail_thesis::rail::{self, Plate};
 use wheelrail_thesis::rolling::{Motion, Parameters, System};
 use wheelrail_thesis::wheel::{self, Annulus};
@@ -150,8 +150,7 @@ fn moment_and_force_at_once_speed_up_a_wheel_as_newton_says() {
     println!("gained {gained:.3?}, off by {off:.5?}; utilisation {:.3}", utilisation(&rolling));
     // The deformation turns with the wheel and has its own angular momentum.
     assert!(off[0].abs() < 2e-3 && off[1].abs() < 1e-4);
-    let rigid = (moment / PARAMETERS.annulus.outer + force)
-        / (mass + inertia / PARAMETERS.annulus.outer.powi(2));
+    let rigid = (moment / PARAMETERS.annulus.outer + force) / (mass + inertia / PARAMETERS.annulus.outer.powi(2));
     let middle = 2e-3 * (60.0 - 9.5);
     assert!(((velocity - begin.velocity) / (rigid * middle) - 1.0).abs() < 0.02);
 }

@@ -87,7 +87,7 @@ fn heat_of_the_arcs_leaves_through_the_contact_but_for_what_chords_let_in() {
             cold_hub: false,
         };
         let warmth = heating.solve().unwrap();
-        let (arrives, let_in) = (warmth.flows[0], heating.let_in(&warmth));
+        let (arrives, let_in) = (warmth.flows[0], heating.let_in(&warmth.space, &warmth.theta));
         println!(
             "{order:?} {scheme:?} {omega:.1} rad/s: {arrives:.4} W/m arrive, {let_in:.4} let in, means {:.3?}",
             warmth.means

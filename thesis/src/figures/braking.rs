@@ -1,11 +1,14 @@
 //! Paper D, section 6.2: braking with prescribed velocities and with a prescribed moment, by the product beside balances of
 //! momentum and Carter.
 
-use super::{Figure, curve, must};
+use super::{Figure, curve, must, rolling};
 use crate::annulus::{INNER, OUTER};
+use crate::dynamic::{Prescribed, Rolling};
+use crate::newton::{self, Drive, Newton};
 use crate::ours::{Product, Run};
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
+use crate::rolling::Motion;
 use std::f64::consts::PI;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::simulation::{Rotation, Translation};
@@ -18,6 +21,8 @@ const END: f64 = 10.0 / 3.6;
 /// Time in which the tread slows down in example a \[s], and length of the quadratic end of the travel velocity \[s], assumed.
 const TREAD: f64 = 1.1;
 const ROUNDING: f64 = 0.3;
+/// Steps of ten seconds by the thesis's own method, as many as the thesis has.
+const METHOD_STEPS: u32 = 100;
 
 /// Mass \[kg] and moment of inertia [kg m²] of a metre of wheel.
 fn inertia() -> [f64; 2] {
@@ -163,7 +168,7 @@ pub fn velocities() -> Result<Figure, String> {
 }
 
 /// Braking by a moment that grows in `ramp` \[s], holds for `hold` \[s] and goes back; ten seconds in steps \[s].
-fn controlled(peak: f64, [ramp, hold]: [f64; 2], step: f64) -> Result<Vec<[f64; 7]>, String> {
+fn controlled(peak: f64, times: [f64; 2], step: f64) -> Result<Vec<[f64; 7]>, String> {
     let product = paper_d()?;
     let held = product.rolling(START, 0.0, |_| ())?;
     let (force, moment) = (held.outputs().hub_force_x, held.outputs().hub_moment);
@@ -174,11 +179,42 @@ fn controlled(peak: f64, [ramp, hold]: [f64; 2], step: f64) -> Result<Vec<[f64; 
     let mut rows = vec![row(0.0, &run)];
     for k in 1..=(10.0 / step).round() as usize {
         let t = k as f64 * step;
-        let share = (t / ramp).min((2.0 * ramp + hold - t) / ramp).clamp(0.0, 1.0);
-        run.inputs.drive.moment = moment - share * (peak + moment);
+        run.inputs.drive.moment = moment - share_of_peak(t, times) * (peak + moment);
         run.advance(step)?;
         rows.push(row(t, &run));
     }
+    Ok(rows)
+}
+
+/// Share of the largest moment at a time, for a ramp and a time at the peak \[s].
+fn share_of_peak(t: f64, [ramp, hold]: [f64; 2]) -> f64 {
+    (t / ramp).min((2.0 * ramp + hold - t) / ramp).clamp(0.0, 1.0)
+}
+
+/// The same by the thesis's own step in time, on linear triangles with edges of `edge` half-widths in the contact: moment and no force on the
+/// hub prescribed at once. Rows as of the product, with the creepage over that of rolling freely, which such a mesh has.
+fn by_method(peak: f64, times: [f64; 2], edge: f64) -> Result<Vec<[f64; 7]>, String> {
+    let said = |error: crate::Error| error.to_string();
+    let (system, [wheel, rail]) = rolling::triangles(edge, 1)?;
+    let (held, _) = newton::rolling(&system, rolling::motion(START, 0.0)).map_err(said)?;
+    let free = Newton { system: &system, law: system.parameters.law, drive: Drive::Moment(0.0) };
+    let (start, _) = free.solve(&held).map_err(said)?;
+    let mut run = Rolling::new(&system, &wheel, &rail, start);
+    let row = |t: f64, run: &Rolling| {
+        let Motion { omega, velocity } = run.state.motion;
+        let creepage = 2.0 * (velocity - OUTER * omega) / (velocity + OUTER * omega);
+        let [moment, force] = run.efforts;
+        [t, velocity, OUTER * omega, moment, force, newton::resultant(&run.touches)[0], creepage]
+    };
+    let mut rows = vec![row(0.0, &run)];
+    for k in 1..=METHOD_STEPS {
+        let t = 10.0 * f64::from(k) / f64::from(METHOD_STEPS);
+        let given = [-share_of_peak(t, times) * peak, 0.0].map(Prescribed::Effort);
+        run.advance(10.0 / f64::from(METHOD_STEPS), given).map_err(said)?;
+        rows.push(row(t, &run));
+    }
+    let idle = rows[0][6];
+    rows.iter_mut().for_each(|row| row[6] -= idle);
     Ok(rows)
 }
 
@@ -198,12 +234,16 @@ pub fn moment() -> Result<Figure, String> {
     let still = at(&creeping, 5.4)[1] - creeping[creeping.len() - 1][1];
     let full = carter_full_slip(FRICTION, hertz_half_width(LOAD, OUTER, contact_modulus(200e9, 0.3)), OUTER);
     let carter = [creep, slight].map(|xi| carter_force(-xi, full));
+    let theirs = by_method(15_950.0, [1.74, 1.52], 0.2)?;
+    let (their_share, their_creep) = (largest(&theirs, 5) / limit, largest(&theirs, 6));
+    let apart = (theirs[METHOD_STEPS as usize][1] - creeping[creeping.len() - 1][1]).abs();
     let mut plots = drawings(&creeping, "15.95 kN m");
     plots.push(Plot {
         axes: ["time in s".into(), "creepage in 1e-4".into()],
         curves: vec![
             column(&creeping, 6, 1e4, Source::Ours, "15.95 kN m"),
             column(&lighter, 6, 1e4, Source::Ours, "14.45 kN m"),
+            column(&theirs, 6, 1e4, Source::Method, "thesis's method, 15.95 kN m"),
             curve(Source::Quoted, "stated 1.9e-4", vec![[0.0, 1.9], [5.0, 1.9]]),
         ],
     });
@@ -217,9 +257,12 @@ pub fn moment() -> Result<Figure, String> {
         finding: format!(
             "With 15.95 kN m the creepage reaches {creep:.3e}, the force {:.1} % of its limit, and {end:.2} km/h remain after 5 s. With \
              14.45 kN m the force reaches {:.1} %, but the creepage only {slight:.3e}; {other:.2} km/h remain. Both stated numbers \
-             exclude each other by exact friction.",
+             exclude each other by exact friction. The thesis's own step in time with moment and force prescribed at once (100 steps, linear \
+             triangles, edges of 0.2 a) needs {:.1} % of the limit, too, since this is Newton's law, at a creepage of {their_creep:.3e} over that of \
+             rolling freely.",
             100.0 * used,
-            100.0 * less
+            100.0 * less,
+            100.0 * their_share
         ),
         plots,
         values: vec![
@@ -229,6 +272,8 @@ pub fn moment() -> Result<Figure, String> {
             ("d16.final.48".into(), other),
             ("d16.creepage.48".into(), slight),
             ("d16.moment.48".into(), peak),
+            ("d16.method.creepage".into(), their_creep),
+            ("d16.method.share".into(), their_share),
         ],
         predicates: vec![
             must(format!("end within 0.02 km/h of the reference 10.191 km/h: {end:.4}"), (end - 10.191).abs() < 0.02),
@@ -242,6 +287,16 @@ pub fn moment() -> Result<Figure, String> {
                     less - carter[1]
                 ),
                 (used - carter[0]).abs() < 0.01 && (less - carter[1]).abs() < 0.01,
+            ),
+            must(
+                format!(
+                    "the thesis's method needs the same force within 0.005 and ends within 1 % of what both slow down: {their_share:.4}, {apart:.3} m/s"
+                ),
+                (their_share - used).abs() < 5e-3 && apart < 0.01 * (START - END),
+            ),
+            must(
+                format!("its creepage is within a tenth of ours: {their_creep:.3e}"),
+                (their_creep / creep - 1.0).abs() < 0.1,
             ),
             must(format!("nothing changes after 5.4 s: {still:.1e} m/s"), still.abs() < 0.01),
         ],

@@ -76,7 +76,7 @@ impl Thermal {
 }
 
 /// What is heated.
-fn heating<'a>([first, second]: &'a [Mesh; 2], spots: &'a [Spot], thermal: Thermal) -> Heating<'a> {
+pub(super) fn heating<'a>([first, second]: &'a [Mesh; 2], spots: &'a [Spot], thermal: Thermal) -> Heating<'a> {
     let Thermal { wheel, motion, contact, arcs, cold_hub } = thermal;
     let material = [CAPACITY, CONDUCTIVITY];
     Heating { meshes: [first, second], annulus: ANNULUS, wheel, material, motion, spots, contact, arcs, cold_hub }
@@ -115,7 +115,7 @@ pub fn convergence(extent: Extent) -> Result<Figure, String> {
         let spots = spots(&system, &state);
         let heating = heating(&bodies, &spots, Thermal { arcs: 0.5 * HEAT, cold_hub: false, ..Thermal::paper_c() });
         let warmth = heating.solve().map_err(|error| error.to_string())?;
-        let let_in = heating.let_in(&warmth);
+        let let_in = heating.let_in(&warmth.space, &warmth.theta);
         imbalance.push(heating.imbalance(&warmth));
         let points = below(&warmth, depth);
         surface.push(points.last().map_or(f64::NAN, |point| point[1]));

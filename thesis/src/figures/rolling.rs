@@ -3,12 +3,13 @@
 use super::{Extent, Figure, must};
 use crate::annulus::{INNER, OUTER};
 use crate::contact::Law;
+use crate::mesh::Mesh;
 use crate::newton::{self, Drive, Newton};
 use crate::ours::Product;
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 use crate::rail::{self, Plate};
-use crate::rolling::{Motion, Parameters, System};
+use crate::rolling::{Motion, Parameters, System, Touch};
 use crate::wheel::{self, Annulus};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 
@@ -66,22 +67,38 @@ pub fn paper_c() -> Result<Figure, String> {
     })
 }
 
-/// Forces over creepage by penalty, tanh and velocity stepping on linear triangles, whose edges in the contact are `edge` of its half-width.
-fn thesis_path(creepages: &[f64], edge: f64) -> Result<Vec<[f64; 2]>, String> {
+/// Wheel and rail of Paper D in linear triangles, whose edges in the contact are `edge` of its half-width, after so many refinements of
+/// the whole wheel, and their meshes.
+pub(super) fn triangles(edge: f64, global: usize) -> Result<(System, [Mesh; 2]), String> {
     let law = Law { penalty: 5e12, friction: 0.4, regularisation: 1e-4 };
     let annulus = Annulus { outer: OUTER, inner: INNER };
     let plate = Plate { length: 1.0, height: 0.1 };
     let parameters = Parameters { annulus, plate, young: 200e9, poisson: 0.3, density: 8000.0, load: 100e3, law };
     let a = hertz_half_width(parameters.load, OUTER, contact_modulus(parameters.young, parameters.poisson));
-    let wheel = wheel::rolling(annulus, 1.5 * a, edge * a, 1, parameters.poisson).map_err(|error| error.to_string())?;
-    let system = System::new(parameters, &wheel, &rail::rolling(plate, 31, 2.0 * a, edge * a), 2.0 * a);
-    let newton = Newton { system: &system, law, drive: Drive::Velocity };
+    let wheel = wheel::rolling(annulus, 1.5 * a, edge * a, global, parameters.poisson);
+    let wheel = wheel.map_err(|error| error.to_string())?;
+    let rail = rail::rolling(plate, 31, 2.0 * a, edge * a);
+    Ok((System::new(parameters, &wheel, &rail, 2.0 * a), [wheel, rail]))
+}
+
+/// Velocities that belong to a velocity [m/s] and a creepage.
+pub(super) fn motion(velocity: f64, creepage: f64) -> Motion {
+    Motion { omega: velocity * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage) / OUTER, velocity }
+}
+
+/// Force of the contact over its limit, traction positive.
+pub(super) fn share_of_limit(system: &System, touches: &[Touch]) -> f64 {
+    let [forward, up] = newton::resultant(touches);
+    forward / (system.parameters.law.friction * up)
+}
+
+/// Forces over creepage by penalty, tanh and velocity stepping on linear triangles, whose edges in the contact are `edge` of its half-width.
+fn thesis_path(creepages: &[f64], edge: f64) -> Result<Vec<[f64; 2]>, String> {
+    let (system, _) = triangles(edge, 1)?;
+    let newton = Newton { system: &system, law: system.parameters.law, drive: Drive::Velocity };
     let force = |xi: &f64| {
-        let velocity = 50.0 / 3.6;
-        let omega = velocity * (1.0 - 0.5 * xi) / (1.0 + 0.5 * xi) / OUTER;
-        let (state, _) = newton::rolling(&system, Motion { omega, velocity }).map_err(|error| error.to_string())?;
-        let [forward, up] = newton::resultant(&newton.residual(&state).1);
-        Ok([1e4 * xi, forward / (law.friction * up)])
+        let (state, _) = newton::rolling(&system, motion(50.0 / 3.6, *xi)).map_err(|error| error.to_string())?;
+        Ok([1e4 * xi, share_of_limit(&system, &newton.residual(&state).1)])
     };
     creepages.iter().map(force).collect()
 }
