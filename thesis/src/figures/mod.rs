@@ -167,7 +167,7 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("C 15", Recipe::Extended(friction_heat::conductance)),
     ("D 6", Recipe::Extended(rolling::paper_d)),
     ("D T1", Recipe::Fixed(ramps::table)),
-    ("D 7–8", Recipe::Extended(ramps::force)),
+    ("D 7–8", Recipe::Fixed(ramps::force)),
     ("D 9", Recipe::Fixed(ramps::profiles)),
     ("D 10", Recipe::Fixed(ramps::temperature)),
     ("D 11–15", Recipe::Fixed(braking::velocities)),

@@ -1,6 +1,6 @@
 //! Paper D, section 6.1: six ramps of the creepage at constant velocity, by the product beside references and stationary rolling.
 
-use super::{Extent, Figure, curve, must, rolling};
+use super::{Figure, curve, must, rolling};
 use crate::dynamic::{Prescribed, Rolling};
 use crate::newton;
 use crate::ours::{Product, Run};
@@ -156,7 +156,7 @@ pub fn table() -> Result<Figure, String> {
 }
 
 /// Figures D 7 and 8: force over time of the six ramps.
-pub fn force(extent: Extent) -> Result<Figure, String> {
+pub fn force() -> Result<Figure, String> {
     let product = paper_d()?;
     let (all, slow) = forces(&product)?;
     let off = |(i, reference): &(usize, [f64; 10])| {
@@ -168,13 +168,13 @@ pub fn force(extent: Extent) -> Result<Figure, String> {
         (0..10).map(tenth).fold(0.0_f64, |worst, off| worst.max(off.abs()))
     };
     // The thesis's own method; the middle one of its ramps also on a wheel that is refined once less.
-    let chosen = extent.choose(&REFERENCES[1..], &REFERENCES[..]);
-    let theirs = chosen.iter().map(|(i, reference)| method(DURATIONS[*i], 2).map(|points| (*i, points, reference)));
+    let theirs =
+        REFERENCES[1..].iter().map(|(i, reference)| method(DURATIONS[*i], 2).map(|points| (*i, points, reference)));
     let theirs = theirs.collect::<Result<Vec<_>, _>>()?;
     let far = theirs.iter().map(|(_, points, reference)| tenths(points, reference)).fold(0.0, f64::max);
     let (_, middle) = &REFERENCES[1];
     let stiff = tenths(&method(DURATIONS[2], 1)?, middle);
-    let near = tenths(&theirs[theirs.len() - 2].1, middle);
+    let near = tenths(&theirs[0].1, middle);
     let full = theirs.iter().map(|(_, points, _)| points[COARSE][1]).fold(f64::INFINITY, f64::min);
     let worst = REFERENCES.iter().map(off).fold(0.0, f64::max);
     let exceeds = all.iter().flatten().fold(0.0_f64, |worst, point| worst.max(point[1] - 1.0));
