@@ -208,7 +208,7 @@ impl BodyResponse for ReducedBody {
         let kinetic = state.velocity.norm_squared();
         let coupling: f64 =
             rigid_velocity.iter().enumerate().map(|(k, w)| w * basis.rigid.column(k).dot(&state.velocity)).sum();
-        0.5 * (modal + residual + kinetic) + coupling
+        0.5 * (modal + residual + kinetic) + coupling - motion::centrifugal_work(self, state, rigid_velocity)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
