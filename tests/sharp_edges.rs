@@ -99,18 +99,20 @@ fn the_energy_balance_closes_after_steps_down_and_up() {
 fn steel_that_yields_under_a_passing_edge_gives_its_work_back() {
     let step = "step(position = 0.01, height = DEPTH, length = 0.5)";
     let raised = "step(position = 0.01, height = DEPTH, length = LENGTH)";
-    for (shape, depth, wheel, free) in [
-        (step, 5e-5, false, true),
-        (step, -5e-5, false, true),
-        (step, 5e-5, false, false),
-        (step, 5e-5, true, true),
-        (step, -5e-5, true, true),
-        (raised, 1e-4, false, true),
+    // While the high piece bears all of the load all of the contact yields: there the balance is worse.
+    for (shape, depth, wheel, free, [passing, end]) in [
+        (step, 5e-5, false, true, [0.2, 0.07]),
+        (step, -5e-5, false, true, [0.2, 0.07]),
+        (step, 5e-5, false, false, [0.2, 0.07]),
+        (step, 5e-5, true, true, [0.2, 0.07]),
+        (step, -5e-5, true, true, [0.2, 0.07]),
+        (raised, 2e-5, false, true, [0.2, 0.07]),
+        (raised, 1e-4, false, true, [0.6, 0.15]),
     ] {
         for elements in [ELEMENTS, 2 * ELEMENTS] {
             let found = on_mesh(shape, depth, wheel, free, (elements, 3.0 * STEPS), true);
             println!("{shape}, {depth:e} m, wheel: {wheel}, free hub: {free}, {elements} elements: {found:?}");
-            assert!(found[2] < 0.4 && found[3] < 0.07, "{found:?}");
+            assert!(found[2] < passing && found[3] < end, "{found:?}");
         }
     }
 }
