@@ -163,6 +163,26 @@ def test_bad_files_are_refused_by_line_and_name(tmp_path):
         analysis.read_columns(file, ("time", "contact.force_y"))
     with pytest.raises(BadFile, match="cannot be read"):
         analysis.read_columns(tmp_path / "other.csv", ("time",))
+    file.write_text("time,contact.force_y\n0,1\n\n1,high\n")
+    with pytest.raises(BadFile, match="run.csv:4: contact.force_y is 'high'"):
+        analysis.read_columns(file, ("time", "contact.force_y"))
+    file.write_bytes(bytes(range(256)))
+    with pytest.raises(BadFile, match="run.csv: is no CSV file"):
+        analysis.read_columns(file, ("time",))
+
+
+@pytest.mark.parametrize("step", [0.0, -1.0, 1e-12, 9.0, np.nan])
+def test_steps_that_resample_nothing_are_refused(step):
+    with pytest.raises(signals.BadSignal, match="step = .* is outside .*, the length of the signal"):
+        signals.resampled([0.0, 1.0, 3.0], [1.0, 2.0, 3.0], step)
+
+
+@pytest.mark.parametrize("reference", ["0", "-1e-6", "nan"])
+def test_levels_need_a_reference_above_zero(tmp_path, capsys, reference):
+    file = tmp_path / "run.csv"
+    file.write_text("time,contact.force_y\n0,1\n1,2\n2,1\n3,2\n")
+    with pytest.raises(SystemExit, match="--reference = .* is not above zero"):
+        command(capsys, "octaves", file, f"--reference={reference}", "--out", tmp_path)
 
 
 def test_a_wheel_leaves_its_profile_for_another_one(fmu, tmp_path):

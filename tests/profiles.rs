@@ -282,6 +282,16 @@ fn profiles_without_meaning_are_refused_by_name_and_unresolved_ones_are_announce
         assert!(words.iter().all(|word| text.contains(word)), "{text}");
     };
     announced("sinusoid(amplitude = 1e-6, wavelength = 0.002)", 1e-5, Limit::Waves, &["2.00 mm", "4.0", "mesh"]);
+    let mut steep = cold(preset("railway", 20));
+    steep.rail.profile = "sinusoid(amplitude = 0.01, wavelength = 0.01)".into();
+    let model_of_steep = model(steep.clone());
+    let inputs = without_friction(&model_of_steep, 20.0);
+    let failed = Simulation::new(model_of_steep, &inputs).map(|_| ()).unwrap_err();
+    let text = advice::failed_start(&failed, &steep);
+    assert!(text.contains("make rail.profile less deep"), "{text}");
+    // Three steps of 40 mm each go over a hole that no end of a step comes near, and over a single edge.
+    announced("hole(position = 0.1, length = 5e-3, depth = 1e-4)", 2e-3, Limit::Sampling, &["40.00 mm", "2.50 mm"]);
+    announced("step(position = 0.1, height = 1e-5)", 2e-3, Limit::Sampling, &["40.00 mm", "3.01 mm"]);
     announced("sinusoid(amplitude = 1e-6, wavelength = 0.02)", 1e-3, Limit::Sampling, &["20.00 mm", "5.00 mm", "0"]);
     // What the steps do not resolve they do when they are chosen by the profile.
     let mut config = cold(preset("railway", 6));

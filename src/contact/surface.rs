@@ -14,6 +14,11 @@ pub trait Relief: Debug + Send + Sync {
     fn wavelength(&self, _low: f64, _high: f64) -> f64 {
         f64::INFINITY
     }
+
+    /// Whether the surface jumps somewhere between two positions \[m].
+    fn jumps(&self, _low: f64, _high: f64) -> bool {
+        false
+    }
 }
 
 impl Relief for Piecewise {
@@ -89,9 +94,12 @@ impl Surfaces {
     }
 
     /// Shortest wavelength \[m] within `reach` \[m] of positions \[m] along the surfaces of wheel and rail; infinite without any.
-    pub fn wavelength(&self, place: [f64; 2], reach: f64) -> f64 {
+    /// A jump counts as a wave of the length `patch` \[m] of the contact, through which it passes.
+    pub fn wavelength(&self, place: [f64; 2], reach: f64, patch: f64) -> f64 {
         let shortest = |relief: &Option<Arc<dyn Relief>>, s: f64| {
-            relief.as_ref().map_or(f64::INFINITY, |relief| relief.wavelength(s - reach, s + reach))
+            let Some(relief) = relief else { return f64::INFINITY };
+            let jump = if relief.jumps(s - reach, s + reach) { patch } else { f64::INFINITY };
+            relief.wavelength(s - reach, s + reach).min(jump)
         };
         shortest(&self.wheel, place[0]).min(shortest(&self.rail, place[1]))
     }

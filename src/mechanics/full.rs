@@ -280,7 +280,8 @@ impl BodyResponse for FullBody {
         let kinetic = 0.5 * system.mass.bilinear(v, v);
         let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
         let coupling: f64 = momentum.zip(rigid_velocity).map(|(p, w)| p * w).sum();
-        elastic + kinetic + coupling + self.layer().map_or(0.0, |layer| layer.energy(&state.retarded))
+        let layer = self.layer().map_or(0.0, |layer| layer.energy(&state.retarded));
+        elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {

@@ -43,6 +43,11 @@ pub(super) trait Equations {
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>);
 }
 
+/// Work `Ω² XᵀM y` of the centrifugal load on the deformation, at the present angular velocity [J/m].
+pub(super) fn centrifugal_work(body: &impl Equations, state: &BodyState, [_, _, omega]: [f64; 3]) -> f64 {
+    body.centrifugal().map_or(0.0, |load| omega * omega * load.dot(&state.displacement))
+}
+
 /// See [`super::BodyResponse::free_response`].
 pub(super) fn free_response(
     body: &impl Equations,

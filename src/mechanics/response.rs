@@ -62,7 +62,7 @@ pub trait BodyResponse: Send + Sync {
     );
 
     /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
-    /// velocities `w = (V, U̇, Ω)` [J/m]; `forces` feed the static part of a reduced body.
+    /// velocities `w = (V, U̇, Ω)`, less the work `Ω² XᵀM y` of the centrifugal load [J/m]; `forces` feed the static part of a reduced body.
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
 
     /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without

@@ -287,7 +287,7 @@ outputs! {
     811 thermal_work: real "energy.thermal_work", in "J" as "kJ", nominal 1e2, start zero,
         "Work of the wheel that grows with its temperature and lifts its load since the start";
     812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
-        "Growth of kinetic and elastic energy since the start; with friction, damping and solver.energy_residual it \
+        "Growth of kinetic and elastic energy, less the work of the centrifugal load, since the start; with friction, damping and solver.energy_residual it \
          balances energy.hub_work + energy.thermal_work + energy.gravity + energy.rail_work";
     817 gravity_work: real "energy.gravity", in "J" as "kJ", nominal 1e5, start zero,
         "Work of gravity along the track since the start, negative uphill";

@@ -19,6 +19,10 @@ impl Relief for Profile {
     fn wavelength(&self, low: f64, high: f64) -> f64 {
         self.shortest_wavelength_between(low, high)
     }
+
+    fn jumps(&self, low: f64, high: f64) -> bool {
+        self.jumps_between(low, high)
+    }
 }
 
 /// The surfaces that the parameters describe; files of profiles are looked for in `folder`.

@@ -20,7 +20,7 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::ZoneExceeded { load, zone: reached } => zone(*load, config)
             .or_else(|| uneven(*reached, config))
             .unwrap_or_else(|| flattened(*reached, config, shorter)),
-        StepError::Contact { .. } | StepError::NotFinite { .. } => shorter,
+        StepError::Contact { .. } | StepError::NotFinite { .. } => unsettled(shorter, config),
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
         StepError::BelowAbsoluteZero { .. } => cold(config),
@@ -59,9 +59,9 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
                 .to_owned()
         }
         StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::NoEquilibrium(_) => {
-            "start from a gentler state (drive.load near model.nominal_load, initial.creepage near 0, moderate \
-             initial.velocity) and bring the inputs to their values in the first steps"
-                .to_owned()
+            let gentler = "start from a gentler state (drive.load near model.nominal_load, initial.creepage near 0, \
+                           moderate initial.velocity) and bring the inputs to their values in the first steps";
+            unsettled(gentler.to_owned(), config)
         }
         StepError::Motion(_) => format!(
             "choose initial.velocity (now {:?} m/s) and initial.creepage (now {}), or the prescribed velocities, within \
@@ -82,16 +82,28 @@ const WIDER: f64 = 1.5;
 
 /// Advice where the surfaces may touch beyond the zone because of their profiles; `None` for smooth ones.
 fn uneven(zone: f64, config: &Config) -> Option<String> {
-    let profiles = [("wheel.profile", &config.wheel.profile), ("rail.profile", &config.rail.profile)];
-    let set: Vec<_> = profiles.iter().filter(|(_, text)| !text.is_empty()).map(|(name, _)| *name).collect();
-    (!set.is_empty()).then(|| {
+    profiles(config).map(|profiles| {
         format!(
-            "{} is too deep or too long for it: the surfaces touch beyond; {}, or make the profile shallower or shorter. If \
+            "{profiles} is too deep or too long for it: the surfaces touch beyond; {}, or make the profile shallower or shorter. If \
              the zone stays as it is, wheel and rail have no more room for it",
-            set.join(" or "),
             wider(zone, config)
         )
     })
+}
+
+/// Names of the profiles that are set; `None` on smooth surfaces.
+fn profiles(config: &Config) -> Option<String> {
+    let profiles = [("wheel.profile", &config.wheel.profile), ("rail.profile", &config.rail.profile)];
+    let set: Vec<_> = profiles.iter().filter(|(_, text)| !text.is_empty()).map(|(name, _)| *name).collect();
+    (!set.is_empty()).then(|| set.join(" or "))
+}
+
+/// The advice `otherwise` where no contact state is found, and what helps if a profile is the reason.
+fn unsettled(otherwise: String, config: &Config) -> String {
+    match profiles(config) {
+        Some(profiles) => format!("{otherwise}; or make {profiles} less deep and less steep, which may be the reason"),
+        None => otherwise,
+    }
 }
 
 /// The advice `otherwise`, and what helps where the run has flattened the wheel beyond the zone.

@@ -112,14 +112,37 @@ impl Simulation {
                 let element = nominal_half_width(config) / config.mesh.elements_per_half_width as f64;
                 (self.shortest_wave(), FEWEST_PER_WAVE * element)
             }
-            Limit::Sampling => (speed * self.state().last_step, self.shortest_wave() / FEWEST_PER_WAVE),
+            Limit::Sampling => {
+                let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
+                (mean.max(speed * self.state().last_step), self.shortest_wave() / FEWEST_PER_WAVE)
+            }
         }
     }
 
-    /// Shortest wavelength of the surfaces in the contact zone \[m]; infinite on smooth ones.
+    /// Shortest wavelength of the surfaces that have been in the contact zone since the last communication point \[m]; infinite on
+    /// smooth ones. A jump counts as one of the length of the nominal patch.
     fn shortest_wave(&self) -> f64 {
-        let rolling = &self.model().rolling;
-        rolling.contact.surfaces.wavelength(self.state().place(rolling.wheel.radius), rolling.zone)
+        let (rolling, way) = (&self.model().rolling, self.latest_ways());
+        let mut middle = self.state().place(rolling.wheel.radius);
+        middle.iter_mut().zip(way).for_each(|(place, way)| *place -= 0.5 * way);
+        let patch = 2.0 * nominal_half_width(self.model().config());
+        rolling.contact.surfaces.wavelength(middle, rolling.zone + 0.5 * self.latest_way(), patch)
+    }
+
+    /// Ways of tread and wheel centre in the last communication step \[m]; none at the start.
+    fn latest_ways(&self) -> [f64; 2] {
+        let (outputs, radius) = (self.outputs(), self.model().config().wheel.radius);
+        match self.checkpoint.before.first() {
+            Some((_, before)) if outputs.internal_steps > 0 => {
+                [radius * (outputs.wheel_angle - before.wheel_angle), outputs.wheel_distance - before.wheel_distance]
+            }
+            _ => [0.0; 2],
+        }
+    }
+
+    /// The longer of both \[m].
+    fn latest_way(&self) -> f64 {
+        self.latest_ways().into_iter().fold(0.0, |longest, way| way.abs().max(longest))
     }
 
     /// Largest error of the force over a sharp hole \[m] that the grid makes, over the load \[1].

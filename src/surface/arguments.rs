@@ -44,7 +44,9 @@ impl Arguments {
 
     /// A parameter that is needed.
     pub fn missing(&self, name: &'static str, range: impl ToString) -> ProfileError {
-        ProfileError::Missing { feature: self.feature, name, range: range.to_string() }
+        let given: Vec<_> = self.given.iter().map(|(name, _)| name.as_str()).collect();
+        let given = if given.is_empty() { String::new() } else { format!("; beside it stands {}", given.join(", ")) };
+        ProfileError::Missing { feature: self.feature, name, range: range.to_string() + &given }
     }
 
     /// A feature on the wrong body.
@@ -58,7 +60,9 @@ impl Arguments {
             None => Ok(None),
             Some(Given::Number(value)) if value >= range[0] && value <= range[1] => Ok(Some(value)),
             Some(Given::Number(value)) => {
-                Err(self.outside(name, format!("{} {unit}", display_outside(value, range)), display_range(range, unit)))
+                let shown = if unit == "1" { String::new() } else { format!(" {unit}") };
+                let value = display_outside(value, range) + &shown;
+                Err(self.outside(name, value, display_range(range, unit)))
             }
             Some(other) => Err(self.outside(name, shown(&other), display_range(range, unit))),
         }

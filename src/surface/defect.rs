@@ -93,6 +93,15 @@ impl Form {
         }
     }
 
+    /// Distances at which it jumps \[m].
+    fn jumps(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Plateau { reach, .. } => Some(*reach),
+            Self::Joint { gap, .. } if *gap > 0.0 => Some([-0.5 * gap, 0.5 * gap]),
+            _ => None,
+        }
+    }
+
     /// Lowest and highest point \[m].
     pub fn range(&self) -> [f64; 2] {
         match self {
@@ -158,8 +167,22 @@ impl Defect {
 
     /// Whether one of the forms lies, in part at least, between two positions \[m].
     pub fn meets(&self, low: f64, high: f64) -> bool {
+        self.has_between(self.form.reach(), [low, high])
+    }
+
+    /// Whether one of the forms jumps between two positions \[m].
+    pub fn jumps(&self, low: f64, high: f64) -> bool {
+        self.form
+            .jumps()
+            .into_iter()
+            .flatten()
+            .filter(|at| at.is_finite())
+            .any(|at| self.has_between([at, at], [low, high]))
+    }
+
+    /// Whether the part from `begin` to `end` of one of the forms, distances from its middle \[m], lies between two positions \[m].
+    fn has_between(&self, [begin, end]: [f64; 2], [low, high]: [f64; 2]) -> bool {
         let Place { position: first, every, count, turn } = self.place;
-        let [begin, end] = self.form.reach();
         let once = |low: f64, high: f64| {
             let from = ((low - first - end) / every).ceil().max(0.0);
             let to = ((high - first - begin) / every).floor().min(count - 1.0);

@@ -58,6 +58,14 @@ impl Feature {
         }
     }
 
+    /// Whether it jumps somewhere between two positions \[m].
+    pub fn jumps(&self, low: f64, high: f64) -> bool {
+        match self {
+            Self::Cover(_) => false,
+            Self::Defect(defect) => defect.jumps(low, high),
+        }
+    }
+
     /// Whether both may lie on the same spot.
     pub fn may_overlap(&self, other: &Self) -> bool {
         match (self.only_stretch(), other.only_stretch()) {

@@ -67,6 +67,11 @@ impl Profile {
         met.map(Feature::wavelength).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether it jumps somewhere between two positions \[m].
+    pub fn jumps_between(&self, low: f64, high: f64) -> bool {
+        self.features.iter().any(|feature| feature.jumps(low, high))
+    }
+
     /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached where
     /// features do not overlap.
     pub fn range(&self) -> [f64; 2] {

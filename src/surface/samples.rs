@@ -16,6 +16,8 @@ pub fn csv(samples: &[[f64; 2]]) -> String {
     std::iter::once(format!("{}\n", COLUMNS.join(","))).chain(rows).collect()
 }
 
+/// Largest height and depth of a sample [m]: that of `rail.elevation`.
+const HIGHEST: f64 = 0.1;
 /// Columns of a file.
 const COLUMNS: [&str; 2] = ["position", "height"];
 
@@ -61,10 +63,17 @@ impl Samples {
                     format!("position = {position} m must be larger than {before} m before it; sort the lines");
                 return Err(wrong(line, problem));
             }
+            if (factor * height).abs() > HIGHEST {
+                let problem = format!(
+                    "height = {height} m times the factor {factor} is outside -{HIGHEST} to {HIGHEST} m; columns are in metres"
+                );
+                return Err(wrong(line, problem));
+            }
             points.push(position, factor * height);
         }
         match points.x.len() {
-            0 | 1 => Err(wrong(1, format!("{} sample, at least 2 are needed", points.x.len()))),
+            0 => Err(wrong(1, "no sample follows, at least 2 are needed".to_owned())),
+            1 => Err(wrong(1, "1 sample, at least 2 are needed".to_owned())),
             _ => Ok(Self { points }),
         }
     }

@@ -295,7 +295,7 @@ fn texts_without_meaning_are_refused_by_name_value_and_range() {
         ("roughness(levels = [1, two], longest = 1)", &["a number", "two"]),
         ("sinusoide(amplitude = 1)", &["column 1", "sinusoide is unknown", "sinusoid"]),
         ("whole(length = 1)", &["whole is unknown", "hole"]),
-        ("sinusoid(amplitude = 1e-6, wavelenght = 1)", &["sinusoid needs wavelength", "0.0001 to 1000 m"]),
+        ("sinusoid(amplitude = 1e-6, wavelenght = 1)", &["sinusoid needs wavelength", "wavelenght"]),
         ("sinusoid(amplitude = 1e-6, wavelength = 1, fase = 1)", &["no parameter fase", "phase"]),
         ("sinusoid(amplitude = 1e-6, wavelength = 0)", &["wavelength = 0 m of sinusoid", "0.0001 to 1000 m"]),
         ("sinusoid(amplitude = NaN, wavelength = 1)", &["amplitude = NaN of sinusoid", "0 to 0.02 m"]),
@@ -362,6 +362,7 @@ fn files_without_meaning_are_refused_by_line_and_value() {
         ("short", "position,height\n0,1e-6\n1\n", &["line 3", "height = \"\""]),
         ("column", "position,depth\n0,1e-6\n1,0\n", &["line 1", "column height is missing", "position,depth"]),
         ("headless", "0,1e-6\n1,0\n", &["line 1", "column position is missing", "0,1e-6"]),
+        ("deep", "position,height\n0,1e-6\n1,-0.2\n", &["line 3", "height = -0.2 m", "0.1 m"]),
         ("one", "position,height\n0,1e-6\n", &["1 sample, at least 2"]),
         ("none", "", &["column position is missing"]),
     ] {

@@ -20,9 +20,13 @@ def read_columns(path, names):
     """Columns of a CSV file by name, as arrays."""
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
-            rows = list(csv.reader(file))
+            reader = csv.reader(file)
+            numbered = [(reader.line_num, row) for row in reader if row]
     except OSError as error:
         raise BadFile(f"{path}: cannot be read ({error.strerror})") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise BadFile(f"{path}: is no CSV file ({error})") from error
+    lines, rows = [line for line, _ in numbered], [row for _, row in numbered]
     if len(rows) < 2:
         raise BadFile(f"{path}: {len(rows)} lines; a header and rows are needed")
     header = [name.strip() for name in rows[0]]
@@ -38,7 +42,7 @@ def read_columns(path, names):
                 table[k, i] = float(row[column])
             except (ValueError, IndexError):
                 found = row[column] if column < len(row) else "missing"
-                raise BadFile(f"{path}:{i + 2}: {names[k]} is {found!r}, not a number") from None
+                raise BadFile(f"{path}:{lines[i + 1]}: {names[k]} is {found!r}, not a number") from None
     return list(table)
 
 
@@ -96,7 +100,7 @@ def save(path, draw):
 def _signal(options):
     """Column of time or position and column of values, from where they count."""
     if options.command == "octaves" and options.over == "time" and options.column == FORCE:
-        with open(options.file, encoding="utf-8-sig") as file:
+        with open(options.file, encoding="utf-8-sig", errors="replace") as file:
             if {"position", "height"} <= {name.strip() for name in file.readline().split(",")}:
                 options.over, options.column = "position", "height"
     over, values = read_columns(options.file, (options.over, options.column))
@@ -152,7 +156,9 @@ def _octaves(options):
     """One-third octaves; of a profile beside the limit of EN ISO 3095."""
     over, values = _signal(options)
     profile = options.over == "position"
-    reference = options.reference or (1e-6 if profile else 1.0)
+    reference = (1e-6 if profile else 1.0) if options.reference is None else options.reference
+    if not 0.0 < reference < np.inf:
+        raise BadFile(f"--reference = {reference:g} is not above zero")
     if options.periodic:
         # A file of one whole period may repeat its first place at the end.
         if len(values) > 3 and np.isclose(values[0], values[-1], rtol=1e-9, atol=0.0):

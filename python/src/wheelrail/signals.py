@@ -11,6 +11,7 @@ WINDOWS = {
     "hann": (0.5, 0.5),
     "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368),
 }
+MOST_SAMPLES = 10_000_000  # that a signal is resampled to
 UNEVEN = 1e-6  # relative deviation of steps from their mean up to which they count as equal
 
 
@@ -49,9 +50,10 @@ def spacing(positions):
 def resampled(positions, values, step):
     """The signal at equal distances, straight between samples."""
     positions, values = checked(positions, values)
-    count = int((positions[-1] - positions[0]) / step * (1.0 + 1e-12)) + 1
-    if count < 2:
-        raise BadSignal(f"step = {step:g} is longer than the signal, {positions[-1] - positions[0]:g}")
+    length = positions[-1] - positions[0]
+    if not length / MOST_SAMPLES <= step <= length * (1.0 + 1e-12):
+        raise BadSignal(f"step = {step:g} is outside {length / MOST_SAMPLES:g} to {length:g}, the length of the signal")
+    count = int(length / step * (1.0 + 1e-12)) + 1
     even = positions[0] + step * np.arange(count)
     return even, np.interp(even, positions, values)
 

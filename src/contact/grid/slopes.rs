@@ -44,12 +44,15 @@ impl Slopes<'_> {
     }
 
     /// Parts of the gap at the neighbour `beside` of candidate `i` [m]; `behind`: place of the other neighbour in the depths.
+    ///
+    /// What candidate `i` gives way springs back where the edge has passed, and only half of its slope there is that of a
+    /// closed node: the other half is left in the gap beside it.
     fn fall(&self, i: usize, beside: Option<usize>, behind: usize) -> [f64; 2] {
         let Some((gap, beside)) = beside.and_then(|k| self.gap.get(k).map(|gap| (*gap, k + 1))) else {
             return [0.0; 2];
         };
         let beyond = |body: usize| self.depth[beside][body] - 2.0 * self.depth[i + 1][body] + self.depth[behind][body];
-        let gap = gap.max(0.0);
+        let gap = (gap - self.overlap[i]).max(0.0);
         let rail = beyond(1).clamp(0.0, gap);
         [beyond(0).clamp(0.0, gap - rail), rail]
     }
