@@ -45,7 +45,7 @@ impl<'a> Rolling<'a> {
 
     /// A step \[s] under what is prescribed of rotation and travel; returns the number of Newton's steps.
     pub fn advance(&mut self, step: f64, prescribed: [Prescribed; 2]) -> Result<usize, Error> {
-        let equations = TimeStep { before: self, step, prescribed };
+        let equations = self.equations(step, prescribed);
         let mut start = self.state.clone();
         for (velocity, given) in [&mut start.motion.omega, &mut start.motion.velocity].into_iter().zip(prescribed) {
             if let Prescribed::Velocity(value) = given {

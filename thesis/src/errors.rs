@@ -52,7 +52,8 @@ pub const ALL: &[Mistake] = &[
         says: "creepage 1.9e-4 means 48 % of the limit",
         right: "52.7 % after Carter on half-planes and in stationary rolling of the product, 53.1 % with the moment that brakes to 1.905e-4",
         proof: "F/μP = 1 − (1 − ξ/ξ_fs)² with ξ_fs = μa/r = 6.09e-4. Recomputed under D 18. The regularised law with ε_r = 1e-4 m/s takes 0.006 at most \
-                of that on one mesh; 0.48 in braking needs a tenfold ε_r or an uneven mesh.",
+                of that on one mesh; 0.48 in braking needs a tenfold ε_r or an uneven mesh. The thesis's own \
+                step in time needs 53.0 % under the moment that makes the wheel creep by 1.9e-4 (D 16–17).",
     },
     Mistake {
         place: "D App. A",
