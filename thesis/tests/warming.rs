@@ -103,7 +103,7 @@ fn decomposed_matrices_are_those_assembled_anew_but_for_stabilisation_that_lags(
         let (lagging, some) = apart(0.0499, of);
         println!("{of:?}: {fresh:.1e} with {each} assemblies, {lagging:.1e} with {some}");
         assert!(fresh < 1e-12 && each == 21);
-        assert!(lagging > 1e-4 && lagging < 0.05 && some == 5);
+        assert!(lagging > 1e-4 && lagging < 0.2 && some == 5);
     }
 }
 
