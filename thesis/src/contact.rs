@@ -48,6 +48,19 @@ pub struct Forces {
     pub on: [[Dual; 2]; 3],
 }
 
+impl Forces {
+    /// Place of the slave node on the segment, from 0 at its left end to 1 at its right \[1].
+    pub fn share(&self) -> Dual {
+        -self.on[2][1] / self.on[0][1]
+    }
+
+    /// Friction power [W/m].
+    pub fn friction_power(&self) -> Dual {
+        let power = -self.on[0][0] * self.slip;
+        if power.value < 0.0 { -power } else { power }
+    }
+}
+
 type Vector = [Dual; 2];
 
 fn plus(a: Vector, b: Vector) -> Vector {

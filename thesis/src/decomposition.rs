@@ -5,6 +5,7 @@ use crate::elastic;
 use crate::mesh::Mesh;
 use crate::rolling::{Motion, System};
 use crate::sparse::Matrix;
+use crate::triangle::{Order, Space};
 
 /// A motion and how it changes.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +54,7 @@ pub struct Decomposition {
 }
 
 impl Decomposition {
-    /// Assembles the parts of a system from the linear triangles it was made of.
+    /// Assembles the parts of a system from the meshes it was made of.
     pub fn new(system: &System, wheel: &Mesh, rail: &Mesh) -> Self {
         let (density, by) = (system.parameters.density, 2 * system.wheel_nodes);
         let size = system.unknown.len();
@@ -62,15 +63,16 @@ impl Decomposition {
             let moved = matrix.entries.into_iter().map(|(i, j, value)| (i + by, j + by, value));
             Matrix { size, entries: moved.collect() }
         };
-        let gyroscopic = of_wheel(elastic::gyroscopic(wheel, density, |[x, y]| [y, -x]));
-        let passing = of_rail(elastic::gyroscopic(rail, density, |_| [-1.0, 0.0]));
-        let mass = of_wheel(elastic::mass(wheel, density));
+        let [wheel, rail] = [Space::new(wheel, system.order), Space::new(rail, Order::Linear)];
+        let gyroscopic = of_wheel(elastic::gyroscopic(&wheel, density, |[x, y]| [y, -x]));
+        let passing = of_rail(elastic::gyroscopic(&rail, density, |_| [-1.0, 0.0]));
+        let mass = of_wheel(elastic::mass(&wheel, density));
         // A linear field is its own interpolation: products with places and with a unit motion are the integrals of the loads.
-        let places: Vec<f64> = wheel.nodes.iter().flatten().copied().chain(vec![0.0; size - by]).collect();
+        let places: Vec<f64> = wheel.places.iter().flatten().copied().chain(vec![0.0; size - by]).collect();
         let forward: Vec<f64> = (0..size).map(|i| if i < by && i % 2 == 0 { 1.0 } else { 0.0 }).collect();
         let (spun, sped) = (gyroscopic.multiply(&places), mass.multiply(&forward));
         let mut mass = mass;
-        mass.entries.extend(of_rail(elastic::mass(rail, density)).entries);
+        mass.entries.extend(of_rail(elastic::mass(&rail, density)).entries);
         let squared: Vec<f64> = system.centrifugal.iter().map(|load| -load).collect();
         let parts = [&system.elastic, &system.turning, &system.streaming, &gyroscopic, &passing, &mass];
         let [squared, spun, sped] = [squared, spun, sped].map(|load| extended(system, &load));

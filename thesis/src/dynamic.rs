@@ -6,9 +6,9 @@
 use crate::Error;
 use crate::contact::Law;
 use crate::decomposition::{Course, Decomposition, Part};
+use crate::iteration::{Equations, Motions, iterate};
 use crate::mesh::Mesh;
-use crate::newton::{Equations, State, iterate};
-use crate::rolling::{Motion, System, Touch};
+use crate::rolling::{Motion, State, System, Touch};
 use crate::sparse::Matrix;
 
 /// What is prescribed of rotation or travel at the end of a step.
@@ -35,7 +35,7 @@ pub struct Rolling<'a> {
 }
 
 impl<'a> Rolling<'a> {
-    /// Starts from a stationary state of a system that was made of these meshes of linear triangles.
+    /// Starts from a stationary state of a system that was made of these meshes.
     pub fn new(system: &'a System, wheel: &Mesh, rail: &Mesh, start: State) -> Self {
         let touches = system.touches(&system.expand(&start.q), start.motion, system.parameters.law);
         let rates = vec![0.0; start.q.len()];
@@ -46,24 +46,40 @@ impl<'a> Rolling<'a> {
     /// A step \[s] under what is prescribed of rotation and travel; returns the number of Newton's steps.
     pub fn advance(&mut self, step: f64, prescribed: [Prescribed; 2]) -> Result<usize, Error> {
         let equations = self.equations(step, prescribed);
-        let mut start = self.state.clone();
-        for (velocity, given) in [&mut start.motion.omega, &mut start.motion.velocity].into_iter().zip(prescribed) {
+        let (state, iterations) = iterate(&equations, &self.guess(prescribed))?;
+        let end = equations.end(state);
+        self.take(end);
+        Ok(iterations)
+    }
+
+    /// The present state with the velocities that are prescribed.
+    pub fn guess(&self, prescribed: [Prescribed; 2]) -> State {
+        let mut guess = self.state.clone();
+        for (velocity, given) in [&mut guess.motion.omega, &mut guess.motion.velocity].into_iter().zip(prescribed) {
             if let Prescribed::Velocity(value) = given {
                 *velocity = value;
             }
         }
-        let (state, iterations) = iterate(&equations, &start)?;
-        let (forces, touches) = equations.forces(&state);
-        let efforts = [forces[self.system.size], forces[self.system.size + 1]];
-        let rates = equations.rates(&state);
+        guess
+    }
+
+    /// Goes on from the end of a step.
+    pub fn take(&mut self, End { state, rates, efforts, touches }: End) {
         (self.state, self.rates, self.efforts, self.touches) = (state, rates, efforts, touches);
-        Ok(iterations)
     }
 
     /// The equations of a step from here.
     pub fn equations(&self, step: f64, prescribed: [Prescribed; 2]) -> TimeStep<'_> {
         TimeStep { before: self, step, prescribed }
     }
+}
+
+/// What a time step ends with; as in [`Rolling`].
+pub struct End {
+    state: State,
+    rates: Vec<f64>,
+    efforts: [f64; 2],
+    touches: Vec<Touch>,
 }
 
 /// The equations of a time step (\[D] 27, 28).
@@ -76,6 +92,13 @@ pub struct TimeStep<'a> {
 impl TimeStep<'_> {
     fn law(&self) -> Law {
         self.before.system.parameters.law
+    }
+
+    /// What the step ends with where this state solves its equations.
+    pub fn end(&self, state: State) -> End {
+        let (forces, touches) = self.forces(&state);
+        let size = self.before.system.size;
+        End { rates: self.rates(&state), efforts: [forces[size], forces[size + 1]], touches, state }
     }
 
     fn course(&self, motion: Motion) -> Course {
@@ -118,15 +141,63 @@ impl TimeStep<'_> {
         })
     }
 
-    /// What the equations lack in a state: on the unknowns [N/m], then moment \[N] and force [N/m] as far as they are prescribed.
-    pub fn residual(&self, state: &State) -> Vec<f64> {
+    /// Derivatives of the forces without contact by angular velocity and velocity.
+    fn velocity_columns(&self, state: &State) -> [Vec<f64>; 2] {
+        let (parts, v, Motion { omega, velocity }) = (&self.before.parts, self.rates(state), state.motion);
+        let rolled = [
+            (omega, Part::Turning, Part::Gyroscopic, &parts.spun),
+            (velocity, Part::Streaming, Part::Passing, &parts.sped),
+        ];
+        let mut columns = rolled.map(|(speed, squared, convected, load)| {
+            // What is convected are the rates, twice, and with the acceleration the displacements.
+            let carried: Vec<f64> = v.iter().zip(&state.q).map(|(v, u)| 2.0 * v + u / self.step).collect();
+            let (first, second) = (parts.multiply(squared, &state.q), parts.multiply(convected, &carried));
+            let terms = first.iter().zip(second).zip(load.iter());
+            terms.map(|((a, b), load)| -2.0 * speed * a + b + load / self.step).collect::<Vec<_>>()
+        });
+        columns[0].iter_mut().zip(&parts.squared).for_each(|(sum, load)| *sum += 2.0 * omega * load);
+        columns
+    }
+}
+
+impl Equations for TimeStep<'_> {
+    type State = State;
+
+    /// On the unknowns [N/m], then moment \[N] and force [N/m] as far as they are prescribed.
+    fn residual(&self, state: &State) -> Vec<f64> {
         let (forces, size) = (self.forces(state).0, self.before.system.size);
         let hub = self.found().map(|(k, value)| forces[size + k] - value);
         forces[..size].iter().copied().chain(hub).collect()
     }
 
-    /// Derivative of the residual.
-    pub fn tangent(&self, state: &State) -> Matrix {
+    fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
+        self.tangent(state).factorise()?.solve(self.residual(state).iter().map(|value| -value).collect())
+    }
+
+    fn size(&self, residual: &[f64]) -> f64 {
+        let (parameters, size) = (&self.before.system.parameters, self.before.system.size);
+        let forces: f64 = residual[..size].iter().map(|force| force * force).sum();
+        let arm = |k: usize| if k == 0 { parameters.annulus.outer } else { 1.0 };
+        let hub: f64 = residual[size..].iter().zip(self.found()).map(|(rest, (k, _))| (rest / arm(k)).powi(2)).sum();
+        (forces + hub).sqrt() / parameters.load
+    }
+
+    fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
+        let mut next = state.clone();
+        next.q.iter_mut().zip(step).for_each(|(q, d)| *q += share * d);
+        for ((k, _), change) in self.found().zip(&step[state.q.len()..]) {
+            *[&mut next.motion.omega, &mut next.motion.velocity][k] += share * change;
+        }
+        next
+    }
+}
+
+impl Motions for TimeStep<'_> {
+    fn system(&self) -> &System {
+        self.before.system
+    }
+
+    fn tangent(&self, state: &State) -> Matrix {
         let (system, parts) = (self.before.system, &self.before.parts);
         let size = system.size;
         let mut row_of = [None; 2];
@@ -156,49 +227,11 @@ impl TimeStep<'_> {
         tangent
     }
 
-    /// Derivatives of the forces without contact by angular velocity and velocity.
-    fn velocity_columns(&self, state: &State) -> [Vec<f64>; 2] {
-        let (parts, v, Motion { omega, velocity }) = (&self.before.parts, self.rates(state), state.motion);
-        let rolled = [
-            (omega, Part::Turning, Part::Gyroscopic, &parts.spun),
-            (velocity, Part::Streaming, Part::Passing, &parts.sped),
-        ];
-        let mut columns = rolled.map(|(speed, squared, convected, load)| {
-            // What is convected are the rates, twice, and with the acceleration the displacements.
-            let carried: Vec<f64> = v.iter().zip(&state.q).map(|(v, u)| 2.0 * v + u / self.step).collect();
-            let (first, second) = (parts.multiply(squared, &state.q), parts.multiply(convected, &carried));
-            let terms = first.iter().zip(second).zip(load.iter());
-            terms.map(|((a, b), load)| -2.0 * speed * a + b + load / self.step).collect::<Vec<_>>()
-        });
-        columns[0].iter_mut().zip(&parts.squared).for_each(|(sum, load)| *sum += 2.0 * omega * load);
-        columns
-    }
-}
-
-impl Equations for TimeStep<'_> {
-    fn imbalance(&self, state: &State) -> f64 {
-        let (parameters, size) = (&self.before.system.parameters, self.before.system.size);
-        let residual = self.residual(state);
-        let forces: f64 = residual[..size].iter().map(|force| force * force).sum();
-        let hub: f64 = residual[size..]
-            .iter()
-            .zip(self.found())
-            .map(|(rest, (k, _))| (rest / if k == 0 { parameters.annulus.outer } else { 1.0 }).powi(2))
-            .sum();
-        (forces + hub).sqrt() / parameters.load
+    fn touches(&self, state: &State) -> Vec<Touch> {
+        self.forces(state).1
     }
 
-    fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
-        let residual = self.residual(state);
-        self.tangent(state).factorise()?.solve(residual.iter().map(|value| -value).collect())
-    }
-
-    fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
-        let mut next = state.clone();
-        next.q.iter_mut().zip(step).for_each(|(q, d)| *q += share * d);
-        for ((k, _), change) in self.found().zip(&step[state.q.len()..]) {
-            *[&mut next.motion.omega, &mut next.motion.velocity][k] += share * change;
-        }
-        next
+    fn found(&self) -> Vec<usize> {
+        TimeStep::found(self).map(|(k, _)| k).collect()
     }
 }

@@ -1,16 +1,17 @@
 //! Triangles in plane strain, linear or quadratic, and what a stationary stream of material adds (\[B] 33, stationary): matrices without
 //! velocities, as the decomposition of \[D] 20 wants them.
 
-use crate::mesh::{Mesh, double_area};
+use crate::mesh::Mesh;
 use crate::rail::Plate;
 use crate::sparse::Matrix;
-use crate::triangle::{Order, Space, linear_gradients, points};
+use crate::triangle::{Point, Space, points};
 
 /// `∫ Bᵀ E B` \[Pa] for Young's modulus \[Pa] and Poisson's ratio; unknowns 2i and 2i + 1 of node i.
 pub fn stiffness(space: &Space, young: f64, poisson: f64) -> Matrix {
     let shear = 0.5 * young / (1.0 + poisson);
     let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    assemble(space, |_, a, b| {
+    assemble(space, |point, a, b| {
+        let [a, b] = [a, b].map(|function| point.shape.gradients[function]);
         let product = a[0] * b[0] + a[1] * b[1];
         let entry =
             |p: usize, q: usize| lame * a[p] * b[q] + shear * (a[q] * b[p] + if p == q { product } else { 0.0 });
@@ -18,14 +19,27 @@ pub fn stiffness(space: &Space, young: f64, poisson: f64) -> Matrix {
     })
 }
 
+/// `3Kα ∫ (∇N) N` [N/(m K)] (`−K_uθ` of \[B] 33): forces of temperatures on nodes, rows 2i and 2i + 1 of node i, one column for each node; with the
+/// thermal expansion \[1/K].
+pub fn expansion(space: &Space, [young, poisson, expansion]: [f64; 3]) -> Matrix {
+    let stress = young * expansion / (1.0 - 2.0 * poisson);
+    let mut matrix = Matrix::new(2 * space.places.len());
+    for (t, nodes) in space.elements.iter().enumerate() {
+        for point in points(&space.corners(t), space.order) {
+            for (i, slope) in nodes.iter().zip(point.shape.gradients) {
+                for (j, value) in nodes.iter().zip(point.shape.values) {
+                    (0..2).for_each(|axis| matrix.add(2 * i + axis, *j, stress * point.weight * slope[axis] * value));
+                }
+            }
+        }
+    }
+    matrix.compressed()
+}
+
 /// `ρ ∫ (v·∇N)ᵀ (v·∇N)` for a velocity field of unit coefficient; the stiffness of the stream is minus its square
 /// times this.
 pub fn convection(space: &Space, density: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Matrix {
-    assemble(space, |place, a, b| {
-        let v = velocity(place);
-        let along = density * (v[0] * a[0] + v[1] * a[1]) * (v[0] * b[0] + v[1] * b[1]);
-        [[along, 0.0], [0.0, along]]
-    })
+    in_both_directions(space, |point, a, b| density * along(&velocity, point, a) * along(&velocity, point, b))
 }
 
 /// `ρ ∫ N X` \[kg]: the centrifugal load for a unit angular velocity about the origin.
@@ -42,37 +56,19 @@ pub fn centrifugal(space: &Space, density: f64) -> Vec<f64> {
 }
 
 /// `ρ ∫ N N` [kg/m]: the same in both directions.
-pub fn mass(mesh: &Mesh, density: f64) -> Matrix {
-    let mut matrix = Matrix::new(2 * mesh.nodes.len());
-    for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let share = density * double_area(&mesh.corners(t)) / 24.0;
-        for i in triangle {
-            for j in triangle {
-                let value = if i == j { 2.0 * share } else { share };
-                (0..2).for_each(|axis| matrix.add(2 * i + axis, 2 * j + axis, value));
-            }
-        }
-    }
-    matrix
+pub fn mass(space: &Space, density: f64) -> Matrix {
+    in_both_directions(space, |point, a, b| density * point.shape.values[a] * point.shape.values[b])
 }
 
 /// `ρ ∫ N (v·∇N)` [kg/(m s)] for a velocity field [m/s], to be taken twice the velocities of the nodes.
-pub fn gyroscopic(mesh: &Mesh, density: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Matrix {
-    let mut matrix = Matrix::new(2 * mesh.nodes.len());
-    for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = mesh.corners(t);
-        let slopes = linear_gradients(&corners);
-        for point in points(&corners, Order::Linear) {
-            let v = velocity(point.place);
-            for (value, i) in point.shape.values.iter().zip(triangle) {
-                for (slope, j) in slopes.iter().zip(triangle) {
-                    let part = density * point.weight * value * (v[0] * slope[0] + v[1] * slope[1]);
-                    (0..2).for_each(|axis| matrix.add(2 * i + axis, 2 * j + axis, part));
-                }
-            }
-        }
-    }
-    matrix
+pub fn gyroscopic(space: &Space, density: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Matrix {
+    in_both_directions(space, |point, a, b| density * point.shape.values[a] * along(&velocity, point, b))
+}
+
+/// `v·∇N` of a function at a point.
+fn along(velocity: &impl Fn([f64; 2]) -> [f64; 2], point: &Point, function: usize) -> f64 {
+    let (v, slope) = (velocity(point.place), point.shape.gradients[function]);
+    v[0] * slope[0] + v[1] * slope[1]
 }
 
 /// `ρ ∮ (c_P n n + c_S t t) N N` [kg/(m s)] on the vertical ends of a plate (Lysmer and Kuhlemeyer; \[A] 2.5), for Young's modulus
@@ -92,8 +88,16 @@ pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) 
     matrix
 }
 
-/// Integrates `entry(place, ∇N_a, ∇N_b)`, one value for each pair of directions, over all pairs of nodes.
-fn assemble(space: &Space, entry: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> [[f64; 2]; 2]) -> Matrix {
+/// Integrates `entry(point, a, b)` over all pairs of functions, the same in both directions and nothing between them.
+fn in_both_directions(space: &Space, entry: impl Fn(&Point, usize, usize) -> f64) -> Matrix {
+    assemble(space, |point, a, b| {
+        let value = entry(point, a, b);
+        [[value, 0.0], [0.0, value]]
+    })
+}
+
+/// Integrates `entry(point, a, b)`, one value for each pair of directions, over all pairs of functions.
+fn assemble(space: &Space, entry: impl Fn(&Point, usize, usize) -> [[f64; 2]; 2]) -> Matrix {
     let mut matrix = Matrix::new(2 * space.places.len());
     for (t, nodes) in space.elements.iter().enumerate() {
         let points = points(&space.corners(t), space.order);
@@ -101,11 +105,11 @@ fn assemble(space: &Space, entry: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> [[f64
             for (b, j) in nodes.iter().enumerate() {
                 let mut sum = [[0.0; 2]; 2];
                 for point in &points {
-                    let slopes = &point.shape.gradients;
-                    let part = entry(point.place, slopes[a], slopes[b]);
+                    let part = entry(point, a, b);
                     (0..2).for_each(|p| (0..2).for_each(|q| sum[p][q] += point.weight * part[p][q]));
                 }
-                (0..2).for_each(|p| (0..2).for_each(|q| matrix.add(2 * i + p, 2 * j + q, sum[p][q])));
+                let parts = (0..2).flat_map(|p| (0..2).map(move |q| (p, q))).filter(|(p, q)| sum[*p][*q] != 0.0);
+                parts.for_each(|(p, q)| matrix.add(2 * i + p, 2 * j + q, sum[p][q]));
             }
         }
     }
@@ -116,6 +120,7 @@ fn assemble(space: &Space, entry: impl Fn([f64; 2], [f64; 2], [f64; 2]) -> [[f64
 mod tests {
     use super::*;
     use crate::rail;
+    use crate::triangle::Order;
     use crate::wheel::coarse;
 
     #[test]

@@ -7,8 +7,8 @@ use crate::Error;
 use crate::contact::Law;
 use crate::flow::Flow;
 use crate::mesh::Mesh;
-use crate::newton::{Drive, Newton, State};
-use crate::rolling::System;
+use crate::newton::{Drive, Newton};
+use crate::rolling::{State, System};
 use crate::sparse::Matrix;
 use crate::stabilise::Scheme;
 use crate::triangle::{Order, Space, points};
@@ -70,19 +70,14 @@ pub struct Warmth {
 pub fn spots(system: &System, state: &State) -> Vec<Spot> {
     let newton = Newton { system, law: Law { ..system.parameters.law }, drive: Drive::Velocity };
     let (_, touches) = newton.residual(state);
-    let (tread, _) = system.candidates();
-    let x = |node: usize| system.places[node][0];
     let spot = |touch: &crate::rolling::Touch| {
         let [slave, _, left, right] = touch.nodes;
-        let at = tread.iter().position(|node| *node == slave).unwrap_or_default();
-        let (before, after) = (tread[at.saturating_sub(1)], tread[(at + 1).min(tread.len() - 1)]);
-        let on = touch.forces.on;
-        let share = -on[2][1].value / on[0][1].value;
+        let share = touch.forces.share().value;
         Spot {
             slave,
             masters: [(left - system.wheel_nodes, 1.0 - share), (right - system.wheel_nodes, share)],
-            length: 0.5 * (x(after) - x(before)),
-            friction: (on[0][0].value * touch.forces.slip.value).abs(),
+            length: system.length(slave),
+            friction: touch.forces.friction_power().value,
         }
     };
     touches.iter().map(spot).collect()

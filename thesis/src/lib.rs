@@ -9,6 +9,7 @@
 
 pub mod annulus;
 pub mod contact;
+pub mod coupled;
 pub mod decomposition;
 pub mod dual;
 pub mod dynamic;
@@ -17,6 +18,7 @@ pub mod errors;
 pub mod figures;
 pub mod flow;
 pub mod heat;
+pub mod iteration;
 pub mod mesh;
 pub mod newton;
 pub mod one_dimension;

@@ -2,7 +2,8 @@
 
 use crate::Error;
 use crate::contact::Law;
-use crate::rolling::{Motion, System, Touch};
+use crate::iteration::{Equations, Motions, iterate};
+use crate::rolling::{Motion, State, System, Touch};
 use crate::sparse::Matrix;
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
@@ -18,25 +19,8 @@ pub enum Drive {
     Force(f64),
 }
 
-/// Unknowns and motion.
-#[derive(Clone, Debug)]
-pub struct State {
-    /// Unknown displacements \[m].
-    pub q: Vec<f64>,
-    /// Velocities.
-    pub motion: Motion,
-}
-
 /// Residual of a state [N/m], and its last entry with a prescribed moment \[N] or force [N/m].
 pub type Residual = Vec<f64>;
-
-/// Residual over the load at which an iteration has converged \[1].
-const TOLERANCE: f64 = 1e-9;
-const ITERATIONS: usize = 80;
-/// Halvings of a step at most.
-const HALVINGS: usize = 14;
-/// Full steps at most that are taken although the residual grows: nodes that change segments or touch anew make it jump.
-const JUMPS: usize = 6;
 
 /// An iteration on a system.
 pub struct Newton<'a> {
@@ -132,12 +116,6 @@ impl Newton<'_> {
         (sum + rest).sqrt() / parameters.load
     }
 
-    /// The step of a state.
-    pub fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
-        let (residual, touches) = self.residual(state);
-        self.tangent(state, &touches).factorise()?.solve(residual.iter().map(|value| -value).collect())
-    }
-
     /// The state a share of a step further on.
     pub fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
         let q = state.q.iter().zip(step).map(|(q, d)| q + share * d).collect();
@@ -157,12 +135,20 @@ impl Newton<'_> {
 }
 
 impl Equations for Newton<'_> {
-    fn imbalance(&self, state: &State) -> f64 {
-        self.size(&self.residual(state).0)
+    type State = State;
+
+    fn residual(&self, state: &State) -> Vec<f64> {
+        Newton::residual(self, state).0
     }
 
     fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
-        Newton::step(self, state)
+        Motions::tangent(self, state)
+            .factorise()?
+            .solve(Newton::residual(self, state).0.iter().map(|value| -value).collect())
+    }
+
+    fn size(&self, residual: &[f64]) -> f64 {
+        Newton::size(self, residual)
     }
 
     fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
@@ -170,41 +156,26 @@ impl Equations for Newton<'_> {
     }
 }
 
-/// Equations that Newton's iteration solves.
-pub trait Equations {
-    /// Size of the residual of a state over the load \[1].
-    fn imbalance(&self, state: &State) -> f64;
-
-    /// The step of a state.
-    fn step(&self, state: &State) -> Result<Vec<f64>, Error>;
-
-    /// The state a share of a step further on.
-    fn moved(&self, state: &State, step: &[f64], share: f64) -> State;
-}
-
-/// Solves from a start; returns the state and the number of steps. Steps are halved while the residual would grow.
-pub fn iterate(equations: &impl Equations, start: &State) -> Result<(State, usize), Error> {
-    let mut state = start.clone();
-    let mut residual = equations.imbalance(&state);
-    let mut jumps = 0;
-    for iterations in 0..ITERATIONS {
-        if residual < TOLERANCE {
-            return Ok((state, iterations));
-        }
-        let step = equations.step(&state)?;
-        let try_share = |k: usize| {
-            let next = equations.moved(&state, &step, 0.5_f64.powi(k as i32));
-            let size = equations.imbalance(&next);
-            (next, size)
-        };
-        let better = (0..HALVINGS).map(try_share).find(|(_, size)| *size < residual);
-        jumps += usize::from(better.is_none());
-        if jumps > JUMPS {
-            return Err(Error::NotConverged { iterations, residual });
-        }
-        (state, residual) = better.unwrap_or_else(|| try_share(0));
+impl Motions for Newton<'_> {
+    fn system(&self) -> &System {
+        self.system
     }
-    Err(Error::NotConverged { iterations: ITERATIONS, residual })
+
+    fn tangent(&self, state: &State) -> Matrix {
+        Newton::tangent(self, state, &Newton::residual(self, state).1)
+    }
+
+    fn touches(&self, state: &State) -> Vec<Touch> {
+        self.system.touches(&self.system.expand(&state.q), state.motion, self.law)
+    }
+
+    fn found(&self) -> Vec<usize> {
+        match self.drive {
+            Drive::Velocity => Vec::new(),
+            Drive::Moment(_) => vec![0],
+            Drive::Force(_) => vec![1],
+        }
+    }
 }
 
 /// Contact without friction at rest: from bodies loaded by Hertz' pressure, brought together until they carry the load.
@@ -315,13 +286,6 @@ impl Condensed {
         DVector::from_iterator(self.kept.len(), self.kept.iter().map(|i| state.q[*i]))
     }
 
-    /// A state with other values of the kept unknowns; the eliminated ones are left as they are.
-    fn state(&self, before: &State, values: &DVector<f64>) -> State {
-        let mut state = before.clone();
-        self.kept.iter().zip(values.iter()).for_each(|(i, value)| state.q[*i] = *value);
-        state
-    }
-
     /// Residual on the kept unknowns, and its derivative.
     fn equations(&self, newton: &Newton<'_>, state: &State) -> (DVector<f64>, DMatrix<f64>) {
         let system = newton.system;
@@ -352,30 +316,36 @@ impl Condensed {
 
     /// Solves from a start as [`Newton::solve`] does, which takes the same steps; of the result only the kept unknowns are true.
     pub fn solve(&self, newton: &Newton<'_>, start: &State) -> Result<(State, usize), Error> {
-        let load = newton.system.parameters.load;
-        let mut state = start.clone();
-        let (mut residual, mut tangent) = self.equations(newton, &state);
-        let mut jumps = 0;
-        for iterations in 0..ITERATIONS {
-            let size = residual.norm() / load;
-            if size < TOLERANCE {
-                return Ok((state, iterations));
-            }
-            let singular = Error::Singular { size: self.kept.len(), reason: "contact".into() };
-            let (now, step) = (self.values(&state), tangent.lu().solve(&residual).ok_or(singular)?);
-            let try_share = |k: usize| {
-                let next = self.state(&state, &(&now - 0.5_f64.powi(k as i32) * &step));
-                let equations = self.equations(newton, &next);
-                (next, equations)
-            };
-            let better = (0..HALVINGS).map(try_share).find(|(_, (after, _))| after.norm() < residual.norm());
-            jumps += usize::from(better.is_none());
-            if jumps > JUMPS {
-                return Err(Error::NotConverged { iterations, residual: size });
-            }
-            let (next, equations) = better.unwrap_or_else(|| try_share(0));
-            (state, (residual, tangent)) = (next, equations);
-        }
-        Err(Error::NotConverged { iterations: ITERATIONS, residual: residual.norm() / load })
+        iterate(&OnContact { condensed: self, newton }, start)
+    }
+}
+
+/// The equations on the kept unknowns.
+struct OnContact<'a> {
+    condensed: &'a Condensed,
+    newton: &'a Newton<'a>,
+}
+
+impl Equations for OnContact<'_> {
+    type State = State;
+
+    fn residual(&self, state: &State) -> Vec<f64> {
+        self.condensed.equations(self.newton, state).0.as_slice().to_vec()
+    }
+
+    fn step(&self, state: &State) -> Result<Vec<f64>, Error> {
+        let (residual, tangent) = self.condensed.equations(self.newton, state);
+        let singular = Error::Singular { size: residual.len(), reason: "contact".into() };
+        tangent.lu().solve(&-residual).map(|step| step.as_slice().to_vec()).ok_or(singular)
+    }
+
+    fn size(&self, residual: &[f64]) -> f64 {
+        residual.iter().map(|force| force * force).sum::<f64>().sqrt() / self.newton.system.parameters.load
+    }
+
+    fn moved(&self, state: &State, step: &[f64], share: f64) -> State {
+        let mut next = state.clone();
+        self.condensed.kept.iter().zip(step).for_each(|(i, change)| next.q[*i] += share * change);
+        next
     }
 }

@@ -42,6 +42,15 @@ pub struct Motion {
     pub velocity: f64,
 }
 
+/// Unknowns and motion.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Unknown displacements \[m].
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub motion: Motion,
+}
+
 /// Linear part of the system, without velocities, and the nodes that may touch.
 pub struct System {
     /// Its parameters.
@@ -62,6 +71,8 @@ pub struct System {
     pub arms: Vec<f64>,
     /// One for each displacement of the hub along the rail \[1].
     pub along: Vec<f64>,
+    /// Functions of the wheel; the rail's are linear.
+    pub order: Order,
     /// Number of the wheel's nodes, after which those of the rail come.
     pub wheel_nodes: usize,
     /// Places \[m] in the frame of the rail.
@@ -121,6 +132,7 @@ impl System {
             size,
             arms,
             along,
+            order,
             wheel_nodes,
             places,
             slaves,
@@ -188,6 +200,13 @@ impl System {
     /// Nodes of the tread that may touch, and those of the rail's surface, each from left to right.
     pub fn candidates(&self) -> (Vec<usize>, &[usize]) {
         (self.slaves.iter().map(|[slave, _]| *slave).collect(), &self.masters)
+    }
+
+    /// Length of the tread for which one of its nodes that may touch stands \[m].
+    pub fn length(&self, slave: usize) -> f64 {
+        let at = self.slaves.iter().position(|pair| pair[0] == slave).unwrap_or_default();
+        let [before, after] = [at.saturating_sub(1), (at + 1).min(self.slaves.len() - 1)];
+        0.5 * (self.places[self.slaves[after][0]][0] - self.places[self.slaves[before][0]][0])
     }
 
     /// Unknowns on which contact forces can act or depend.

@@ -11,7 +11,7 @@ use crate::mesh::Mesh;
 use crate::rail::Plate;
 use crate::rolling::{Motion, Parameters, System};
 use crate::sparse::{Factors, Matrix};
-use crate::triangle::linear_gradients;
+use crate::triangle::{Order, Space, linear_gradients};
 use crate::wheel::Annulus;
 use nalgebra::{DMatrix, DVector};
 use wheelrail::config::RailEnds;
@@ -163,9 +163,10 @@ fn inertia(system: &System, case: &Case, wheel: &Mesh, rail: &Mesh, motion: Moti
         let moved = second.entries.into_iter().map(|(i, j, value)| (i + by, j + by, value));
         Matrix { size, entries: first.entries.into_iter().chain(moved).collect() }
     };
-    let mass = joined(elastic::mass(wheel, density), elastic::mass(rail, density));
-    let turning = elastic::gyroscopic(wheel, density, |[x, y]| [motion.omega * y, -motion.omega * x]);
-    let mut streaming = elastic::gyroscopic(rail, density, |_| [-motion.velocity, 0.0]);
+    let spaces = [wheel, rail].map(|mesh| Space::new(mesh, Order::Linear));
+    let mass = joined(elastic::mass(&spaces[0], density), elastic::mass(&spaces[1], density));
+    let turning = elastic::gyroscopic(&spaces[0], density, |[x, y]| [motion.omega * y, -motion.omega * x]);
+    let mut streaming = elastic::gyroscopic(&spaces[1], density, |_| [-motion.velocity, 0.0]);
     let mut dashpots = Matrix::new(2 * rail.nodes.len());
     if case.ends == RailEnds::Nonreflecting {
         // The antisymmetric half of the convection leaves ρc for both ends.

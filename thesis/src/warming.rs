@@ -30,8 +30,10 @@ impl Flows {
 
 /// Temperatures of wheel and rail over time.
 pub struct Warming<'a> {
-    heating: Heating<'a>,
-    spaces: [Space; 2],
+    /// Bodies, material and contact.
+    pub heating: Heating<'a>,
+    /// Nodes of wheel and rail.
+    pub spaces: [Space; 2],
     /// Conduction, convection for a unit angular velocity and for a unit velocity, and heat capacity.
     parts: [Matrix; 4],
     /// What stabilisation adds, and the velocities for which it was assembled.
@@ -64,8 +66,8 @@ impl<'a> Warming<'a> {
         Self { heating, spaces, parts, stabilisation, tolerance, assemblies: 0, kept: None, theta }
     }
 
-    /// Conduction and convection for velocities, with the stabilisation that is at hand.
-    pub fn matrix(&mut self, motion: [f64; 2]) -> Matrix {
+    /// Assembles the stabilisation for velocities, if one of them has left the tolerance.
+    pub fn renew(&mut self, motion: [f64; 2]) {
         let of = self.stabilisation.0;
         let lasts = |k: usize| (motion[k] - of[k]).abs() <= self.tolerance * of[k].abs();
         if !(lasts(0) && lasts(1)) {
@@ -75,8 +77,22 @@ impl<'a> Warming<'a> {
             self.stabilisation = (motion, added);
             self.assemblies += 1;
         }
+    }
+
+    /// Conduction and convection for velocities, with the stabilisation that is at hand.
+    pub fn matrix(&self, motion: [f64; 2]) -> Matrix {
         let [still, turning, streaming, _] = &self.parts;
         Matrix::sum(&[(1.0, still), (motion[0], turning), (motion[1], streaming), (1.0, &self.stabilisation.1)])
+    }
+
+    /// What changes the matrix with the angular velocity (0) or the velocity (1), without stabilisation (\[D] 5.3.1).
+    pub fn by_velocity(&self, k: usize) -> &Matrix {
+        &self.parts[1 + k]
+    }
+
+    /// Heat capacity [J/(m K)].
+    pub fn capacity(&self) -> &Matrix {
+        &self.parts[3]
     }
 
     /// A step \[s] under velocities, places in contact and heat into each arc [W/m].
@@ -95,6 +111,7 @@ impl<'a> Warming<'a> {
         let (key, factors, rows) = match self.kept.take() {
             Some(kept) if kept.0 == key => kept,
             _ => {
+                self.renew(motion);
                 let linear = self.matrix(motion);
                 let mut matrix = Matrix::sum(&[(1.0, &linear), (1.0, &contact), (1.0 / step, &self.parts[3])]);
                 let rows = matrix.fix(&fixed);

@@ -2,10 +2,11 @@
 
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail_thesis::contact::{Law, Pair};
+use wheelrail_thesis::iteration::Equations;
 use wheelrail_thesis::mesh::Mesh;
-use wheelrail_thesis::newton::{Condensed, Drive, Newton, State, frictionless, resultant, rolling};
+use wheelrail_thesis::newton::{Condensed, Drive, Newton, frictionless, resultant, rolling};
 use wheelrail_thesis::rail::{self, Plate};
-use wheelrail_thesis::rolling::{Motion, Parameters, System};
+use wheelrail_thesis::rolling::{Motion, Parameters, State, System};
 use wheelrail_thesis::triangle::Order;
 use wheelrail_thesis::wheel::{self, Annulus};
 

@@ -9,21 +9,22 @@ use wheelrail_thesis::rail::{self, Plate};
 use wheelrail_thesis::rolling::{Parameters, System};
 use wheelrail_thesis::stabilise::Scheme;
 use wheelrail_thesis::transient::{Case, Rolling, STEEL};
-use wheelrail_thesis::triangle::Order;
+use wheelrail_thesis::triangle::{Order, Space};
 use wheelrail_thesis::wheel::{self, Annulus};
 
 #[test]
 fn mass_convection_and_dashpots_have_their_totals() {
     let plate = Plate { length: 1.0, height: 0.1 };
     let mesh = rail::coarse(plate, 11, 4);
+    let space = Space::new(&mesh, Order::Linear);
     let along = |matrix: &wheelrail_thesis::sparse::Matrix, axis: usize| {
         let unit: Vec<f64> = (0..matrix.size).map(|i| if i % 2 == axis { 1.0 } else { 0.0 }).collect();
         matrix.multiply(&unit).iter().zip(&unit).map(|(force, unit)| force * unit).sum::<f64>()
     };
     let [young, poisson, density] = STEEL;
-    assert!((along(&elastic::mass(&mesh, density), 0) / 800.0 - 1.0).abs() < 1e-12);
+    assert!((along(&elastic::mass(&space, density), 0) / 800.0 - 1.0).abs() < 1e-12);
     // A rigid motion is convected into nothing; C + Cᵀ acts on the ends alone.
-    let convection = elastic::gyroscopic(&mesh, density, |_| [-20.0, 0.0]);
+    let convection = elastic::gyroscopic(&space, density, |_| [-20.0, 0.0]);
     let bump: Vec<f64> =
         mesh.nodes.iter().flat_map(|[x, _]| [if x.abs() < 0.4 { 0.16 - x * x } else { 0.0 }, 0.0]).collect();
     let power: f64 = convection.multiply(&bump).iter().zip(&bump).map(|(force, u)| force * u).sum();

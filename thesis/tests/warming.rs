@@ -92,6 +92,7 @@ fn decomposed_matrices_are_those_assembled_anew_but_for_stabilisation_that_lags(
             let motion = MOTION.map(|v| (1.0 - 0.01 * f64::from(k)) * v);
             let anew = Heating { motion, ..heating(&meshes, &spots, of) };
             let exact = anew.stabilised(&anew.spaces());
+            warming.renew(motion);
             let (a, b) = (warming.matrix(motion).multiply(&unit), exact.multiply(&unit));
             let largest = b.iter().fold(0.0_f64, |most, b| most.max(b.abs()));
             worst = a.iter().zip(&b).fold(worst, |worst, (a, b)| worst.max((a - b).abs() / largest));
