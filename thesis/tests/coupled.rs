@@ -129,12 +129,12 @@ fn tangent_error<M: Motions>(coupled: &Coupled<M>, at: &Warm) -> f64 {
     let near_hub = |node: &usize| system.places[*node][0].hypot(system.places[*node][1] - 0.5) < 0.1;
     let hub = (0..system.wheel_nodes)
         .filter(near_hub)
-        .step_by(3)
+        .step_by(7)
         .flat_map(|node| [system.unknown[2 * node], Some(first + node)]);
-    let some = (0..tangent.size).step_by(131).chain(system.size..first).chain(hub.flatten());
+    let some = (0..tangent.size).step_by(263).chain(system.size..first).chain(hub.flatten());
     let kind = |i: usize| usize::from(i >= system.size) + usize::from(i >= first);
     let (mut entry, mut off) = ([[0.0_f64; 3]; 3], [[0.0_f64; 3]; 3]);
-    for column in system.contact_unknowns().into_iter().step_by(3).chain(touching).chain(some) {
+    for column in system.contact_unknowns().into_iter().step_by(7).chain(touching).chain(some) {
         let h = [1e-11, 1e-6, 1e-3][kind(column)];
         let mut unit = vec![0.0; tangent.size];
         unit[column] = 1.0;
