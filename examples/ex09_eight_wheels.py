@@ -4,15 +4,14 @@
 
 A master in Python steps wheels at the same time with nothing but threads: while the FMU computes, its caller does not hold
 the lock of the interpreter. Every instance has its own state; equal ones share their model. Wheels whose brakes differ take steps of
-different length, so that every step waits for the slowest wheel.
+different length: a `Team` gives the next wheel to whichever thread is free.
 """
 
 import argparse
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from time import perf_counter
 
-from wheelrail import Fmu, Wheel
+from wheelrail import Fmu, Team, Wheel
 
 WHEELS, STEP = 8, 1e-3  # number, s
 BATCH = 10  # steps that are timed together, some 20 ms as in the benchmark of the Rust library
@@ -20,23 +19,13 @@ START = {"initial.velocity": 27.8}
 MOMENTS = [-500.0 * k for k in range(WHEELS)]  # N m
 
 
-def step_each(wheels):
-    """Steps some wheels, one after the other."""
-    for wheel in wheels:
-        wheel.step(STEP)
-
-
-def run(wheels, steps, pool, threads):
-    """Steps all wheels, a share of them on this thread and on every one of `pool`; wall seconds of every batch of steps."""
-    shares, seconds = [wheels[k::threads] for k in range(threads)], []
+def run(wheels, steps, team):
+    """Steps all wheels; wall seconds of every batch of steps."""
+    seconds = []
     for _ in range(steps // BATCH):
         begin = perf_counter()
         for _ in range(BATCH):
-            # One task per further thread and step, not one per wheel: handing it over takes as long as a step without heat.
-            others = [pool.submit(step_each, share) for share in shares[1:]]
-            step_each(shares[0])
-            for other in others:
-                other.result()
+            team.map(lambda wheel: wheel.step(STEP), wheels)
         seconds.append(perf_counter() - begin)
     return seconds
 
@@ -46,9 +35,9 @@ def measure(fmu, settings, steps, threads):
     with ExitStack() as stack:
         parameters = START | settings
         wheels = [stack.enter_context(Wheel(fmu, parameters, {"drive.moment": moment})) for moment in MOMENTS]
-        pool = stack.enter_context(ThreadPoolExecutor(threads - 1)) if threads > 1 else None
-        run(wheels, 100, pool, threads)
-        seconds = run(wheels, steps, pool, threads)
+        team = stack.enter_context(Team(threads))
+        run(wheels, 100, team)
+        seconds = run(wheels, steps, team)
         simulated = BATCH * STEP
         speeds = simulated / min(seconds), simulated * len(seconds) / sum(seconds)
         return speeds, [wheel.get("contact.force_x") for wheel in wheels]

@@ -6,18 +6,17 @@ The wheelsets own their inertia (force and moment control); a step of `h` goes l
 2. Vehicle: one implicit step in which wheelsets are masses under the suspension and the last contact force. While a
    wheelset rolls, its mass counts with its rotation; when it stands, it does not move. This predicts the suspension's
    force at the end of the step, without which stiff primary suspensions do not converge.
-3. Wheelsets: each takes its step, force, load and torque ramping to what was found, in a thread of its own.
+3. Wheelsets: each takes its step, force, load and torque ramping to what was found, on threads.
 4. Correction: the vehicle's wheelsets are put where they really are. What the wheelsets got over the step is what the
    vehicle lost, so that momentum is kept whatever the prediction was.
 5. Rail: energy, heat and sand of the step are left on the map for the axles behind.
 """
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
 from . import scenario as scenarios
 from .brake import Brakes, Valve
+from .team import Team
 from .vehicle import AXLES, GRAVITY, Coach
 from .wheelset import Drive, FmuWheelset, RigidWheelset
 
@@ -50,8 +49,7 @@ class Contacts:
         self.seen = None
         self.met = [(0.0, 0.0)] * len(wheelsets)
         # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not.
-        threads = sum(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets)
-        self.pool = ThreadPoolExecutor(threads) if threads else None
+        self.team = Team(None if any(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets) else 1)
 
     def step(self, h, forces, loads, torques, sand, lifted):
         """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle, `lifted` is height
@@ -62,8 +60,7 @@ class Contacts:
             for k in range(len(self.wheelsets))
         ]
         before = self.seen
-        each = self.pool.map if self.pool else map
-        self.seen = list(each(lambda wheelset, drive: wheelset.step(h, drive), self.wheelsets, drives))
+        self.seen = self.team.map(lambda pair: pair[0].step(h, pair[1]), zip(self.wheelsets, drives))
         self.time += h
         for axle, seen in enumerate(self.seen):
             self._leave(axle, before[axle] if before else None, seen, sand[axle])
@@ -96,8 +93,7 @@ class Contacts:
 
     def close(self):
         """Frees wheelsets and threads."""
-        if self.pool:
-            self.pool.shutdown()
+        self.team.close()
         for wheelset in self.wheelsets:
             wheelset.close()
 
