@@ -12,6 +12,7 @@ mod introduction;
 mod lost_heat;
 mod mesh_heat;
 mod plate;
+mod ramp_steps;
 mod ramps;
 mod rolling;
 mod rough;

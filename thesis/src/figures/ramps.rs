@@ -1,18 +1,13 @@
 //! Paper D, section 6.1: six ramps of the creepage at constant velocity, by the product beside references and stationary rolling.
 
-use super::{Figure, curve, must, rolling};
-use crate::dynamic::{Prescribed, Rolling};
-use crate::newton;
+use super::ramp_steps::{Bodies, CREEPAGE, GROWTH, Points, SPEED, creepage};
+use super::{Figure, curve, must};
 use crate::ours::{Product, Run};
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 
 /// Durations of the six simulations \[s]. The first and the last are stated; half decades between them are assumed.
 const DURATIONS: [f64; 6] = [1e-3, 3.2e-3, 1e-2, 3.2e-2, 1e-1, 3.2e-1];
-/// Share of the duration in which the creepage grows to its end.
-const GROWTH: f64 = 0.7;
-const CREEPAGE: f64 = -8e-4;
-const SPEED: f64 = 50.0 / 3.6;
 /// Time steps of a ramp.
 const STEPS: usize = 400;
 
@@ -23,20 +18,12 @@ const REFERENCES: [(usize, [f64; 10]); 3] = [
     (4, [0.3034, 0.5891, 0.7975, 0.9326, 0.9949, 1.0, 1.0, 1.0, 1.0, 1.0]),
 ];
 
-/// A quantity over the share of the duration.
-type Points = Vec<[f64; 2]>;
-
 /// Paper D without centrifugal load, as the references.
 fn paper_d() -> Result<Product, String> {
     Product::with("paper_d", |config| {
         config.physics.centrifugal = false;
         config.tuning.tolerance = 0.0;
     })
-}
-
-/// Creepage at a share of the duration.
-fn creepage(share: f64) -> f64 {
-    CREEPAGE * (share / GROWTH).min(1.0)
 }
 
 /// A ramp in equal steps; `see` looks at the state after each, with the share of the duration.
@@ -70,28 +57,8 @@ fn forces(product: &Product) -> Result<(Vec<Points>, Points), String> {
 /// Edges in the contact over its half-width, and steps of a ramp, by the thesis's own method.
 const EDGE: f64 = 0.4;
 const COARSE: usize = 50;
-
-/// A ramp by the thesis's own step in time, from its own stationary state on, after so many refinements of the whole wheel: utilisation
-/// over the share of the duration, the mean of traction and braking, which leaves out the force that an uneven mesh has by itself.
-fn method(duration: f64, global: usize) -> Result<Points, String> {
-    let said = |error: crate::Error| error.to_string();
-    let (system, [wheel, rail]) = rolling::triangles(EDGE, global)?;
-    let (start, _) = newton::rolling(&system, rolling::motion(SPEED, 0.0)).map_err(said)?;
-    let one_way = |sign: f64| {
-        let mut run = Rolling::new(&system, &wheel, &rail, start.clone());
-        let mut forces = vec![rolling::share_of_limit(&system, &run.touches)];
-        for k in 1..=COARSE {
-            let target = rolling::motion(SPEED, sign * creepage(k as f64 / COARSE as f64));
-            let given = [target.omega, target.velocity].map(Prescribed::Velocity);
-            run.advance(duration / COARSE as f64, given).map_err(said)?;
-            forces.push(rolling::share_of_limit(&system, &run.touches));
-        }
-        Ok::<_, String>(forces)
-    };
-    let (traction, braking) = (one_way(1.0)?, one_way(-1.0)?);
-    let pairs = traction.iter().zip(&braking).enumerate();
-    Ok(pairs.map(|(k, (forward, back))| [k as f64 / COARSE as f64, 0.5 * (forward - back)]).collect())
-}
+/// Steps of a ramp whose tractions or temperatures are shown.
+const METHOD_STEPS: usize = 40;
 
 /// Largest difference of a ramp from stationary rolling.
 fn lag(points: &[[f64; 2]], slow: &[[f64; 2]]) -> f64 {
@@ -168,12 +135,14 @@ pub fn force() -> Result<Figure, String> {
         (0..10).map(tenth).fold(0.0_f64, |worst, off| worst.max(off.abs()))
     };
     // The thesis's own method; the middle one of its ramps also on a wheel that is refined once less.
-    let theirs =
-        REFERENCES[1..].iter().map(|(i, reference)| method(DURATIONS[*i], 2).map(|points| (*i, points, reference)));
+    let (fine, coarse) = (Bodies::new(EDGE, 2)?, Bodies::new(EDGE, 1)?);
+    let theirs = REFERENCES[1..]
+        .iter()
+        .map(|(i, reference)| fine.forces(DURATIONS[*i], COARSE).map(|points| (*i, points, reference)));
     let theirs = theirs.collect::<Result<Vec<_>, _>>()?;
     let far = theirs.iter().map(|(_, points, reference)| tenths(points, reference)).fold(0.0, f64::max);
     let (_, middle) = &REFERENCES[1];
-    let stiff = tenths(&method(DURATIONS[2], 1)?, middle);
+    let stiff = tenths(&coarse.forces(DURATIONS[2], COARSE)?, middle);
     let near = tenths(&theirs[0].1, middle);
     let full = theirs.iter().map(|(_, points, _)| points[COARSE][1]).fold(f64::INFINITY, f64::min);
     let worst = REFERENCES.iter().map(off).fold(0.0, f64::max);
@@ -232,6 +201,8 @@ pub fn force() -> Result<Figure, String> {
 pub fn profiles() -> Result<Figure, String> {
     const INSTANTS: [f64; 3] = [0.2, 0.35, 0.5];
     let product = paper_d()?;
+    let bodies = Bodies::new(0.5 * EDGE, 2)?;
+    let at = INSTANTS.map(|share| (share * METHOD_STEPS as f64).round() as usize);
     let limit = 0.4
         * wheelrail::analytic::hertz_peak_pressure(100e3, product.rolling(SPEED, 0.0, |_| ())?.traction().half_width());
     let points = |run: &Run| {
@@ -239,8 +210,9 @@ pub fn profiles() -> Result<Figure, String> {
         shear.x.iter().zip(&shear.value).map(|(x, q)| [1e3 * x, 1e-6 * q]).collect::<Vec<_>>()
     };
     let mut plots = Vec::new();
-    let (mut joins, mut pressures) = (Vec::new(), 0.0_f64);
+    let (mut joins, mut pressures, mut apart) = (Vec::new(), 0.0_f64, Vec::new());
     for sim in [3, 5] {
+        let mut theirs = bodies.tractions(DURATIONS[sim - 1], METHOD_STEPS, &at)?.into_iter();
         let (mut curves, mut join, mut failed) = (Vec::new(), 1.0, None);
         let (mut before, mut joined) = (0.0, false);
         ramp(&product, DURATIONS[sim - 1], 200, |share, run| {
@@ -269,6 +241,10 @@ pub fn profiles() -> Result<Figure, String> {
                     if INSTANTS.iter().any(|t| (t - share).abs() < 1e-9) {
                         curves.push(curve(Source::Ours, format!("simulation {sim} at {share}"), points(run)));
                         curves.push(curve(Source::Exact, format!("stationary at {share}"), points(&slow)));
+                        let nodes = theirs.next().unwrap_or_default();
+                        let off: f64 = nodes.iter().map(|[x, q]| (1e6 * q - ours.at(1e-3 * x)).abs() / limit).sum();
+                        apart.push(off / nodes.len() as f64);
+                        curves.push(curve(Source::Method, format!("thesis's method at {share}"), nodes));
                     }
                 }
                 Err(error) => failed = Some(error),
@@ -278,6 +254,7 @@ pub fn profiles() -> Result<Figure, String> {
         joins.push(join);
         plots.push(Plot { axes: ["place in mm".into(), "traction in MPa".into()], curves });
     }
+    let farthest = apart.iter().copied().fold(0.0, f64::max);
     Ok(Figure {
         item: "D 9",
         title: "Tractions at three instants of simulations 3 and 5",
@@ -286,15 +263,26 @@ pub fn profiles() -> Result<Figure, String> {
         finding: format!(
             "Tractions stay within 5 % of the limit of the stationary ones from {:.2} of the duration on in simulation 3 and from {:.2} in \
              simulation 5; the thesis says 0.65 and 0.5 without a measure, on a regularised law. The pressure is the stationary one \
-             within {:.1e}.",
-            joins[0], joins[1], pressures
+             within {:.1e}. The thesis's own step in time (40 steps, linear triangles with edges of 0.2 a) has them at its nodes within {:.3} of \
+             the limit in the mean of the nodes, with the force that an uneven mesh has by itself.",
+            joins[0], joins[1], pressures, farthest
         ),
         plots,
-        values: vec![("d9.join.3".into(), joins[0]), ("d9.join.5".into(), joins[1])],
+        values: vec![
+            ("d9.join.3".into(), joins[0]),
+            ("d9.join.5".into(), joins[1]),
+            ("d9.method.apart".into(), farthest),
+        ],
         predicates: vec![
             must("the slower simulation joins earlier", joins[1] < joins[0]),
             must("both have joined when the creepage stops growing, 0.7", joins.iter().all(|join| *join < GROWTH)),
             must(format!("the pressure is that of stationary rolling within 1 %: {pressures:.1e}"), pressures < 0.01),
+            must(
+                format!(
+                    "the thesis's method at six instants within 0.15 of the limit in the mean of its nodes: {apart:.3?}"
+                ),
+                apart.len() == 6 && farthest < 0.15,
+            ),
         ],
     })
 }
@@ -332,6 +320,21 @@ pub fn temperature() -> Result<Figure, String> {
     let still = product.rolling(SPEED, CREEPAGE, |_| ())?.warmth();
     let references = [still.wheel_centre / 0.018_735_81 - 1.0, still.rail_centre / 0.017_768_66 - 1.0];
     let slowest = ends[5];
+    // The thesis's own method, displacements and temperatures in one iteration: simulations 2 and 6, the last also on a finer mesh.
+    let (bodies, finer) = (Bodies::new(EDGE, 1)?, Bodies::new(0.5 * EDGE, 1)?);
+    let [quick, slow] =
+        [bodies.temperatures(DURATIONS[1], METHOD_STEPS)?, bodies.temperatures(DURATIONS[5], METHOD_STEPS)?];
+    let fine = finer.temperatures(DURATIONS[5], METHOD_STEPS)?;
+    let [quick_end, slow_end, fine_end] = [&quick, &slow, &fine].map(|points| points[METHOD_STEPS][1]);
+    let mut wheel = of(1);
+    let theirs = [("2, edges of 0.4 a", quick), ("6, edges of 0.4 a", slow), ("6, edges of 0.2 a", fine)];
+    wheel.extend(theirs.map(|(name, points)| curve(Source::Method, format!("thesis's method, {name}"), points)));
+    let values = ends.iter().enumerate().map(|(i, end)| (format!("d10.wheel.{}", i + 1), end[0]));
+    let values = values.chain([
+        ("d10.method.2".into(), quick_end),
+        ("d10.method.6".into(), slow_end),
+        ("d10.method.6.fine".into(), fine_end),
+    ]);
     Ok(Figure {
         item: "D 10",
         title: "Temperature at the nominal contact point during six ramps",
@@ -340,11 +343,21 @@ pub fn temperature() -> Result<Figure, String> {
         finding: format!(
             "From bottom to top 1 to 6, as in the thesis, until half of the duration. Then simulations 3 and 2 swing over the slow ones: at the \
              end simulation 2 has {:.2e} K, the slowest {:.2e} K, since the tread, which swings on the hub in 3.5 ms, has {:.2} of the \
-             prescribed slip. Stationary rolling has {:.2e} K, more than half of it a warm wheel, for which all ramps are too short.",
-            ends[1][0], slowest[0], slips[1], still.wheel_centre
+             prescribed slip. Stationary rolling has {:.2e} K, more than half of it a warm wheel, for which all ramps are too short. The thesis's \
+             own step in time (40 steps, displacements and temperatures in one iteration) has {:.2} of our temperature at the end of \
+             simulation 6 with edges of 0.4 a, {:.2} with 0.2 a: such edges are ten and five times as long as the layer that is warm, and what they \
+             show is theirs. Simulation 2 ends {:.2} times warmer than 6 there, too (ours {:.2}).",
+            ends[1][0],
+            slowest[0],
+            slips[1],
+            still.wheel_centre,
+            slow_end / slowest[0],
+            fine_end / slowest[0],
+            quick_end / slow_end,
+            ends[1][0] / slowest[0]
         ),
-        plots: vec![plot("wheel, K over the reference", of(1)), plot("rail, K over the reference", of(2))],
-        values: ends.iter().enumerate().map(|(i, end)| (format!("d10.wheel.{}", i + 1), end[0])).collect(),
+        plots: vec![plot("wheel, K over the reference", wheel), plot("rail, K over the reference", of(2))],
+        values: values.collect(),
         predicates: vec![
             must("from bottom to top 1 to 6 from 0.4 to 0.5 of the duration, 1 and 2 still cold", cold && first_half),
             must("so at the end, too, without simulation 2", at_end),
@@ -360,6 +373,19 @@ pub fn temperature() -> Result<Figure, String> {
                     references[0], references[1]
                 ),
                 references.iter().all(|off| off.abs() < 0.02),
+            ),
+            must(
+                format!(
+                    "the thesis's method is too cold, and less so on edges half as long: {slow_end:.2e}, {fine_end:.2e} K"
+                ),
+                slow_end < fine_end && fine_end < slowest[0],
+            ),
+            must(
+                format!(
+                    "simulation 2 ends warmer than 6 by its own method, too, by 1.3 to 1.7: {:.2}",
+                    quick_end / slow_end
+                ),
+                (1.3..1.7).contains(&(quick_end / slow_end)),
             ),
             must("no ramp reaches it at its end", ends.iter().all(|end| end[0] < still.wheel_centre)),
         ],
