@@ -51,8 +51,11 @@ impl Slopes<'_> {
         let Some((gap, beside)) = beside.and_then(|k| self.gap.get(k).map(|gap| (*gap, k + 1))) else {
             return [0.0; 2];
         };
+        let gap = gap - self.overlap[i];
+        if gap <= 0.0 {
+            return [0.0; 2];
+        }
         let beyond = |body: usize| self.depth[beside][body] - 2.0 * self.depth[i + 1][body] + self.depth[behind][body];
-        let gap = (gap - self.overlap[i]).max(0.0);
         let rail = beyond(1).clamp(0.0, gap);
         [beyond(0).clamp(0.0, gap - rail), rail]
     }
