@@ -32,10 +32,14 @@ const QUADRATIC: (Order, Scheme) = (Order::Quadratic, Scheme::Bubble);
 
 /// Wheel and rail with edges of half the half-width in the contact.
 fn bodies(order: Order) -> (System, [Mesh; 2]) {
-    let half = 1.2e-3;
+    bodies_under(PARAMETERS, order)
+}
+
+fn bodies_under(parameters: Parameters, order: Order) -> (System, [Mesh; 2]) {
+    let half = 1.2e-3 * (parameters.load / PARAMETERS.load).sqrt();
     let wheel = wheel::rolling(PARAMETERS.annulus, 1.5 * half, 0.5 * half, 1, PARAMETERS.poisson).unwrap();
     let rail = rail::rolling(PARAMETERS.plate, 31, 2.0 * half, 0.5 * half);
-    (System::with_order(PARAMETERS, &wheel, &rail, 2.0 * half, order), [wheel, rail])
+    (System::with_order(parameters, &wheel, &rail, 2.0 * half, order), [wheel, rail])
 }
 
 /// Motion with a creepage, braking positive.
@@ -240,6 +244,75 @@ fn one_iteration_ends_where_motion_and_heat_in_turn_end() {
         assert!(largest(&off) < 1e-8 && balance < 1e-8);
         assert_eq!(expansion > 0.0, moved > 1e-4);
     }
+}
+
+/// Under a tenth and nearly twice of the load, in braking, sliding and a hundred times as warm the iteration ends, heat balances, the contact carries
+/// the load, and a step in time from there on changes nothing.
+#[test]
+fn light_heavy_braked_sliding_and_hot_wheels_end_in_balance_and_stay_there() {
+    let cases = [(0.1, -2e-4, 3e3), (1.9, -2e-4, 3e3), (1.0, 2e-4, 3e3), (1.0, 0.1, 3e3), (1.0, -2e-4, 3e5)];
+    for (load, creepage, arcs) in cases {
+        let parameters = Parameters { load: load * PARAMETERS.load, ..PARAMETERS };
+        let (system, meshes) = bodies_under(parameters, Order::Linear);
+        let given = motion(creepage);
+        let (start, _) = newton::rolling(&system, given).unwrap();
+        let mut heat = warming(&meshes, LINEAR, given);
+        heat.heating.arcs = arcs;
+        let forces = Expansion::new(&system, &heat, EXPANSION);
+        let motions = Newton { system: &system, law: PARAMETERS.law, drive: Drive::Velocity };
+        let coupled = Coupled { motions, warming: &heat, expansion: &forces, rate: 0.0 };
+        let (warm, steps) = iterate(&coupled, &Warm { state: start, theta: vec![0.0; system.places.len()] }).unwrap();
+        let [forward, up] = resultant(&coupled.motions.touches(&warm.state));
+        let balance = coupled.flows(&warm).imbalance();
+        heat.theta = warm.theta.clone();
+        let mut rolling = Rolling::new(&system, &meshes[0], &meshes[1], warm.state.clone());
+        let velocities = [given.omega, given.velocity].map(Prescribed::Velocity);
+        let (_, flows) = advance(&mut rolling, &mut heat, &forces, 1e-4, velocities).unwrap();
+        let moved = [apart(&rolling.state.q, &warm.state.q), apart(&heat.theta, &warm.theta)];
+        println!(
+            "load {load}, {creepage}, {arcs} W/m: {steps} steps, {:.4} of the limit, hottest {:.2} K, heat {balance:.1e} and {:.1e}, moved {moved:.1?}",
+            forward / (0.4 * parameters.load),
+            largest(&warm.theta),
+            flows.imbalance()
+        );
+        assert!((up / parameters.load - 1.0).abs() < 1e-8 && balance < 1e-8 && flows.imbalance() < 1e-8);
+        assert!(largest(&moved) < 1e-8);
+    }
+}
+
+/// A wheel that is locked within eight steps slides on at the limit. Its heat balances in every step, and what it has grown where it slides lifts the hub.
+#[test]
+fn a_wheel_that_locks_slides_on_its_growing_hot_spot_in_balance() {
+    let (system, meshes) = bodies(Order::Linear);
+    let given = motion(0.0);
+    let (start, _) = newton::rolling(&system, given).unwrap();
+    let run = |expansion: f64| {
+        let mut heat = warming(&meshes, LINEAR, given);
+        heat.heating.arcs = 0.0;
+        let forces = Expansion::new(&system, &heat, expansion);
+        let mut rolling = Rolling::new(&system, &meshes[0], &meshes[1], start.clone());
+        let (mut worst, mut steps) = (0.0_f64, 0);
+        for k in 1..=14 {
+            let held = 1.0 - f64::from(k.min(8)) / 8.0;
+            let velocities = [held * given.omega, given.velocity].map(Prescribed::Velocity);
+            let (taken, flows) = advance(&mut rolling, &mut heat, &forces, 1e-3, velocities).unwrap();
+            worst = worst.max(flows.imbalance());
+            steps += taken;
+        }
+        let [forward, up] = resultant(&rolling.touches);
+        let [hub, hottest] = [rolling.state.q[system.size - 1], largest(&heat.theta)];
+        println!(
+            "expansion {expansion:.1e}: {steps} steps, heat {worst:.1e}, {:.4} of the limit, {:.4} of the load, hottest {hottest:.1} K, hub {hub:.4e} m, {} nodes",
+            forward / (0.4 * up),
+            up / PARAMETERS.load,
+            rolling.touches.len()
+        );
+        (worst, forward / (0.4 * up), hub)
+    };
+    let (cold, warm) = (run(0.0), run(EXPANSION));
+    assert!(cold.0.max(warm.0) < 1e-8);
+    assert!((cold.1 + 1.0).abs() < 1e-3 && (warm.1 + 1.0).abs() < 1e-3);
+    assert!(warm.2 > cold.2);
 }
 
 /// Moments and forces on the hub, with the forces of thermal stress on it, give back the velocities that need them, and the temperatures with them.
