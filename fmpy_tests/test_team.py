@@ -1,6 +1,7 @@
 """Threads that share wheels: every item once, results in order, failures told, the same numbers as one after the other."""
 
 from threading import Barrier, Event
+from time import process_time, sleep
 
 import pytest
 from wheelrail import Team
@@ -53,6 +54,15 @@ def test_the_first_failure_is_raised_when_all_are_done_and_the_team_works_on():
                 team.map(work, range(8))
             assert sorted(done) == list(range(8))
         assert team.map(str, range(3)) == ["0", "1", "2"]
+
+
+def test_a_team_without_orders_sleeps():
+    """All threads together compute for less than a tenth of the time in which there is nothing to do."""
+    with Team(3) as team:
+        team.map(str, range(8))
+        begin = process_time()
+        sleep(0.5)
+        assert process_time() - begin < 0.05
 
 
 def test_wheels_of_a_team_have_the_forces_of_wheels_one_after_the_other(start, outputs):
