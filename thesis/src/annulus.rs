@@ -55,7 +55,7 @@ pub fn solve(mesh: Mesh, order: Order, scheme: Scheme, omega: f64) -> Result<Fie
             }
         }
     }
-    let rims = rims(&mesh, &space);
+    let rims = rims(&space);
     let (rows, heat) = (matrix.fix(&rims), load.iter().sum::<f64>());
     let mut leaves: f64 = rims.iter().map(|node| std::mem::take(&mut load[*node])).sum();
     let theta = matrix.factorise()?.solve(load)?;
@@ -64,10 +64,9 @@ pub fn solve(mesh: Mesh, order: Order, scheme: Scheme, omega: f64) -> Result<Fie
 }
 
 /// Nodes of both rims, middles of their edges included.
-fn rims(mesh: &Mesh, space: &Space) -> Vec<usize> {
-    let sides = space.boundary(mesh);
-    let mut found: Vec<usize> =
-        sides.into_iter().flat_map(|(a, b, middle)| [Some(a), Some(b), middle]).flatten().collect();
+fn rims(space: &Space) -> Vec<usize> {
+    let ends = |&(a, b, middle): &_| [Some(a), Some(b), middle];
+    let mut found: Vec<usize> = space.sides.iter().flat_map(ends).flatten().collect();
     found.sort_unstable();
     found.dedup();
     found

@@ -86,13 +86,11 @@ impl<M: Motions> Coupled<'_, M> {
     fn heat(&self, warm: &Warm) -> Vec<f64> {
         let (warming, theta) = (self.warming, &warm.theta);
         let motion = [warm.state.motion.omega, warm.state.motion.velocity];
-        let mut lacking = warming.matrix(motion).multiply(theta);
+        let mut lacking = warming.flow(motion, theta);
         let change: Vec<f64> = theta.iter().zip(&warming.theta).map(|(now, before)| now - before).collect();
         let stored = warming.capacity().multiply(&change);
         lacking.iter_mut().zip(stored).for_each(|(lacking, stored)| *lacking += self.rate * stored);
-        let mut arcs = vec![0.0; theta.len()];
-        warming.heating.heat_arcs(&warming.spaces[0], &mut arcs);
-        lacking.iter_mut().zip(arcs).for_each(|(lacking, heat)| *lacking -= heat);
+        lacking.iter_mut().zip(warming.arcs()).for_each(|(lacking, heat)| *lacking -= heat);
         for touch in self.motions.touches(&warm.state) {
             for (node, flow) in self.exchange(&touch, theta).flows {
                 lacking[node] += flow.value;
@@ -146,8 +144,8 @@ impl<M: Motions> Coupled<'_, M> {
                 by_motion.extend(slopes);
             }
         }
-        let fixed = warming.heating.fixed(&warming.spaces);
-        heat.fix(&fixed);
+        let fixed = warming.fixed();
+        heat.fix(fixed);
         let mut tangent = self.motions.tangent(&warm.state);
         tangent.size = first + warm.theta.len();
         for (row, node, force) in &self.expansion.entries {
@@ -172,7 +170,7 @@ impl<M: Motions> Coupled<'_, M> {
             given: 2.0 * heating.arcs + heating.contact[1] * friction,
             let_in: heating.let_in(&warming.spaces[0], &theta[..warming.spaces[0].places.len()]),
             stored: self.rate * (capacity(theta) - capacity(&warming.theta)),
-            leaves: -heating.fixed(&warming.spaces).iter().map(|node| lacking[*node]).sum::<f64>(),
+            leaves: -warming.fixed().iter().map(|node| lacking[*node]).sum::<f64>(),
         }
     }
 
@@ -202,7 +200,7 @@ impl<M: Motions> Equations for Coupled<'_, M> {
             self.row(row).iter().for_each(|row| residual[*row] -= force);
         }
         let mut heat = self.heat(warm);
-        self.warming.heating.fixed(&self.warming.spaces).iter().for_each(|node| heat[*node] = warm.theta[*node]);
+        self.warming.fixed().iter().for_each(|node| heat[*node] = warm.theta[*node]);
         residual.extend(heat);
         residual
     }

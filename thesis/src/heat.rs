@@ -167,7 +167,7 @@ impl Heating<'_> {
     /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.
     pub fn let_in(&self, space: &Space, theta: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for (a, b, middle) in space.boundary(self.meshes[0]) {
+        for &(a, b, middle) in &space.sides {
             let (p, q) = (space.places[a], space.places[b]);
             let along = [q[0] - p[0], q[1] - p[1]];
             let value = |[x, y]: [f64; 2], theta: f64| (x * along[0] + y * along[1]) * theta;
@@ -195,13 +195,10 @@ impl Heating<'_> {
 
     /// Heat of both arcs by edges of the tread whose middle lies on them.
     pub(crate) fn heat_arcs(&self, space: &Space, load: &mut [f64]) {
-        let mesh = self.meshes[0];
-        let (tread, _) = rims(mesh, self.annulus);
+        let (tread, _) = rims(self.meshes[0], self.annulus);
         let on_tread: std::collections::HashSet<usize> = tread.into_iter().collect();
         let mut parts = Vec::new();
-        for (a, b, middle) in
-            space.boundary(mesh).into_iter().filter(|(a, b, _)| on_tread.contains(a) && on_tread.contains(b))
-        {
+        for &(a, b, middle) in space.sides.iter().filter(|(a, b, _)| on_tread.contains(a) && on_tread.contains(b)) {
             let (p, q) = (space.places[a], space.places[b]);
             let angle = (p[0] + q[0]).atan2(-p[1] - q[1]).abs();
             if (angle - FRAC_PI_2).abs() < FRAC_PI_8 {
@@ -223,8 +220,8 @@ impl Heating<'_> {
         let first = spaces[0].places.len();
         let ends = (0..spaces[1].places.len()).filter(|n| spaces[1].places[*n][0].abs() > end).map(|n| n + first);
         let (_, hub) = rims(self.meshes[0], self.annulus);
-        let sides = spaces[0].boundary(self.meshes[0]).into_iter().filter(|(a, ..)| self.cold_hub && hub.contains(a));
-        let cold = sides.flat_map(|(a, _, middle)| [Some(a), middle]).flatten();
+        let sides = spaces[0].sides.iter().filter(|(a, ..)| self.cold_hub && hub.contains(a));
+        let cold = sides.flat_map(|(a, _, middle)| [Some(*a), *middle]).flatten();
         let mut fixed: Vec<usize> = ends.chain(cold).collect();
         fixed.sort_unstable();
         fixed.dedup();

@@ -4,15 +4,13 @@
 //! a value is not the one of `thesis/values.csv` or they took longer than they may.
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use wheelrail_thesis::figures::{ALL, Extent, Figure, Recipe};
+use wheelrail_thesis::figures::{self, ALL, Extent, Figure};
 use wheelrail_thesis::{paper_a, quoted, report};
 
-const THREADS: usize = 2;
 /// Longest time for all figures without `--full` \[s].
 const LONGEST: f64 = 720.0;
 
@@ -44,14 +42,14 @@ fn run() -> Result<(), String> {
     let recipes: Vec<_> =
         ALL.iter().filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|w| w == name)).collect();
     let start = Instant::now();
-    let figures = compute(&recipes, extent)?;
+    let figures = figures::compute(&recipes, extent, say)?;
     let seconds = start.elapsed().as_secs_f64();
-    println!("{seconds:.0} s in all; {}", slowest(&figures));
+    say(&format!("{seconds:.0} s in all; {}", slowest(&figures)));
     let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
     let quoted = quoted::all()?;
     std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
     let pace = pace()?;
-    println!("a step of the product takes {:.0} µs", 1e6 * pace);
+    say(&format!("a step of the product takes {:.0} µs", 1e6 * pace));
     // The last file is for thesis/baseline.m.
     for (name, text) in [
         ("index.html", report::html(&figures, &quoted)),
@@ -60,7 +58,7 @@ fn run() -> Result<(), String> {
     ] {
         let file = out.join(name);
         std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
-        println!("{}", file.display());
+        say(&file.display().to_string());
     }
     let mut wrong: Vec<String> = figures.iter().flat_map(|(figure, _)| figure.flaws()).collect();
     if wanted.is_empty() {
@@ -77,6 +75,11 @@ fn run() -> Result<(), String> {
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
+}
+
+/// Writes a line. If nobody reads any more, the work goes on.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stdout(), "{line}");
 }
 
 /// Time that the product takes for a step of Paper A on a smooth rail \[s]: the shortest of some runs.
@@ -97,33 +100,4 @@ fn slowest(figures: &[(Figure, f64)]) -> String {
     times.sort_by(|a, b| b.0.total_cmp(&a.0));
     let named: Vec<String> = times.iter().take(3).map(|(seconds, item)| format!("{item} {seconds:.0} s")).collect();
     format!("slowest: {}", named.join(", "))
-}
-
-/// All figures in their order, each with its time \[s].
-fn compute(recipes: &[&(&'static str, Recipe)], extent: Extent) -> Result<Vec<(Figure, f64)>, String> {
-    // Those that grow in full take longest and begin; later papers have the larger ones.
-    let (mut queue, fixed): (Vec<_>, Vec<_>) = recipes.iter().rev().copied().partition(|(_, recipe)| recipe.grows());
-    queue.extend(fixed);
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new(BTreeMap::new());
-    std::thread::scope(|scope| {
-        for _ in 0..THREADS {
-            scope.spawn(|| {
-                while let Some((name, recipe)) = queue.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let start = Instant::now();
-                    let outcome = recipe.compute(extent).map_err(|error| format!("{name}: {error}"));
-                    let seconds = start.elapsed().as_secs_f64();
-                    if let Ok(mut done) = done.lock() {
-                        done.insert(*name, outcome.map(|figure| (figure, seconds)));
-                        println!("{} of {}: {name}, {seconds:.1} s", done.len(), recipes.len());
-                    }
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().map_err(|error| error.to_string())?;
-    recipes
-        .iter()
-        .map(|(name, _)| done.remove(name).unwrap_or_else(|| Err(format!("{name} was not computed"))))
-        .collect()
 }

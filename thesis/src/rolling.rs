@@ -254,7 +254,7 @@ fn unknowns(
 ) -> (Vec<Option<usize>>, usize, [Vec<f64>; 2]) {
     let first = turned.places.len();
     let (_, corners) = wheel::rims(wheel, annulus);
-    let middles = turned.boundary(wheel).into_iter().filter(|(a, ..)| corners.contains(a)).filter_map(|side| side.2);
+    let middles = turned.sides.iter().filter(|(a, ..)| corners.contains(a)).filter_map(|side| side.2);
     let hub: Vec<usize> = corners.iter().copied().chain(middles).collect();
     let mut free = vec![true; 2 * (first + rail.nodes.len())];
     let [mut arms, mut along] = [vec![0.0; free.len()], vec![0.0; free.len()]];

@@ -6,7 +6,7 @@ use crate::Error;
 use faer::MatMut;
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Lu;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 
 /// A square matrix as a list of entries; equal positions add up.
 #[derive(Clone, Debug, Default)]
@@ -38,16 +38,17 @@ impl Matrix {
         Self { size, entries: parts.iter().flat_map(scaled).collect() }.compressed()
     }
 
-    /// The same matrix with one entry for each position.
-    pub fn compressed(mut self) -> Self {
-        self.entries.sort_unstable_by_key(|(i, j, _)| (*i, *j));
-        self.entries.dedup_by(|next, kept| {
+    /// The same matrix with one entry for each position, row by row.
+    pub fn compressed(self) -> Self {
+        let by_columns = sorted(&self.entries, self.size, |entry| entry.1);
+        let mut entries = sorted(&by_columns, self.size, |entry| entry.0);
+        entries.dedup_by(|next, kept| {
             let same = (next.0, next.1) == (kept.0, kept.1);
             kept.2 += if same { next.2 } else { 0.0 };
             same
         });
-        self.entries.retain(|entry| entry.2 != 0.0);
-        self
+        entries.retain(|entry| entry.2 != 0.0);
+        Self { size: self.size, entries }
     }
 
     /// `A x`.
@@ -76,10 +77,15 @@ impl Matrix {
         let mut largest = vec![0.0_f64; self.size];
         self.entries.iter().for_each(|(row, _, value)| largest[*row] = largest[*row].max(value.abs()));
         let scale: Vec<f64> = largest.iter().map(|most| if *most > 0.0 { most.recip() } else { 1.0 }).collect();
-        let scaled = |&(row, column, value): &(usize, usize, f64)| Triplet::new(row, column, value * scale[row]);
-        let entries: Vec<_> = self.entries.iter().map(scaled).collect();
-        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(self.size, self.size, &entries)
-            .map_err(|error| singular(format!("{error:?}")))?;
+        let transposed = self.entries.iter().map(|&(row, column, value)| (column, row, value * scale[row])).collect();
+        let Self { entries, .. } = Self { size: self.size, entries: transposed }.compressed();
+        let mut starts = vec![0; self.size + 1];
+        entries.iter().for_each(|(column, ..)| starts[column + 1] += 1);
+        (0..self.size).for_each(|column| starts[column + 1] += starts[column]);
+        let rows = entries.iter().map(|(_, row, _)| *row).collect();
+        let values = entries.iter().map(|(.., value)| *value).collect();
+        let pattern = SymbolicSparseColMat::new_checked(self.size, self.size, starts, None, rows);
+        let matrix = SparseColMat::new(pattern, values);
         let lu = matrix.sp_lu().map_err(|error| singular(format!("{error:?}")))?;
         Ok(Factors { size: self.size, scale, lu })
     }
@@ -107,6 +113,25 @@ impl Factors {
             Err(Error::Singular { size: self.size, reason: "the solution is not finite".into() })
         }
     }
+}
+
+/// Entries in the order of their keys, which are below `size`; those of one key stay in their order. Takes a time linear in both, while a
+/// comparison of positions took most of it to assemble.
+fn sorted(
+    entries: &[(usize, usize, f64)],
+    size: usize,
+    key: impl Fn(&(usize, usize, f64)) -> usize,
+) -> Vec<(usize, usize, f64)> {
+    let mut next = vec![0; size + 1];
+    entries.iter().for_each(|entry| next[key(entry) + 1] += 1);
+    (0..size).for_each(|i| next[i + 1] += next[i]);
+    let mut sorted = vec![(0, 0, 0.0); entries.len()];
+    for entry in entries {
+        let place = &mut next[key(entry)];
+        sorted[*place] = *entry;
+        *place += 1;
+    }
+    sorted
 }
 
 #[cfg(test)]

@@ -131,6 +131,8 @@ pub struct Space {
     pub places: Vec<[f64; 2]>,
     /// Nodes of each triangle in local order.
     pub elements: Vec<Vec<usize>>,
+    /// Both ends of each edge on the boundary of the mesh, counter-clockwise, and its middle node where there is one.
+    pub sides: Vec<(usize, usize, Option<usize>)>,
 }
 
 impl Space {
@@ -152,19 +154,15 @@ impl Space {
             }
             elements.push(nodes);
         }
-        Self { order, places, elements }
+        let boundary: HashSet<_> = mesh.boundary().into_iter().collect();
+        let around = |nodes: &Vec<usize>| [0, 1, 2].map(|i| (nodes[i], nodes[(i + 1) % 3], nodes.get(3 + i).copied()));
+        let sides = elements.iter().flat_map(around).filter(|(a, b, _)| boundary.contains(&edge(*a, *b))).collect();
+        Self { order, places, elements, sides }
     }
 
     /// Corners of triangle `t` \[m].
     pub fn corners(&self, t: usize) -> [[f64; 2]; 3] {
         [0, 1, 2].map(|i| self.places[self.elements[t][i]])
-    }
-
-    /// Both ends of each edge on the boundary of the mesh, counter-clockwise, and its middle node where there is one.
-    pub fn boundary(&self, mesh: &Mesh) -> Vec<(usize, usize, Option<usize>)> {
-        let boundary: HashSet<_> = mesh.boundary().into_iter().collect();
-        let sides = |nodes: &Vec<usize>| [0, 1, 2].map(|i| (nodes[i], nodes[(i + 1) % 3], nodes.get(3 + i).copied()));
-        self.elements.iter().flat_map(sides).filter(|(a, b, _)| boundary.contains(&edge(*a, *b))).collect()
     }
 }
 

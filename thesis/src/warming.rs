@@ -40,6 +40,10 @@ pub struct Warming<'a> {
     stabilisation: ([f64; 2], Matrix),
     /// Relative change of a velocity that it outlasts \[1].
     tolerance: f64,
+    /// Nodes that are held at the reference, in ascending order.
+    fixed: Vec<usize>,
+    /// What a watt in each arc gives to every node \[1].
+    arcs: Vec<f64>,
     /// How often it was assembled.
     pub assemblies: usize,
     /// The last factors and rows of the held nodes, and what they belong to.
@@ -63,7 +67,10 @@ impl<'a> Warming<'a> {
         let parts = [still, galerkin(0.0, [1.0, 0.0]), galerkin(0.0, [0.0, 1.0]), capacity.compressed()];
         let theta = theta.unwrap_or_else(|| vec![0.0; parts[0].size]);
         let stabilisation = ([f64::NAN; 2], Matrix::default());
-        Self { heating, spaces, parts, stabilisation, tolerance, assemblies: 0, kept: None, theta }
+        let fixed = heating.fixed(&spaces);
+        let mut arcs = vec![0.0; parts[0].size];
+        Heating { arcs: 1.0, ..heating }.heat_arcs(&spaces[0], &mut arcs);
+        Self { heating, spaces, parts, stabilisation, tolerance, fixed, arcs, assemblies: 0, kept: None, theta }
     }
 
     /// Assembles the stabilisation for velocities, if one of them has left the tolerance.
@@ -85,6 +92,26 @@ impl<'a> Warming<'a> {
         Matrix::sum(&[(1.0, still), (motion[0], turning), (motion[1], streaming), (1.0, &self.stabilisation.1)])
     }
 
+    /// Heat that conduction and convection take from every node [W/m]: the matrix for velocities times temperatures over the reference \[K].
+    pub fn flow(&self, motion: [f64; 2], theta: &[f64]) -> Vec<f64> {
+        let [still, turning, streaming, _] = &self.parts;
+        let mut flow = still.multiply(theta);
+        for (factor, part) in [(motion[0], turning), (motion[1], streaming), (1.0, &self.stabilisation.1)] {
+            flow.iter_mut().zip(part.multiply(theta)).for_each(|(flow, more)| *flow += factor * more);
+        }
+        flow
+    }
+
+    /// Nodes that are held at the reference, in ascending order.
+    pub fn fixed(&self) -> &[usize] {
+        &self.fixed
+    }
+
+    /// Heat of both arcs into every node [W/m].
+    pub fn arcs(&self) -> impl Iterator<Item = f64> + '_ {
+        self.arcs.iter().map(|share| self.heating.arcs * share)
+    }
+
     /// What changes the matrix with the angular velocity (0) or the velocity (1), without stabilisation (\[D] 5.3.1).
     pub fn by_velocity(&self, k: usize) -> &Matrix {
         &self.parts[1 + k]
@@ -102,11 +129,10 @@ impl<'a> Warming<'a> {
         let mut load = vec![0.0; self.theta.len()];
         let mut contact = Matrix::new(load.len());
         heating.exchange(first, &mut contact, &mut load);
-        heating.heat_arcs(&self.spaces[0], &mut load);
+        load.iter_mut().zip(&self.arcs).for_each(|(load, share)| *load += arcs * share);
         let given = load.iter().sum();
         let stored = self.parts[3].multiply(&self.theta);
         load.iter_mut().zip(&stored).for_each(|(load, stored)| *load += stored / step);
-        let fixed = heating.fixed(&self.spaces);
         let key = (step, motion, spots.iter().map(|spot| Spot { friction: 0.0, ..*spot }).collect());
         let (key, factors, rows) = match self.kept.take() {
             Some(kept) if kept.0 == key => kept,
@@ -114,11 +140,11 @@ impl<'a> Warming<'a> {
                 self.renew(motion);
                 let linear = self.matrix(motion);
                 let mut matrix = Matrix::sum(&[(1.0, &linear), (1.0, &contact), (1.0 / step, &self.parts[3])]);
-                let rows = matrix.fix(&fixed);
+                let rows = matrix.fix(&self.fixed);
                 (key, matrix.factorise()?, rows)
             }
         };
-        let held_load: f64 = fixed.iter().map(|node| std::mem::take(&mut load[*node])).sum();
+        let held_load: f64 = self.fixed.iter().map(|node| std::mem::take(&mut load[*node])).sum();
         self.theta = factors.solve(load)?;
         let held: f64 = rows.multiply(&self.theta).iter().sum();
         self.kept = Some((key, factors, rows));

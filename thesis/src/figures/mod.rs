@@ -12,6 +12,7 @@ mod introduction;
 mod lost_heat;
 mod mesh_heat;
 mod plate;
+mod queue;
 mod ramp_steps;
 mod ramps;
 mod rolling;
@@ -22,6 +23,7 @@ mod tread_map;
 mod validation;
 
 pub use extent::Extent;
+pub use queue::compute;
 
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
