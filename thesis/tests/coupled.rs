@@ -424,3 +424,30 @@ fn the_hub_rises_by_the_growth_of_a_ring_of_the_mean_temperature_and_the_wheel_r
         assert!(real > evenly && real - evenly < 0.3 * (evenly - none));
     }
 }
+
+/// A locked wheel that slides in a stationary state. A node at the edge of its contact exchanges heat at full conductance as soon as it touches: it cools, shrinks
+/// and opens; open, it is warm, grows and touches. Between expansions that leave it closed and those that leave it open no state exists, as Barber (*Journal of
+/// Elasticity* 8, 1978) found for punches. Friction heat alone begins at zero where a node touches, and with it states exist.
+#[test]
+fn a_locked_wheel_has_no_stationary_state_where_a_node_that_touches_cools_and_opens() {
+    let (system, meshes) = bodies(Order::Linear);
+    let given = Motion { omega: 0.0, velocity: VELOCITY };
+    let (mut state, _) = newton::rolling(&system, motion(0.0)).unwrap();
+    state.motion.omega = 0.0;
+    let motions = || Newton { system: &system, law: PARAMETERS.law, drive: Drive::Velocity };
+    let (cold, _) = motions().solve(&state).unwrap();
+    let touching = |conductance: f64, share: f64| {
+        let mut heat = warming(&meshes, LINEAR, given);
+        (heat.heating.arcs, heat.heating.contact[0]) = (0.0, conductance);
+        let expansion = Expansion::new(&system, &heat, share * EXPANSION);
+        let coupled = Coupled { motions: motions(), warming: &heat, expansion: &expansion, rate: 0.0 };
+        let start = Warm { state: cold.clone(), theta: vec![0.0; system.places.len()] };
+        let (warm, _) = iterate(&coupled, &start).ok()?;
+        assert!(coupled.flows(&warm).imbalance() < 1e-8);
+        Some(coupled.motions.touches(&warm.state).len())
+    };
+    let found = [0.7, 1.0, 1.4].map(|share| [1e7, 0.0].map(|conductance| touching(conductance, share)));
+    println!("nodes in contact with conductance and without: {found:?}");
+    assert_eq!(found.map(|[exchanging, _]| exchanging), [Some(5), None, Some(4)]);
+    assert!(found.iter().all(|[_, friction_alone]| friction_alone.is_some()));
+}
