@@ -115,8 +115,7 @@ impl Factors {
     }
 }
 
-/// Entries in the order of their keys, which are below `size`; those of one key stay in their order. Takes a time linear in both, while a
-/// comparison of positions took most of it to assemble.
+/// Entries in the order of their keys, which are below `size`; those of one key stay in their order. The time is linear in both.
 fn sorted(
     entries: &[(usize, usize, f64)],
     size: usize,
