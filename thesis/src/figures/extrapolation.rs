@@ -3,7 +3,7 @@
 //! The contact is Carter's in closed form, so that only the scheme for the heat is measured.
 
 use super::mesh_heat::{ANNULUS, PLATE, Thermal, half_width, thermal};
-use super::tread_heat::{CREEPAGE, LOAD, SPEED};
+use super::paper_b::{CREEPAGE, LOAD, SPEED};
 use crate::annulus::OUTER;
 use crate::heat::Spot;
 use crate::mesh::{Mesh, double_area};
@@ -169,7 +169,7 @@ pub(super) fn limit(sequence: &[f64]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::tread_heat::REFERENCE;
+    use crate::figures::paper_b::REFERENCE;
     use wheelrail::analytic::carter_force;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::extrapolation::{Sequence, lacking, limit, sequence};
 use super::mesh_heat::{BASE, BUBBLES, Thermal, meshes, paper_c, roll, thermal};
-use super::tread_heat::{CREEPAGE, LOAD, REFERENCE, SPEED};
+use super::paper_b::{CREEPAGE, LOAD, REFERENCE, SPEED};
 use super::{Extent, Figure, curve, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::heat::{Spot, Warmth};

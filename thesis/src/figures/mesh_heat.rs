@@ -1,6 +1,6 @@
 //! Heat and friction of rolling by the thesis's own method: Paper B figure 11, Paper C figure 6.
 
-use super::tread_heat::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
+use super::paper_b::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
 use super::{Extent, Figure, balanced, curve, largest, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::contact::Law;

@@ -11,6 +11,7 @@ mod holes;
 mod introduction;
 mod lost_heat;
 mod mesh_heat;
+mod paper_b;
 mod plate;
 mod queue;
 mod ramp_steps;

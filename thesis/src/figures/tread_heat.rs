@@ -1,6 +1,7 @@
 //! Paper B: a wheel heated at its tread and cooled by the rail, by the product beside Hertz, references and balances.
 
-use super::mesh_heat::{self, Thermal};
+use super::mesh_heat::{self, Thermal, half_width};
+use super::paper_b::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
 use super::{Extent, Figure, balanced, curve, largest, must};
 use crate::annulus::{CONDUCTIVITY, OUTER};
 use crate::contact::Law;
@@ -9,44 +10,15 @@ use crate::plot::{Plot, Source};
 use crate::quoted::Status;
 use crate::warming::Warming;
 use std::f64::consts::PI;
-use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::config::Config;
+use wheelrail::analytic::hertz_peak_pressure;
 
-/// Heat into the tread [W/m], load [N/m], velocity [m/s], steps of the mesh across half a contact.
-pub(super) const HEAT: f64 = 60.0;
-pub(super) const LOAD: f64 = 10e3;
-pub(super) const SPEED: f64 = 50.0 / 3.6;
-const MESH: usize = 10;
-/// Creepage at which the thesis states mean temperatures \[1].
-pub(super) const CREEPAGE: f64 = -5e-5;
-/// Mean of the wheel there in the reference \[K].
-pub(super) const REFERENCE: f64 = 7.5217e-5;
-/// Heat capacity of steel by volume [J/(m³ K)], length and height of the rail [m].
-pub(super) const CAPACITY: f64 = 8000.0 * 460.0;
+/// Height of the rail \[m].
 const HEIGHT: f64 = 0.1;
-
-/// Paper B on a coarser mesh, with changes.
-pub(super) fn paper_b(change: impl FnOnce(&mut Config)) -> Result<Product, String> {
-    Product::with("paper_b", |config| {
-        config.mesh.elements_per_half_width = MESH;
-        change(config);
-    })
-}
-
-/// Stationary rolling with the tread heated.
-pub(super) fn heated(product: &Product, velocity: f64, load: f64) -> Result<Run, String> {
-    product.rolling(velocity, 0.0, |inputs| (inputs.drive.tread_heat, inputs.drive.load) = (HEAT, load))
-}
 
 /// Mean temperature of the rail that takes all the heat [K]: behind the contact, on half of its length, every cross-section carries
 /// it away.
 fn rail_mean(velocity: f64) -> f64 {
     HEAT / (2.0 * CAPACITY * velocity * HEIGHT)
-}
-
-/// Half of the contact [m].
-fn half_width(load: f64) -> f64 {
-    hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
 }
 
 fn temperatures(curves: Vec<crate::plot::Curve>, axis: &str) -> Plot {

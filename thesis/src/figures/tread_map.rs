@@ -1,6 +1,6 @@
 //! Paper B, figure 12: temperatures beside the contact, by the product.
 
-use super::tread_heat::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
+use super::paper_b::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
 use super::{Figure, balanced, curve, must};
 use crate::annulus::OUTER;
 use crate::plot::{Plot, Source};
