@@ -44,6 +44,8 @@ pub struct Forces {
     pub gap: Dual,
     /// Slip velocity `ṡ` [m/s].
     pub slip: Dual,
+    /// Friction force on the slave node along the segment [N/m].
+    pub tangential: Dual,
     /// Forces on slave and master nodes.
     pub on: [[Dual; 2]; 3],
 }
@@ -54,10 +56,9 @@ impl Forces {
         -self.on[2][1] / self.on[0][1]
     }
 
-    /// Friction power [W/m].
+    /// Friction power [W/m], never negative: friction is against the slip.
     pub fn friction_power(&self) -> Dual {
-        let power = -self.on[0][0] * self.slip;
-        if power.value < 0.0 { -power } else { power }
+        -self.tangential * self.slip
     }
 }
 
@@ -123,7 +124,7 @@ impl Law {
             -normal_force * (slip / Dual::constant(self.regularisation)).tanh() * Dual::constant(self.friction);
         let force = plus(scaled(normal, normal_force), scaled(tangent, tangential));
         let on = [force, scaled(force, share - Dual::constant(1.0)), scaled(force, -share)];
-        Some(Forces { gap, slip, on })
+        Some(Forces { gap, slip, tangential, on })
     }
 
     /// `(1 + ∇u)·v̄` of the wheel: its material turns forward about the centre.

@@ -174,13 +174,15 @@ impl<M: Motions> Coupled<'_, M> {
         }
     }
 
-    /// Heat by which residuals are measured [W/m]: that of the arcs and of a contact that slides with the creep velocity.
+    /// Heat by which residuals are measured [W/m]: that of the arcs and of a contact that slides with the creep velocity, or, where nothing heats, what
+    /// a kelvin conducts.
     fn scale(&self) -> f64 {
         let parameters = &self.motions.system().parameters;
         let [omega, velocity] = self.warming.heating.motion;
         let slip = (velocity - parameters.annulus.outer * omega).abs().max(parameters.law.regularisation);
         let heating = &self.warming.heating;
-        2.0 * heating.arcs + heating.contact[1] * parameters.law.friction * parameters.load * slip
+        let given = 2.0 * heating.arcs + heating.contact[1] * parameters.law.friction * parameters.load * slip;
+        given.max(heating.material[1])
     }
 }
 

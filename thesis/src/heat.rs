@@ -183,12 +183,13 @@ impl Heating<'_> {
     pub(crate) fn exchange(&self, first: usize, matrix: &mut Matrix, load: &mut [f64]) {
         for spot in self.spots {
             let [(left, a), (right, b)] = spot.masters;
-            let sides = [(spot.slave, 1.0), (first + left, -a), (first + right, -b)];
-            for (row, weight) in sides {
-                for (column, share) in sides {
-                    matrix.add(row, column, self.contact[0] * spot.length * weight * share);
+            // What they weigh in the difference of the temperatures, and of the heat of their side.
+            let nodes = [(spot.slave, 1.0, 1.0), (first + left, -a, a), (first + right, -b, b)];
+            for (row, weight, share) in nodes {
+                for (column, other, _) in nodes {
+                    matrix.add(row, column, self.contact[0] * spot.length * weight * other);
                 }
-                load[row] += 0.5 * self.contact[1] * spot.friction * weight.abs();
+                load[row] += 0.5 * self.contact[1] * spot.friction * share;
             }
         }
     }

@@ -68,5 +68,9 @@ pub fn iterate<E: Equations>(equations: &E, start: &E::State) -> Result<(E::Stat
         }
         (state, residual) = better.unwrap_or_else(|| try_share(0));
     }
-    Err(Error::NotConverged { iterations: ITERATIONS, residual })
+    if residual < TOLERANCE {
+        Ok((state, ITERATIONS))
+    } else {
+        Err(Error::NotConverged { iterations: ITERATIONS, residual })
+    }
 }

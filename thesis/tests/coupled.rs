@@ -1,5 +1,6 @@
 //! Displacements and temperatures in one iteration: thermal expansion, tangent, agreement with motion and heat one after the other, balances.
 
+use wheelrail::analytic::annulus_growth;
 use wheelrail_thesis::contact::Law;
 use wheelrail_thesis::coupled::{Coupled, Expansion, Warm, advance};
 use wheelrail_thesis::dynamic::{Prescribed, Rolling};
@@ -25,6 +26,7 @@ const PARAMETERS: Parameters = Parameters {
     load: 100e3,
     law: Law { penalty: 5e12, friction: 0.4, regularisation: 1e-3 },
 };
+/// Linear expansion in the presets of the papers [1/K]; steel has 1.2e-5.
 const EXPANSION: f64 = 4.8e-6;
 const VELOCITY: f64 = 50.0 / 3.6;
 const LINEAR: (Order, Scheme) = (Order::Linear, Scheme::Supg);
@@ -76,15 +78,10 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     largest(&off) / largest(b)
 }
 
-/// Growth of the tread \[m] of a ring on a rigid hub over the mean temperature \[K], whatever the temperature over the radius (Timoshenko and Goodier,
-/// *Theory of Elasticity*, section 150).
+/// Growth of the tread \[m] of a ring on a rigid hub over the mean temperature \[K], by the closed form of the product.
 fn growth(mean: f64) -> f64 {
-    let Parameters { annulus: Annulus { outer, inner }, young, poisson, .. } = PARAMETERS;
-    let shear = 0.5 * young / (1.0 + poisson);
-    let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    let stress = young * EXPANSION / (1.0 - 2.0 * poisson) * mean;
-    let slope = stress / (2.0 * lame + 2.0 * shear * (1.0 + (inner / outer).powi(2)));
-    slope * (outer - inner * inner / outer)
+    let Parameters { annulus: Annulus { outer, inner }, poisson, .. } = PARAMETERS;
+    annulus_growth(mean, EXPANSION * (1.0 + poisson) / (1.0 - poisson), poisson, outer, inner)
 }
 
 /// An annulus of one temperature, held on its rigid hub, in plane strain.
@@ -92,7 +89,7 @@ fn growth(mean: f64) -> f64 {
 fn a_warm_wheel_grows_as_the_closed_form_of_a_ring_on_a_rigid_hub() {
     let Parameters { annulus: Annulus { outer, inner }, young, poisson, .. } = PARAMETERS;
     let (warm, exact) = (100.0, growth(100.0));
-    for (order, tolerance) in [(Order::Linear, 3e-3), (Order::Quadratic, 2e-3)] {
+    for order in [Order::Linear, Order::Quadratic] {
         let off = [1, 2].map(|n| {
             let radii: Vec<f64> =
                 (0..=8 * n).map(|k| inner * (outer / inner).powf(k as f64 / (8 * n) as f64)).collect();
@@ -113,7 +110,7 @@ fn a_warm_wheel_grows_as_the_closed_form_of_a_ring_on_a_rigid_hub() {
             -u[2 * bottom + 1] / exact - 1.0
         });
         println!("{order:?}: {exact:.4e} m, off by {off:.8?}");
-        assert!(off[1].abs() < tolerance && off[1].abs() < 0.5 * off[0].abs());
+        assert!(off[1].abs() < 1e-4 && off[1].abs() < 0.5 * off[0].abs());
     }
 }
 
@@ -145,13 +142,21 @@ fn tangent_error<M: Motions>(coupled: &Coupled<M>, at: &Warm) -> f64 {
         let [ahead, back] = [h, -h].map(|share| coupled.residual(&coupled.moved(&warm, &unit, share)));
         for (i, exact) in tangent.multiply(&unit).into_iter().enumerate() {
             let (entry, off) = (&mut entry[kind(i)][kind(column)], &mut off[kind(i)][kind(column)]);
-            *entry = entry.max(exact.abs());
-            *off = off.max((exact - (ahead[i] - back[i]) / (2.0 * h)).abs());
+            let difference = (ahead[i] - back[i]) / (2.0 * h);
+            *entry = entry.max(exact.abs()).max(difference.abs());
+            *off = off.max((exact - difference).abs());
         }
     }
-    let blocks = entry.iter().flatten().zip(off.iter().flatten());
-    // The moment of the wheel's own turning is zero but for the last digits.
-    blocks.filter(|(entry, _)| **entry > 1e-3).map(|(entry, off)| off / entry).fold(0.0, f64::max)
+    // Without unknown velocities there are no efforts; in stationary rolling they do not depend on the velocities but by the contact.
+    let exists = |i: usize, j: usize| match (i, j) {
+        (1, 1) => coupled.rate > 0.0,
+        _ => (i != 1 && j != 1) || !coupled.motions.found().is_empty(),
+    };
+    let blocks = (0..9).map(|block| (block / 3, block % 3)).filter(|(i, j)| exists(*i, *j));
+    blocks.fold(0.0, |worst: f64, (i, j)| {
+        assert!(entry[i][j] > 1.0 && off[i][j].is_finite(), "block {i}, {j}: {:e}", entry[i][j]);
+        worst.max(off[i][j] / entry[i][j])
+    })
 }
 
 #[test]
@@ -207,7 +212,8 @@ impl Equations for Held<'_> {
     }
 }
 
-/// One iteration for all ends where motion and heat, computed in turn until nothing changes, end; without expansion the first turn is the last.
+/// One iteration for all ends where motion and heat, computed in turn until nothing changes, end; without expansion the second turn
+/// changes nothing.
 #[test]
 fn one_iteration_ends_where_motion_and_heat_in_turn_end() {
     for (of, expansion) in [(LINEAR, 0.0), (QUADRATIC, 0.0), (LINEAR, EXPANSION), (QUADRATIC, EXPANSION)] {
@@ -243,6 +249,7 @@ fn one_iteration_ends_where_motion_and_heat_in_turn_end() {
         );
         assert!(largest(&off) < 1e-8 && balance < 1e-8);
         assert_eq!(expansion > 0.0, moved > 1e-4);
+        assert_eq!(expansion > 0.0, turns > 2);
     }
 }
 
@@ -277,12 +284,14 @@ fn light_heavy_braked_sliding_and_hot_wheels_end_in_balance_and_stay_there() {
         );
         assert!((up / parameters.load - 1.0).abs() < 1e-8 && balance < 1e-8 && flows.imbalance() < 1e-8);
         assert!(largest(&moved) < 1e-8);
+        assert!(creepage < 0.1 || (forward / (0.4 * parameters.load) + 1.0).abs() < 1e-3, "it slides");
+        assert!(arcs < 3e5 || largest(&warm.theta) > 40.0, "it is hot");
     }
 }
 
 /// A wheel that is locked within eight steps slides on at the limit. Its heat balances in every step, and what it has grown where it slides lifts the hub.
 #[test]
-fn a_wheel_that_locks_slides_on_its_growing_hot_spot_in_balance() {
+fn a_wheel_that_locks_slides_on_in_balance_and_its_warm_contact_lifts_the_hub() {
     let (system, meshes) = bodies(Order::Linear);
     let given = motion(0.0);
     let (start, _) = newton::rolling(&system, given).unwrap();
@@ -307,6 +316,7 @@ fn a_wheel_that_locks_slides_on_its_growing_hot_spot_in_balance() {
             up / PARAMETERS.load,
             rolling.touches.len()
         );
+        assert!(hottest > 1.0);
         (worst, forward / (0.4 * up), hub)
     };
     let (cold, warm) = (run(0.0), run(EXPANSION));
@@ -359,8 +369,7 @@ fn moment_and_force_give_back_velocities_and_temperatures() {
     assert!(worst < 1e-8);
 }
 
-/// In steps from ten microseconds to an hour: all heat is stored or leaves, and the contact carries the load and what the acceleration of the growing
-/// wheel needs.
+/// In steps from ten microseconds to three years all heat is stored or leaves; in the end the contact carries the load.
 #[test]
 fn heat_balances_in_every_step_and_long_steps_end_in_stationary_rolling() {
     let (system, meshes) = bodies(Order::Linear);
@@ -426,10 +435,10 @@ fn the_hub_rises_by_the_growth_of_a_ring_of_the_mean_temperature_and_the_wheel_r
 }
 
 /// A locked wheel that slides in a stationary state. A node at the edge of its contact exchanges heat at full conductance as soon as it touches: it cools, shrinks
-/// and opens; open, it is warm, grows and touches. Between expansions that leave it closed and those that leave it open no state exists, as Barber (*Journal of
-/// Elasticity* 8, 1978) found for punches. Friction heat alone begins at zero where a node touches, and with it states exist.
+/// and opens; open, it is warm, grows and touches. Newton's iteration finds a state for expansions that leave it closed and for those that leave it open, and none
+/// between; Barber (*Journal of Elasticity* 8, 1978) found that cooled punches have none. Friction heat alone begins at zero where a node touches: one is found.
 #[test]
-fn a_locked_wheel_has_no_stationary_state_where_a_node_that_touches_cools_and_opens() {
+fn newton_finds_no_stationary_state_of_a_locked_wheel_where_a_node_that_touches_cools_and_opens() {
     let (system, meshes) = bodies(Order::Linear);
     let given = Motion { omega: 0.0, velocity: VELOCITY };
     let (mut state, _) = newton::rolling(&system, motion(0.0)).unwrap();
@@ -442,7 +451,13 @@ fn a_locked_wheel_has_no_stationary_state_where_a_node_that_touches_cools_and_op
         let expansion = Expansion::new(&system, &heat, share * EXPANSION);
         let coupled = Coupled { motions: motions(), warming: &heat, expansion: &expansion, rate: 0.0 };
         let start = Warm { state: cold.clone(), theta: vec![0.0; system.places.len()] };
-        let (warm, _) = iterate(&coupled, &start).ok()?;
+        let warm = match iterate(&coupled, &start) {
+            Ok((warm, _)) => warm,
+            Err(error) => {
+                assert!(matches!(error, wheelrail_thesis::Error::NotConverged { .. }), "{error}");
+                return None;
+            }
+        };
         assert!(coupled.flows(&warm).imbalance() < 1e-8);
         Some(coupled.motions.touches(&warm.state).len())
     };

@@ -52,7 +52,8 @@ impl Slopes<'_> {
             return [0.0; 2];
         };
         let gap = gap - self.overlap[i];
-        if gap <= 0.0 {
+        // A number that is none is refused where the iteration ends.
+        if gap.is_nan() || gap <= 0.0 {
             return [0.0; 2];
         }
         let beyond = |body: usize| self.depth[beside][body] - 2.0 * self.depth[i + 1][body] + self.depth[behind][body];

@@ -1,7 +1,7 @@
 //! Paper D, section 6.1: six ramps of the creepage at constant velocity, by the product beside references and stationary rolling.
 
 use super::ramp_steps::{Bodies, CREEPAGE, GROWTH, Points, SPEED, creepage};
-use super::{Figure, curve, must};
+use super::{Figure, curve, largest, must};
 use crate::ours::{Product, Run};
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
@@ -132,7 +132,7 @@ pub fn force() -> Result<Figure, String> {
     };
     let tenths = |points: &Points, reference: &[f64; 10]| {
         let tenth = |k: usize| points[(k + 1) * COARSE / 10][1] - reference[k];
-        (0..10).map(tenth).fold(0.0_f64, |worst, off| worst.max(off.abs()))
+        largest((0..10).map(|k| tenth(k).abs()))
     };
     // The thesis's own method; the middle one of its ramps also on a wheel that is refined once less.
     let (fine, coarse) = (Bodies::new(EDGE, 2)?, Bodies::new(EDGE, 1)?);
@@ -140,7 +140,7 @@ pub fn force() -> Result<Figure, String> {
         .iter()
         .map(|(i, reference)| fine.forces(DURATIONS[*i], COARSE).map(|points| (*i, points, reference)));
     let theirs = theirs.collect::<Result<Vec<_>, _>>()?;
-    let far = theirs.iter().map(|(_, points, reference)| tenths(points, reference)).fold(0.0, f64::max);
+    let far = largest(theirs.iter().map(|(_, points, reference)| tenths(points, reference)));
     let (_, middle) = &REFERENCES[1];
     let stiff = tenths(&coarse.forces(DURATIONS[2], COARSE)?, middle);
     let near = tenths(&theirs[0].1, middle);
@@ -254,7 +254,7 @@ pub fn profiles() -> Result<Figure, String> {
         joins.push(join);
         plots.push(Plot { axes: ["place in mm".into(), "traction in MPa".into()], curves });
     }
-    let farthest = apart.iter().copied().fold(0.0, f64::max);
+    let farthest = largest(apart.iter().copied());
     Ok(Figure {
         item: "D 9",
         title: "Tractions at three instants of simulations 3 and 5",
