@@ -1,7 +1,8 @@
 """Threads that share wheels: every item once, results in order, failures told, the same numbers as one after the other."""
 
 from threading import Barrier, Event
-from time import process_time, sleep
+from time import sleep
+from weakref import ref
 
 import pytest
 from wheelrail import Team
@@ -56,13 +57,51 @@ def test_the_first_failure_is_raised_when_all_are_done_and_the_team_works_on():
         assert team.map(str, range(3)) == ["0", "1", "2"]
 
 
-def test_a_team_without_orders_sleeps():
-    """All threads together compute for less than a tenth of the time in which there is nothing to do."""
-    with Team(3) as team:
+def test_an_interrupt_is_raised_before_other_failures():
+    def work(k):
+        raise KeyboardInterrupt if k == 3 else ValueError(k)
+
+    with Team(2) as team, pytest.raises(KeyboardInterrupt):
+        team.map(work, range(8))
+
+
+def test_a_team_without_orders_sleeps_in_the_end_and_without_patience_at_once(monkeypatch):
+    """Who is awake passes the time with checksums."""
+    taken = []
+    monkeypatch.setattr("wheelrail.team.crc32", taken.append)
+    with Team(3, patience=0.05) as team:
         team.map(str, range(8))
-        begin = process_time()
-        sleep(0.5)
-        assert process_time() - begin < 0.05
+        sleep(0.3)
+        count = len(taken)
+        sleep(0.2)
+        assert len(taken) == count > 0
+    taken.clear()
+    with Team(3, patience=0.0) as team:
+        team.map(str, range(8))
+        sleep(0.1)
+    assert not taken
+
+
+def test_a_team_that_is_dropped_or_waits_keeps_neither_threads_nor_wheels():
+    class Item:
+        pass
+
+    team, item = Team(3), Item()
+    members, seen = team._members, ref(item)
+    team.map(id, [item, Item(), Item()])
+    del item
+    wait_until(lambda: seen() is None)
+    del team
+    wait_until(lambda: not any(member.is_alive() for member in members))
+
+
+def wait_until(condition):
+    """Looks for up to ten seconds."""
+    for _ in range(1000):
+        if condition():
+            return
+        sleep(0.01)
+    pytest.fail("it did not happen")
 
 
 def test_wheels_of_a_team_have_the_forces_of_wheels_one_after_the_other(start, outputs):

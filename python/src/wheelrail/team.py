@@ -4,24 +4,28 @@ from os import cpu_count
 from queue import SimpleQueue
 from threading import Thread
 from time import perf_counter
+from weakref import finalize
 from zlib import crc32
 
-PATIENCE = 200e-6  # s, how long a thread stays awake for the next order
+PATIENCE = 200e-6  # s
 PASTIME = bytes(32768)  # its checksum takes some 10 µs, in which the lock of the interpreter is free
 
 
 class Team:
     """Threads that share the wheels of a step: whoever is free takes the next one, the calling thread as well.
 
-    While the FMU computes, its caller does not hold the lock of the interpreter. A thread that slept needs about as long to wake up as a
-    wheel without heat needs for a step of 1 ms. Threads therefore stay awake for a fifth of a millisecond between steps, and nobody has a
-    fixed share for which all would wait. Use as a context manager, or call `close`.
+    While the FMU computes, its caller does not hold the lock of the interpreter. A thread that slept takes some hundredths of a millisecond
+    to wake up, and a wheel without heat hardly more for a step of 1 ms. Threads therefore stay awake for a while between steps, and nobody
+    has a fixed share for which all would wait. Use as a context manager, or call `close`.
     """
 
-    def __init__(self, threads=None):
-        """So many `threads`, with the calling one; by itself as many as the machine has."""
-        self._orders = SimpleQueue()
-        self._members = [Thread(target=self._serve, daemon=True) for _ in range((threads or cpu_count() or 1) - 1)]
+    def __init__(self, threads=None, patience=PATIENCE):
+        """So many `threads`, with the calling one; by itself as many as the machine has. They stay awake for `patience` (s) when there is
+        nothing to do: 0 where other processes need the cores, or where more time than that lies between steps."""
+        self._orders, self._patience = SimpleQueue(), patience
+        count = (threads or cpu_count() or 1) - 1
+        self._members = [Thread(target=_serve, args=(self._orders, patience), daemon=True) for _ in range(count)]
+        self._dismiss = finalize(self, _dismiss, self._orders, count)
         for member in self._members:
             member.start()
 
@@ -32,22 +36,18 @@ class Team:
         self.close()
 
     def map(self, function, items):
-        """Results of `function` for all items, in their order. A failure is raised when all are done, that of the first item that failed."""
+        """Results of `function` for all items, in their order. A failure is raised when all are done: an interrupt before others, else that of
+        the first item that failed."""
         order = _Order(function, items)
-        for _ in self._members[: len(order.results) - 1]:
+        for _ in self._members[: max(len(order.results) - 1, 0)]:
             self._orders.put(order)
-        return order.finish()
+        return order.finish(self._patience)
 
     def close(self):
         """Ends the threads."""
-        for _ in self._members:
-            self._orders.put(None)
+        self._dismiss()
         for member in self._members:
             member.join()
-
-    def _serve(self):
-        while order := _await(self._orders):
-            order.work()
 
 
 class _Order:
@@ -74,20 +74,34 @@ class _Order:
         if count:
             self.done.put(count)
 
-    def finish(self):
+    def finish(self, patience):
         """Works and waits until all is done."""
         self.work()
         missing = len(self.results)
         while missing:
-            missing -= _await(self.done)
+            missing -= _await(self.done, patience)
         if self.failures:
-            raise self.failures[min(self.failures)]
+            interrupts = [k for k, failure in self.failures.items() if not isinstance(failure, Exception)]
+            raise self.failures[min(interrupts or self.failures)]
         return self.results
 
 
-def _await(queue):
+def _serve(orders, patience):
+    """Works on orders until there is none to come."""
+    while order := _await(orders, patience):
+        order.work()
+        order = None  # whoever waits keeps no wheel alive
+
+
+def _dismiss(orders, count):
+    """Sends so many threads home."""
+    for _ in range(count):
+        orders.put(None)
+
+
+def _await(queue, patience):
     """The next item of a queue. Who waits sleeps only after a while, and until then keeps the lock of the interpreter from nobody."""
-    end = perf_counter() + PATIENCE
+    end = perf_counter() + patience
     while queue.empty() and perf_counter() < end:
         crc32(PASTIME)
     return queue.get()
