@@ -53,7 +53,7 @@ fn heat(c: &mut Criterion) {
         ("heat: step, speeds change by percents", 1e-2, 1.0),
         ("heat: step, locked wheel", 1e-4, 0.0),
     ] {
-        let (mut state, mut next) = (heat.initial(0.0), HeatState::default());
+        let (mut state, mut next) = (heat.initial(0.0, 0.0), HeatState::default());
         let mut scratch = Scratch::default();
         let mut k = 0_u32;
         c.bench_function(name, |b| {

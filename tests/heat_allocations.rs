@@ -11,7 +11,7 @@ fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
     let heat = heat(&config(1e5, 1.1 * v));
     let rolling = Exchange { tread: brake_blocks(60.0), ..carter(1e5, v, -8e-4) };
     let mut exchange = rolling.clone();
-    let (mut state, mut next) = (heat.initial(20.0), HeatState::default());
+    let (mut state, mut next) = (heat.initial(20.0, 0.0), HeatState::default());
     let (mut seen, mut scratch) = (Observation::default(), Scratch::default());
     // Nothing changes; speeds and step change; the wheel is locked and conduction around it corrected.
     for (name, vary, turning, dt, largest) in

@@ -42,7 +42,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
 #[test]
 fn a_warm_insulated_wheel_without_contact_keeps_its_temperature() {
     let heat = heat(&with(config(1e5, 50.0), |c| c.thermal.hub = Hub::Insulated));
-    let mut state = heat.initial(100.0);
+    let mut state = heat.initial(100.0, 0.0);
     let mut scratch = Scratch::default();
     let content = heat.heat_content(&state).unwrap()[0];
     for (k, dt) in [1e-6, 1e-3, 1.0, 500.0].into_iter().cycle().take(40).enumerate() {
@@ -79,7 +79,7 @@ fn reversal_of_both_speeds_mirrors_the_temperatures() {
         ..forward.clone()
     };
     let omega = omega(v, creepage);
-    let (mut one, mut two) = (heat.initial(5.0), heat.initial(5.0));
+    let (mut one, mut two) = (heat.initial(5.0, 0.0), heat.initial(5.0, 0.0));
     let mut scratch = Scratch::default();
     for dt in [1e-4, 1e-2, 1.0] {
         let f = heat.advance(&mut one, dt, v, omega, &forward, &mut scratch);

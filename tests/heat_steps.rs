@@ -36,7 +36,7 @@ fn under_constant_exchange_the_field_converges_with_order_two() {
     let heat = heat(&config(1e5, v));
     let exchange = carter(1e5, v, 2.0);
     let run = |steps: u32| {
-        let (mut state, mut scratch) = (heat.initial(0.0), Scratch::default());
+        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
         for _ in 0..steps {
             heat.advance(&mut state, 1.0 / f64::from(steps), v, 0.0, &exchange, &mut scratch);
         }
@@ -74,7 +74,7 @@ fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
     for config in configs {
         let load = if config.half_width < 5e-4 { 1e4 } else { 1e5 };
         let heat = heat(&config);
-        let mut state = heat.initial(50.0);
+        let mut state = heat.initial(50.0, 0.0);
         let mut scratch = Scratch::default();
         let mut worst = 0.0_f64;
         let mut highest = 0.0_f64;
@@ -148,7 +148,7 @@ fn resampled_friction_heat_keeps_its_total() {
         let friction_power = Piecewise { x, value };
         let total = 0.1 * friction_power.integral();
         let exchange = Exchange { friction_power, ..Exchange::default() };
-        let flows = heat.advance(&mut heat.initial(0.0), 1e-3, 10.0, 20.0, &exchange, &mut scratch);
+        let flows = heat.advance(&mut heat.initial(0.0, 0.0), 1e-3, 10.0, 20.0, &exchange, &mut scratch);
         println!("{count} points: {:.3e} W/m, deviation {:+.1e}", total, deviation(flows.friction, total));
         assert!(deviation(flows.friction, total).abs() < 1e-14);
     }
@@ -170,7 +170,7 @@ fn conductance_follows_the_pressure_to_the_power_of_0_95() {
             pressure: Piecewise { x: vec![-2.0 * a, 2.0 * a], value: vec![p, p] },
             ..Exchange::default()
         };
-        heat.advance(&mut heat.initial(1.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).conduction
+        heat.advance(&mut heat.initial(1.0, 0.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).conduction
     };
     let reference = flow(&constant, 0.0);
     assert!(deviation(reference, 2.0 * a * 1e3).abs() < 1e-4, "{reference}");
@@ -185,7 +185,7 @@ fn conductance_follows_the_pressure_to_the_power_of_0_95() {
 #[test]
 fn a_restored_state_continues_bit_for_bit() {
     let heat = heat(&config(1e5, 20.0));
-    let mut state = heat.initial(20.0);
+    let mut state = heat.initial(20.0, 0.0);
     let mut scratch = Scratch::default();
     let advance = |state: &mut HeatState, scratch: &mut Scratch, k: u32| {
         let v = 14.0 - 0.3 * f64::from(k);
@@ -206,7 +206,7 @@ fn a_restored_state_continues_bit_for_bit() {
 fn bad_input_is_refused_by_name_with_its_value() {
     let heat = heat(&config(1e5, 20.0));
     let good = carter(1e5, 14.0, -4e-4);
-    let state = heat.initial(3.0);
+    let state = heat.initial(3.0, 0.0);
     let (mut next, mut scratch) = (HeatState::default(), Scratch::default());
     let mut refuse = |dt: f64, v: f64, omega: f64, exchange: &Exchange, words: &str| {
         let message = heat.step(&state, &mut next, dt, v, omega, exchange, &mut scratch).unwrap_err().to_string();
@@ -257,7 +257,7 @@ fn heat_without_a_way_out_has_no_stationary_state() {
 #[test]
 fn a_state_of_another_mesh_is_refused() {
     let (ours, other) = (heat(&config(1e5, 20.0)), heat(&config(1e5, 2.0)));
-    let foreign = other.initial(0.0);
+    let foreign = other.initial(0.0, 0.0);
     let refused = ours.observe(&foreign, &mut Observation::default()).unwrap_err();
     assert!(matches!(refused, HeatError::StateSize { .. }) && !ours.fits(&foreign));
 }
@@ -270,7 +270,7 @@ fn rail_ahead_of_the_contact_is_not_undercooled_wherever_the_edge_lies() {
     for shift in [0.0, 0.004, 0.011, 0.023, 0.037, 0.049] {
         let patches = vec![Interval { low: -a * (1.0 - shift), high: a * (1.0 + shift) }];
         let exchange = Exchange { patches, ..Exchange::default() };
-        let mut state = heat.initial(100.0);
+        let mut state = heat.initial(100.0, 0.0);
         let mut scratch = Scratch::default();
         for _ in 0..20 {
             heat.advance(&mut state, 1e-3, speed, omega(speed, 0.0), &exchange, &mut scratch);

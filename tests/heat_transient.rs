@@ -11,7 +11,7 @@ fn locked_wheel_after_a_tenth_of_a_second() {
     let exchange = carter(1e5, v, 2.0);
     let heat = heat(&config(1e5, v));
     for steps in [20, 40] {
-        let mut state = heat.initial(0.0);
+        let mut state = heat.initial(0.0, 0.0);
         let mut scratch = Scratch::default();
         let (mut worst, mut last, mut iterations) = (0.0_f64, HeatFlows::default(), 0);
         // Steps that grow with time resolve the start; their sum is 0.1 s.
@@ -45,7 +45,7 @@ fn locked_wheel_after_a_tenth_of_a_second() {
 
 /// Braking from 50 km/h at 4 km/h per second with creepage −8e-4, temperatures at 5 s and 10 s.
 fn brake(heat: &Heat, dt: f64) -> [Temperatures; 2] {
-    let mut state = heat.initial(0.0);
+    let mut state = heat.initial(0.0, 0.0);
     let mut scratch = Scratch::default();
     let mut out = [Temperatures::default(); 2];
     let steps = (10.0 / dt).round() as usize;

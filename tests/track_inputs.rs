@@ -199,6 +199,7 @@ fn warm_rail_arrives_with_the_way_and_heats_a_cold_wheel() {
     println!("{} K, {} K, {} W", o.temperature_rail_mean, o.temperature_rail_max, o.heat_conduction);
     assert!(o.heat_conduction < -1e3 && o.temperature_wheel_mean > cold.temperature_wheel_mean + 10.0);
     assert!(o.temperature_rail_max > 338.0 && o.temperature_rail_max < 344.0);
+    println!("residual {:e} per metre {:e}", o.heat_residual, o.heat_per_metre);
     // The heat that the wheel has taken from the rail is in the wheel.
     assert!(o.heat_residual.abs() < 1e-9 && o.heat_per_metre == 0.0);
     // No new rail comes under a wheel that stands.

@@ -87,9 +87,13 @@ impl Traction {
 
     /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns the power
     /// for which the profile of dissipation stands. Friction never cools: where it is less than the errors of what hot material
-    /// gives back, it heats nothing.
+    /// gives back, it heats nothing. Nor does it where its coefficient is zero.
     pub(super) fn dissipate(&mut self, friction: f64, work: f64, duration: f64) -> f64 {
         (self.friction_power, self.friction_work) = (friction, work);
+        if self.friction == 0.0 {
+            self.dissipation_excess = 0.0;
+            return 0.0;
+        }
         let mean = if duration > 0.0 { work / duration } else { friction }.max(0.0);
         // Where friction has all but ended within the step, its mean stands for it.
         let power = if friction > ENDING * mean { friction } else { mean };

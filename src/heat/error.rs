@@ -114,6 +114,17 @@ pub enum HeatError {
         /// Lowest one that is possible \[K].
         coldest: f64,
     },
+    /// Temperatures above those of everything that acts, without heat and without room for it in the body.
+    #[error(
+        "temperatures rise to {highest} K over thermal.reference where {hottest} K is the hottest that acts; a smaller \
+         solver.max_step or thermal.conductance resolves the step"
+    )]
+    Overshoot {
+        /// Highest excess temperature \[K].
+        highest: f64,
+        /// Highest one that is possible \[K].
+        hottest: f64,
+    },
     /// Melting whose extent was not found.
     #[error(
         "melting was found to within {change} K only; a smaller solver.max_step resolves the step, and \

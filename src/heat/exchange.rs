@@ -32,6 +32,8 @@ pub struct Exchange {
     pub tread: Vec<TreadHeat>,
     /// Reversible temperatures over x that conduct besides those of the fields: wheel less rail \[K].
     pub reversible: Piecewise,
+    /// Temperature of the rail that arrives with the stream, over the reference \[K].
+    pub arriving: f64,
 }
 
 impl Exchange {
@@ -43,5 +45,6 @@ impl Exchange {
         self.friction_excess = 0.0;
         self.tread.clear();
         self.reversible.clear();
+        self.arriving = 0.0;
     }
 }

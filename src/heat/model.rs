@@ -16,8 +16,9 @@ pub trait HeatModel {
     /// Memory that steps reuse; holds nothing that outlives a step.
     type Scratch: Default;
 
-    /// A wheel at the uniform excess temperature `bulk` \[K] (but for a fixed hub) on a rail at the reference temperature.
-    fn initial(&self, bulk: f64) -> Self::State;
+    /// A wheel at the uniform temperature `wheel` (but for a fixed hub) on a rail at the uniform temperature `rail`, both over
+    /// the reference \[K].
+    fn initial(&self, wheel: f64, rail: f64) -> Self::State;
 
     /// Replaces `next` by the state `dt` \[s] after `state`, with the velocity of the wheel's centre `velocity` [m/s], the
     /// angular velocity `omega` [rad/s] (forward rolling positive) and the exchange held over the step.
@@ -61,7 +62,7 @@ pub struct Observation {
     /// Surface temperatures at the positions of [`HeatModel::zone_x`], over the reference \[K].
     pub surface: [Vec<f64>; 2],
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
-    /// wheel less its mean along the tread, of the rail.
+    /// wheel less its mean along the tread, of the rail less the temperature in the depth.
     pub layer: [Vec<f64>; 2],
     /// Mean depth of the heat in that layer \[m].
     pub layer_depth: [f64; 2],
@@ -90,7 +91,7 @@ pub struct HeatFlows {
     pub to_rail: f64,
     /// Wheel to hub.
     pub to_hub: f64,
-    /// Carried out of the modelled rail by the stream.
+    /// Carried out of the modelled rail by the stream, less what enters with it.
     pub outflow: f64,
     /// From the wheel to the air.
     pub wheel_to_air: f64,

@@ -183,8 +183,8 @@ inputs! {
         250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3,
             "Friction coefficient available now; unset: friction.coefficient";
         251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0,
-            "Absolute temperature of the rail that arrives at the contact, uniform over its depth; under the wheel it changes \
-             with the way, over the length of the patch; unset: thermal.reference";
+            "Absolute temperature of the rail that arrives at the contact, uniform over its depth. A change is \
+             that of all rail ahead of the contact and comes under the wheel with the way; unset: thermal.reference";
         252 slope of "rail", in "1" as "%", from -0.5 to 0.5, nominal 0.01,
             "Gradient of the track, rising in x positive: the weight of all masses that move in x pulls the wheel along it, \
              downhill; drive.load stays normal to the track";

@@ -171,8 +171,6 @@ impl Motion {
 pub struct ThermalState {
     /// Both temperature fields.
     pub fields: HeatState,
-    /// Excess temperature of the rail that has arrived under the wheel, on top of the field of the rail \[K].
-    pub arrived: f64,
     /// Mean heat flows over the last communication step [W/m].
     pub flows: HeatFlows,
     /// Excess temperatures \[K].

@@ -129,8 +129,7 @@ fn attempt(
             let brake_power = (next.audit.brake - state.audit.brake) / plan.dt;
             let tread_heat = brake::tread_heat(model, demand.target, brake_power);
             let step = HeatStep { dt: plan.dt, tread_heat, criteria };
-            let arriving = thermal.arriving(before, next, demand.target.temperature, plan.dt);
-            let touch = thermal.touch(&model.contact, &next.contact.traction, arriving);
+            let touch = thermal.touch(&model.contact, &next.contact.traction, demand.target.temperature);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
             next.thermal = Some(temperatures);
             audit::grow(next, &before.deformation);

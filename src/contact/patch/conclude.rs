@@ -127,8 +127,8 @@ impl Iterate<'_> {
         let (_, force) = self.slipping();
         let slip = self.slips;
         let [friction, work] = self.remember(&slip, &force, state);
-        let power = traction.dissipate(friction, work, self.problem.duration);
         traction.friction = self.friction;
+        let power = traction.dissipate(friction, work, self.problem.duration);
         let weighted: f64 = force.iter().zip(&slip).map(|(f, s)| f * s).sum();
         let slide = self.tractions.slide;
         traction.tread_slip = if slide == 0.0 { self.mean_slip() } else { weighted / (slide * self.load()) };

@@ -1,43 +1,69 @@
-//! Nothing becomes colder than its surroundings, to [`MARGIN`]: the bound that the discretisation itself does not keep.
+//! Maximum principle: nothing becomes colder than the coldest datum or, without heat, hotter than the hottest one, to [`MARGIN`].
 //!
-//! Steep gradients make finite elements of higher order, short steps with consistent mass, upwinding at contact edges and
-//! the second stage of the time formula undershoot. Where a node falls below the coldest datum by more than a margin, all
-//! that are too cold are [lifted](super::lift).
+//! The discretisation itself does not keep this bound. Steep gradients make finite elements of higher order, short steps with
+//! consistent mass, upwinding at contact edges and the second stage of the time formula swing beyond it. Where a node lies
+//! beyond a datum by more than a margin, all that do are [moved back](super::limiter).
 
 use super::layout::Heat;
 use super::nodal::Known;
 use super::state::HeatState;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::Exchange;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// How far a node may fall below the coldest datum before it is lifted \[K].
+/// How far a node may lie beyond a datum before it is moved back \[K].
 pub(super) const MARGIN: f64 = 0.09;
 /// Change in a step, in such margins, up to which bounds are widened without a look at the nodes [1].
 const SLOWLY: f64 = 0.25;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
-/// Undershoot relative to the span of temperatures up to which lifting is enough: the step is not taken again \[1].
+/// Excess relative to the span of temperatures up to which moving back is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
+/// Flux into a surface that counts as none [W/m²]: it warms steel by 0.01 K in an hour.
+const NO_FLUX: f64 = 1.0;
 
 impl Heat {
-    /// Coldest datum of a step \[K]: hub, air and arriving rail at the reference, the wheel at the start, and what
-    /// reversible temperatures may have withdrawn. None while brake blocks cool: then only absolute zero is a bound.
-    /// Friction never cools; where round-off gives it a negative share somewhere, the bound holds all the same.
-    pub(super) fn coldest(&self, state: &HeatState, exchange: &Exchange) -> f64 {
-        if exchange.tread.iter().any(|tread| tread.heat < 0.0) {
-            return f64::MIN;
+    /// Coldest and hottest datum of a step of `dt` \[s] \[K]: hub and air at the reference, the arriving rail, the wheel at the
+    /// start, and what reversible temperatures may have moved. There is no lower bound while brake blocks cool. Friction never
+    /// cools: where round-off gives it a negative share somewhere, the bound holds all the same. The upper bound rises with heat,
+    /// by what its largest flux warms a half-space; from the end of the heat on, what is hottest then is a datum.
+    pub(super) fn data(&self, state: &HeatState, dt: f64, exchange: &Exchange) -> [f64; 2] {
+        let moved = exchange.reversible.value.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let cooled = exchange.tread.iter().any(|tread| tread.heat < 0.0);
+        let [low, mut high] = state.data;
+        let flux = self.largest_flux(exchange);
+        if flux > NO_FLUX {
+            let effusivity = (self.config.material.conductivity * self.config.heat_capacity()).sqrt();
+            high += 2.0 * flux * (dt / PI).sqrt() / effusivity;
+        } else if state.last.is_some_and(|last| last.heat.iter().any(|heat| *heat > 0.0)) {
+            high = self.extremes(&state.field)[1].max(0.0).min(high);
         }
-        exchange.reversible.value.iter().fold(state.coldest, |low, value| low.min(-value.abs()))
+        // Latent heat stays where it is.
+        if self.melting.is_some_and(|melting| high > melting.solidus) && flux > NO_FLUX {
+            high = f64::INFINITY;
+        }
+        let low = if cooled { f64::NEG_INFINITY } else { low.min(state.arriving).min(-moved) };
+        [low, high.max(state.arriving).max(moved)]
+    }
+
+    /// Largest flux of heat into a surface at any time of the step [W/m²].
+    fn largest_flux(&self, exchange: &Exchange) -> f64 {
+        let power = exchange.friction_power.value.iter().fold(0.0_f64, |most, power| most.max(*power));
+        // The first of two stages takes up to this share of it.
+        let share = 1.0 + exchange.friction_excess.abs() / FRAC_1_SQRT_2;
+        let blocks = exchange.tread.iter().map(|tread| tread.heat / (tread.width * self.config.wheel.radius));
+        self.config.thermal.heat_ratio * share * power + blocks.map(|flux| flux.max(0.0)).sum::<f64>()
     }
 
     /// Fills the bounds of the nodal values of `next`, exactly where they are needed.
     ///
     /// What hardly changes keeps the bounds before, a little wider; what has become too wide is searched anew.
     pub(super) fn set_range(&self, state: &HeatState, next: &mut HeatState) {
-        let low = (next.coldest - MARGIN).max(-NEAR_ZERO * self.config.thermal.reference);
-        let high = self.melting.map_or(f64::INFINITY, |melting| melting.solidus);
+        let [coldest, hottest] = next.data;
+        let low = (coldest - MARGIN).max(-NEAR_ZERO * self.config.thermal.reference);
+        let high = self.melting.map_or(f64::INFINITY, |melting| melting.solidus).min(hottest + MARGIN);
         // Bounds that have become wide do not come back by themselves.
-        let wide = state.range[0] < next.coldest - 0.75 * MARGIN;
+        let wide = state.range[0] < coldest - 0.75 * MARGIN || state.range[1] > hottest + 0.75 * MARGIN;
         if !wide {
             let size = self.wheel.size();
             let known = Known { before: state.range, allowed: [low, high], slight: SLOWLY * MARGIN };
@@ -61,17 +87,16 @@ impl Heat {
         for part in parts {
             self.check_state(part)?;
             sum.field.iter_mut().zip(&part.field).for_each(|(sum, value)| *sum += value);
-            sum.coldest += part.coldest;
+            sum.arriving += part.arriving;
+            sum.data = [0, 1].map(|end| sum.data[end] + part.data[end]);
         }
         self.bounded(sum)
     }
 
-    /// A state found without a step, with its extremes, and lifted where it undershoots.
+    /// A state found without a step, with its extremes and within its bounds.
     pub(super) fn bounded(&self, mut state: HeatState) -> Result<HeatState, HeatError> {
         state.range = self.extremes(&state.field);
-        if self.undershoots(&state) {
-            self.lift(&mut state, &mut Vec::new())?;
-        }
+        self.keep_bounds(&mut state, &mut Vec::new())?;
         Ok(state)
     }
 
@@ -81,15 +106,18 @@ impl Heat {
         let (a, b) = (self.nodal[0].extremes(wheel), self.nodal[1].extremes(rail));
         [a[0].min(b[0]), a[1].max(b[1])]
     }
+}
 
-    /// Whether a field is colder somewhere than it may be.
-    pub(super) fn undershoots(&self, state: &HeatState) -> bool {
-        state.range[0] < state.coldest - MARGIN
+impl HeatState {
+    /// How far the nodes lie below the coldest and above the hottest datum, where that is more than the margin \[K].
+    pub(super) fn beyond(&self) -> [f64; 2] {
+        let ([low, high], [coldest, hottest]) = (self.range, self.data);
+        [coldest - low, high - hottest].map(|excess| if excess > MARGIN { excess } else { 0.0 })
     }
 
-    /// Whether it is so much colder that another time formula is worth a try.
-    pub(super) fn undershoots_badly(&self, state: &HeatState) -> bool {
-        let [low, high] = state.range;
-        self.undershoots(state) && state.coldest - low > SLIGHT * (high - state.coldest)
+    /// Whether the field swings so far beyond its data that another time formula is worth a try.
+    pub(super) fn swings(&self) -> bool {
+        let [below, above] = self.beyond();
+        below > SLIGHT * (self.range[1] - self.data[0]) || above > SLIGHT * (self.data[1] - self.range[0])
     }
 }

@@ -53,7 +53,8 @@ impl Stage {
         let rail = self.rail.flows(&heat.rail, held.1, change.map(|r| r.1), ahead);
         flows.stored_rail += weight * rail.stored;
         flows.rail_to_air += weight * (rail.air + loads.radiation[1].heat);
-        flows.outflow += weight * rail.out;
+        let entered = self.rail.transport.entry.map_or(0.0, |(_, stream)| stream * loads.arriving);
+        flows.outflow += weight * (rail.out - entered * heat.rail.modes.section);
     }
 }
 

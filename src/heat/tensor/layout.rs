@@ -25,9 +25,10 @@ pub struct Heat {
     pub(super) nodal: [Nodal; 2],
     /// Elements of the contact zone on each side of the contact point.
     pub(super) zone_cells: usize,
-    /// Integrals of the modes over the layer whose expansion acts on the contact, of wheel and rail [m].
+    /// Integrals of the modes over the layer whose expansion acts on the contact, of wheel and rail [m]; of the rail less the
+    /// temperature a half-width below the surface.
     pub(super) layer_weights: [Vec<f64>; 2],
-    /// First moments of the modes over that layer, of wheel and rail [m²].
+    /// First moments of the modes over that layer, of wheel and rail [m²]; the same is subtracted.
     pub(super) layer_moments: [Vec<f64>; 2],
     /// Means of the modes from the surface down to depths that grow by the factor [`CORE_GROWTH`] from
     /// [`CORE_DEPTH`] half-widths on, of wheel and rail [1].
@@ -95,8 +96,14 @@ impl Heat {
             line(0.5 * c.rail.length, LARGEST_ALONG_RAIL * c.rail.length, false),
             DepthModes::new(&Section::rail(&c, grading), 0.0, false, film)?,
         );
-        let layer_weights = [&wheel, &rail].map(|body| body.modes.integrals(FLASH_DEPTH * c.half_width));
-        let layer_moments = [&wheel, &rail].map(|body| body.modes.moments(FLASH_DEPTH * c.half_width));
+        let flash = FLASH_DEPTH * c.half_width;
+        let mut layer_weights = [&wheel, &rail].map(|body| body.modes.integrals(flash));
+        let mut layer_moments = [&wheel, &rail].map(|body| body.modes.moments(flash));
+        // Rail that is as warm in the depth grows as a whole and not at the contact.
+        let below = rail.modes.at(c.half_width.min(c.rail.height));
+        for (weights, of_one) in [(&mut layer_weights[1], flash), (&mut layer_moments[1], 0.5 * flash * flash)] {
+            weights.iter_mut().zip(&below).for_each(|(weight, value)| *weight -= of_one * value);
+        }
         let core_weights = [&wheel, &rail].map(|body| {
             let depths = (0..CORE_DEPTHS).map(|k| CORE_DEPTH * c.half_width * CORE_GROWTH.powi(k));
             depths.map(|depth| body.modes.integrals(depth).iter().map(|i| i / depth).collect()).collect()
@@ -152,6 +159,11 @@ impl Heat {
             body.integrate(field, &mut sums);
             body.heat_capacity * dot(&sums, &body.modes.content)
         }))
+    }
+
+    /// Heat content over `ρc` at a temperature over the reference \[K].
+    pub(super) fn content(&self, temperature: f64) -> f64 {
+        self.melting.map_or(temperature, |melting| melting.content(temperature))
     }
 
     /// Whether a state has the dimensions of this model.

@@ -30,6 +30,8 @@ pub(super) struct SurfaceLoads {
     /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact zone
     /// [W/m]; empty without.
     pub reversible: Vec<[f64; 2]>,
+    /// Heat content over `ρc` of the rail that enters with the stream \[K].
+    pub arriving: f64,
     /// What wheel and rail radiate.
     pub radiation: [Radiation; 2],
 }
@@ -53,8 +55,9 @@ impl SurfaceLoads {
 impl Heat {
     /// Replaces `loads` by the moments of `exchange` on the surface elements.
     pub(super) fn set_loads(&self, exchange: &Exchange, loads: &mut SurfaceLoads) -> Result<(), HeatError> {
-        let SurfaceLoads { conductance, friction, friction_share, tread, reversible, .. } = loads;
+        let SurfaceLoads { conductance, friction, friction_share, tread, reversible, arriving, .. } = loads;
         *friction_share = 1.0;
+        *arriving = self.content(exchange.arriving);
         friction.clear();
         friction.resize(self.zone_elements(), [0.0; 2]);
         self.add_friction(&exchange.friction_power, friction)?;

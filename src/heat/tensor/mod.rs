@@ -12,6 +12,7 @@
 //! linear elements along `s`. Where heat spreads sideways into wider bodies, all of them have the width at the depth `z` over
 //! that of the contact as a second weight (`section`).
 
+mod arrival;
 mod bounds;
 mod column;
 mod coupling;
@@ -21,7 +22,7 @@ mod field;
 mod flows;
 mod inverse;
 mod layout;
-mod lift;
+mod limiter;
 mod loads;
 mod melt;
 mod modal;
@@ -48,22 +49,20 @@ use super::error::HeatError;
 use super::exchange::Exchange;
 use super::model::{HeatFlows, HeatModel, Observation, Temperatures};
 use crate::piecewise::peak;
-use modal::dot;
+use modal::{HeatBody, dot};
 
 impl HeatModel for Heat {
     type State = HeatState;
     type Scratch = Scratch;
 
-    fn initial(&self, bulk: f64) -> HeatState {
-        let free = &self.wheel.modes.free;
-        let content = self.melting.map_or(bulk, |melting| melting.content(bulk));
-        let wheel = free.iter().cycle().take(self.wheel.size()).map(|c| content * c);
-        HeatState {
-            field: wheel.chain(std::iter::repeat_n(0.0, self.rail.size())).collect(),
-            last: None,
-            coldest: bulk.min(0.0),
-            range: [bulk.min(0.0), content.max(0.0)],
-        }
+    fn initial(&self, wheel: f64, rail: f64) -> HeatState {
+        let [wheel, rail] = [wheel, rail].map(|temperature| self.content(temperature));
+        let uniform = |body: &HeatBody, content: f64| -> Vec<f64> {
+            body.modes.free.iter().cycle().take(body.size()).map(|one| content * one).collect()
+        };
+        let data = [wheel.min(rail).min(0.0), wheel.max(rail).max(0.0)];
+        let field = [uniform(&self.wheel, wheel), uniform(&self.rail, rail)].concat();
+        HeatState { field, last: None, arriving: rail, data, range: data }
     }
 
     fn step(

@@ -157,10 +157,15 @@ impl Stage {
             for (e, q) in loads.friction.iter().enumerate() {
                 transport.add_load(&body.line, first + e, q.map(|q| share * loads.friction_share * q), surface);
             }
-            for (e, q) in loads.reversible.iter().enumerate() {
-                transport.add_load(&body.line, first + e, q.map(|q| sign * q), surface);
+            for (e, (q, conductance)) in loads.reversible.iter().zip(&loads.conductance).enumerate() {
+                transport.add_conducted(&body.line, first + e, q.map(|q| sign * q), *conductance, surface);
             }
             body.add_surface_load(0, surface, out);
+            if let Some((node, stream)) = transport.entry
+                && loads.arriving != 0.0
+            {
+                body.add_load(node, &[stream * loads.arriving], &body.modes.content, out);
+            }
             if body.line.closed > 0.0 && !loads.tread.is_empty() {
                 surface.fill(0.0);
                 for (e, q) in loads.tread.iter().enumerate() {

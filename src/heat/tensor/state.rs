@@ -17,8 +17,10 @@ pub struct HeatState {
     pub(super) field: Vec<f64>,
     /// Speeds and totals of the last step; `None` if there was none.
     pub(super) last: Option<BoundaryState>,
-    /// Coldest datum so far \[K]: nothing in the bodies may be colder.
-    pub(super) coldest: f64,
+    /// Heat content over `ρc` of the rail that arrives \[K].
+    pub(super) arriving: f64,
+    /// Coldest and hottest datum so far \[K]: nothing in the bodies may lie beyond. Infinite: there is no bound.
+    pub(super) data: [f64; 2],
     /// Bounds that the values at all nodes are known to keep \[K].
     pub(super) range: [f64; 2],
 }

@@ -21,8 +21,16 @@ const REGULARISATION: f64 = 1e-3;
 /// Memory of a step; holds nothing that outlives it.
 #[derive(Default)]
 pub struct Scratch {
-    /// Whose operators `stage` holds.
+    /// Whose operators `work` holds.
     owner: Option<HeatConfig>,
+    /// Where the step begins if another rail arrives.
+    begin: HeatState,
+    work: Work,
+}
+
+/// Memory of the stages.
+#[derive(Default)]
+struct Work {
     stage: Stage,
     loads: SurfaceLoads,
     load: Vec<f64>,
@@ -77,27 +85,30 @@ impl Heat {
         if scratch.owner.as_ref() != Some(&self.config) {
             *scratch = Scratch { owner: Some(self.config.clone()), ..Scratch::default() };
         }
-        self.set_loads(exchange, &mut scratch.loads)?;
-        self.set_radiation(state, dt, &mut scratch.loads.radiation);
-        let now = boundary(speeds, &scratch.loads);
-        next.coldest = self.coldest(state, exchange);
+        let Scratch { begin, work, .. } = scratch;
+        let met = self.meet(state, speeds[0], exchange, begin);
+        let state = if met { &*begin } else { state };
+        self.set_loads(exchange, &mut work.loads)?;
+        work.loads.arriving = state.arriving;
+        self.set_radiation(state, dt, &mut work.loads.radiation);
+        let now = boundary(speeds, &work.loads);
+        next.arriving = state.arriving;
+        next.data = self.data(state, dt, exchange);
         let molten = |range: [f64; 2]| self.melting.filter(|melting| range[1] > melting.solidus);
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
         let march = March { dt, speeds, excess: exchange.friction_excess, smooth, melting: molten(state.range) };
-        let mut flows = self.march(state, next, &march, scratch)?;
+        let mut flows = self.march(state, next, &march, work)?;
         self.set_range(state, next);
         let melting = molten(next.range);
-        if march.melting.is_none() && (melting.is_some() || (smooth && self.undershoots_badly(next))) {
-            flows = self.march(state, next, &March { smooth: false, melting, ..march }, scratch)?;
+        if march.melting.is_none() && (melting.is_some() || (smooth && next.swings())) {
+            flows = self.march(state, next, &March { smooth: false, melting, ..march }, work)?;
             next.range = self.extremes(&next.field);
         }
-        if self.undershoots(next) {
-            self.lift(next, &mut scratch.values)?;
-        }
-        if next.coldest == f64::MIN {
+        self.keep_bounds(next, &mut work.values)?;
+        if next.data[0] == f64::NEG_INFINITY {
             // What was cooled is from now on the coldest that acts.
             next.range = self.extremes(&next.field);
-            next.coldest = state.coldest.min(next.range[0]);
+            next.data[0] = state.data[0].min(next.range[0]);
         }
         next.last = Some(now);
         Ok(flows)
@@ -109,10 +120,10 @@ impl Heat {
         state: &HeatState,
         next: &mut HeatState,
         march: &March,
-        scratch: &mut Scratch,
+        work: &mut Work,
     ) -> Result<HeatFlows, HeatError> {
         let &March { dt, speeds, excess, smooth, melting } = march;
-        let Scratch { stage, loads, load, rate, melt, .. } = scratch;
+        let Work { stage, loads, load, rate, melt, .. } = work;
         let two = smooth && melting.is_none();
         let (gamma, stages) = if two { (1.0 - FRAC_1_SQRT_2, 2) } else { (1.0, 1) };
         let coefficients = StageCoefficients { storage: 1.0, flow: gamma * dt };
@@ -194,8 +205,9 @@ impl Heat {
         if !flows.is_finite() {
             return Err(HeatError::NotFinite { dt: f64::INFINITY, velocity: speeds[0], omega: speeds[1] });
         }
-        let mut state = HeatState { field, last: Some(boundary(speeds, &loads)), ..HeatState::default() };
-        state.coldest = self.coldest(&state, exchange);
+        let (last, arriving) = (Some(boundary(speeds, &loads)), loads.arriving);
+        let mut state = HeatState { field, last, arriving, ..HeatState::default() };
+        state.data = self.data(&state, f64::INFINITY, exchange);
         state.range = self.extremes(&state.field);
         Ok((state, flows))
     }

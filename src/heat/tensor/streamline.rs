@@ -137,10 +137,29 @@ impl Transport {
 
     /// Adds the load `∫ q w̃ ds` of an element with the moments `∫ q ds` and `∫ q ξ ds`, ξ from 0 to 1.
     pub fn add_load(&self, line: &Streamline, element: usize, moments: [f64; 2], load: &mut [f64]) {
-        let shifted = self.upwind[element] * moments[0];
-        load[element] += moments[0] - moments[1] - shifted;
-        load[line.after(element)] += moments[1] + shifted;
+        add_tested(line, element, self.upwind[element], moments, load);
     }
+
+    /// Adds the load of heat that is conducted through the contact in an element, where the conductance has the moments
+    /// `conductance`: tested as the conduction of the fields is, so that only the temperatures of the surfaces count and not
+    /// how they are split.
+    pub fn add_conducted(
+        &self,
+        line: &Streamline,
+        element: usize,
+        moments: [f64; 2],
+        conductance: [f64; 3],
+        load: &mut [f64],
+    ) {
+        add_tested(line, element, upwind_within(self.upwind[element], conductance), moments, load);
+    }
+}
+
+/// Adds `∫ q w̃ ds` of an element, whose test functions are tilted by `sigma`.
+fn add_tested(line: &Streamline, element: usize, sigma: f64, moments: [f64; 2], load: &mut [f64]) {
+    let shifted = sigma * moments[0];
+    load[element] += moments[0] - moments[1] - shifted;
+    load[line.after(element)] += moments[1] + shifted;
 }
 
 /// Upwinding of the test functions on an element for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds`, instead of

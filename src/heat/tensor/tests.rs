@@ -165,7 +165,7 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
     let (a, v) = (0.761e-3, 50.0 / 3.6);
     let heat = both(a, v, 1e7);
     let run = |shared: bool, scratch: &mut dyn FnMut(usize) -> Scratch| {
-        let (mut state, mut next, mut seen) = (heat.initial(0.0), HeatState::default(), Observation::default());
+        let (mut state, mut next, mut seen) = (heat.initial(0.0, 0.0), HeatState::default(), Observation::default());
         let mut maxima = Vec::new();
         for k in 0..400 {
             let time = 1e-3 * k as f64;

@@ -44,8 +44,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
-        let touch =
-            thermal.touch(&model.contact, &state.contact.traction, goal.drive.temperature - thermal.reference());
+        let touch = thermal.touch(&model.contact, &state.contact.traction, goal.drive.temperature);
         let mut temperatures =
             thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?;
         if let (Some(before), true) = (&state.thermal, averaged > 0) {

@@ -47,11 +47,10 @@ impl BrakeBlocks {
 pub struct Touch<'a> {
     /// Its forces.
     pub traction: &'a Traction,
-    /// Temperatures of the surfaces of wheel and rail besides those of the fields \[K]: reversible ones, and that with which
-    /// the rail has arrived; empty without.
-    pub besides: [Piecewise; 2],
-    /// Excess temperature with which the rail has arrived \[K].
-    pub arrived: f64,
+    /// Reversible temperatures of the surfaces of wheel and rail besides those of the fields \[K]; empty without.
+    pub reversible: [Piecewise; 2],
+    /// Temperature of the arriving rail over the reference \[K].
+    pub arriving: f64,
 }
 
 impl Touch<'_> {
@@ -65,7 +64,8 @@ impl Touch<'_> {
         copy(&contact.dissipation, &mut exchange.friction_power);
         exchange.friction_excess = contact.dissipation_excess;
         blocks.fill(tread_heat, &mut exchange.tread);
-        let [wheel, rail] = &self.besides;
+        exchange.arriving = self.arriving;
+        let [wheel, rail] = &self.reversible;
         for ((&x, of_wheel), of_rail) in wheel.x.iter().zip(&wheel.value).zip(&rail.value) {
             exchange.reversible.push(x, of_wheel - of_rail);
         }

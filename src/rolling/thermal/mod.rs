@@ -21,7 +21,7 @@ use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
-use crate::piecewise::{self, Piecewise};
+use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 pub use exchange::Touch;
@@ -147,58 +147,44 @@ impl ThermalModel {
         self.weakening.liquidus().map_or(f64::INFINITY, |liquidus| (liquidus + excess).max(start))
     }
 
-    /// What temperatures see of a contact with a rail that has arrived with the excess temperature `arrived` \[K].
-    pub fn touch<'a>(&self, contact: &ContactModel, traction: &'a Traction, arrived: f64) -> Touch<'a> {
-        let mut besides: [Piecewise; 2] = match &self.thermoelastic {
+    /// What temperatures see of a contact with a rail that arrives with the absolute temperature `rail` \[K].
+    pub fn touch<'a>(&self, contact: &ContactModel, traction: &'a Traction, rail: f64) -> Touch<'a> {
+        let reversible = match &self.thermoelastic {
             Some(thermoelastic) => {
                 contact.solver.surface_strain(traction).map(|strain| thermoelastic.temperatures(strain, traction))
             }
             None => Default::default(),
         };
-        if arrived != 0.0 {
-            if besides[1].is_empty() {
-                besides.iter_mut().for_each(|surface| surface.push(0.0, 0.0));
-            }
-            besides[1].value.iter_mut().for_each(|t| *t += arrived);
-        }
-        Touch { traction, besides, arrived }
-    }
-
-    /// Excess temperature \[K] of the rail under the wheel after a step of `dt` \[s] to `next`, where rail of the
-    /// temperature `temperature` \[K] arrives: with the way it takes the place of what was there, over the length of the patch.
-    pub fn arriving(&self, before: &ThermalState, next: &State, temperature: f64, dt: f64) -> f64 {
-        let arriving = temperature - self.reference;
-        if before.arrived == arriving {
-            return arriving;
-        }
-        let length = next.contact.traction.extent().map_or(self.spacing, |patch| patch.high - patch.low);
-        let way = next.motion.velocity.now.abs() * dt;
-        arriving + (before.arrived - arriving) * (-way / length).exp()
+        Touch { traction, reversible, arriving: rail - self.reference }
     }
 
     /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel and that of the
     /// arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only the excess temperature.
     pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
         let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
-        let (start, arrived) = (self.heat.initial(self.wheel_excess), touch.arrived);
-        let mut thermal = ThermalState { arrived, ..ThermalState::default() };
-        let mut parts = vec![start];
+        let mut thermal = ThermalState::default();
+        let mut parts = vec![self.heat.initial(self.wheel_excess, touch.arriving)];
+        let mut heated = None;
         let moving = [v, omega * self.radius].map(|speed| speed.abs() > AT_REST);
         if moving != [false; 2] {
             let mut exchange = Exchange::default();
             touch.fill(&self.blocks, tread_heat, &mut exchange);
             // With which temperature the rail arrives belongs to what passes, not to what lasts.
-            exchange.reversible.value.iter_mut().for_each(|t| *t += arrived);
+            exchange.arriving = 0.0;
             let (stationary, flows) = self.heat.settle([v, omega], &exchange)?;
-            parts.push(stationary);
+            heated = Some(stationary);
             thermal.flows = flows;
             // Where one of both surfaces stays, it warms or cools for ever.
-            let excess = self.wheel_excess - arrived;
+            let excess = self.wheel_excess - touch.arriving;
             if moving == [true; 2] && excess != 0.0 && !exchange.patches.is_empty() {
                 parts.push(self.heat.passing([v, omega], &exchange, excess)?);
             }
         }
+        // What passes between the bodies keeps their bounds by itself; heat comes on top.
         thermal.fields = self.heat.superposed(&parts)?;
+        if let Some(heated) = heated {
+            thermal.fields = self.heat.superposed(&[thermal.fields, heated])?;
+        }
         let mut sight = Sight::default();
         self.observe(touch, f64::INFINITY, &mut thermal, &mut sight)?;
         thermal.damage = self.history.begin(&sight.seen);
@@ -220,7 +206,6 @@ impl ThermalModel {
         let HeatStep { dt, tread_heat, criteria } = step;
         let Scratch { heat, exchange, sight } = scratch;
         thermal.weakening.film.clone_from(&before.weakening.film);
-        thermal.arrived = touch.arrived;
         touch.fill(&self.blocks, tread_heat, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
@@ -244,16 +229,15 @@ impl ThermalModel {
         let Sight { seen, smoothing } = sight;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
-        if touch.besides.iter().any(|surface| !surface.is_empty()) {
-            for (field, besides) in seen.surface.iter_mut().zip(&touch.besides) {
-                let rise = |x: f64| piecewise::interpolate(&besides.x, &besides.value, x);
+        if touch.reversible.iter().any(|surface| !surface.is_empty()) {
+            for (field, reversible) in seen.surface.iter_mut().zip(&touch.reversible) {
+                let rise = |x: f64| piecewise::interpolate(&reversible.x, &reversible.value, x);
                 field.iter_mut().zip(zone).for_each(|(t, &x)| *t += rise(x));
             }
             let (temperatures, [wheel, rail]) = (&mut seen.temperatures, &seen.surface);
             (temperatures.wheel_max, temperatures.rail_max) =
                 (piecewise::peak(zone, wheel), piecewise::peak(zone, rail));
             (temperatures.wheel_centre, temperatures.rail_centre) = (wheel[zone.len() / 2], rail[zone.len() / 2]);
-            temperatures.rail_mean += touch.arrived;
         }
         let lowest = seen.surface.iter().flatten().copied().fold(seen.lowest, f64::min);
         if self.reference + lowest <= 0.0 {
@@ -315,7 +299,6 @@ impl ThermalModel {
         let mut fields = self.heat.fields(&thermal.fields)?;
         let kelvin = |t: &mut f64| *t += self.reference;
         fields.iter_mut().for_each(|field| field.temperature.iter_mut().for_each(kelvin));
-        fields[1].temperature.iter_mut().for_each(|t| *t += thermal.arrived);
         Ok(fields)
     }
 }

@@ -71,7 +71,6 @@ impl WeakSteel {
         let depth = LOADED_DEPTH * 0.5 * length;
         heat.mean_over_depth(&thermal.fields, depth, &mut seen.core)?;
         let [wheel, rail] = &mut seen.core;
-        rail.iter_mut().for_each(|t| *t += thermal.arrived);
         for ((&x, wheel), rail) in heat.zone_x().iter().zip(wheel).zip(rail) {
             weakening.strength.push(x, yield_share(self.reference + wheel.max(*rail)));
             weakening.warmer_wheel.push(x, *wheel - *rail);

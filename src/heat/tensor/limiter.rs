@@ -1,9 +1,11 @@
-//! Nodes that are too cold are lifted, and the heat for it is taken from as near as it is found.
+//! Conservative limiter: nodes that are too cold are lifted, those that are too hot are lowered, and the heat comes from or goes
+//! to as near as there is room for it.
 //!
 //! An undershoot is the other side of an overshoot close by: steep gradients make elements of higher order swing about the
 //! exact field. So the heat comes from the nearest nodes below the same surface node, and where these have too little from
 //! the rows beside. What lies within the margin is left alone: lifting every swing by a hundredth of a kelvin, and be it
-//! step by step, drives the heat into the depth and cools the hot surface by some percent within milliseconds.
+//! step by step, drives the heat into the depth and cools the hot surface by some percent within milliseconds. Lowering is
+//! lifting of the negative field.
 
 use super::bounds::MARGIN;
 use super::layout::Heat;
@@ -16,19 +18,37 @@ use crate::heat::error::HeatError;
 const LIFTED: f64 = 0.5;
 
 impl Heat {
-    /// Lifts all nodes that are colder than the coldest datum by more than a share of the margin; each body keeps its heat
-    /// content.
-    pub(super) fn lift(&self, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
-        let HeatState { field, coldest, range, .. } = state;
-        let floor = *coldest - LIFTED * MARGIN;
-        let (wheel, rail) = field.split_at_mut(self.wheel.size());
-        for (body, nodal, field) in [(&self.wheel, &self.nodal[0], wheel), (&self.rail, &self.nodal[1], rail)] {
-            if lift_body(body, nodal, field, floor, values) > 0.0 {
-                return Err(HeatError::Undershoot { lowest: range[0], coldest: *coldest });
+    /// Moves all nodes back that lie beyond a datum by more than a share of the margin, if one does by more than the margin; each
+    /// body keeps its heat content.
+    pub(super) fn keep_bounds(&self, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
+        let [below, above] = state.beyond();
+        let HeatState { field, data, range, .. } = state;
+        if below > 0.0 {
+            let floor = data[0] - LIFTED * MARGIN;
+            if !self.lift(field, floor, values) {
+                return Err(HeatError::Undershoot { lowest: range[0], coldest: data[0] });
             }
+            range[0] = floor;
         }
-        range[0] = floor;
+        if above > 0.0 {
+            let ceiling = data[1] + LIFTED * MARGIN;
+            let negate = |field: &mut [f64]| field.iter_mut().for_each(|value| *value = -*value);
+            negate(field);
+            let kept = self.lift(field, -ceiling, values);
+            negate(field);
+            if !kept {
+                return Err(HeatError::Overshoot { highest: range[1], hottest: data[1] });
+            }
+            range[1] = ceiling;
+        }
         Ok(())
+    }
+
+    /// Lifts all nodes to `floor`; whether both bodies have the heat for it.
+    fn lift(&self, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> bool {
+        let (wheel, rail) = field.split_at_mut(self.wheel.size());
+        let bodies = [(&self.wheel, &self.nodal[0], wheel), (&self.rail, &self.nodal[1], rail)];
+        bodies.into_iter().all(|(body, nodal, field)| lift_body(body, nodal, field, floor, values) <= 0.0)
     }
 }
 

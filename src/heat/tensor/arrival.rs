@@ -1,0 +1,39 @@
+//! Rail of another temperature arrives.
+//!
+//! The rail ahead of the contact has one temperature. Where it changes, the whole rail ahead changes at once and stays as it is
+//! under the wheel and behind it; the stream carries the front through the contact. The same equations thus see the rail
+//! as it is, whatever it was before.
+
+use super::layout::Heat;
+use super::state::HeatState;
+use crate::heat::exchange::Exchange;
+
+/// Length of the front in half-widths at the nominal load: elements resolve it \[1].
+const FRONT: f64 = 1.0;
+
+impl Heat {
+    /// Fills `begin` with `state` under the rail that arrives now; whether it differs from `state`. A standing wheel meets no
+    /// other rail.
+    pub(super) fn meet(&self, state: &HeatState, velocity: f64, exchange: &Exchange, begin: &mut HeatState) -> bool {
+        let arriving = self.content(exchange.arriving);
+        let change = arriving - state.arriving;
+        if change == 0.0 || velocity == 0.0 {
+            return false;
+        }
+        begin.clone_from(state);
+        begin.arriving = arriving;
+        let ahead = |x: f64| x * velocity.signum();
+        let ends = exchange.patches.iter().flat_map(|patch| [ahead(patch.low), ahead(patch.high)]);
+        let from = ends.fold(self.config.zone, f64::max);
+        let (modes, nodes) = (&self.rail.modes, &self.rail.line.nodes);
+        for (row, &x) in begin.field[self.wheel.size()..].chunks_exact_mut(modes.len()).zip(nodes) {
+            let share = ((ahead(x) - from) / (FRONT * self.config.half_width)).clamp(0.0, 1.0);
+            let risen = change * share * share * (3.0 - 2.0 * share);
+            if risen != 0.0 {
+                row.iter_mut().zip(&modes.free).for_each(|(value, one)| *value += risen * one);
+            }
+        }
+        begin.range = [begin.range[0] + change.min(0.0), begin.range[1] + change.max(0.0)];
+        true
+    }
+}
