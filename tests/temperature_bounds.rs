@@ -106,9 +106,14 @@ fn simulate(config: &Config, random: &mut Random) -> Result<Outcome, String> {
     let mut inputs = Inputs::rolling(config);
     (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
     let mut simulation = Simulation::new(model, &inputs).map_err(|error| failed_start(&error, config))?;
-    let bounds = Bounds::new(config, &simulation);
+    let mut bounds = Bounds::new(config, &simulation);
     for step in 0..STEPS {
         let dt = random.logarithmic(1e-6, 1e-2);
+        if random.below(8) == 0 {
+            let other = config.thermal.reference + random.of(&[0.0, -100.0, -30.0, 30.0, 100.0]);
+            inputs.drive.temperature = other.max(1.0);
+            bounds.join(inputs.drive.temperature);
+        }
         let radius = config.wheel.radius;
         if random.below(8) == 0 {
             let speed = inputs.drive.velocity;
@@ -140,6 +145,11 @@ impl Bounds {
         // The stationary start knows no melting.
         let hottest = thermal.reference + thermal.wheel_excess.max(0.0);
         Self([low, liquidus.max(hottest).max(hottest_contact(simulation))])
+    }
+
+    /// Takes the temperature of another source in \[K].
+    fn join(&mut self, source: f64) {
+        self.0 = [self.0[0].min(source - SLIGHT), self.0[1].max(source + SLIGHT)];
     }
 
     /// What is wrong with a state.

@@ -2,6 +2,7 @@
 
 use crate::random::Random;
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::log::{CallError, Log, Status};
 use wheelrail::fmi::presets;
@@ -10,6 +11,11 @@ use wheelrail::fmi::variables::variables;
 
 /// Communication steps of a case.
 const STEPS: usize = 5;
+/// Temperature below the coldest source that counts as none \[K], and the same relative to the span of the sources \[1].
+const COLDER: f64 = 0.1;
+const COLDER_SHARE: f64 = 0.005;
+/// Residual of the energy balance beyond which a warning has to say why \[1].
+const UNBALANCED: f64 = 0.05;
 /// Names in messages that belong to arguments of calls instead of variables.
 const ARGUMENTS: [&str; 2] = ["communicationStepSize", "currentCommunicationPoint"];
 
@@ -24,7 +30,8 @@ pub enum Verdict {
     Discarded(String),
     /// A refusal or a discarded step whose message names no variable.
     Unexplained(String),
-    /// An output that is not finite or outside its declared range, although its call succeeded.
+    /// An output that is not finite, outside its declared range or colder than every source, or energy that is missing without
+    /// a warning, although its call succeeded.
     Wrong(String),
 }
 
@@ -93,8 +100,14 @@ impl Case {
     }
 
     fn simulate(&self) -> Result<Option<String>, CallError> {
-        let silent = Log::new(Box::new(|_, _, _| {}), false);
-        let mut instance = Instance::new(Some(resources()), silent)?;
+        let warnings = Arc::new(Mutex::new(String::new()));
+        let heard = warnings.clone();
+        let listen = move |_, _: &str, text: &str| {
+            if let Ok(mut heard) = heard.lock() {
+                *heard += text;
+            }
+        };
+        let mut instance = Instance::new(Some(resources()), Log::new(Box::new(listen), true))?;
         let row = variables().iter().find(|v| matches!(v.access, Access::Preset)).map(|v| v.reference);
         instance.set(row.as_slice(), vec![Value::String(self.preset.clone())])?;
         for (variable, value) in &self.values {
@@ -103,14 +116,41 @@ impl Case {
         instance.setup_experiment(None, 0.0, None)?;
         instance.enter_initialization()?;
         instance.exit_initialization()?;
-        let mut wrong = outside(&mut instance, 0.0)?;
-        for k in 0..STEPS {
-            if wrong.is_none() {
-                instance.do_step(k as f64 * self.step, self.step)?;
-                wrong = outside(&mut instance, (k + 1) as f64 * self.step)?;
+        let coldest = self.coldest(&mut instance)?;
+        let explained = || warnings.lock().is_ok_and(|text| text.contains("solver.energy_residual"));
+        for k in 0..=STEPS {
+            let time = k as f64 * self.step;
+            if k > 0 {
+                instance.do_step(time - self.step, self.step)?;
+            }
+            let wrong = match outside(&mut instance)? {
+                None => too_cold(&mut instance, coldest)?,
+                found => found,
+            };
+            let wrong = match wrong {
+                None => unbalanced(&mut instance)?.filter(|_| !explained()),
+                found => found,
+            };
+            if let Some(wrong) = wrong {
+                return Ok(Some(format!("t = {time:.3e} s: {wrong}")));
             }
         }
-        Ok(wrong)
+        Ok(None)
+    }
+
+    /// Temperature below which nothing may fall \[K]: that of the coldest source. Without heat, with reversible cooling or with
+    /// brake blocks that cool there is none.
+    fn coldest(&self, instance: &mut Instance) -> Result<f64, CallError> {
+        let reversible = matches!(one(instance, "physics.thermoelastic_heating")?, Value::Boolean(true));
+        let enabled = matches!(one(instance, "thermal.enabled")?, Value::Boolean(true));
+        if !enabled || reversible || real(instance, "drive.tread_heat")? < 0.0 {
+            return Ok(f64::NEG_INFINITY);
+        }
+        let reference = real(instance, "thermal.reference")?;
+        let sources =
+            [reference, reference + real(instance, "thermal.wheel_excess")?, real(instance, "rail.temperature")?];
+        let [low, high] = sources.iter().fold([f64::MAX, f64::MIN], |[low, high], t| [low.min(*t), high.max(*t)]);
+        Ok(low - COLDER.max(COLDER_SHARE * (high - low)))
     }
 }
 
@@ -171,15 +211,54 @@ fn fit_lengths(values: &mut [(&'static Variable, Value)], random: &mut Random) {
 }
 
 /// The first output that is not finite or outside its declared range.
-fn outside(instance: &mut Instance, time: f64) -> Result<Option<String>, CallError> {
+fn outside(instance: &mut Instance) -> Result<Option<String>, CallError> {
     for variable in variables().iter().filter(|v| v.causality() == Causality::Output) {
         for value in instance.get(&[variable.reference], variable.kind.type_name())? {
             if let Err(why) = variable.check(&value) {
-                return Ok(Some(format!("t = {time:.3e} s: {why}")));
+                return Ok(Some(why.to_string()));
             }
         }
     }
     Ok(None)
+}
+
+/// The first temperature of a surface that is below `coldest` \[K].
+fn too_cold(instance: &mut Instance, coldest: f64) -> Result<Option<String>, CallError> {
+    let surface = |name: &str| name.starts_with("temperature.") || name.starts_with("profile.temperature");
+    for variable in variables().iter().filter(|v| v.causality() == Causality::Output && surface(v.name)) {
+        for value in instance.get(&[variable.reference], variable.kind.type_name())? {
+            let lowest = match value {
+                Value::Real(value) => value,
+                Value::Reals(values) => values.into_iter().fold(f64::MAX, f64::min),
+                _ => continue,
+            };
+            if lowest < coldest {
+                return Ok(Some(format!("{} = {lowest} K, where nothing may be below {coldest} K", variable.name)));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// What is missing in the energy balance.
+fn unbalanced(instance: &mut Instance) -> Result<Option<String>, CallError> {
+    let residual = real(instance, "solver.energy_residual")?;
+    Ok((residual.abs() > UNBALANCED).then(|| format!("solver.energy_residual = {residual} without a warning")))
+}
+
+/// Value of a variable with one entry.
+fn one(instance: &mut Instance, name: &str) -> Result<Value, CallError> {
+    let row = variables().iter().find(|variable| variable.name == name).expect("a variable of this name");
+    let values = instance.get(&[row.reference], row.kind.type_name())?;
+    Ok(values.into_iter().next().expect("one value"))
+}
+
+/// Value of a real variable.
+fn real(instance: &mut Instance, name: &str) -> Result<f64, CallError> {
+    match one(instance, name)? {
+        Value::Real(value) => Ok(value),
+        other => panic!("{name} is {other:?}"),
+    }
 }
 
 /// Whether a message names a variable of the interface or an argument of the call.

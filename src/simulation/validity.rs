@@ -31,13 +31,32 @@ pub enum Limit {
     Waves,
     /// Internal step that resolves the shortest wave of the surfaces.
     Sampling,
+    /// Residual of the energy balance.
+    Energy,
+    /// Internal steps that a communication step takes.
+    Effort,
 }
 
 impl Limit {
     /// All of them.
-    const ALL: [Self; 12] = {
+    const ALL: [Self; 14] = {
         use Limit::*;
-        [Speed, ThermalLoad, Patch, Zone, Reach, Yield, Softening, Melting, StickSlip, Chatter, Waves, Sampling]
+        [
+            Speed,
+            ThermalLoad,
+            Patch,
+            Zone,
+            Reach,
+            Yield,
+            Softening,
+            Melting,
+            StickSlip,
+            Chatter,
+            Waves,
+            Sampling,
+            Energy,
+            Effort,
+        ]
     };
 }
 
@@ -59,6 +78,10 @@ const RESOLVED_PHASE: f64 = 0.2;
 /// Displacement of the tread that answers friction without delay, per friction coefficient under the nominal load, over `a²/R` \[1].
 /// Estimated: with it, steps of up to 25 µs are indefinite in `railway_dry`, where those of 20 µs chatter and those of 50 µs do not.
 const TREAD_SHIFT: f64 = 1.5;
+/// Residual of the energy balance beyond which a run is told of it \[1].
+const UNBALANCED: f64 = 0.05;
+/// Internal steps in one communication step beyond which a run is told that it takes long \[1]: with heat about half a second.
+const MANY_STEPS: f64 = 2000.0;
 
 impl Simulation {
     /// Limits that the present state is beyond.
@@ -116,6 +139,8 @@ impl Simulation {
                 let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
                 (mean.max(speed * self.state().last_step), self.shortest_wave() / FEWEST_PER_WAVE)
             }
+            Limit::Energy => (outputs.energy_residual.abs(), UNBALANCED),
+            Limit::Effort => (outputs.internal_steps as f64, MANY_STEPS),
         }
     }
 
@@ -261,6 +286,22 @@ impl Simulation {
                  chooses it by the profile",
                 1e3 * value,
                 1e3 * bound
+            ),
+            Limit::Energy => format!(
+                "energy of {:.1} % of what has been dissipated or is stored is missing (solver.energy_residual): the contact is made, lost \
+                 or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond what the model is made \
+                 for; forces are inexact, too; lower solver.tolerance (now {:?}) or solver.max_step (now {:?} s)",
+                1e2 * value,
+                self.state().last_step,
+                self.tuning().tolerance,
+                self.tuning().max_step
+            ),
+            Limit::Effort => format!(
+                "the last communication step took {value:.0} internal steps, the last one of {:.1e} s, and such steps take long to \
+                 compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) ask for them",
+                self.state().last_step,
+                self.tuning().tolerance,
+                self.tuning().max_step
             ),
         }
     }
