@@ -80,3 +80,39 @@ fn braking_transient() {
         }
     }
 }
+
+/// The front begins at the end of the zone and is one half-width long; its middle travels with the stream, nothing on its way is
+/// colder or warmer than both rails, and the rail holds what has entered.
+#[test]
+fn a_front_of_warmer_rail_travels_with_the_stream_between_both_temperatures() {
+    let config = config(1e5, 20.0);
+    let (a, zone) = (config.half_width, config.zone);
+    for (velocity, warm) in [(10.0, 30.0), (-10.0, 30.0), (10.0, -30.0)] {
+        let heat = heat(&config);
+        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+        let exchange = Exchange { arriving: warm, ..Exchange::default() };
+        let steps = 200;
+        let dt = (zone + 0.5 * a) / 10.0 / f64::from(steps);
+        let before = heat.heat_content(&state).unwrap()[1];
+        let (mut entered, mut extremes) = (None, [0.0_f64; 2]);
+        for k in 0..steps {
+            let flows = heat.advance(&mut state, dt, velocity, velocity / RADIUS, &exchange, &mut scratch);
+            let content = heat.heat_content(&state).unwrap()[1];
+            // What was ahead has become warmer at once, before the first step.
+            entered = Some(entered.unwrap_or(content - before - dt * flows.stored_rail) + dt * flows.stored_rail);
+            assert!((content - before - entered.unwrap()).abs() < 1e-9 * content.abs(), "step {k}");
+            for t in &heat.observed(&state).surface[1] {
+                let share = t / warm;
+                extremes = [extremes[0].min(share), extremes[1].max(share)];
+            }
+        }
+        // The middle of the front has come to the contact point.
+        let seen = heat.observed(&state);
+        let surface = wheelrail::piecewise::Piecewise { x: heat.zone_x().to_vec(), value: seen.surface[1].clone() };
+        let ahead = |place: &f64| surface.at(place * velocity.signum()) / warm > 0.5;
+        let place = (0..4000).map(|i| zone * (f64::from(i) / 2000.0 - 1.0)).find(ahead).unwrap();
+        println!("{velocity} m/s: the middle at {:.4} half-widths, shares {extremes:?}", place / a);
+        assert!(place.abs() < 0.05 * a, "{place}");
+        assert!(extremes[0] > -0.1 / 30.0 - 1e-9 && extremes[1] < 1.0 + 0.1 / 30.0 + 1e-9, "{extremes:?}");
+    }
+}
