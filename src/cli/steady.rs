@@ -130,7 +130,8 @@ impl OperatingPoint {
     /// The slave with preset and settings; `fixed` are what the command decides.
     pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
         let prescribed = ["control.rotation", "control.translation"].map(|name| Setting::new(name, "velocity"));
-        let fixed = prescribed.into_iter().chain(fixed.iter().cloned().map(Ok)).collect::<Result<Vec<_>, _>>()?;
+        let temperatures = Setting::new("initial.temperature", "stationary");
+        let fixed = prescribed.into_iter().chain([temperatures]).chain(fixed.iter().cloned().map(Ok)).collect::<Result<Vec<_>, _>>()?;
         for Setting { variable, .. } in setup.settings()? {
             if ["drive.velocity", "drive.omega", "initial.creepage"].contains(&variable.name) {
                 let name = &variable.name;

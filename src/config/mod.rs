@@ -12,7 +12,7 @@ pub mod value;
 
 pub use table::{
     BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Hub, Initial, Material,
-    MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, Thermal, TimeScheme, Tuning,
+    MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, StartTemperature, Thermal, TimeScheme, Tuning,
     Vehicle, Wear, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
@@ -144,7 +144,7 @@ impl Config {
     /// Initial motions slower than the surface waves: |V| < c and |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the
     /// model.
     fn subsonic(&self) -> [Dependent; 2] {
-        let Initial { velocity, creepage } = self.initial;
+        let Initial { velocity, creepage, .. } = self.initial;
         let wave = self.rayleigh_speed();
         let share = wave / velocity.abs();
         let material = format!(

@@ -203,6 +203,8 @@ parameters! {
                 "Its creepage 2 (V - r omega)/(V + r omega), with a rim slower than surface waves; unset: that of \
                  quasi-steady rolling under drive.moment and drive.force, free of tangential force without them. Writing \
                  the start value 0 sets it to 0";
+            1102 temperature: StartTemperature = StartTemperature::Uniform,
+                "Temperatures at the start: those of the bodies as they are, or those of rolling as at the start for ever";
         }
         /// What may change during a run: nothing that is computed in advance depends on it.
         ///
@@ -246,6 +248,14 @@ parameters! {
                 "File to which the present profile of the wheel is written when the run is terminated, for wheel.profile of \
                  another run: its path, absolute or from the working directory; empty: none";
         }
+    }
+}
+
+choice! {
+    /// Temperatures at the start.
+    pub enum StartTemperature named "StartTemperature", "Temperatures from which a run starts" {
+        Uniform = "uniform", "wheel at thermal.reference + thermal.wheel_excess, rail at rail.temperature";
+        Stationary = "stationary", "those that friction, brake and rail have brought about for ever, on top of these";
     }
 }
 

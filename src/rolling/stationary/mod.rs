@@ -13,7 +13,7 @@ use super::control::Inputs;
 use super::error::StepError;
 use super::model::{Model, Workspace};
 use super::state::State;
-use crate::config::Tuning;
+use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
 use settle::{scale, settle};
 
@@ -45,8 +45,12 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
         let touch = thermal.touch(&model.contact, &state.contact.traction, goal.drive.temperature);
-        let mut temperatures =
-            thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?;
+        let mut temperatures = match model.config.initial.temperature {
+            StartTemperature::Uniform => thermal.uniform(&touch)?,
+            StartTemperature::Stationary => {
+                thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?
+            }
+        };
         if let (Some(before), true) = (&state.thermal, averaged > 0) {
             thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
         }

@@ -158,6 +158,12 @@ impl ThermalModel {
         Touch { traction, reversible, arriving: rail - self.reference }
     }
 
+    /// Uniform temperatures at the start: the initial one of the wheel, and that of the arriving rail. No heat has flowed yet.
+    pub fn uniform(&self, touch: &Touch) -> Result<ThermalState, StepError> {
+        let fields = self.heat.initial(self.wheel_excess, touch.arriving);
+        self.begun(touch, ThermalState { fields, ..ThermalState::default() })
+    }
+
     /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel and that of the
     /// arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only the excess temperature.
     pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
@@ -185,6 +191,11 @@ impl ThermalModel {
         if let Some(heated) = heated {
             thermal.fields = self.heat.superposed(&[thermal.fields, heated])?;
         }
+        self.begun(touch, thermal)
+    }
+
+    /// All of a start that follows from its temperature fields.
+    fn begun(&self, touch: &Touch, mut thermal: ThermalState) -> Result<ThermalState, StepError> {
         let mut sight = Sight::default();
         self.observe(touch, f64::INFINITY, &mut thermal, &mut sight)?;
         thermal.damage = self.history.begin(&sight.seen);
