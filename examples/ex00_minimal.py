@@ -7,8 +7,8 @@
 # 1. The solver is inside the FMU: any master can drive it, here fmpy's.
 from fmpy import simulate_fmu
 
-# 2. Two parameters; all others keep the values of the preset `railway`. A brake moment counts negative.
-start = {"initial.velocity": 27.8, "drive.moment": -8000.0}
+# 2. A parameter and an input; all others keep the values of the preset `railway`.
+start = {"initial.velocity": 27.8, "brake.torque": 8000.0}
 
 # 3. One second in steps of one millisecond; the columns of the result are the outputs that are asked for.
 outputs = ["wheel.velocity", "contact.force_x", "contact.creepage", "temperature.wheel_max"]

@@ -11,7 +11,7 @@
 //! let model = Model::shared(Config::default(), &store, progress)?;
 //! let mut inputs = Inputs::rolling(model.config());
 //! let mut simulation = Simulation::new(model, &inputs)?;
-//! inputs.drive.moment = -2000.0;
+//! inputs.drive.torque = 2000.0;
 //! for _ in 0..1000 {
 //!     simulation.advance(&inputs, 1e-3)?;
 //! }
@@ -21,8 +21,10 @@
 
 pub mod advice;
 mod lock;
+pub mod plausibility;
 mod plausible;
 mod shared;
+mod start;
 mod store;
 #[cfg(test)]
 mod tests;
@@ -350,6 +352,13 @@ impl Simulation {
     pub fn recall(&mut self, checkpoint: Checkpoint) -> Result<(), StepError> {
         *self = Self::resume(self.model.clone(), self.tuning.clone(), checkpoint)?;
         Ok(())
+    }
+
+    /// Inputs that led to the present state.
+    pub fn latest_inputs(&self) -> &Inputs {
+        match &self.checkpoint.origin {
+            Origin::Stationary(inputs) | Origin::Step { inputs, .. } => inputs,
+        }
     }
 
     /// Time since the start \[s].

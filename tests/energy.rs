@@ -3,7 +3,7 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::Config;
+use wheelrail::config::{Config, StartTemperature};
 use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Braking from 10 m/s: moment ramp, hold, at walking speed the brake holds the wheel. Outputs at the end.
@@ -42,7 +42,9 @@ fn braking_stop_balances_energy_and_does_not_depend_on_the_communication_step() 
 
 #[test]
 fn steady_creep_dissipates_what_the_drive_supplies() {
-    let model = model(preset("railway", 20));
+    let mut config = preset("railway", 20);
+    config.initial.temperature = StartTemperature::Stationary;
+    let model = model(config);
     for creepage in [-2e-3, -5e-4, 5e-4, 2e-3, 1e-2] {
         let inputs = prescribed(&model, 20.0, creepage);
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();

@@ -146,6 +146,8 @@ fn the_initial_creepage_counts_only_if_it_is_set() {
         let slave = Slave::coarse(&dll);
         if let Some(creepage) = creepage {
             assert_eq!(slave.set_real("initial.creepage", creepage), fmi2OK);
+            // Zero is the declared start value.
+            assert_eq!(slave.set_integer("initial.given", 2), fmi2OK);
         }
         slave.initialize();
         assert_eq!(slave.real("initial.creepage"), creepage.unwrap_or(0.0));

@@ -3,7 +3,7 @@
 
 mod common;
 use common::*;
-use wheelrail::config::ContactMethod;
+use wheelrail::config::{ContactMethod, StartTemperature};
 use wheelrail::simulation::{Inputs, Outputs, Simulation};
 
 /// A wheel with heat whose moment rises over 50 ms, `share` of the load and of the moment; outputs after every step.
@@ -81,6 +81,7 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_the_grid_tends_t
             let model = solved_by(method, "railway", |config| {
                 (config.thermal.enabled, config.physics.thermal_expansion) = (true, expansion);
                 (config.thermal.wheel_excess, config.mesh.elements_per_half_width) = (300.0, elements);
+                config.initial.temperature = StartTemperature::Stationary;
             });
             Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap().outputs().contact_creepage
         };

@@ -155,3 +155,39 @@ fn three_thousand_damaged_files_are_surfaces_or_refused_by_line() {
     println!("{surfaces} surfaces, {refused} refused");
     assert!(surfaces > 100 && refused > 500);
 }
+
+/// Reads a profile of the rail from `file.csv` with this text.
+fn read(name: &str, text: &str, profile: &str) -> Result<Profile, String> {
+    let folder = std::env::temp_dir().join(format!("wheelrail-ends-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("file.csv"), text).unwrap();
+    let result = Profile::parse(profile, Some(&folder), Body::Rail).map_err(|error| error.to_string());
+    std::fs::remove_dir_all(&folder).unwrap();
+    result
+}
+
+#[test]
+fn a_repeated_file_closes_where_its_ends_differ_by_rounding_and_is_refused_in_short_numbers_where_they_differ() {
+    let repeated = |name: &str, last: &str, end: &str| {
+        read(name, &format!("position,height\n0,0\n1,1e-5\n{last},{end}\n"), "file(\"file.csv\", every = 2)")
+    };
+    for (name, last, end) in [
+        ("sine", "2", "-2.4e-22"),
+        ("digits", "2", "4e-10"),
+        ("share", "2", "1e-9"),
+        ("longer", "2.0000000000000004", "0"),
+        ("shorter", "1.9999999999", "0"),
+    ] {
+        let profile = repeated(name, last, end).unwrap();
+        for (x, height) in [(2.0, 0.0), (4.5, 5e-6), (7.0, 1e-5)] {
+            assert!((profile.height(x) - height).abs() < 1e-14, "{name}: {:e} at {x}", profile.height(x));
+        }
+        assert!((profile.shortest_wavelength() - 2.0).abs() < 1e-9);
+    }
+    for (name, last, end, word) in
+        [("step", "2", "1.234567891234e-6", "1.23457e-6 m as the first, 0 m"), ("long", "2.1", "0", "2.1")]
+    {
+        let message = repeated(name, last, end).unwrap_err();
+        assert!(message.contains("every = 2 m") && message.contains(word), "{message}");
+    }
+}

@@ -287,7 +287,7 @@ fn profiles_without_meaning_are_refused_by_name_and_unresolved_ones_are_announce
     let model_of_steep = model(steep.clone());
     let inputs = without_friction(&model_of_steep, 20.0);
     let failed = Simulation::new(model_of_steep, &inputs).map(|_| ()).unwrap_err();
-    let text = advice::failed_start(&failed, &steep);
+    let text = advice::failed_start(&failed, &steep, &inputs);
     assert!(text.contains("make rail.profile less deep"), "{text}");
     // Three steps of 40 mm each go over a hole that no end of a step comes near, and over a single edge.
     announced("hole(position = 0.1, length = 5e-3, depth = 1e-4)", 2e-3, Limit::Sampling, &["40.00 mm", "2.50 mm"]);
@@ -339,4 +339,42 @@ fn a_flat_that_the_run_has_made_and_that_outgrows_the_zone_is_refused_with_the_r
     assert!(["wear or yielding", "mesh.reach (now 0.01 m)", "0.045 m"].iter().all(|word| text.contains(word)));
     config.physics.yielding = false;
     assert!(!advice::failed_step(&error, &config).contains("mesh.reach"));
+}
+
+/// In both directions and at once for a run that starts behind it; not before, not where it is repeated, and not of a dent.
+#[test]
+fn a_contact_that_passes_the_last_sample_of_a_file_is_told_by_name() {
+    let folder = std::env::temp_dir().join(format!("wheelrail-end-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("rail.csv"), "position,height\n-0.1,0\n0.03,2e-6\n0.1,1e-6\n").unwrap();
+    std::fs::write(folder.join("dent.csv"), "position,height\n-0.02,0\n0,-2e-6\n0.02,0\n").unwrap();
+    let told = |profile: &str, velocity: f64| -> Vec<Option<String>> {
+        let mut config = cold(preset("railway", 6));
+        config.rail.profile = profile.replace('@', folder.to_str().unwrap());
+        (config.tuning.max_step, config.initial.velocity) = (1e-3, velocity);
+        let model = model(config);
+        let inputs = without_friction(&model, velocity);
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let mut see = |advance: bool| {
+            if advance {
+                simulation.advance(&inputs, 2e-3).unwrap();
+            }
+            let past = simulation.exceeded_limits().any(|limit| limit == Limit::End);
+            past.then(|| simulation.describe_limit(Limit::End))
+        };
+        [false, true, true, true].map(&mut see).into()
+    };
+    // Steps of 40 mm: two to before the end, the third beyond.
+    for velocity in [20.0, -20.0] {
+        let found = told("@/rail.csv", velocity);
+        assert_eq!(found.iter().map(Option::is_some).collect::<Vec<_>>(), [false, false, false, true], "{found:?}");
+        let text = found[3].as_ref().unwrap();
+        let end = if velocity > 0.0 { " 0.100 m" } else { "-0.100 m" };
+        assert!(text.contains("rail.profile") && text.contains(end) && text.contains("every"), "{text}");
+    }
+    assert!(told("file(\"@/rail.csv\", position = -1)", 20.0).iter().all(Option::is_some));
+    for profile in ["file(\"@/rail.csv\", every = 0.3)", "file(\"@/dent.csv\", position = 0.05)", ""] {
+        assert!(told(profile, 20.0).iter().all(Option::is_none), "{profile}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{model, prescribed, preset};
-use wheelrail::config::Config;
+use wheelrail::config::{Config, StartTemperature};
 use wheelrail::simulation::{Outputs, Simulation};
 
 /// Stationary rolling without frictional heat, reversible heating on.
@@ -13,6 +13,7 @@ fn rolling(creepage: f64, conductance: f64) -> (Config, Outputs, Simulation) {
     config.physics.centrifugal = false;
     config.thermal.heat_ratio = 0.0;
     config.thermal.conductance = conductance;
+    config.initial.temperature = StartTemperature::Stationary;
     let model = model(config.clone());
     let simulation = Simulation::new(model.clone(), &prescribed(&model, 20.0, creepage)).unwrap();
     (config, simulation.outputs().clone(), simulation)

@@ -257,7 +257,7 @@ fn a_load_beyond_the_candidate_zone_is_refused_and_the_run_goes_on() {
     inputs.drive.load *= 15.0;
     let error = twice.restart(&inputs).unwrap_err();
     assert!(matches!(error, StepError::ZoneExceeded { .. }), "{error}");
-    let advice = advice::failed_start(&error, model.config());
+    let advice = advice::failed_start(&error, model.config(), &inputs);
     assert!(advice.contains("model.nominal_load") && advice.contains("drive.load"), "{advice}");
     let before = simulation.state().clone();
     let mut bad = Inputs::rolling(model.config());

@@ -3,7 +3,7 @@
 mod common;
 use common::*;
 use wheelrail::analytic::flash_temperature;
-use wheelrail::config::{Config, CrossSection};
+use wheelrail::config::{Config, CrossSection, StartTemperature};
 use wheelrail::simulation::{Inputs, Rotation, Simulation};
 
 #[test]
@@ -122,6 +122,7 @@ fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
     config.physics.yielding = false;
     config.material.latent_heat = 0.0;
     config.thermal.cross_section = CrossSection::Contact;
+    config.initial.temperature = StartTemperature::Stationary;
     let model = model(config.clone());
     // The rail streams past at 20 m/s, the tread at 10 m/s.
     let inputs = prescribed(&model, 20.0, 2.0 / 3.0);
@@ -206,6 +207,7 @@ fn hot_contact_softens_friction_to_its_floor() {
 fn brake_blocks_heat_the_tread_and_the_rail_chills_it() {
     let mut config = preset("paper_b", 10);
     config.initial.velocity = 50.0 * KMH;
+    config.initial.temperature = StartTemperature::Stationary;
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     inputs.drive.tread_heat = 60.0;

@@ -3,12 +3,14 @@
 mod common;
 
 use common::*;
+use wheelrail::config::StartTemperature;
 use wheelrail::simulation::{Inputs, Outputs, Rotation, Simulation};
 
 /// Outputs of a wheel that rolls freely after 0.3 s, warmer than the rail by `excess` [K].
 fn rolls_freely(excess: f64, conductance: f64) -> Outputs {
     let mut config = preset("railway", 10);
     (config.thermal.wheel_excess, config.thermal.conductance) = (excess, conductance);
+    config.initial.temperature = StartTemperature::Stationary;
     let inputs = Inputs::rolling(&config);
     let mut simulation = Simulation::new(model(config), &inputs).unwrap();
     for _ in 0..300 {
@@ -56,6 +58,7 @@ fn the_creepage_of_a_chilled_tread_falls_with_the_root_of_the_speed() {
         let creepage = |excess: f64| {
             let mut config = preset("railway", 10);
             (config.thermal.wheel_excess, config.initial.velocity) = (excess, velocity);
+            config.initial.temperature = StartTemperature::Stationary;
             let mut inputs = Inputs::rolling(&config);
             inputs.drive.friction = friction;
             let mut simulation = Simulation::new(model(config), &inputs).unwrap();

@@ -48,7 +48,9 @@ impl Setup {
     /// Settings in their order, the preset first.
     pub fn settings(&self) -> Result<Vec<Setting>, Failure> {
         let preset = self.preset.iter().map(|name| Setting::new("preset", name));
-        preset.chain(self.settings.iter().map(|text| Setting::parse(text))).collect()
+        // What a shell does not name is not set.
+        let given = std::iter::once(Setting::new("initial.given", "written"));
+        given.chain(preset).chain(self.settings.iter().map(|text| Setting::parse(text))).collect()
     }
 
     /// A slave in Initialization Mode with the settings, then `fixed` ones, and its model prepared.

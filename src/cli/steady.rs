@@ -131,7 +131,11 @@ impl OperatingPoint {
     pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
         let prescribed = ["control.rotation", "control.translation"].map(|name| Setting::new(name, "velocity"));
         let temperatures = Setting::new("initial.temperature", "stationary");
-        let fixed = prescribed.into_iter().chain([temperatures]).chain(fixed.iter().cloned().map(Ok)).collect::<Result<Vec<_>, _>>()?;
+        let fixed = prescribed
+            .into_iter()
+            .chain([temperatures])
+            .chain(fixed.iter().cloned().map(Ok))
+            .collect::<Result<Vec<_>, _>>()?;
         for Setting { variable, .. } in setup.settings()? {
             if ["drive.velocity", "drive.omega", "initial.creepage"].contains(&variable.name) {
                 let name = &variable.name;

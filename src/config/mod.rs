@@ -11,9 +11,9 @@ pub mod units;
 pub mod value;
 
 pub use table::{
-    BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Hub, Initial, Material,
-    MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, StartTemperature, Thermal, TimeScheme, Tuning,
-    Vehicle, Wear, Wheel,
+    BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Given, Hub, Initial,
+    Material, MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, StartTemperature,
+    Thermal, TimeScheme, Tuning, Vehicle, Wear, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 

@@ -201,10 +201,13 @@ parameters! {
                 "Travel velocity of the stationary rolling state at the start, slower than surface waves";
             1101 creepage: Option<f64> = None, in "1" as "%", from -1.99 to 2.0,
                 "Its creepage 2 (V - r omega)/(V + r omega), with a rim slower than surface waves; unset: that of \
-                 quasi-steady rolling under drive.moment and drive.force, free of tangential force without them. Writing \
-                 the start value 0 sets it to 0";
+                 quasi-steady rolling under drive.moment and drive.force, free of tangential force without them. The start \
+                 value 0 counts as unset unless initial.given says otherwise";
+            1103 given: Given = Given::Changed,
+                "Which inputs count that are written before the end of initialization, and whether initial.creepage does; the \
+                 others follow from the parameters. During the run every input counts that is written";
             1102 temperature: StartTemperature = StartTemperature::Uniform,
-                "Temperatures at the start: those of the bodies as they are, or those of rolling as at the start for ever";
+                "Temperatures at the start; its friction and thermal deformation are those of these temperatures";
         }
         /// What may change during a run: nothing that is computed in advance depends on it.
         ///
@@ -248,6 +251,14 @@ parameters! {
                 "File to which the present profile of the wheel is written when the run is terminated, for wheel.profile of \
                  another run: its path, absolute or from the working directory; empty: none";
         }
+    }
+}
+
+choice! {
+    /// What counts as given at the start.
+    pub enum Given named "Given", "What counts as given at the start" {
+        Changed = "changed", "what has another value than its declared start, so that writing back start values changes nothing";
+        Written = "written", "all that is written, start values too";
     }
 }
 

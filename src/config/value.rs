@@ -110,6 +110,11 @@ impl Kind {
         }
     }
 
+    /// Usual size of numbers.
+    pub fn nominal(self) -> Option<f64> {
+        if let Kind::Real { nominal, .. } = self { Some(nominal) } else { None }
+    }
+
     /// A value as text: items of an enumeration by name, everything else as it reads back exactly.
     pub fn print(self, value: &Value) -> String {
         let item = match (self, value) {

@@ -19,6 +19,11 @@ pub trait Relief: Debug + Send + Sync {
     fn jumps(&self, _low: f64, _high: f64) -> bool {
         false
     }
+
+    /// Position \[m] beyond which nothing is known of it, in the direction of travel; `None` if it goes on.
+    fn end(&self, _forward: bool) -> Option<f64> {
+        None
+    }
 }
 
 impl Relief for Piecewise {

@@ -38,9 +38,17 @@ pub enum StepError {
     /// A motion outside the range of the model.
     #[error("the motion leaves the range of the model: {0}")]
     Motion(InputError),
-    /// Inputs without a stationary state.
-    #[error("no equilibrium: {0}")]
-    NoEquilibrium(&'static str),
+    /// A wheel that nothing presses onto the rail.
+    #[error(
+        "no equilibrium: drive.load and drive.load_change press the wheel down with {pressing} N, not with more than 0 N"
+    )]
+    Unpressed {
+        /// What presses \[N].
+        pressing: f64,
+    },
+    /// Contact and temperatures that do not come to rest at each other.
+    #[error("no equilibrium: contact and temperatures do not settle")]
+    Unsettled,
     /// No steady rolling: force and moment ask for more than friction carries.
     #[error(
         "no steady rolling: {demand} {verb} a tangential force of {asked:.6e} N in the contact, where adhesion carries \
@@ -123,9 +131,13 @@ impl StepError {
     pub fn asks_for_width(&self) -> bool {
         match self {
             StepError::ZoneExceeded { .. } => true,
-            StepError::Contact { source, .. } => matches!(source, ContactError::Unsuited { .. }),
-            _ => false,
+            error => error.wants_a_grid(),
         }
+    }
+
+    /// Whether a grid may have an answer where a single patch has none.
+    pub fn wants_a_grid(&self) -> bool {
+        matches!(self, StepError::Contact { source: ContactError::Unsuited { .. }, .. })
     }
 }
 

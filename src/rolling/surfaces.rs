@@ -23,6 +23,10 @@ impl Relief for Profile {
     fn jumps(&self, low: f64, high: f64) -> bool {
         self.jumps_between(low, high)
     }
+
+    fn end(&self, forward: bool) -> Option<f64> {
+        Profile::end(self, forward)
+    }
 }
 
 /// The surfaces that the parameters describe; files of profiles are looked for in `folder`.

@@ -1,7 +1,7 @@
 //! What a user can do about a failure: the one place for the advice that follows a message.
 
 use super::validity::ZONE_LOAD;
-use super::{PrepareError, StepError};
+use super::{Inputs, PrepareError, StepError, start};
 use crate::config::{Config, Wear};
 use crate::fem::FemError;
 use crate::heat::HeatError;
@@ -20,6 +20,7 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::ZoneExceeded { load, zone: reached } => zone(*load, config)
             .or_else(|| uneven(*reached, config))
             .unwrap_or_else(|| flattened(*reached, config, shorter)),
+        error if error.wants_a_grid() => grid(),
         StepError::Contact { .. } | StepError::NotFinite { .. } => unsettled(shorter, config),
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
@@ -38,8 +39,13 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
     format!("{error}: {advice}")
 }
 
-/// The message of a stationary start that failed, with advice.
-pub fn failed_start(error: &StepError, config: &Config) -> String {
+/// Advice where a contact is no single smooth patch.
+fn grid() -> String {
+    "set solver.contact = auto, which takes a grid where there is no such patch, or = grid".to_owned()
+}
+
+/// The message of a start that failed under the inputs, with advice.
+pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> String {
     let advice = match error {
         StepError::ZoneExceeded { load, zone: reached } => {
             zone(*load, config).or_else(|| uneven(*reached, config)).unwrap_or_else(|| {
@@ -58,10 +64,12 @@ pub fn failed_start(error: &StepError, config: &Config) -> String {
              initial.creepage, with which the run starts sliding and accelerates by what adhesion does not carry"
                 .to_owned()
         }
-        StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::NoEquilibrium(_) => {
-            let gentler = "start from a gentler state (drive.load near model.nominal_load, initial.creepage near 0, \
-                           moderate initial.velocity) and bring the inputs to their values in the first steps";
-            unsettled(gentler.to_owned(), config)
+        StepError::Unpressed { .. } => {
+            "set drive.load above 0, or control.vertical = displacement to hold the hub at a height".to_owned()
+        }
+        error if error.wants_a_grid() => grid(),
+        StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::Unsettled => {
+            unsettled(start::gentler(config, inputs), config)
         }
         StepError::Motion(_) => format!(
             "choose initial.velocity (now {:?} m/s) and initial.creepage (now {}), or the prescribed velocities, within \
@@ -174,8 +182,8 @@ fn cold(config: &Config) -> String {
         material.expansion
     );
     format!(
-        "{}take shorter steps, or more usual values of thermal.reference (now {:?} K), thermal.wheel_excess (now {:?} K) \
-         and thermal.conductance (now {:?} W/(m2 K))",
+        "{}take shorter steps, or more usual values of rail.temperature, thermal.reference (now {:?} K), thermal.wheel_excess \
+         (now {:?} K) and thermal.conductance (now {:?} W/(m2 K)); temperatures are in kelvin",
         if config.physics.thermoelastic_heating { &reversible } else { "" },
         thermal.reference,
         thermal.wheel_excess,
@@ -235,7 +243,8 @@ mod tests {
         assert!(text(2.1 * nominal).contains("raise model.nominal_load and set drive.load"));
         let wound_up = text(0.9 * nominal);
         assert!(!wound_up.contains("model.nominal_load") && wound_up.contains("solver.max_step"), "{wound_up}");
-        let start = failed_start(&StepError::ZoneExceeded { zone: 0.018, load: 0.9 * nominal }, &config);
+        let inputs = Inputs::rolling(&config);
+        let start = failed_start(&StepError::ZoneExceeded { zone: 0.018, load: 0.9 * nominal }, &config, &inputs);
         assert!(start.contains("does not help") && start.contains("rail.length"), "{start}");
     }
 
@@ -252,7 +261,7 @@ mod tests {
             (failed_step(&StepError::Overheated { temperature: 2e3, highest: 1853.0 }, &config), "rail.friction"),
             (failed_step(&StepError::Heat(heat), &config), "thermal.conductance"),
             (failed_step(&StepError::BelowAbsoluteZero { temperature: -1.0 }, &config), "thermal.reference"),
-            (failed_start(&StepError::NoEquilibrium("none"), &config), "initial.creepage"),
+            (failed_start(&StepError::Unsettled, &config, &Inputs::rolling(&config)), "initial.velocity"),
             (failed_preparation(&PrepareError::Mechanics(modes.into()), &config), "solver.modes_wheel"),
             (failed_preparation(&PrepareError::Mechanics(zone.into()), &config), "model.nominal_load"),
         ] {

@@ -35,11 +35,13 @@ pub enum Limit {
     Energy,
     /// Internal steps that a communication step takes.
     Effort,
+    /// Last sample of the profile of the rail.
+    End,
 }
 
 impl Limit {
     /// All of them.
-    const ALL: [Self; 14] = {
+    const ALL: [Self; 15] = {
         use Limit::*;
         [
             Speed,
@@ -56,6 +58,7 @@ impl Limit {
             Sampling,
             Energy,
             Effort,
+            End,
         ]
     };
 }
@@ -141,6 +144,13 @@ impl Simulation {
             }
             Limit::Energy => (outputs.energy_residual.abs(), UNBALANCED),
             Limit::Effort => (outputs.internal_steps as f64, MANY_STEPS),
+            Limit::End => {
+                let forward = outputs.wheel_velocity >= 0.0;
+                let end = self.model().rolling.contact.surfaces.rail.as_ref().and_then(|rail| rail.end(forward));
+                let (place, end) =
+                    (outputs.wheel_distance, end.unwrap_or(if forward { f64::INFINITY } else { -f64::INFINITY }));
+                if forward { (place, end) } else { (-place, -end) }
+            }
         }
     }
 
@@ -214,8 +224,9 @@ impl Simulation {
         let (value, bound) = self.against(limit);
         match limit {
             Limit::Speed => format!(
-                "speed {value:.1} m/s is above thermal.max_speed = {bound:.1} m/s: the thermal boundary layer is thinner \
-                 than the mesh, and temperatures are inexact; raise thermal.max_speed"
+                "speed {value:.1} m/s ({:.0} km/h) is above thermal.max_speed = {bound:.1} m/s: the thermal boundary layer is \
+                 thinner than the mesh, and temperatures are inexact; raise thermal.max_speed, or check the unit of the speed",
+                3.6 * value
             ),
             Limit::ThermalLoad => format!(
                 "contact load {value:.0} N is below thermal.smallest_load_ratio x model.nominal_load = {bound:.0} N: the \
@@ -272,6 +283,14 @@ impl Simulation {
                 1e6 * value,
                 self.tuning().memory_length
             ),
+            Limit::Energy | Limit::Effort => self.describe_numerics(limit, value),
+            Limit::Waves | Limit::Sampling | Limit::End => self.describe_profile(limit, value, bound),
+        }
+    }
+
+    /// The same of limits that profiles of wheel and rail have.
+    fn describe_profile(&self, limit: Limit, value: f64, bound: f64) -> String {
+        match limit {
             Limit::Waves => format!(
                 "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
                  contact, {:.2} mm: forces are inexact, over a hole of half that length by up to {:.2} % of the load; raise \
@@ -287,6 +306,17 @@ impl Simulation {
                 1e3 * value,
                 1e3 * bound
             ),
+            _ => format!(
+                "the contact has passed the last sample of rail.profile at {:.3} m, behind which the rail keeps its last height; \
+                 repeat it with file(\"...\", every = length), or give a longer file",
+                if self.outputs().wheel_velocity >= 0.0 { bound } else { -bound }
+            ),
+        }
+    }
+
+    /// The same of limits of what has been computed.
+    fn describe_numerics(&self, limit: Limit, value: f64) -> String {
+        match limit {
             Limit::Energy => format!(
                 "energy of {:.1} % of what has been dissipated or is stored is missing (solver.energy_residual): the contact is made, lost \
                  or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond what the model is made \
@@ -296,7 +326,7 @@ impl Simulation {
                 self.tuning().tolerance,
                 self.tuning().max_step
             ),
-            Limit::Effort => format!(
+            _ => format!(
                 "the last communication step took {value:.0} internal steps, the last one of {:.1e} s, and such steps take long to \
                  compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) ask for them",
                 self.state().last_step,

@@ -6,7 +6,7 @@ use super::defect::{Defect, Form, Place};
 use super::error::ProfileError;
 use super::features::Feature;
 use super::roughness::{self, EN_ISO_3095, LARGEST_TABLE, LONGEST_LIMIT, Spectrum};
-use super::samples::Samples;
+use super::samples::{ROUNDED_PERIOD, Samples};
 use super::text::Call;
 use super::wave::{Cover, Pattern, Wave, Window};
 
@@ -133,7 +133,8 @@ fn defect(mut form: Form, given: &mut Arguments, site: &Site) -> Result<Feature,
     if length.is_infinite() && (given.has("every") || given.has("count")) {
         return Err(given.missing("length", "where each of them ends, since they are repeated"));
     }
-    let every = given.optional("every", "m", [length, turn.unwrap_or(1e7).max(length)])?;
+    let shortest = if matches!(form, Form::Samples(_)) { length * (1.0 - ROUNDED_PERIOD) } else { length };
+    let every = given.optional("every", "m", [shortest, turn.unwrap_or(1e7).max(length)])?;
     let count = given.whole("count", [1.0, 1e9])?;
     let (every, count) = match (every, count, turn) {
         (None, Some(_), _) => return Err(given.missing("every", "the distance after which it repeats [m]")),

@@ -146,6 +146,18 @@ pub struct Defect {
 }
 
 impl Defect {
+    /// Last position \[m] of samples that go on nowhere, in the direction of travel. Those that are put in a place and begin and end
+    /// at no height are a defect, behind which the smooth rail goes on.
+    pub fn end(&self, forward: bool) -> Option<f64> {
+        let (Form::Samples(samples), Place { position, every, count, turn: None }) = (&self.form, &self.place) else {
+            return None;
+        };
+        let [begin, end] = samples.reach();
+        let whole = *position != 0.0 && [begin, end].iter().all(|&at| samples.height(at) == 0.0);
+        let last = if forward { position + every * (count - 1.0) + end } else { position + begin };
+        (!whole && last.is_finite()).then_some(last)
+    }
+
     /// Distance from the middle of that one of the repeated forms that may reach a position \[m].
     fn local(&self, position: f64) -> f64 {
         let Place { position: first, every, count, turn } = self.place;

@@ -66,6 +66,14 @@ impl Feature {
         }
     }
 
+    /// Last position \[m] of samples that go on nowhere, in the direction of travel.
+    pub fn end(&self, forward: bool) -> Option<f64> {
+        match self {
+            Self::Cover(_) => None,
+            Self::Defect(defect) => defect.end(forward),
+        }
+    }
+
     /// Whether both may lie on the same spot.
     pub fn may_overlap(&self, other: &Self) -> bool {
         match (self.only_stretch(), other.only_stretch()) {

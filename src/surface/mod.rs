@@ -72,6 +72,12 @@ impl Profile {
         self.features.iter().any(|feature| feature.jumps(low, high))
     }
 
+    /// Position \[m] at which the first of its files ends, in the direction of travel; `None` if all go on.
+    pub fn end(&self, forward: bool) -> Option<f64> {
+        let ends = self.features.iter().filter_map(|feature| feature.end(forward));
+        if forward { ends.reduce(f64::min) } else { ends.reduce(f64::max) }
+    }
+
     /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached where
     /// features do not overlap.
     pub fn range(&self) -> [f64; 2] {

@@ -1,6 +1,7 @@
 //! Sampled profiles: a CSV file with the columns `position,height` in metres.
 
 use super::error::ProfileError;
+use crate::config::display_number;
 use crate::piecewise::Piecewise;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,10 @@ pub fn csv(samples: &[[f64; 2]]) -> String {
 
 /// Largest height and depth of a sample [m]: that of `rail.elevation`.
 const HIGHEST: f64 = 0.1;
+/// Difference of the heights at both ends that is rounding: in metres, and as share of the range of all heights.
+const ROUNDED: [f64; 2] = [1e-9, 1e-4];
+/// Difference of the distance of the ends from the period that is rounding, as share of the period.
+pub const ROUNDED_PERIOD: f64 = 1e-9;
 /// Columns of a file.
 const COLUMNS: [&str; 2] = ["position", "height"];
 
@@ -83,9 +88,12 @@ impl Samples {
     pub fn close(&mut self, period: f64) -> Result<(), String> {
         let last = self.points.x.len() - 1;
         let (x, height) = (self.points.x[0] + period, self.points.value[0]);
-        if self.points.x[last] >= x - 1e-12 * period {
-            if self.points.value[last] != height {
-                return Err(format!("more, or the last height {} m as the first, {height} m", self.points.value[last]));
+        if self.points.x[last] >= x - ROUNDED_PERIOD * period {
+            let [low, high] = self.range();
+            let found = self.points.value[last];
+            if (found - height).abs() > ROUNDED[0].max(ROUNDED[1] * (high - low)) {
+                let [found, height] = [found, height].map(display_number);
+                return Err(format!("more, or the last height {found} m as the first, {height} m"));
             }
             (self.points.x[last], self.points.value[last]) = (x, height);
         } else {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::{Config, presets};
+use wheelrail::config::{Config, StartTemperature, presets};
 use wheelrail::contact::Traction;
 use wheelrail::heat::{TemperatureField, Temperatures};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Rotation, Simulation, Translation};
@@ -33,6 +33,7 @@ impl Product {
         let store = BasisStore::within(&root.join("target"));
         let mut config = presets::parse(&text)?;
         config.physics.yielding = false;
+        config.initial.temperature = StartTemperature::Stationary;
         change(&mut config);
         Model::shared(config, &store, &mut |_, _| {}).map(Self).map_err(|error| error.to_string())
     }

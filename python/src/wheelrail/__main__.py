@@ -9,7 +9,7 @@ from pathlib import Path
 from . import analysis
 from . import scenario as scenarios
 from .files import BadFile, json_schema
-from .fmu import Refused, default_path
+from .fmu import Fmu, Refused, default_path
 
 
 def arguments(argv=None):
@@ -74,7 +74,6 @@ def train(options, scenario):
 def packages(options, scenario):
     """Writes coach.fmu and the packages."""
     from . import ssp
-    from .fmu import Fmu
 
     options.out.mkdir(parents=True, exist_ok=True)
     coach = options.out / "coach.fmu"
@@ -83,6 +82,18 @@ def packages(options, scenario):
     with Fmu(options.fmu) as wheel, Fmu(coach) as opened:
         written = ssp.write(scenario, wheel, opened, (options.fmu, coach), options.out, options.stop, options.step)
     print("written:", ", ".join(map(str, (coach, *written))))
+
+
+def rigid(scenario):
+    """Says what rigid wheelsets leave out of the parameters of the wheels. Names are those of the FMU, if there is one."""
+    from .wheelset import LAW
+
+    if default_path().is_file():
+        with Fmu() as known:
+            scenarios.check_wheel(scenario, [v.name for v in known.description.modelVariables if v.causality == "parameter"])
+    ignored = [name for name in scenario.wheel | scenario.sweep.wheel if name not in LAW]
+    if ignored:
+        print(f"rigid wheelsets know {' and '.join(LAW)} only; without effect: {', '.join(ignored)}", file=sys.stderr)
 
 
 def main(argv=None):
@@ -104,6 +115,8 @@ def main(argv=None):
             if wrong:
                 raise BadFile(f"--step {wrong}")
             scenario.step = options.step
+        if options.rigid:
+            rigid(scenario)
         if options.command == "train":
             train(options, scenario)
         else:

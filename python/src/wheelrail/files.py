@@ -32,7 +32,8 @@ class Real:
         if not number or (self.whole and value != int(value)):
             return f"is {value!r}, not a {'whole ' if self.whole else ''}number"
         if not self.low <= value <= self.high:
-            return f"= {value:g} {self.unit} is outside {self.low:g} to {self.high:g} {self.unit}"
+            unit = f" {self.unit}" if self.unit not in ("", "1") else ""
+            return f"= {value:g}{unit} is outside {self.low:g} to {self.high:g}{unit}"
         return None
 
 

@@ -61,6 +61,10 @@ class Fmu:
             raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
         return self.variables[name]
 
+    def profiles(self):
+        """Names of the quantities of `Wheel.profile`."""
+        return list(dict.fromkeys(name.split("[")[0].removeprefix("profile.") for name in self.variables if name.startswith("profile.")))
+
     def __enter__(self):
         return self
 
@@ -71,8 +75,9 @@ class Fmu:
 class Wheel:
     """A wheel that is ready to step.
 
-    `parameters` are set before and `inputs` in Initialization Mode. Refused calls raise `Refused` with the FMU's own
-    words. Use as a context manager, or call `close`.
+    `parameters` are set before and `inputs` in Initialization Mode. All of them count, those too that have their declared
+    start values: `initial.given` is `written` unless given. Refused calls raise `Refused` with the FMU's own words. Use as
+    a context manager, or call `close`.
     """
 
     def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
@@ -87,7 +92,7 @@ class Wheel:
         self.slave.instantiate(callbacks=_callbacks)
         try:
             self._call(self.slave.setupExperiment, startTime=0.0)
-            self.set(parameters or {})
+            self.set({"initial.given": "written"} | (parameters or {}))
             self._call(self.slave.enterInitializationMode)
             self.set(inputs or {})
             self._call(self.slave.exitInitializationMode)
@@ -118,7 +123,10 @@ class Wheel:
                 reals.append(value)
                 continue
             if variable.type == "Enumeration" and isinstance(value, str):
-                value = 1 + [item.name for item in variable.declaredType.items].index(value)
+                items = [item.name for item in variable.declaredType.items]
+                if value not in items:
+                    raise Refused(f"{name} = {value!r} is none of {', '.join(items)}")
+                value = 1 + items.index(value)
             if isinstance(value, float):
                 if not value.is_integer():
                     raise Refused(f"{name} = {value!r} is not a whole number")
@@ -139,8 +147,11 @@ class Wheel:
         return values[0] if len(names) == 1 else values
 
     def profile(self, quantity):
-        """A profile across the contact patch: x [m], pressure [Pa], shear [Pa] or slip [m/s]."""
-        return self.get(*(name for name in self.fmu.variables if name.startswith(f"profile.{quantity}[")))
+        """A profile across the contact patch: x [m], pressure [Pa], shear [Pa] or slip [m/s], or another of `profiles`."""
+        names = [name for name in self.fmu.variables if name.startswith(f"profile.{quantity}[")]
+        if not names:
+            raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(self.fmu.profiles())}")
+        return self.get(*names)
 
     def step(self, h):
         """Advances by `h` seconds."""

@@ -1,5 +1,6 @@
 """What a stop consists of, as files: scenario, vehicle, brake, track. `load` reads and checks all of them."""
 
+import difflib
 from bisect import bisect_right
 from pathlib import Path
 from types import SimpleNamespace
@@ -158,6 +159,7 @@ def load(path):
     """Reads a scenario and the files it names, which lie beside it."""
     path = Path(path)
     scenario = read_json(path, SCENARIO)
+    brake = path.parent / scenario.brake
     for kind in ("vehicle", "brake", "track"):
         setattr(scenario, kind, read_json(path.parent / getattr(scenario, kind), SCHEMAS[kind]))
     track = scenario.track
@@ -168,6 +170,7 @@ def load(path):
         profile = path.parent / track.profile
         track.profile = SimpleNamespace(**read_csv(profile, PROFILE))
         check_profile(track.profile, profile)
+    check_thresholds(scenario, path, brake)
     for coach in scenario.fmu_coaches:
         if coach > scenario.coaches:
             raise BadFile(f"{path}: fmu_coaches entry = {coach} is outside 1 to {scenario.coaches}, the number of coaches")
@@ -185,6 +188,24 @@ def settle(scenario):
             raise BadFile("adhesion is given, but the track has no condition named contaminated")
         conditions["contaminated"].friction = scenario.adhesion
         conditions["contaminated"].recovered = max(scenario.adhesion, conditions["contaminated"].recovered)
+
+
+def check_thresholds(scenario, path, brake):
+    """Axles are held before they are vented."""
+    low = scenario.brake.wsp.slide_low
+    thresholds = [(brake, "wsp.slide_high", scenario.brake.wsp.slide_high)]
+    thresholds += [(path, "sweep.slide_high entry", high) for high in scenario.sweep.slide_high]
+    for file, name, high in thresholds:
+        if high < low:
+            raise BadFile(f"{file}: {name} = {high:g} is below wsp.slide_low = {low:g}: an axle is held before it is vented")
+
+
+def check_wheel(scenario, known):
+    """The parameters of the wheels are among those that are `known`."""
+    for name in scenario.wheel | scenario.sweep.wheel:
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=1)
+            raise BadFile(f"wheel: {name} is no parameter of the FMU" + "".join(f"; did you mean {other}?" for other in close))
 
 
 def check_sections(track):

@@ -18,7 +18,7 @@ from . import scenario as scenarios
 from .brake import Brakes, Valve
 from .team import Team
 from .vehicle import AXLES, GRAVITY, Coach
-from .wheelset import Drive, FmuWheelset, RigidWheelset
+from .wheelset import LAW, Drive, FmuWheelset, RigidWheelset
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
 STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
@@ -103,7 +103,7 @@ def wheelsets_of(fmu, scenario, coach):
     rigid, with the friction law of the scenario's wheels."""
     wheelset, law = scenario.vehicle.wheelset, scenario.wheel
     damping = scenario.vehicle.primary.vertical_damping
-    falling = law.get("friction.falling_ratio", 1.0), law.get("friction.falling_decay", 0.0)
+    falling = [law.get(name, plain) for name, plain in zip(LAW, (1.0, 0.0))]
     inside = (scenario.fmu_coaches or range(1, coach.count + 1)) if fmu else ()
     found = []
     for number in range(1, coach.count + 1):

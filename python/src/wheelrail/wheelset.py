@@ -97,6 +97,10 @@ def whole_wheelset(fmu, wheelset, parameters):
     return parameters | doubled | hub | {"wheel.radius": wheelset.radius}
 
 
+# Parameters of the FMU that a rigid wheelset has.
+LAW = ("friction.falling_ratio", "friction.falling_decay")
+
+
 class RigidWheelset:
     """A rigid wheelset under Carter's creep force with friction that falls with the slip, by backward Euler.
 

@@ -4,21 +4,24 @@
 
 pub mod derivatives;
 mod experiment;
+mod notices;
 mod running;
 mod saving;
 mod values;
+mod warned;
 
 use super::lifecycle::{Call, Phase};
 use super::log::{CallError, Log, Status};
 use super::presets;
-use super::settings::{SetValues, with_inputs};
+use super::settings::{SetValues, is_start, with_inputs};
 use super::variable::{Access, Value};
-use super::variables::variables;
-use crate::config::Config;
-use crate::simulation::validity::Limit;
+use super::variables::{find, variables};
+use crate::config::{Config, Given};
 use crate::simulation::{Drive, Inputs, LONGEST_STEP, Model, Simulation, advice};
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
+use warned::Warned;
 
 /// Largest mismatch of a communication point, relative to the step, besides rounding.
 const POINT_TOLERANCE: f64 = 1e-3;
@@ -55,8 +58,8 @@ pub struct Instance {
     /// Communication point, length and inputs of the last discarded step.
     failure: Option<(f64, f64, Inputs)>,
     hopeless: bool,
-    /// Limits of the model that the user has been warned of in this run.
-    warned: Vec<Limit>,
+    /// What the user has been warned of in this run.
+    warned: Warned,
 }
 
 type Outcome<T = ()> = Result<T, CallError>;
@@ -84,7 +87,7 @@ impl Instance {
             last_step: Status::Ok,
             failure: None,
             hopeless: false,
-            warned: Vec::new(),
+            warned: Warned::default(),
         })
     }
 
@@ -151,6 +154,8 @@ impl Instance {
         self.allow(Call::ExitInitializationMode)?;
         self.file_to_save()?;
         self.simulation()?;
+        self.warn_of_settings();
+        self.inputs = self.given().into_owned();
         self.phase = Phase::StepComplete;
         self.warn_of_limits();
         self.log.report(Status::Ok, &format!("initialized at t = {} s, {}", self.time, self.tolerance_in_use()));
@@ -183,7 +188,7 @@ impl Instance {
         self.simulation = None;
         self.last_step = Status::Ok;
         (self.failure, self.hopeless) = (None, false);
-        self.warned.clear();
+        self.warned = Warned::default();
         self.log.report(Status::Ok, "reset");
         Ok(())
     }
@@ -212,6 +217,7 @@ impl Instance {
         let inputs = self.effective_inputs();
         let end = inputs.at(h);
         end.validate().map_err(|error| CallError::error(format!("at the end of the step {error}")))?;
+        self.warn_of_inputs(&inputs);
         match self.simulation()?.advance(&inputs, h) {
             Ok(()) => {
                 self.hold(end);
@@ -219,6 +225,7 @@ impl Instance {
                 (self.phase, self.last_step) = (Phase::StepComplete, Status::Ok);
                 (self.failure, self.hopeless) = (None, false);
                 self.warn_of_limits();
+                self.warn_of_reversal(&inputs);
                 Ok(())
             }
             Err(error) => {
@@ -233,7 +240,19 @@ impl Instance {
     }
 
     fn effective_inputs(&self) -> Inputs {
-        with_inputs(&self.config, &self.bumpless, &self.inputs, self.rates)
+        with_inputs(&self.config, &self.bumpless, &self.given(), self.rates)
+    }
+
+    /// The inputs that count: all that are set; of those set before the end of initialization only what says more than the
+    /// declared start values do, unless `initial.given` is `written`.
+    fn given(&self) -> Cow<'_, SetValues> {
+        let early = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
+        if !early || self.config.initial.given == Given::Written {
+            return Cow::Borrowed(&self.inputs);
+        }
+        let mut given = self.inputs.clone();
+        given.retain(|reference, value| find(*reference).is_some_and(|row| !is_start(row, value, &self.base)));
+        Cow::Owned(given)
     }
 
     /// Keeps the values at the end of a ramp as the new inputs.

@@ -8,7 +8,6 @@ use crate::fmi::settings::with_parameters;
 use crate::fmi::snapshot::Snapshot;
 use crate::fmi::variable::{Reference, Value};
 use crate::fmi::variables::{find, variables};
-use crate::simulation::validity::Limit;
 use crate::simulation::{BasisStore, Inputs, Model, Simulation, Vertical, advice};
 use std::sync::Arc;
 
@@ -69,18 +68,21 @@ impl Instance {
             self.check_settings()?;
             let model = self.model(self.config.clone())?;
             let mut inputs = self.effective_inputs();
-            let failed = |error| {
-                let why = advice::failed_start(&error, &self.config);
+            let config = self.config.clone();
+            let failed = |error, inputs: &Inputs| {
+                let why = advice::failed_start(&error, &config, inputs);
                 CallError::error(format!("no stationary state for these inputs: {why}"))
             };
             let tuning = self.config.tuning.clone();
             if let Some(reference) = self.height_to_find(&inputs) {
                 let pressed = Inputs { vertical: Vertical::Force, ..inputs };
-                let loaded = Simulation::start(model.clone(), tuning.clone(), &pressed).map_err(failed)?;
+                let loaded = Simulation::start(model.clone(), tuning.clone(), &pressed);
+                let loaded = loaded.map_err(|error| failed(error, &pressed))?;
                 inputs.drive.displacement = loaded.outputs().hub_height;
                 self.bumpless.insert(reference, Value::Real(inputs.drive.displacement));
             }
-            self.simulation = Some(Simulation::start(model, tuning, &inputs).map_err(failed)?);
+            let started = Simulation::start(model, tuning, &inputs);
+            self.simulation = Some(started.map_err(|error| failed(error, &inputs))?);
         }
         self.simulation.as_mut().ok_or_else(|| CallError::error("no simulation"))
     }
@@ -88,7 +90,7 @@ impl Instance {
     /// Reference of the hub height, if it is prescribed at the start and has not been set.
     fn height_to_find(&self, inputs: &Inputs) -> Option<Reference> {
         let reference = variables().iter().find(|row| row.name == "drive.displacement")?.reference;
-        let unset = inputs.vertical == Vertical::Displacement && !self.inputs.contains_key(&reference);
+        let unset = inputs.vertical == Vertical::Displacement && !self.given().contains_key(&reference);
         unset.then_some(reference)
     }
 
@@ -105,7 +107,7 @@ impl Instance {
             CallError::error(format!("{error}{own}"))
         })?;
         self.effective_inputs().validate().map_err(|error| {
-            let set = self.inputs.keys().filter_map(|reference| find(*reference)).any(|row| row.name == error.name);
+            let set = self.given().keys().filter_map(|reference| find(*reference)).any(|row| row.name == error.name);
             let initial = &self.config.initial;
             let source = match error.name {
                 _ if set => return CallError::error(error.to_string()),
@@ -123,17 +125,6 @@ impl Instance {
             };
             CallError::error(format!("{error}; it follows from {source} unless it is set"))
         })
-    }
-
-    /// Warns of limits of the model that the run is beyond now, of each once in a run.
-    pub(super) fn warn_of_limits(&mut self) {
-        let Some(simulation) = &self.simulation else { return };
-        let new: Vec<Limit> = simulation.exceeded_limits().filter(|limit| !self.warned.contains(limit)).collect();
-        for limit in new {
-            self.warned.push(limit);
-            let text = simulation.describe_limit(limit);
-            self.log.report(Status::Warning, &format!("t = {:?} s: {text}", self.time));
-        }
     }
 
     /// The model with these parameters; prepared now, with logged progress, unless it is the present one.

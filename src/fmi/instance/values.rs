@@ -40,6 +40,7 @@ impl Instance {
         let (mut preset, mut base) = (self.preset.clone(), self.base.clone());
         let (mut parameters, mut rates) = (self.parameters.clone(), self.rates);
         let (mut inputs, mut bumpless) = (self.inputs.clone(), self.bumpless.clone());
+        let mut experiment = self.experiment.clone();
         for (variable, value) in variables.iter().zip(values) {
             match variable.causality() {
                 Causality::Output => {
@@ -47,7 +48,8 @@ impl Instance {
                 }
                 Causality::Parameter if !early && !variable.tunable => {
                     let why = "is a fixed parameter and can only be set before the end of initialization";
-                    return Err(CallError::error(format!("{} {why}", variable.name)));
+                    let instead = changes(variable.name);
+                    return Err(CallError::error(format!("{} {why}{instead}", variable.name)));
                 }
                 _ => variable.check(&value).map_err(CallError::error)?,
             }
@@ -61,10 +63,15 @@ impl Instance {
                     inputs.insert(variable.reference, value);
                 }
                 (Access::ChoiceInput(..), _) => drop(inputs.insert(variable.reference, value)),
-                _ => drop(parameters.insert(variable.reference, value)),
+                _ => {
+                    parameters.insert(variable.reference, value);
+                    if !early {
+                        experiment.remove(&variable.reference);
+                    }
+                }
             }
         }
-        let config = with_parameters(&base, &self.experiment, &parameters);
+        let config = with_parameters(&base, &experiment, &parameters);
         if !early {
             self.take_over(&with_inputs(&config, &bumpless, &inputs, rates), &mut bumpless);
         }
@@ -75,7 +82,7 @@ impl Instance {
                 self.model = Some(simulation.model().clone());
             }
         }
-        (self.preset, self.base, self.config) = (preset, base, config);
+        (self.preset, self.base, self.experiment, self.config) = (preset, base, experiment, config);
         (self.parameters, self.inputs, self.bumpless, self.rates) = (parameters, inputs, bumpless, rates);
         if early {
             self.simulation = None;
@@ -111,6 +118,18 @@ impl Instance {
             }
         }
     }
+}
+
+/// Points to the input that changes during a run what a parameter gives at its start; empty where there is none.
+fn changes(parameter: &str) -> String {
+    let input = match parameter {
+        "friction.coefficient" => "rail.friction",
+        "thermal.reference" => "rail.temperature",
+        "model.nominal_load" => "drive.load",
+        "initial.velocity" => "drive.velocity",
+        _ => return String::new(),
+    };
+    format!("; during the run set the input {input}")
 }
 
 /// Rows of the table, refusing unknown references and other types.

@@ -4,10 +4,10 @@ use crate::config::Config;
 use crate::fmi::MODEL_IDENTIFIER;
 use crate::fmi::instance::derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
 use crate::fmi::log::CATEGORIES;
-use crate::fmi::presets;
+pub use crate::fmi::settings::start_value;
 use crate::fmi::table::enumerations;
 use crate::fmi::units::{BASE_UNITS, Measure, UNITS};
-use crate::fmi::variable::{Access, Causality, Kind, Start, Value, Variable};
+use crate::fmi::variable::{Access, Causality, Kind, Start, Variable};
 use crate::fmi::variables::variables;
 use crate::simulation::Read;
 use quick_xml::Writer;
@@ -26,7 +26,7 @@ const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an e
     on the wheel. Plane model: no lateral force, no spin.";
 
 /// When the interface was last changed. A date of the build would make equal builds unequal.
-const GENERATED: &str = "2026-11-22T00:00:00Z";
+const GENERATED: &str = "2026-11-24T00:00:00Z";
 
 const COPYRIGHT: &str = "Copyright 2026 The wheelrail authors";
 
@@ -208,13 +208,6 @@ fn type_definitions(xml: &mut Xml) -> io::Result<()> {
         }
         Ok(())
     })
-}
-
-/// Start value of an input or parameter under the default preset; `None` for outputs.
-pub fn start_value(variable: &Variable) -> Option<Value> {
-    let config = Config::default();
-    let parameter = variable.parameter(presets::DEFAULT, &config);
-    parameter.or_else(|| variable.input(&mut crate::simulation::Inputs::rolling(&config)))
 }
 
 /// FMI variability of a variable.

@@ -58,7 +58,7 @@ impl Goal {
         let drives = [given[0], given[1], rotation];
         let prescribed = |k: usize| target(drives[k]);
         if prescribed(1).is_none() && drive.pressing() <= 0.0 {
-            return Err(StepError::NoEquilibrium("drive.load must be positive for a stationary start state"));
+            return Err(StepError::Unpressed { pressing: drive.pressing() });
         }
         let omega = prescribed(2);
         let moving = velocity.abs() + (radius * omega.unwrap_or(velocity / radius)).abs() > AT_REST;

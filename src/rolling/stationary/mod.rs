@@ -64,8 +64,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
             break;
         }
     }
-    let unsettled = StepError::NoEquilibrium("contact and temperatures do not settle");
-    if change <= THERMAL_SCATTER { Ok(state) } else { Err(unsettled) }
+    if change <= THERMAL_SCATTER { Ok(state) } else { Err(StepError::Unsettled) }
 }
 
 /// Change from one state to the next: of the contact force relative to the load and, since a prescribed force fixes it

@@ -1,0 +1,43 @@
+"""Mistakes at the Python side are refused with the name, the value and what is possible."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from wheelrail import Refused
+from wheelrail.__main__ import rigid
+from wheelrail.files import BadFile
+
+
+def test_an_item_that_is_none_is_refused_with_those_that_are(start):
+    with pytest.raises(Refused, match="control.rotation = 'omega' is none of velocity, moment"):
+        start().set({"control.rotation": "omega"})
+
+
+def test_a_profile_that_is_none_is_refused_with_those_that_are(start):
+    wheel = start()
+    with pytest.raises(Refused, match="no profile 'presure'; it has x, pressure, shear, slip, temperature_wheel"):
+        wheel.profile("presure")
+    for name in wheel.fmu.profiles():
+        assert len(wheel.profile(name)) > 10
+
+
+def test_all_that_is_set_from_python_counts_zero_creepage_too(start):
+    settings = {"initial.creepage": 0.0, "model.nominal_load": 90e3}
+    wheel = start(settings, {"drive.load": 100e3})
+    assert wheel.get("contact.force_y") == pytest.approx(100e3)
+    assert abs(wheel.get("contact.force_x")) > 500.0 and not wheel.log
+    changed = start({"initial.given": "changed"} | settings, {"drive.load": 100e3})
+    assert changed.get("contact.force_y") == pytest.approx(90e3)
+    assert abs(changed.get("contact.force_x")) < 1.0 and len(changed.log) == 1
+
+
+def test_rigid_wheelsets_refuse_unknown_parameters_and_name_those_without_effect(packed, monkeypatch, capsys):
+    monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
+    scenario = lambda **wheel: SimpleNamespace(wheel=wheel, sweep=SimpleNamespace(wheel={}))
+    with pytest.raises(BadFile, match="friction.faling_ratio is no parameter of the FMU; did you mean friction.falling_ratio"):
+        rigid(scenario(**{"friction.faling_ratio": 0.4}))
+    rigid(scenario(**{"friction.falling_ratio": 0.4}))
+    assert capsys.readouterr().err == ""
+    rigid(scenario(**{"friction.falling_ratio": 0.4, "solver.tolerance": 0.01}))
+    assert capsys.readouterr().err.strip().endswith("without effect: solver.tolerance")

@@ -1,0 +1,113 @@
+//! Values that look like those of another unit, by their size.
+
+use crate::config::display_number;
+use crate::config::units::{Measure, UNITS};
+use crate::config::value::Kind;
+
+/// Temperature \[K] below which no wheel rolls: a lower one is probably meant in degrees Celsius.
+const COLDEST: f64 = 200.0;
+/// Ice \[K].
+const FREEZING: f64 = 273.15;
+/// Factor from which a unit is a multiple of another one, as kN of N: nobody mistakes m/s and km/h by size alone.
+const MULTIPLE: f64 = 100.0;
+/// How far a value is off the usual size if it is of another unit, and how near it is then to it in that unit \[1].
+const FAR: f64 = 200.0;
+const NEAR: f64 = 10.0;
+/// Speed \[m/s] that no wheel on a rail has: it is one in km/h.
+const FASTEST: f64 = 100.0;
+/// Friction coefficient \[1] that steel on steel does not have, and the smallest creepage of a wheel that nearly stands still while
+/// it travels: both look like percentages.
+const STICKIEST: f64 = 2.0;
+const SLIDES: [f64; 2] = [0.5, 1.9];
+
+/// What is wrong with an absolute temperature that is too low.
+pub fn cold(name: &str, kind: Kind, value: f64) -> Option<String> {
+    let absolute = matches!(kind, Kind::Real { measure: Measure { unit: "K", display: Some(_) }, .. });
+    (absolute && value < COLDEST).then(|| {
+        format!(
+            "{name} = {} K is {} degC, colder than any rail: temperatures are in kelvin; if {0} degC are meant, set {}",
+            display_number(value),
+            display_number(value - FREEZING),
+            display_number(value + FREEZING)
+        )
+    })
+}
+
+/// What is wrong with a value that is not of the size which is `usual`, and would be in the unit that people like to read.
+pub fn unusual(name: &str, kind: Kind, value: f64, usual: f64) -> Option<String> {
+    let Kind::Real { measure: Measure { unit, display }, .. } = kind else { return None };
+    let percent = match name {
+        "initial.creepage" => (SLIDES[0]..SLIDES[1]).contains(&value.abs()),
+        "friction.coefficient" | "rail.friction" => value > STICKIEST,
+        _ => false,
+    };
+    if percent {
+        return Some(format!(
+            "{name} = {} is a ratio and means {} %; if {0} % are meant, set {}",
+            display_number(value),
+            display_number(100.0 * value),
+            display_number(0.01 * value)
+        ));
+    }
+    let shown = display?;
+    let factor = UNITS.iter().find(|row| row.name == unit)?.displays.iter().find(|row| row.name == shown)?.factor;
+    let meant = value / factor;
+    let off = |number: f64, by: f64| !(usual.abs() / by..=usual.abs() * by).contains(&number.abs());
+    let multiple = factor >= MULTIPLE || factor <= 1.0 / MULTIPLE;
+    let another =
+        if shown == "km/h" { value.abs() >= FASTEST } else { multiple && off(value, FAR) && !off(meant, NEAR) };
+    (value != 0.0 && usual != 0.0 && another).then(|| {
+        format!(
+            "{name} = {} {unit} is of an unusual size; if {0} {shown} are meant, set {}",
+            display_number(value),
+            display_number(meant)
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    fn kind(name: &str) -> Kind {
+        Config::rows().iter().find(|row| row.name == name).unwrap().kind
+    }
+
+    #[test]
+    fn values_of_another_unit_are_told_by_their_size_with_the_value_that_is_meant() {
+        for (name, value, usual, meant) in [
+            ("model.nominal_load", 100.0, 100e3, "100000"),
+            ("initial.velocity", 120.0, 27.8, "33.3333"),
+            ("initial.creepage", 1.0, 0.0, "0.01"),
+            ("friction.coefficient", 5.0, 0.3, "0.05"),
+            ("thermal.reference_pressure", 500.0, 500e6, "5e8"),
+            ("material.latent_heat", 270.0, 270e3, "270000"),
+            ("vehicle.mass", 9.872, 9872.0, "9872"),
+        ] {
+            let text = unusual(name, kind(name), value, usual).unwrap();
+            assert!(text.starts_with(&format!("{name} = ")) && text.ends_with(&format!("set {meant}")), "{text}");
+        }
+        let text = cold("thermal.reference", kind("thermal.reference"), 20.0).unwrap();
+        assert!(text.contains("-253.15 degC") && text.ends_with("set 293.15"), "{text}");
+    }
+
+    #[test]
+    fn usual_and_merely_small_or_large_values_are_not() {
+        for (name, value, usual) in [
+            ("model.nominal_load", 2e3, 100e3),
+            ("model.nominal_load", 1e6, 100e3),
+            ("vehicle.mass", 0.0, 9872.0),
+            ("initial.velocity", 80.0, 27.8),
+            ("initial.creepage", 2.0, 0.0),
+            ("initial.creepage", 0.2, 0.0),
+            ("friction.coefficient", 1.0, 0.3),
+            ("friction.memory_length", 1.0, 0.0),
+            ("thermal.wheel_excess", 20.0, 0.0),
+        ] {
+            assert_eq!(unusual(name, kind(name), value, usual), None);
+            assert_eq!(cold(name, kind(name), value), None);
+        }
+        assert_eq!(cold("thermal.reference", kind("thermal.reference"), 263.0), None);
+    }
+}

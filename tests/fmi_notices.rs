@@ -1,0 +1,162 @@
+//! What is said once in a run, by name, although nothing fails: inputs without effect, values of another unit, moments that
+//! drive backwards.
+
+mod slave;
+
+use slave::*;
+
+/// All warnings of a run of `steps` steps, before each of which `set` gives values.
+fn warnings(
+    settings: &[(&str, f64)],
+    controls: &[(&str, i32)],
+    steps: usize,
+    set: impl Fn(&Slave, usize),
+) -> Vec<String> {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    settings.iter().for_each(|(name, value)| assert_eq!(slave.set_real(name, *value), fmi2OK));
+    controls.iter().for_each(|(name, item)| assert_eq!(slave.set_integer(name, *item), fmi2OK));
+    slave.initialize();
+    for k in 0..steps {
+        set(&slave, k);
+        let status = slave.step(1e-3 * k as f64, 1e-3);
+        if status == fmi2Discard {
+            // Nothing is said too late: a rail at -253 degC may be too cold for a step.
+            let texts = slave.messages();
+            assert!(texts[0].status == fmi2Warning && texts[0].text.contains("kelvin"), "{texts:?}");
+            return vec![texts[0].text.clone()];
+        }
+        assert_eq!(status, fmi2OK);
+    }
+    let messages = slave.messages();
+    assert!(messages.iter().all(|m| m.status == fmi2Warning), "{messages:?}");
+    messages.into_iter().map(|message| message.text).collect()
+}
+
+const ROTATION: (&str, i32) = ("control.rotation", 1);
+const TRANSLATION: (&str, i32) = ("control.translation", 1);
+const VERTICAL: (&str, i32) = ("control.vertical", 2);
+
+#[test]
+fn an_input_without_effect_is_told_once_with_what_would_let_it_act() {
+    for (name, value, controls, words) in [
+        ("drive.omega", 50.0, &[][..], ["control.rotation = moment", "set control.rotation = velocity"]),
+        ("drive.velocity", 20.0, &[], ["control.translation = force", "set control.translation = velocity"]),
+        ("drive.displacement", -5e-5, &[], ["control.vertical = force", "set control.vertical = displacement"]),
+        ("drive.moment", -8e3, &[ROTATION], ["control.rotation = velocity", "set control.rotation = moment"]),
+        ("brake.torque", 8e3, &[ROTATION], ["control.rotation = velocity", "to let the brake act"]),
+        ("drive.force", 4e3, &[TRANSLATION], ["control.translation = velocity", "set control.translation = force"]),
+        ("drive.load", 8e4, &[VERTICAL], ["control.vertical = displacement", "set control.vertical = force"]),
+        ("drive.load_change", 4e3, &[VERTICAL], ["control.vertical = displacement", "set control.vertical = force"]),
+    ] {
+        // At the start the height is sought at which the wheel carries the load.
+        let acts = name.starts_with("drive.load");
+        let first = warnings(&[(name, value)], controls, 3, |_, _| ());
+        assert_eq!(first.len(), usize::from(!acts), "{name}: {first:?}");
+        let found = warnings(&[], controls, 3, |slave, _| assert_eq!(slave.set_real(name, value), fmi2OK));
+        assert_eq!(found.len(), 1, "{name}: {found:?}");
+        let told = |word: &&str| found[0].contains(*word);
+        assert!(words.iter().all(told) && found[0].contains(&format!("{name} = ")), "{}", found[0]);
+        assert!(found[0].contains("has no effect"), "{}", found[0]);
+        // In the run as well, and every run anew.
+        let later = warnings(&[], controls, 3, |slave, k| {
+            assert_eq!(slave.set_real(name, if k == 0 { real_start(name) } else { value }), fmi2OK);
+        });
+        assert!(later.len() == 1 && later[0].starts_with("t = 0.001 s"), "{name}: {later:?}");
+    }
+}
+
+#[test]
+fn inputs_without_effect_at_their_start_value_or_equal_to_the_reaction_say_nothing() {
+    let all = [ROTATION, TRANSLATION, VERTICAL];
+    // Also those that follow from other parameters.
+    let settings = [("initial.velocity", 20.0), ("drive.velocity", 20.0), ("drive.omega", 20.0 / 0.46)];
+    assert_eq!(warnings(&settings, &[], 3, |_, _| ()), [""; 0]);
+    let pairs = [
+        ("drive.omega", "wheel.omega"),
+        ("drive.velocity", "wheel.velocity"),
+        ("drive.displacement", "hub.height"),
+        ("drive.moment", "hub.moment"),
+        ("drive.force", "hub.force_x"),
+    ];
+    let handed_back = |slave: &Slave, _: usize| {
+        for (input, output) in pairs {
+            let selected = if slave.integer("control.rotation") == 1 {
+                ["drive.omega", "drive.velocity", "drive.displacement"]
+            } else {
+                ["drive.moment", "drive.force", "drive.load"]
+            };
+            if !selected.contains(&input) {
+                assert_eq!(slave.set_real(input, slave.real(output)), fmi2OK);
+            }
+        }
+        if slave.integer("control.rotation") == 1 {
+            assert_eq!(slave.set_real("drive.load", -slave.real("hub.force_y")), fmi2OK);
+        }
+    };
+    assert_eq!(warnings(&[("drive.moment", -6e3)], &[], 5, handed_back), [""; 0]);
+    assert_eq!(warnings(&[("drive.omega", 59.0)], &all, 5, handed_back), [""; 0]);
+}
+
+#[test]
+fn a_temperature_in_degrees_celsius_is_told_at_the_start_and_in_the_run_with_the_one_in_kelvin() {
+    let found = warnings(&[("rail.temperature", 20.0)], &[], 1, |_, _| ());
+    let cold = |found: &[String], name: &str| {
+        let about: Vec<_> = found.iter().filter(|text| text.contains("are in kelvin")).collect();
+        assert!(
+            about.len() == 1 && about[0].contains(&format!("{name} = 20 K")) && about[0].ends_with("set 293.15"),
+            "{found:?}"
+        );
+    };
+    cold(&found, "rail.temperature");
+    cold(&warnings(&[("thermal.reference", 20.0)], &[], 1, |_, _| ()), "thermal.reference");
+    let later = warnings(&[], &[], 4, |slave, k| {
+        assert_eq!(slave.set_real("rail.temperature", if k < 2 { 293.0 } else { 20.0 }), fmi2OK);
+    });
+    cold(&later, "rail.temperature");
+    assert!(later.iter().any(|text| text.starts_with("t = 0.002 s")), "{later:?}");
+    assert_eq!(warnings(&[("rail.temperature", 263.0)], &[], 2, |_, _| ()), [""; 0]);
+}
+
+#[test]
+fn a_value_of_another_unit_is_told_by_its_size_and_a_ramp_through_small_values_is_not() {
+    for (name, value, meant) in [
+        ("brake.torque", 8.0, "8000"),
+        ("drive.moment", -6.0, "-6000"),
+        ("vehicle.mass", 9.9, "9900"),
+        ("friction.memory_length", 0.025, ""),
+    ] {
+        let found = warnings(&[(name, value)], &[], 2, |_, _| ());
+        let told = found.iter().filter(|text| text.contains(name) && text.ends_with(&format!("set {meant}"))).count();
+        assert_eq!(told, usize::from(!meant.is_empty()), "{name}: {found:?}");
+    }
+    let ramp = warnings(&[], &[], 10, |slave, k| assert_eq!(slave.set_real("brake.torque", 4.0 * k as f64), fmi2OK));
+    assert_eq!(ramp, [""; 0]);
+}
+
+#[test]
+fn a_moment_that_turns_a_locked_wheel_backwards_is_told_and_a_brake_does_not() {
+    // Twice what adhesion carries stops a wheel without a vehicle's mass to speak of in some milliseconds.
+    let run = |name: &'static str, value: f64| {
+        let settings = [("rail.friction", 0.05), ("initial.velocity", 3.0)];
+        warnings(&settings, &[], 60, move |slave, _| assert_eq!(slave.set_real(name, value), fmi2OK))
+    };
+    let told = |found: &[String]| found.iter().filter(|text| text.contains("brake.torque instead")).count();
+    let moment = run("drive.moment", -2e4);
+    assert!(told(&moment) == 1 && moment.iter().any(|text| text.contains("drive.moment = -20000 N.m")), "{moment:?}");
+    assert_eq!(told(&run("brake.torque", 2e4)), 0);
+}
+
+#[test]
+fn a_fixed_parameter_that_is_set_in_a_run_points_to_the_input_that_changes_it() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    for (parameter, input) in [
+        ("friction.coefficient", "rail.friction"),
+        ("thermal.reference", "rail.temperature"),
+        ("model.nominal_load", "drive.load"),
+        ("initial.velocity", "drive.velocity"),
+    ] {
+        slave.refused(slave.set_real(parameter, real_start(parameter)), &[parameter, "fixed parameter", input]);
+    }
+}
