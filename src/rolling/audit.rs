@@ -1,8 +1,8 @@
 //! The energy balance: what the hub forces put in against what is stored, dissipated and radiated.
 //!
 //! Every force has the impulse that the time formula gives it (see [`crate::multistep::TimeDerivative::impulse`]), so
-//! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the mean
-//! velocity. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation:
+//! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the way over the time:
+//! that of distance, angle and height as the outputs show them. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation:
 //! `docs/theory/lever-arms.md`.
 
 use super::model::Model;
@@ -34,7 +34,11 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     let before = &state.audit;
     let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
-    let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
+    let mut mean = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
+    if !next.prescribed[1] {
+        mean[1] = (next.motion.height.now - state.motion.height.now) / next.last_step;
+    }
+    let work: f64 = (0..3).map(|k| impulse[k] * mean[k]).sum();
     let forces = [state, next].map(|state| state.contact.traction.resultant[1]);
     let damping_power = dissipation(model, next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
@@ -43,9 +47,9 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         energy: energy(model, next),
         work: before.work + work,
         gravity: before.gravity
-            + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * 0.5 * (from[0] + to[0]),
+            + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * mean[0],
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
-        brake: before.brake - next.brake.impulse * 0.5 * (from[2] + to[2]),
+        brake: before.brake - next.brake.impulse * mean[2],
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
         plastic: before.plastic,
