@@ -18,15 +18,10 @@ pub fn energy(model: &Model, state: &State) -> f64 {
         + state.contact.traction.springing_work
 }
 
-/// Power that damping and open ends take [W/m].
-fn dissipation(model: &Model, state: &State) -> f64 {
-    model.bodies.dissipation(state) + model.wheel.dissipation(state)
-}
-
 /// Balance at a stationary start.
 pub fn start(model: &Model, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit { initial_energy: energy, energy, damping_power: dissipation(model, state), ..Audit::default() }
+    Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
@@ -40,7 +35,9 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     }
     let work: f64 = (0..3).map(|k| impulse[k] * mean[k]).sum();
     let forces = [state, next].map(|state| state.contact.traction.resultant[1]);
-    let damping_power = dissipation(model, next);
+    let damper = [state, next].map(|state| model.wheel.damper_force(state));
+    let damper = td.impulse(damper[1], damper[0], before.damper);
+    let damping_power = model.bodies.dissipation(next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
     Audit {
         initial_energy: before.initial_energy,
@@ -53,12 +50,13 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
         plastic: before.plastic,
-        damping: before.damping + damped,
+        damping: before.damping + damped + damper * mean[1],
         throughput: before.throughput + work.abs(),
         damping_power,
         impulse,
         pressed: td.impulse(forces[1], forces[0], before.pressed),
         damped,
+        damper,
     }
 }
 

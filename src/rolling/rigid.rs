@@ -134,10 +134,9 @@ impl RigidWheel {
         })
     }
 
-    /// Power that the damper takes where the load drives the hub [W/m].
-    pub fn dissipation(&self, state: &State) -> f64 {
-        let hub = state.motion.hub_velocity.now;
-        if state.prescribed[1] { 0.0 } else { self.damping * hub * hub }
+    /// Force of the damper on the vehicle, up positive, where the load drives the hub [N/m].
+    pub fn damper_force(&self, state: &State) -> f64 {
+        if state.prescribed[1] { 0.0 } else { self.damping * state.motion.hub_velocity.now }
     }
 
     /// Kinetic energy of the rigid motion [J/m].

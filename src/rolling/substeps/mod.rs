@@ -43,8 +43,8 @@ const STEPS_PER_WAVE: f64 = 40.0;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Control of a stationary start: the errors do not limit the step yet.
-pub fn unlimited(state: &State) -> StepControl {
-    StepControl { step: f64::INFINITY, before: controlled(state), ..StepControl::default() }
+pub fn unlimited(model: &Model, state: &State) -> StepControl {
+    StepControl { step: f64::INFINITY, before: controlled(model, state), ..StepControl::default() }
 }
 
 /// Place within a communication step: `done` of `pieces` equal pieces lie behind.
@@ -176,7 +176,7 @@ fn march(
             let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
             return Err(StepError::Overheated { temperature: found.hottest, highest });
         }
-        control.memory.before = controlled(from);
+        control.memory.before = controlled(model, from);
         place.done += 1;
         failures = 0;
         if control.grows(&found, dt) {

@@ -12,6 +12,10 @@
 //! | mean slip of the tread in the patch | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
 //! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
 //!
+//! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation, which
+//! rings after a strike or a release, and takes its energy along. So where the forces on the hub are given, their place is
+//! taken by what the motion of the hub leaves of these.
+//!
 //! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
 //! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
 //! its value; `(a/r)a` is the displacement that breaks a standing wheel loose, over μ. So the scale holds at standstill, too,
@@ -25,10 +29,11 @@ use crate::rolling::state::{Controlled, State};
 const WARM: f64 = 100.0;
 
 /// The predicted quantities of a state.
-pub fn controlled(state: &State) -> Controlled {
-    let traction = &state.contact.traction;
+pub fn controlled(model: &Model, state: &State) -> Controlled {
+    let (traction, accelerations) = (&state.contact.traction, state.motion.accelerations());
     Controlled {
         forces: traction.resultant,
+        resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.driving[k]),
         slip: traction.tread_slip,
         temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
         velocity: state.motion.velocity.now,
@@ -60,14 +65,16 @@ impl Found {
     /// Judges the step of `dt` \[s] that led `from` one state `to` the next; the step before took `last_step` \[s].
     /// `before` are the quantities at its beginning.
     pub fn compare(model: &Model, from: &State, to: &State, before: &Controlled, last_step: f64, dt: f64) -> Self {
-        let (now, found) = (controlled(from), controlled(to));
+        let (now, found) = (controlled(model, from), controlled(model, to));
         let first = to.restarted || last_step == 0.0;
         let ratio = if first { 0.0 } else { dt / last_step };
         let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let arms = [1.0, 1.0, radius];
-        let forces = (0..3).map(|k| missed(&|c| c.forces[k]).abs() / (load * arms[k]));
-        let mut error = forces.fold(0.0, f64::max);
+        let flies = !touching(from) && !touching(to);
+        let free = |k: usize| flies && !to.prescribed[k];
+        let forces = (0..3).map(|k| missed(&|c| if free(k) { c.resisting[k] } else { c.forces[k] }).abs());
+        let mut error = forces.zip(arms).map(|(force, arm)| force / (load * arm)).fold(0.0, f64::max);
         // What slip and temperature of the patch are without a patch is a convention.
         if touching(from) && touching(to) {
             let [translation, _, rotation] = to.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
