@@ -13,8 +13,8 @@
 //! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation, which
-//! rings after a strike or a release, and takes its energy along. So where the forces on the hub are given, their place is
-//! taken by what the motion of the hub leaves of these.
+//! rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what its motion
+//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads.
 //!
 //! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
 //! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
@@ -27,6 +27,10 @@ use crate::rolling::state::{Controlled, State};
 
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
+
+/// Forces of damper and deformation in the air that count as much as a contact force of the nominal load does, over this load
+/// \[1]: no contact force follows from their errors, but energy that the audit misses.
+const AIRBORNE: f64 = 8.0;
 
 /// The predicted quantities of a state.
 pub fn controlled(model: &Model, state: &State) -> Controlled {
@@ -55,6 +59,8 @@ pub struct Found {
     pub molten: bool,
     /// Whether steel yields in the contact at the end.
     pub yields: bool,
+    /// Whether contact was made or lost in it.
+    pub strikes: bool,
     /// Whether it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
     /// Whether it was longer than the step before.
@@ -72,9 +78,11 @@ impl Found {
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let arms = [1.0, 1.0, radius];
         let flies = !touching(from) && !touching(to);
-        let free = |k: usize| flies && !to.prescribed[k];
-        let forces = (0..3).map(|k| missed(&|c| if free(k) { c.resisting[k] } else { c.forces[k] }).abs());
-        let mut error = forces.zip(arms).map(|(force, arm)| force / (load * arm)).fold(0.0, f64::max);
+        let force = |k: usize| match flies && !to.prescribed[k] {
+            true => missed(&|c| c.resisting[k]).abs() / (AIRBORNE * load * arms[k]),
+            false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
+        };
+        let mut error = (0..3).map(force).fold(0.0, f64::max);
         // What slip and temperature of the patch are without a patch is a convention.
         if touching(from) && touching(to) {
             let [translation, _, rotation] = to.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
@@ -94,7 +102,8 @@ impl Found {
         let (heating, molten) = (rise.abs(), hottest > bound && rise > 0.0);
         let overheats = molten && hottest - rise <= bound;
         let yields = to.contact.traction.yielding > 0.0;
-        Self { error, heating, hottest, overheats, molten, yields, first, doubled: ratio > 1.5 }
+        let strikes = touching(from) != touching(to);
+        Self { error, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
     }
 }
 
