@@ -43,8 +43,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
-        gravity: before.gravity
-            + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * mean[0],
+        gravity: before.gravity + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * mean[0],
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
         brake: before.brake - next.brake.impulse * mean[2],
         thermal_work: before.thermal_work,

@@ -269,7 +269,7 @@ pub struct StepControl {
 pub struct Controlled {
     /// Contact forces on the wheel (x, y, moment) [N/m, N/m, N].
     pub forces: [f64; 3],
-    /// What else than the hub forces moves the hub: contact, damper and deformation (x, y, moment) [N/m, N/m, N].
+    /// Forces that move the hub besides those on it: of contact, damper and deformation (x, y, moment) [N/m, N/m, N].
     pub resisting: [f64; 3],
     /// Mean slip of the tread in the patch [m/s].
     pub slip: f64,

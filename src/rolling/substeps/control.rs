@@ -21,8 +21,8 @@ use crate::rolling::state::StepControl;
 /// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
 /// located to twice this time at best.
 const FINEST: f64 = 1e-5;
-/// The same for steps in which contact is made or lost \[s]: the force begins or ends somewhere within, and its energy errs by
-/// what it does on the way of the whole step.
+/// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or ends
+/// somewhere within, and its energy errs by what it does on the way of the whole step.
 const STRIKE: f64 = 2e-6;
 /// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
 /// make it five times as long. The shortest steps fall from sixty in a millisecond to some six if they go on.

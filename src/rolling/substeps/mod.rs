@@ -7,7 +7,8 @@
 //! - where the contact finds no state;
 //! - with a `solver.tolerance`, where the contact misses its [`prediction`] by more than that. Loss of contact, re-contact,
 //!   lock-up and breaking loose need no rules of their own: all of them bend forces or slip, and steps are halved until the
-//!   bend within one step is below the tolerance, down to steps of some 10 µs ([`control`] says when);
+//!   bend within one step is below the tolerance, down to steps of some 10 µs, and of some 4 µs where contact is made or lost
+//!   ([`control`] says when);
 //! - where the contact heats or cools by hundreds of kelvin in one long piece, with or without a tolerance: friction that
 //!   falls with the temperature follows the temperatures of the steps before;
 //! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to steps of

@@ -59,7 +59,7 @@ pub struct Found {
     pub molten: bool,
     /// Whether steel yields in the contact at the end.
     pub yields: bool,
-    /// Whether contact was made or lost in it.
+    /// Contact was made or lost in it.
     pub strikes: bool,
     /// Whether it was the first step after a jump of the inputs: it has no history.
     pub first: bool,

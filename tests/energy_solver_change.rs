@@ -1,0 +1,69 @@
+//! The energy balance where the contact goes from the series to the grid and back.
+
+mod common;
+
+use common::{is_patch, model, preset};
+use wheelrail::config::ContactMethod;
+use wheelrail::simulation::{Inputs, Simulation};
+
+/// Largest step of the energy residual from one output to the next where the contact solver has changed and where not, and
+/// the number of changes.
+fn steps(
+    preset_name: &str,
+    heat: bool,
+    contact: ContactMethod,
+    drive: impl Fn(&mut Inputs, usize),
+) -> ([f64; 2], usize) {
+    let mut config = preset(preset_name, 10);
+    (config.solver.contact, config.initial.velocity, config.thermal.enabled) = (contact, 7.0, heat);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let (mut patch, mut residual) = (is_patch(&simulation), 0.0);
+    let (mut largest, mut changes) = ([0.0f64; 2], 0);
+    for k in 0..300 {
+        drive(&mut inputs, k);
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let now = simulation.outputs().energy_residual;
+        let changed = is_patch(&simulation) != patch;
+        // Before anything has been dissipated the residual is that of the start.
+        let of = &mut largest[usize::from(!changed)];
+        *of = of.max((now - residual).abs());
+        changes += usize::from(changed);
+        (patch, residual) = (!changed == patch, now);
+    }
+    println!("{preset_name}, heat {heat}, {contact:?}: {changes} changes, residual steps by {largest:?}");
+    (largest, changes)
+}
+
+#[test]
+fn the_energy_residual_does_not_jump_where_the_contact_solver_changes() {
+    let friction = |moment: f64| {
+        move |inputs: &mut Inputs, k: usize| {
+            inputs.drive.moment = moment;
+            inputs.drive.friction = if (k / 10) % 2 == 0 { 0.3 } else { 0.1 };
+        }
+    };
+    let brake = |inputs: &mut Inputs, k: usize| inputs.drive.torque = if (k / 40) % 2 == 0 { 0.0 } else { 4000.0 };
+    let load = |inputs: &mut Inputs, k: usize| {
+        inputs.drive.moment = -6000.0;
+        inputs.drive.load = 1e5 * (1.0 + 0.3 * (0.9 * k as f64).sin() * (0.37 * k as f64).cos());
+    };
+    let mut all = 0;
+    let mut check = |name: &str, heat: bool, drive: &dyn Fn(&mut Inputs, usize)| {
+        let (largest, changes) = steps(name, heat, ContactMethod::Auto, drive);
+        let ([_, on_grid], _) = steps(name, heat, ContactMethod::Grid, drive);
+        all += changes;
+        let limit = 1.5 * on_grid.max(largest[1]) + 1e-4;
+        assert!(largest[0] <= limit, "{name}, heat {heat}: {largest:?}, on the grid {on_grid}");
+    };
+    for moment in [0.0, -3000.0, -6000.0] {
+        check("railway_wet", moment == 0.0, &friction(moment));
+        check("railway", false, &friction(moment));
+    }
+    check("railway_wet", false, &brake);
+    check("railway", false, &brake);
+    check("railway", false, &load);
+    println!("{all} changes");
+    assert!(all > 60, "the contact solver must change: {all}");
+}
