@@ -121,21 +121,25 @@ fn a_step_that_starts_afresh_falls_as_far_as_its_work_says() {
     }
 }
 
-/// Residual at the end of `end` seconds in steps of `step` under a load that `load` gives, and whether contact was lost.
+/// Residual at the end of `end` seconds in steps of `step` under a load that `load` gives, and the time without contact. The work
+/// of the hub must be what the outputs say: load times height.
 fn residual(config: Config, step: f64, end: f64, load: impl Fn(f64) -> f64) -> [f64; 2] {
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     inputs.drive.load = load(0.0);
     let mut simulation = Simulation::new(model, &inputs).unwrap();
-    let mut steps = 0;
+    let (mut steps, mut work) = (0, 0.0);
     for k in 0..(end / step).round() as usize {
         inputs.drive.load = load((k as f64 + 0.5) * step);
+        let height = simulation.outputs().hub_height;
         simulation.advance(&inputs, step).unwrap();
+        work += inputs.drive.load * (height - simulation.outputs().hub_height);
         steps += simulation.outputs().internal_steps;
     }
     let o = simulation.outputs();
     let dissipated = o.friction_energy + o.damping_energy + o.plastic_energy;
     println!("  {steps} steps, {:.3} of {dissipated:.2} J missing, residual {:+.1e}", missing(o), o.energy_residual);
+    assert!((o.hub_work - work).abs() < 1e-6, "work {} J, load times height {work} J", o.hub_work);
     [o.energy_residual, o.contact_lost_time]
 }
 
