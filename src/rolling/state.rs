@@ -271,6 +271,8 @@ pub struct Controlled {
     pub forces: [f64; 3],
     /// Forces that move the hub besides those on it: of contact, damper and deformation (x, y, moment) [N/m, N/m, N].
     pub resisting: [f64; 3],
+    /// Force of the damper between hub and vehicle on the latter [N/m].
+    pub damper: f64,
     /// Mean slip of the tread in the patch [m/s].
     pub slip: f64,
     /// Pressure-weighted mean rises of temperature of wheel and rail in the patch \[K].

@@ -14,7 +14,8 @@
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation, which
 //! rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what its motion
-//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads.
+//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads; that of the damper also by itself, on the scale of the
+//! load.
 //!
 //! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
 //! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
@@ -28,8 +29,8 @@ use crate::rolling::state::{Controlled, State};
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
 
-/// Forces of damper and deformation in the air that count as much as a contact force of the nominal load does, over this load
-/// \[1]: no contact force follows from their errors, but energy that the audit misses.
+/// Forces of the deformation in the air that count as much as a contact force of the nominal load does, over this load \[1]:
+/// no contact force follows from their errors, but energy that the audit misses.
 const AIRBORNE: f64 = 8.0;
 
 /// The predicted quantities of a state.
@@ -38,6 +39,7 @@ pub fn controlled(model: &Model, state: &State) -> Controlled {
     Controlled {
         forces: traction.resultant,
         resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.driving[k]),
+        damper: model.wheel.damper_force(state),
         slip: traction.tread_slip,
         temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
         velocity: state.motion.velocity.now,
@@ -83,6 +85,9 @@ impl Found {
             false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
         };
         let mut error = (0..3).map(force).fold(0.0, f64::max);
+        if flies {
+            error = error.max(missed(&|c| c.damper).abs() / load);
+        }
         // What slip and temperature of the patch are without a patch is a convention.
         if touching(from) && touching(to) {
             let [translation, _, rotation] = to.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
