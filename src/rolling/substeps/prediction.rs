@@ -14,8 +14,8 @@
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation, which
 //! rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what its motion
-//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads; that of the damper also by itself, on the scale of the
-//! load.
+//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads; the damper also by
+//! itself, on the scale of the load.
 //!
 //! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
 //! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
