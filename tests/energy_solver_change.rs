@@ -10,11 +10,12 @@ use wheelrail::simulation::{Inputs, Simulation};
 /// the number of changes.
 fn steps(
     preset_name: &str,
+    elements: usize,
     heat: bool,
     contact: ContactMethod,
     drive: impl Fn(&mut Inputs, usize),
 ) -> ([f64; 2], usize) {
-    let mut config = preset(preset_name, 10);
+    let mut config = preset(preset_name, elements);
     (config.solver.contact, config.initial.velocity, config.thermal.enabled) = (contact, 7.0, heat);
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
@@ -32,7 +33,9 @@ fn steps(
         changes += usize::from(changed);
         (patch, residual) = (!changed == patch, now);
     }
-    println!("{preset_name}, heat {heat}, {contact:?}: {changes} changes, residual steps by {largest:?}");
+    println!(
+        "{preset_name}, {elements} elements, heat {heat}, {contact:?}: {changes} changes, residual steps by {largest:?}"
+    );
     (largest, changes)
 }
 
@@ -49,21 +52,22 @@ fn the_energy_residual_does_not_jump_where_the_contact_solver_changes() {
         inputs.drive.moment = -6000.0;
         inputs.drive.load = 1e5 * (1.0 + 0.3 * (0.9 * k as f64).sin() * (0.37 * k as f64).cos());
     };
-    let mut all = 0;
-    let mut check = |name: &str, heat: bool, drive: &dyn Fn(&mut Inputs, usize)| {
-        let (largest, changes) = steps(name, heat, ContactMethod::Auto, drive);
-        let ([_, on_grid], _) = steps(name, heat, ContactMethod::Grid, drive);
+    let (mut all, mut worst) = (0, 0.0f64);
+    let mut check = |name: &str, elements: usize, heat: bool, drive: &dyn Fn(&mut Inputs, usize)| {
+        let (largest, changes) = steps(name, elements, heat, ContactMethod::Auto, drive);
         all += changes;
-        let limit = 1.5 * on_grid.max(largest[1]) + 1e-4;
-        assert!(largest[0] <= limit, "{name}, heat {heat}: {largest:?}, on the grid {on_grid}");
+        worst = worst.max(largest[0]);
+        // What both solvers make of the elastic energy of the contact differs with the mesh by some thousandths.
+        assert!(largest[0] < 6e-3, "{name}, {elements} elements, heat {heat}: {largest:?}");
     };
-    for moment in [0.0, -3000.0, -6000.0] {
-        check("railway_wet", moment == 0.0, &friction(moment));
-        check("railway", false, &friction(moment));
+    check("railway_wet", 10, true, &friction(-6000.0));
+    for (name, elements) in [("railway_wet", 10), ("railway", 10), ("railway", 20)] {
+        for moment in [0.0, -3000.0, -6000.0] {
+            check(name, elements, false, &friction(moment));
+        }
+        check(name, elements, false, &brake);
+        check(name, elements, false, &load);
     }
-    check("railway_wet", false, &brake);
-    check("railway", false, &brake);
-    check("railway", false, &load);
-    println!("{all} changes");
-    assert!(all > 60, "the contact solver must change: {all}");
+    println!("{all} changes, residual steps by {worst:.1e} at most");
+    assert!(all > 100, "the contact solver must change: {all}");
 }
