@@ -85,7 +85,8 @@ fn a_falling_wheel_has_the_energy_of_its_height_at_every_step_length() {
         Drop { load, ..Drop::usual() }.check(&format!("{load} N"));
     }
     Drop { height: 3e-4, ..Drop::usual() }.check("from 0.3 mm");
-    let changes: [(&str, fn(&mut Config)); 4] = [
+    type Change = (&'static str, fn(&mut Config));
+    let changes: [Change; 4] = [
         ("with damper", |config| config.vehicle.damping = 2e4),
         ("standing", |config| config.initial.velocity = 0.0),
         ("reversed", |config| config.initial.velocity *= -1.0),
