@@ -1,8 +1,8 @@
 //! The energy balance: what the hub forces put in against what is stored, dissipated and radiated.
 //!
 //! Every force has the impulse that the time formula gives it (see [`crate::multistep::TimeDerivative::impulse`]), so
-//! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the mean
-//! velocity. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation:
+//! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the way over the time:
+//! that of distance, angle and height as the outputs show them. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation:
 //! `docs/theory/lever-arms.md`.
 
 use super::model::Model;
@@ -18,15 +18,10 @@ pub fn energy(model: &Model, state: &State) -> f64 {
         + state.contact.traction.springing_work
 }
 
-/// Power that damping and open ends take [W/m].
-fn dissipation(model: &Model, state: &State) -> f64 {
-    model.bodies.dissipation(state) + model.wheel.dissipation(state)
-}
-
 /// Balance at a stationary start.
 pub fn start(model: &Model, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit { initial_energy: energy, energy, damping_power: dissipation(model, state), ..Audit::default() }
+    Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
@@ -34,27 +29,33 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     let before = &state.audit;
     let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
-    let work: f64 = (0..3).map(|k| impulse[k] * 0.5 * (from[k] + to[k])).sum();
+    let mut mean = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
+    if !next.prescribed[1] {
+        mean[1] = (next.motion.height.now - state.motion.height.now) / next.last_step;
+    }
+    let work: f64 = (0..3).map(|k| impulse[k] * mean[k]).sum();
     let forces = [state, next].map(|state| state.contact.traction.resultant[1]);
-    let damping_power = dissipation(model, next);
+    let damper = [state, next].map(|state| model.wheel.damper_force(state));
+    let damper = td.impulse(damper[1], damper[0], before.damper);
+    let damping_power = model.bodies.dissipation(next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
     Audit {
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
-        gravity: before.gravity
-            + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * 0.5 * (from[0] + to[0]),
+        gravity: before.gravity + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * mean[0],
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
-        brake: before.brake - next.brake.impulse * 0.5 * (from[2] + to[2]),
+        brake: before.brake - next.brake.impulse * mean[2],
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
         plastic: before.plastic,
-        damping: before.damping + damped,
+        damping: before.damping + damped + damper * mean[1],
         throughput: before.throughput + work.abs(),
         damping_power,
         impulse,
         pressed: td.impulse(forces[1], forces[0], before.pressed),
         damped,
+        damper,
     }
 }
 

@@ -82,8 +82,8 @@ impl RigidWheel {
         })
     }
 
-    /// The three rigid motions of a step as unknowns of the contact problem; `speeds` are the predicted ones, `momentum` is
-    /// that of the free deformation.
+    /// The three rigid motions of a step as unknowns of the contact problem, by the time formulas of velocities and of the hub
+    /// height; `speeds` are the predicted ones, `momentum` is that of the free deformation.
     ///
     /// The damper resists `U̇`. In the time formula `Ü = a0 U̇ + h` with what is known of the velocity, h, so that
     /// `c U̇ = c/a0 (Ü − h)`: a mass more, and a known momentum.
@@ -91,7 +91,7 @@ impl RigidWheel {
         &self,
         motion: &Motion,
         drives: &[AxisDrive; 3],
-        td: &TimeDerivative,
+        [td, of_height]: [&TimeDerivative; 2],
         speeds: [f64; 2],
         momentum: [f64; 3],
     ) -> [RigidMotion; 3] {
@@ -104,7 +104,7 @@ impl RigidWheel {
             inertia: self.inertia[k],
             momentum: momentum[k],
         };
-        let mut hub = axis(1, motion.height.now, td.a0 * td.a0, td.a0 * motion.height.offset(td) + known);
+        let mut hub = axis(1, motion.height.now, td.a0 * of_height.a0, td.a0 * motion.height.offset(of_height) + known);
         hub.inertia += self.damping / td.a0;
         hub.momentum -= self.damping / td.a0 * known;
         [axis(0, speeds[0], td.a0, motion.velocity.offset(td)), hub, axis(2, speeds[1], td.a0, motion.omega.offset(td))]
@@ -134,10 +134,9 @@ impl RigidWheel {
         })
     }
 
-    /// Power that the damper takes where the load drives the hub [W/m].
-    pub fn dissipation(&self, state: &State) -> f64 {
-        let hub = state.motion.hub_velocity.now;
-        if state.prescribed[1] { 0.0 } else { self.damping * hub * hub }
+    /// Force of the damper on the vehicle, up positive, where the load drives the hub [N/m].
+    pub fn damper_force(&self, state: &State) -> f64 {
+        if state.prescribed[1] { 0.0 } else { self.damping * state.motion.hub_velocity.now }
     }
 
     /// Kinetic energy of the rigid motion [J/m].

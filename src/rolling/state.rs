@@ -269,6 +269,10 @@ pub struct StepControl {
 pub struct Controlled {
     /// Contact forces on the wheel (x, y, moment) [N/m, N/m, N].
     pub forces: [f64; 3],
+    /// Forces that move the hub besides those on it: of contact, damper and deformation (x, y, moment) [N/m, N/m, N].
+    pub resisting: [f64; 3],
+    /// Force of the damper between hub and vehicle on the latter [N/m].
+    pub damper: f64,
     /// Mean slip of the tread in the patch [m/s].
     pub slip: f64,
     /// Pressure-weighted mean rises of temperature of wheel and rail in the patch \[K].
@@ -304,14 +308,16 @@ pub struct Audit {
     pub damping: f64,
     /// Sum of the absolute work of all steps [J/m]: the scale of the round-off.
     pub throughput: f64,
-    /// Present power of damping and radiation [W/m].
+    /// Present power of damping and radiation in the bodies and the track [W/m].
     pub damping_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
     pub impulse: [f64; 3],
     /// Impulse of the vertical contact force in it [N s/m].
     pub pressed: f64,
-    /// Energy lost to damping and radiation in it [J/m].
+    /// Energy lost to damping and radiation in the bodies and the track in it [J/m].
     pub damped: f64,
+    /// Impulse of the damper between hub and vehicle in it [N s/m].
+    pub damper: f64,
 }
 
 impl Audit {

@@ -14,7 +14,7 @@ use super::zones;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, Heating};
 use crate::mechanics::response::Convection;
-use crate::multistep::{History, TimeDerivative, formula, settled};
+use crate::multistep::{History, TimeDerivative, formula, position, settled};
 
 /// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each time the
 /// share of friction on the hottest places falls to a quarter or less.
@@ -32,6 +32,8 @@ struct Plan {
     /// Length of the step [s].
     dt: f64,
     td: TimeDerivative,
+    /// Time formula of the hub height.
+    of_height: TimeDerivative,
     /// Whether the time formula starts afresh.
     restarted: bool,
     /// Which motions are prescribed, and the forces whose impulses drive the others.
@@ -114,9 +116,10 @@ fn attempt(
         wide = Some(wider);
     }
     solved?;
-    zones::narrow(model, next);
+    // The energy is that of the solution found: another solver that takes over has none of its own yet.
     next.audit = audit::advance(model, &plan.td, state, next);
     next.audit.plastic += next.contact.traction.plastic_work;
+    zones::narrow(model, next);
     let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub, [next.audit.energy; 3]];
     if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
         return Err(StepError::NotFinite { time: state.time, step: plan.dt });
@@ -156,6 +159,10 @@ impl Plan {
             }
             _ => given[k],
         });
+        let of_height = match drives[1] {
+            AxisDrive::Prescribed { .. } => td,
+            _ => position(&model.config.solver, &td, dt, before),
+        };
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
         let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
@@ -163,7 +170,7 @@ impl Plan {
         let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
         let friction = Friction::local(law, available, heating, ratio);
         let friction = friction.after(dt, traction.friction, traction.tread_slip, heating);
-        Self { dt, td, restarted: before == 0.0, drives, given, speeds, friction }
+        Self { dt, td, of_height, restarted: before == 0.0, drives, given, speeds, friction }
     }
 }
 
@@ -176,7 +183,7 @@ fn solve_and_commit(
     workspace: &mut Workspace,
     next: &mut State,
 ) -> Result<(), StepError> {
-    let Plan { dt, td, drives, speeds, .. } = plan;
+    let Plan { dt, td, of_height, drives, speeds, .. } = plan;
     let operators = model.bodies.operators(td.a0, state, &*model.contact.solver, &mut workspace.operators)?;
     let streams = [
         Convection { speed: speeds[1], acceleration: state.motion.omega.rate },
@@ -192,7 +199,7 @@ fn solve_and_commit(
     let contact = ContactStep {
         operators: &operators,
         free,
-        rigid: model.wheel.motions(&state.motion, drives, td, *speeds, free[0].momentum),
+        rigid: model.wheel.motions(&state.motion, drives, [td, of_height], *speeds, free[0].momentum),
         time: *td,
         duration: *dt,
         place,
@@ -206,7 +213,7 @@ fn solve_and_commit(
     let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
     solved.map_err(|error| model.contact.failure(error, state.time, *dt))?;
 
-    next.motion = moved(&state.motion, td, next.contact.traction.rigid);
+    next.motion = moved(&state.motion, [td, of_height], next.contact.traction.rigid);
     let accelerations = next.motion.accelerations();
     model.bodies.commit(&operators, free, accelerations, td, state, next);
     let traction = &next.contact.traction;
@@ -236,10 +243,10 @@ fn moved_by(place: f64, speed: &History, to: f64, dt: f64) -> f64 {
 }
 
 /// Rigid motion after a step that ends with the values (V, U, Ω).
-fn moved(motion: &Motion, td: &TimeDerivative, [velocity, height, omega]: [f64; 3]) -> Motion {
+fn moved(motion: &Motion, [td, of_height]: [&TimeDerivative; 2], [velocity, height, omega]: [f64; 3]) -> Motion {
     let mut next = *motion;
     next.velocity.push(td, velocity);
-    next.height.push(td, height);
+    next.height.push(of_height, height);
     next.hub_velocity.push(td, next.height.rate);
     next.omega.push(td, omega);
     next

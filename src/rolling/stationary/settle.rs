@@ -206,7 +206,7 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
     state.brake = Brake::stationary(goal.given[2], omega, state.hub[2]);
     state.hub[2] = goal.given[2].loads().map_or(state.hub[2], |[load, _]| load + state.brake.moment);
     state.driving = state.hub;
-    state.control = substeps::unlimited(&state);
+    state.control = substeps::unlimited(model, &state);
     state.friction_power = state.contact.traction.friction_power;
     state.audit = audit::start(model, &state);
     state.pressing = Pressing::constant(state.contact.traction.resultant[1]);

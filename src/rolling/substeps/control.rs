@@ -21,6 +21,9 @@ use crate::rolling::state::StepControl;
 /// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
 /// located to twice this time at best.
 const FINEST: f64 = 1e-5;
+/// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or ends
+/// somewhere within, and its energy errs by what it does on the way of the whole step.
+const STRIKE: f64 = 2e-6;
 /// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
 /// make it five times as long. The shortest steps fall from sixty in a millisecond to some six if they go on.
 const PERSISTENCE: (f64, f64) = (0.3, 500.0);
@@ -65,7 +68,8 @@ impl<'a> Control<'a> {
             self.learn(found.error);
         }
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
-        let finest = FINEST * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
+        let finest = if found.strikes { STRIKE } else { FINEST };
+        let finest = finest * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
         let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
         let overheats = found.overheats && dt > 2.0 * OVERHEATED;
         let heats = overheats || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));

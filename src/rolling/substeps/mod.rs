@@ -7,7 +7,8 @@
 //! - where the contact finds no state;
 //! - with a `solver.tolerance`, where the contact misses its [`prediction`] by more than that. Loss of contact, re-contact,
 //!   lock-up and breaking loose need no rules of their own: all of them bend forces or slip, and steps are halved until the
-//!   bend within one step is below the tolerance, down to steps of some 10 µs ([`control`] says when);
+//!   bend within one step is below the tolerance, down to steps of some 10 µs, and of some 4 µs where contact is made or lost
+//!   ([`control`] says when);
 //! - where the contact heats or cools by hundreds of kelvin in one long piece, with or without a tolerance: friction that
 //!   falls with the temperature follows the temperatures of the steps before;
 //! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to steps of
@@ -43,8 +44,8 @@ const STEPS_PER_WAVE: f64 = 40.0;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Control of a stationary start: the errors do not limit the step yet.
-pub fn unlimited(state: &State) -> StepControl {
-    StepControl { step: f64::INFINITY, before: controlled(state), ..StepControl::default() }
+pub fn unlimited(model: &Model, state: &State) -> StepControl {
+    StepControl { step: f64::INFINITY, before: controlled(model, state), ..StepControl::default() }
 }
 
 /// Place within a communication step: `done` of `pieces` equal pieces lie behind.
@@ -176,7 +177,7 @@ fn march(
             let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
             return Err(StepError::Overheated { temperature: found.hottest, highest });
         }
-        control.memory.before = controlled(from);
+        control.memory.before = controlled(model, from);
         place.done += 1;
         failures = 0;
         if control.grows(&found, dt) {

@@ -12,6 +12,11 @@
 //! | mean slip of the tread in the patch | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
 //! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
 //!
+//! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation, which
+//! rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what its motion
+//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads; the damper also by
+//! itself, on the scale of the load.
+//!
 //! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
 //! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
 //! its value; `(a/r)a` is the displacement that breaks a standing wheel loose, over μ. So the scale holds at standstill, too,
@@ -24,11 +29,17 @@ use crate::rolling::state::{Controlled, State};
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
 
+/// Forces of the deformation in the air that count as much as a contact force of the nominal load does, over this load \[1]:
+/// no contact force follows from their errors, but energy that the audit misses.
+const AIRBORNE: f64 = 8.0;
+
 /// The predicted quantities of a state.
-pub fn controlled(state: &State) -> Controlled {
-    let traction = &state.contact.traction;
+pub fn controlled(model: &Model, state: &State) -> Controlled {
+    let (traction, accelerations) = (&state.contact.traction, state.motion.accelerations());
     Controlled {
         forces: traction.resultant,
+        resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.driving[k]),
+        damper: model.wheel.damper_force(state),
         slip: traction.tread_slip,
         temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
         velocity: state.motion.velocity.now,
@@ -50,6 +61,8 @@ pub struct Found {
     pub molten: bool,
     /// Whether steel yields in the contact at the end.
     pub yields: bool,
+    /// Contact was made or lost in it.
+    pub strikes: bool,
     /// Whether it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
     /// Whether it was longer than the step before.
@@ -60,14 +73,21 @@ impl Found {
     /// Judges the step of `dt` \[s] that led `from` one state `to` the next; the step before took `last_step` \[s].
     /// `before` are the quantities at its beginning.
     pub fn compare(model: &Model, from: &State, to: &State, before: &Controlled, last_step: f64, dt: f64) -> Self {
-        let (now, found) = (controlled(from), controlled(to));
+        let (now, found) = (controlled(model, from), controlled(model, to));
         let first = to.restarted || last_step == 0.0;
         let ratio = if first { 0.0 } else { dt / last_step };
         let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let arms = [1.0, 1.0, radius];
-        let forces = (0..3).map(|k| missed(&|c| c.forces[k]).abs() / (load * arms[k]));
-        let mut error = forces.fold(0.0, f64::max);
+        let flies = !touching(from) && !touching(to);
+        let force = |k: usize| match flies && !to.prescribed[k] {
+            true => missed(&|c| c.resisting[k]).abs() / (AIRBORNE * load * arms[k]),
+            false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
+        };
+        let mut error = (0..3).map(force).fold(0.0, f64::max);
+        if flies {
+            error = error.max(missed(&|c| c.damper).abs() / load);
+        }
         // What slip and temperature of the patch are without a patch is a convention.
         if touching(from) && touching(to) {
             let [translation, _, rotation] = to.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
@@ -87,7 +107,8 @@ impl Found {
         let (heating, molten) = (rise.abs(), hottest > bound && rise > 0.0);
         let overheats = molten && hottest - rise <= bound;
         let yields = to.contact.traction.yielding > 0.0;
-        Self { error, heating, hottest, overheats, molten, yields, first, doubled: ratio > 1.5 }
+        let strikes = touching(from) != touching(to);
+        Self { error, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
     }
 }
 
