@@ -107,8 +107,6 @@ impl Isotropic {
 /// Largest mean pressure of a plastic indentation of a half-plane over the yield strength in tension: Prandtl's `2 + π` times
 /// the yield strength in shear, which is that in tension over `√3` (von Mises) \[1].
 pub const INDENTATION: f64 = (2.0 + std::f64::consts::PI) / SQRT_3;
-/// Largest friction traction of yielding steel over its largest pressure: its yield strength in shear \[1].
-pub const SHEAR: f64 = 1.0 / (2.0 + std::f64::consts::PI);
 /// Yield strength in shear over that in tension (von Mises) \[1].
 pub const YIELD_IN_SHEAR: f64 = 1.0 / SQRT_3;
 const SQRT_3: f64 = 1.732_050_807_568_877_2;

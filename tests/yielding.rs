@@ -53,7 +53,10 @@ fn an_indented_line_contact_bears_the_plastic_pressure_and_keeps_its_flattening(
     let (strength, width) = (200e6, 0.014);
     let mut means = Vec::new();
     for elements in [10, 20] {
-        let model = model(standing(strength, elements));
+        let mut config = standing(strength, elements);
+        // Prandtl's punch bears no shear; a contact that sticks bears a little, and that lowers its limit (`sheared_steel`).
+        config.friction.coefficient = 0.0;
+        let model = model(config);
         let mut inputs = locked(&model);
         inputs.drive.load = 2e4;
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
@@ -179,7 +182,8 @@ fn a_flattened_wheel_sinks_with_every_turn_and_rolls_without_loss() {
     println!("flattening {:.2} um, the wheel sinks by {:.2?} um", 1e6 * flat, depths.map(|d| 1e6 * d));
     assert!(depths.iter().all(|d| *d > 0.3 * flat && *d < 2.0 * flat), "{depths:?} {flat}");
     assert!((depths[0] / depths[1] - 1.0).abs() < 0.05);
-    assert_eq!(outputs.flattening, flat);
+    // Slow as it is, the shear of rolling deepens the flat by 7e-5.
+    assert!((outputs.flattening / flat - 1.0).abs() < 5e-4, "{} {flat}", outputs.flattening);
     let lost = (outputs.hub_work - dent.hub_work)
         - (outputs.stored_energy - dent.stored_energy)
         - (outputs.damping_energy - dent.damping_energy)

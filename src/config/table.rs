@@ -174,8 +174,8 @@ parameters! {
             1071 thermal_expansion: bool = true, "Thermal expansion and stress act back on the contact";
             1072 thermoelastic_heating: bool = false, "Reversible (Gough-Joule) heating of compressed material";
             1073 yielding: bool = true,
-                "Steel yields: the pressure stays below 2.97 times the yield strength, what it cannot carry flattens the \
-                 surface for good";
+                "Steel yields: the pressure stays below 2.97 times the yield strength, less under the friction of a locked wheel, what it \
+                 cannot carry flattens the surface for good";
         }
         /// Layout of the graded meshes.
         mesh: MeshParameters fixed {

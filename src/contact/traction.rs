@@ -75,6 +75,11 @@ impl Traction {
         hull(&self.patches)
     }
 
+    /// Friction force on the wheel [N/m]: what acts along the round wheel and the plane rail, slopes of the rail apart.
+    pub fn friction_force(&self) -> f64 {
+        self.port_forces.iter().step_by(2).sum()
+    }
+
     /// Half of the distance between the outermost contact edges \[m]; zero without contact.
     pub fn half_width(&self) -> f64 {
         hull(&self.edges).map_or(0.0, |edges| 0.5 * (edges.high - edges.low))

@@ -2,13 +2,15 @@
 
 use super::bodies::Operators;
 use super::error::StepError;
+use super::standing;
 use super::state::{State, ThermalDeformation, Weakening};
 use crate::config::{Config, Tuning};
+use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, LateLayer,
-    Limits, Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces,
+    Limits, Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces, Traction,
 };
-use crate::material::{INDENTATION, SHEAR, YIELD_IN_SHEAR};
+use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
@@ -79,6 +81,13 @@ impl ContactModel {
         }
     }
 
+    /// How far the material of one of the bodies stands under the patch of a `traction` while the hub moves with the `velocities` V
+    /// [m/s] and Ω [rad/s], in steps of `duration` \[s] \[1].
+    fn standing(&self, [velocity, omega]: [f64; 2], duration: f64, traction: &Traction) -> f64 {
+        let slowest = traction.extent().map_or(0.0, |patch| standing::slowest(patch, duration));
+        standing::share(velocity, slowest).max(standing::share(omega * self.surfaces.radius, slowest))
+    }
+
     /// Smallest pressure under which the steel of the present contact would yield, and the smallest that is used \[Pa]; zero
     /// and zero while nothing yields.
     pub fn softest(&self, state: &State) -> [f64; 2] {
@@ -87,7 +96,9 @@ impl ContactModel {
         let strength = &state.weakening().strength;
         let within = strength.x.iter().zip(&strength.value).filter(|(x, _)| **x > patch.low && **x < patch.high);
         let share = within.map(|(_, share)| *share).fold(1.0, f64::min);
-        [self.yield_pressure * share, self.least_pressure(traction.resultant[1])]
+        let standing = self.standing([state.motion.velocity.now, state.motion.omega.now], state.last_step, traction);
+        let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction);
+        [softest, self.least_pressure(traction.resultant[1])]
     }
 
     /// Pressure \[Pa] under which the line load of a contact \[N/m] spreads over most of the zone.
@@ -147,7 +158,7 @@ impl ContactModel {
             limits: Limits {
                 pressure: self.yield_pressure,
                 least: self.least_pressure(start.traction.resultant[1]),
-                shear: SHEAR,
+                sheared: self.standing([step.rigid[0].start(), step.rigid[2].start()], step.duration, &start.traction),
                 softened: &step.weakening.strength,
                 film: &step.weakening.film,
             },

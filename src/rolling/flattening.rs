@@ -5,12 +5,11 @@
 //! back at the trailing one, and since its volume stays, a dent all around the wheel is none.
 
 use super::model::Model;
+use super::standing;
 use super::state::State;
 use crate::contact::Flattening;
 use crate::piecewise::Interval;
 
-/// Time in which material has to pass the contact so that it keeps no dent [s].
-const PASSING: f64 = 0.01;
 /// Difference of the mean temperatures of wheel and rail above which only the warmer body gives way [K].
 const WARMER: f64 = 1.0;
 
@@ -31,7 +30,7 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     }
     let traction = &next.contact.traction;
     let Some(patch) = traction.extent().filter(|_| !traction.overlap.is_empty()) else { return };
-    let stands = standing(model, next, patch);
+    let stands = bodies_that_stand(model, next, patch);
     if stands == [false; 2] {
         return;
     }
@@ -59,13 +58,13 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
 
 /// Whether the contact of a state stays so long on the material of wheel and rail that it leaves its mark there.
 pub fn stands(model: &Model, state: &State) -> [bool; 2] {
-    state.contact.traction.extent().map_or([false; 2], |patch| standing(model, state, patch))
+    state.contact.traction.extent().map_or([false; 2], |patch| bodies_that_stand(model, state, patch))
 }
 
 /// The same for a patch.
-fn standing(model: &Model, state: &State, patch: Interval) -> [bool; 2] {
+fn bodies_that_stand(model: &Model, state: &State, patch: Interval) -> [bool; 2] {
     let (velocity, omega) = (state.motion.velocity.now, state.motion.omega.now);
-    let slowest = (patch.high - patch.low) / PASSING.max(state.last_step);
+    let slowest = standing::slowest(patch, state.last_step);
     [omega * model.contact.surfaces.radius, velocity].map(|speed| speed.abs() < slowest)
 }
 

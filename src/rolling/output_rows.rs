@@ -129,13 +129,14 @@ outputs! {
     306 contact_adhesion: real "contact.adhesion", in "1", nominal 0.1,
         "Adhesion contact.force_x / contact.force_y; 0 without contact";
     307 contact_utilisation: real "contact.utilisation", in "1" as "%", from 0.0,
-        "Share of the friction limit in use, |contact.force_x| / (mu contact.force_y)";
+        "Share of the friction limit in use: friction force over contact.friction contact.force_y. The friction force is the amount of \
+         contact.force_x without what pressure on slopes of the rail adds";
     308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0,
         "Sticking share of the contact width";
     309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
         "Half the distance between the outermost contact edges";
     310 contact_pressure_max: real "contact.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
-        "Peak contact pressure";
+        "Largest contact pressure: the peak between the nodes of the contact where they show one, and nowhere less than at a node";
     311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,
         "Approach of hub and rail base since just touching, pressed positive: rail.elevation - hub.height";
     314 contact_force_min: real "contact.force_y_min", in "N" as "kN", nominal 1e5,
@@ -258,7 +259,8 @@ outputs! {
     713 melted: real "damage.melted", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
         "Largest thickness of molten steel below the surface of wheel or rail so far";
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
-        "Heat balance since the start: unaccounted heat over heat supplied";
+        "Heat balance since the start: unaccounted heat over all heat that has flowed, from sources and from warm places to cold ones; \
+         0 where none has";
     714 surface_fatigue: real "damage.fi_surf", in "1", from -1.0, nominal 0.1,
         "Surface fatigue index: |contact.force_x| / contact.force_y less the yield strength in shear over contact.pressure_max; \
          fatigue of the surface is to be expected where it is positive; -1 without contact";

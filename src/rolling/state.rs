@@ -188,10 +188,10 @@ pub struct ThermalState {
     pub surface: [Vec<f64>; 2],
     /// What the hot material has gone through.
     pub damage: Damage,
-    /// Heat put in since the start [J/m].
-    pub supplied: f64,
-    /// Heat passed on or stored since the start [J/m]; its difference to the heat put in is the imbalance.
-    pub received: f64,
+    /// Heat put in less heat passed on or stored since the start [J/m].
+    pub unaccounted: f64,
+    /// Heat that has gone from one place to another since the start [J/m].
+    pub turned_over: f64,
     /// How the heat deforms the bodies.
     pub deformation: ThermalDeformation,
     /// What the heat leaves of their strength.

@@ -209,13 +209,6 @@ impl Iterate<'_> {
         self.support() || changed || braked
     }
 
-    /// Whether the steel at a node yields: where it bears more than its limit.
-    fn yields(&self, i: usize, tolerance: f64) -> bool {
-        let Some(limit) = self.scratch.limit.get(i) else { return false };
-        let excess = self.normal(i) - limit;
-        if excess.abs() <= tolerance { self.state.yielded[i] } else { excess > 0.0 }
-    }
-
     /// State of a node that has stuck: it slips where friction cannot hold it.
     fn stuck_state(&self, i: usize, tolerance: f64) -> Status {
         let (t, n, friction) = (self.tangential(i), self.normal(i), self.coefficient(i));

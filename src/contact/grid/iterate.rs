@@ -28,12 +28,14 @@ pub struct GridScratch {
     pub(super) closed: Vec<usize>,
     /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks [1].
     pub(super) friction: Vec<f64>,
+    /// Yield strength in shear at the candidates [N/m]; empty: steel does not yield.
+    pub(super) strength: Vec<f64>,
     /// Normal force at the candidates above which steel yields [N/m]; empty: it does not.
     pub(super) limit: Vec<f64>,
+    /// Normal forces at the start [N/m]; empty: nothing yields.
+    pub(super) pressed: Vec<f64>,
     /// Share of the friction coefficient at the candidates where the surface melts [1]; empty: all of it everywhere.
     pub(super) film: Vec<f64>,
-    /// How far the candidates were from elastic to plastic friction at the start \[1]; empty: nothing yields.
-    pub(super) plastic: Vec<f64>,
     /// Depth by which yielding nodes have given way in the step; zero elsewhere [m].
     pub(super) overlap: Vec<f64>,
     /// Slope of the depth by which the rail lies below its plane, at the candidates [1]; empty without any.
@@ -122,11 +124,6 @@ pub(super) struct AffineTurn {
 /// for the start does not leap from patch to patch. The first steps of the run give the steel time to yield in full.
 const SOFTER: f64 = 100.0;
 
-/// Share of its largest pressure from which on a node goes over to the friction of yielding steel, which it has reached at the
-/// largest pressure \[1]. A node at the limit yields in one step, and in the next one its dent keeps it below: with a friction
-/// that jumped, force and temperature jumped from step to step.
-pub(super) const NEARLY_PLASTIC: f64 = 0.9;
-
 /// One contact problem on its way to the solution: `state` and `traction` (port forces, surface displacements and rigid
 /// motions) hold the present iterate.
 pub(super) struct Iterate<'a> {
@@ -163,14 +160,6 @@ impl Iterate<'_> {
         } else {
             SOFTER * self.problem.bodies.relative[(port, port)]
         }
-    }
-
-    /// Friction force that candidate `i` can bear over its normal force [1].
-    pub fn coefficient(&self, i: usize) -> f64 {
-        let film = self.scratch.film.get(i).copied().unwrap_or(1.0);
-        let coefficient = film * self.traction.friction;
-        let excess = (coefficient - self.problem.limits.shear).max(0.0);
-        self.scratch.plastic.get(i).map_or(coefficient, |plastic| coefficient - plastic * excess)
     }
 
     /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the turn against it.

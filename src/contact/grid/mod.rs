@@ -2,7 +2,7 @@
 //!
 //! [`rows`] writes gap, slip and balance as rows of a linear system, [`streamline`] gives the slip its upwind
 //! differences, [`slopes`] sees what the pressure pushes against, [`frame`] turns with the rim, [`active_set`] finds the states of the nodes and [`linear`] the forces that belong to them, on a single patch [`by_turns`], while [`foresight`] guesses the states where surfaces are uneven, [`brake`] those of brakes, [`kernel`] corrects the
-//! compliance at grid scale, [`observe`] reads the traction off the solution, [`power`] balances its power, and [`zone`] watches the ends of the grid. Theory: `docs/theory/contact.md`.
+//! compliance at grid scale, [`observe`] reads the traction off the solution, [`strength`] limits the forces to what steel bears, [`power`] balances its power, and [`zone`] watches the ends of the grid. Theory: `docs/theory/contact.md`.
 
 mod active_set;
 mod brake;
@@ -25,6 +25,7 @@ mod slopes;
 mod solver;
 pub(super) mod state;
 pub mod streamline;
+mod strength;
 mod turns;
 mod zone;
 

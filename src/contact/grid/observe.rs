@@ -41,7 +41,7 @@ pub fn read_off(
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
     let normal = |i: usize| forces[grid.port(i) + 1];
-    traction.pressure_max = pressure_peak(grid, normal).min(limit);
+    traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
     traction.patches.clear();
     let (mut length, mut stuck) = (0.0, 0.0);
@@ -172,17 +172,21 @@ fn over_patches(
     });
 }
 
-/// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one: for the elliptic
-/// pressure of a Hertzian patch it is exact, for a skewed one it sees the surroundings of the peak only.
-fn pressure_peak(grid: &ContactGrid, normal: impl Fn(usize) -> f64) -> f64 {
+/// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one, at most the `limit`: for
+/// the elliptic pressure of a Hertzian patch it is exact. Where the largest pressure is a node's, it is that: where steel `yields`
+/// pressures follow its strength from node to node, and a parabola through a skewed peak passes below it.
+fn pressure_peak(grid: &ContactGrid, yields: &[bool], normal: impl Fn(usize) -> f64, limit: f64) -> f64 {
     let pressure = |i: usize| normal(i) / grid.width(i);
     let Some(top) = (0..grid.len()).max_by(|&a, &b| pressure(a).total_cmp(&pressure(b))) else { return 0.0 };
     let peak = pressure(top).max(0.0);
     let beside = |i: usize| (pressure(i) > PEAK * peak || i.abs_diff(top) <= 1) && pressure(i) > 0.0;
     let first = (0..top).rev().take_while(|&i| beside(i)).last().unwrap_or(top);
     let last = (top + 1..grid.len()).take_while(|&i| beside(i)).last().unwrap_or(top);
+    if yields.contains(&true) {
+        return peak;
+    }
     let samples = (first..=last).map(|i| ((grid.x[i] - grid.x[top]) / grid.spacing, pressure(i).powi(2)));
-    parabola_peak(samples).map_or(peak, f64::sqrt)
+    parabola_peak(samples).map_or(peak, |squared| squared.sqrt().min(limit).max(peak))
 }
 
 /// Maximum of the least-squares parabola through `(x, y)` if it lies between them.

@@ -1,7 +1,7 @@
 //! Gap, slip and balances of momentum as rows of a linear system in contact forces and rigid motions.
 
 use super::frame::RimFrame;
-use super::iterate::{GridScratch, Iterate, NEARLY_PLASTIC, copy};
+use super::iterate::{GridScratch, Iterate, copy};
 use super::observe;
 use super::slopes::Slopes;
 use super::streamline::Upwind;
@@ -202,31 +202,9 @@ impl Iterate<'_> {
         self.scratch.row.resize(grid.ports(), 0.0);
         self.scratch.overlap.clear();
         self.scratch.overlap.resize(grid.len(), 0.0);
-        self.limit();
+        self.find_strength();
         self.carve();
         self.scratch.centred_slip.resize(grid.len(), 0.0);
-    }
-
-    /// Largest normal forces and molten films at the candidates, and how plastic they were at the start.
-    fn limit(&mut self) {
-        let (grid, limits, forces) = (self.grid, &self.problem.limits, &self.traction.port_forces);
-        let GridScratch { limit, film, plastic, .. } = &mut *self.scratch;
-        limit.clear();
-        if limits.is_limited() {
-            limit.extend(grid.x.iter().enumerate().map(|(i, &x)| grid.width(i) * limits.pressure_at(x)));
-        }
-        plastic.clear();
-        plastic.extend(limit.iter().enumerate().map(|(i, limit)| {
-            let load = forces[grid.port(i) + 1] / limit;
-            ((load - NEARLY_PLASTIC) / (1.0 - NEARLY_PLASTIC)).clamp(0.0, 1.0)
-        }));
-        film.clear();
-        if !limits.film.is_empty() {
-            film.extend(grid.x.iter().map(|&x| limits.film_at(x)));
-        }
-        if limit.is_empty() {
-            self.state.yielded.fill(false);
-        }
     }
 
     /// Adds what wheel and rail lack from circle and plane to the gap, and takes the slope of the rail.

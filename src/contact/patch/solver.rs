@@ -78,10 +78,12 @@ impl PatchSolver {
     /// Refuses a solution under which steel yields.
     fn check_limits(problem: &ContactProblem, traction: &Traction) -> Result<(), ContactError> {
         let limits = &problem.limits;
-        let yields = |(x, p): (&f64, &f64)| *p > limits.pressure_at(*x);
+        // Where it sticks friction shears the steel less; that is for the grid to find out.
+        let bears = |x: f64| limits.sheared_at(x, traction.friction);
+        let yields = |(x, p): (&f64, &f64)| *p > bears(*x);
         let pressure = &traction.pressure;
         let any = limits.is_limited()
-            && (traction.pressure_max > limits.pressure_at(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
+            && (traction.pressure_max > bears(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
         if any { Err(ContactError::Unsuited { reason: "steel yields" }) } else { Ok(()) }
     }
 }

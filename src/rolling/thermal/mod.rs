@@ -230,8 +230,9 @@ impl ThermalModel {
         if hottest > SOFTENS {
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));
         }
-        thermal.supplied = before.supplied + dt * supplied(&thermal.flows);
-        thermal.received = before.received + dt * received(&thermal.flows);
+        let [sum, amount] = balance(&thermal.flows);
+        thermal.unaccounted = before.unaccounted + dt * sum;
+        thermal.turned_over = before.turned_over + dt * amount;
         Ok(thermal)
     }
 
@@ -314,12 +315,12 @@ impl ThermalModel {
     }
 }
 
-/// Heat put in [W/m].
-fn supplied(flows: &HeatFlows) -> f64 {
-    flows.friction + flows.tread
-}
-
-/// Heat passed on or stored [W/m].
-fn received(flows: &HeatFlows) -> f64 {
-    flows.stored_wheel + flows.stored_rail + flows.to_hub + flows.outflow + flows.wheel_to_air + flows.rail_to_air
+/// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: what is put in arrives, what one
+/// body loses another place gains, so that each is counted at both of its ends.
+fn balance(flows: &HeatFlows) -> [f64; 2] {
+    let sources = [flows.friction, flows.tread];
+    let HeatFlows { stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air, .. } = *flows;
+    let sinks = [stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air];
+    let amount: f64 = sources.iter().chain(&sinks).map(|flow| flow.abs()).sum();
+    [sources.iter().sum::<f64>() - sinks.iter().sum::<f64>(), 0.5 * amount]
 }
