@@ -2,12 +2,14 @@
 //!
 //! Every refused call leaves the instance as it was, so a master may report the error and go on.
 
+pub mod aside;
 pub mod derivatives;
 mod experiment;
 mod running;
 mod saving;
 mod values;
 
+use self::aside::Aside;
 use super::lifecycle::{Call, Phase};
 use super::log::{CallError, Log, Status};
 use super::presets;
@@ -28,6 +30,8 @@ const STOP_TOLERANCE: f64 = 0.1;
 /// A slave between `fmi2Instantiate` and `fmi2FreeInstance`.
 pub struct Instance {
     log: Log,
+    /// Where long computations run.
+    aside: Aside,
     resources: Option<PathBuf>,
     phase: Phase,
     preset: String,
@@ -67,6 +71,7 @@ impl Instance {
         let base = presets::load(resources.as_deref(), presets::DEFAULT).map_err(CallError::error)?;
         Ok(Instance {
             log,
+            aside: aside::here,
             resources,
             phase: Phase::Instantiated,
             preset: presets::DEFAULT.to_owned(),
@@ -86,6 +91,11 @@ impl Instance {
             hopeless: false,
             warned: Vec::new(),
         })
+    }
+
+    /// Long computations run there from now on.
+    pub fn compute_on(&mut self, aside: Aside) {
+        self.aside = aside;
     }
 
     /// Where messages go.
@@ -212,7 +222,7 @@ impl Instance {
         let inputs = self.effective_inputs();
         let end = inputs.at(h);
         end.validate().map_err(|error| CallError::error(format!("at the end of the step {error}")))?;
-        match self.simulation()?.advance(&inputs, h) {
+        match self.compute(|simulation| simulation.advance(&inputs, h))? {
             Ok(()) => {
                 self.hold(end);
                 self.time = start + h;

@@ -60,7 +60,10 @@ impl Arguments {
             None
         });
         let resources = resources(location, &log);
-        Instance::new(resources, log)
+        let mut instance = Instance::new(resources, log)?;
+        #[cfg(unix)]
+        instance.compute_on(super::aside::beside);
+        Ok(instance)
     }
 }
 

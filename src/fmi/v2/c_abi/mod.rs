@@ -8,6 +8,8 @@
 
 #![allow(unsafe_code, non_snake_case, clippy::missing_safety_doc)]
 
+#[cfg(unix)]
+mod aside;
 mod component;
 mod instantiate;
 mod logger;
