@@ -159,7 +159,7 @@ impl Instance {
     /// Ends Initialization Mode. If parameters and inputs do not go together, it stays, so that they can be corrected.
     pub fn exit_initialization(&mut self) -> Outcome {
         self.allow(Call::ExitInitializationMode)?;
-        self.file_to_save()?;
+        Self::try_to_save(&self.config)?;
         self.simulation()?;
         self.phase = Phase::StepComplete;
         self.warn_of_limits();

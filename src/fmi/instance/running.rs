@@ -2,7 +2,7 @@
 
 use super::aside::{self, Report};
 use super::{Instance, Outcome};
-use crate::config::{Config, Response};
+use crate::config::{Config, Files, Response};
 use crate::fmi::lifecycle::Call;
 use crate::fmi::log::{CallError, Status};
 use crate::fmi::settings::with_parameters;
@@ -162,9 +162,12 @@ impl Instance {
                 last = (what.to_owned(), share);
             }
         };
+        // Wheels that leave different files behind share a model.
+        let config = Config { files: Files::default(), ..config };
         let store = BasisStore::of_user().with_packed(self.resources.as_deref());
         let failed = |error| CallError::error(advice::failed_preparation(&error, &config));
-        let prepare = |report: &mut Report| Model::shared(config.clone(), &store, &mut |what, share| report(what, share));
+        let prepare =
+            |report: &mut Report| Model::shared(config.clone(), &store, &mut |what, share| report(what, share));
         let model = aside::run(self.aside, &mut progress, prepare)?.map_err(failed)?;
         if let Some(why) = model.not_kept() {
             self.log.report(Status::Warning, why);

@@ -113,7 +113,9 @@ mod tests {
             heard.push((what.to_owned(), share));
         });
         assert!(worker.is_some_and(|worker| worker != caller));
-        assert!(heard.iter().map(|(what, share)| (what.as_str(), *share)).eq((0..100).map(|i| ("count", f64::from(i)))));
+        assert!(
+            heard.iter().map(|(what, share)| (what.as_str(), *share)).eq((0..100).map(|i| ("count", f64::from(i))))
+        );
     }
 
     #[test]
