@@ -86,7 +86,7 @@ impl Page {
     pub fn title(&self) -> String {
         let heading = |event: &Event| matches!(event, Event::End(TagEnd::Heading(HeadingLevel::H1)));
         let text = |event| match event {
-            Event::Text(text) | Event::Code(text) => Some(text),
+            Event::Text(text) | Event::Code(text) => Some(text.into_string()),
             _ => None,
         };
         Parser::new(self.text).take_while(|event| !heading(event)).filter_map(text).collect()
