@@ -52,7 +52,10 @@ fn file(page: &str, target: &str) -> String {
     let mut parts: Vec<&str> = page.split('/').collect();
     parts.pop();
     for part in target.split('/') {
-        if part == ".." { drop(parts.pop().expect("a link out of the documentation")) } else { parts.push(part) }
+        match part {
+            ".." => assert!(parts.pop().is_some(), "{page}: {target} leads out of the documentation"),
+            part => parts.push(part),
+        }
     }
     parts.join("/")
 }

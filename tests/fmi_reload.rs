@@ -97,14 +97,14 @@ fn the_library_comes_and_goes_a_hundred_times() {
     let mut config = common::preset("railway", 4);
     (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     common::model(config);
-    let expected = load_run_unload(Slave::coarsen);
+    let expected = load_run_unload(|slave| slave.coarsen());
     // A region that the operating system turns into one page of two megabytes would look like memory lost.
     const PR_SET_THP_DISABLE: i32 = 41;
     // SAFETY: this option reads its first argument only and changes no memory.
     assert_eq!(unsafe { prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) }, 0);
     let mut memory = Vec::new();
     for round in 0..=100 {
-        assert_eq!(load_run_unload(Slave::coarsen), expected, "round {round}");
+        assert_eq!(load_run_unload(|slave| slave.coarsen()), expected, "round {round}");
         assert!(!mapped(), "round {round}");
         if round % 10 == 0 {
             memory.push(resident());
