@@ -5,7 +5,7 @@
 //! library would wait for its own main thread. So preparations, and the steps of bodies that factorise matrices in each of
 //! them, run beside the thread of the master.
 
-use super::{CallError, Outcome};
+use crate::fmi::log::CallError;
 
 /// Progress of a computation: what is being computed, and its share done.
 pub type Report<'a> = dyn FnMut(&str, f64) + 'a;
@@ -24,7 +24,7 @@ pub(super) fn run<R: Send>(
     aside: Aside,
     listener: &mut Report,
     work: impl FnOnce(&mut Report) -> R + Send,
-) -> Outcome<R> {
+) -> Result<R, CallError> {
     let (mut work, mut result) = (Some(work), None);
     aside(&mut |report| result = work.take().map(|work| work(report)), listener);
     result.ok_or_else(|| CallError::error("the computation was not carried out"))
