@@ -40,6 +40,7 @@
 //! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula](../../../docs/theory/time-formula.md) |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
+//! | [`files`] | reading of regular files of bounded size | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
 //! | [`mechanics`] | elasticity and convection; full and reduced bodies behind [`mechanics::BodyResponse`] | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md), [rail-ends](../../../docs/theory/rail-ends.md) |
@@ -61,6 +62,7 @@ pub mod config;
 pub mod contact;
 pub mod damage;
 pub mod fem;
+pub mod files;
 pub mod fmi;
 pub mod heat;
 pub mod linalg;

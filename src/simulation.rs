@@ -130,7 +130,7 @@ impl Model {
     /// Whether the model serves a configuration: all but the tunable parameters are equal.
     pub fn serves(&self, config: &Config) -> bool {
         let ours = self.config();
-        *ours == Config { tuning: ours.tuning.clone(), ..config.clone() }
+        *ours == config.tuned_like(ours)
     }
 
     /// Parameters of the model.

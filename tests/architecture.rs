@@ -16,11 +16,12 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("material", &["config", "analytic", "piecewise"]),
     ("multistep", &["config"]),
     ("piecewise", &[]),
+    ("files", &[]),
     ("linalg", &[]),
     ("fem", &["linalg"]),
     ("mechanics", &["surface", "fem", "linalg", "multistep", "config", "analytic", "material"]),
     ("heat", &["fem", "linalg", "config", "piecewise"]),
-    ("surface", &["config", "piecewise"]),
+    ("surface", &["config", "files", "piecewise"]),
     ("contact", &["linalg", "multistep", "piecewise"]),
     ("damage", &["fem"]),
     (
@@ -38,10 +39,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "surface",
         ],
     ),
-    ("simulation", &["material", "rolling", "mechanics", "heat", "fem", "linalg", "config"]),
+    ("simulation", &["material", "rolling", "mechanics", "heat", "fem", "files", "linalg", "config"]),
     ("wheels", &["simulation"]),
-    ("fmi", &["simulation", "config"]),
-    ("cli", &["fmi", "simulation", "analytic", "config", "piecewise"]),
+    ("fmi", &["simulation", "config", "files"]),
+    ("cli", &["fmi", "simulation", "analytic", "config", "files", "piecewise"]),
     ("main", &["cli"]),
 ];
 

@@ -65,12 +65,22 @@ fn files_named_in_documents_exist() {
 }
 
 #[test]
-fn files_that_the_recipe_for_hosted_runners_uses_exist() {
-    let text = fs::read_to_string(root().join(".github/workflows/fmu.yml")).unwrap();
-    let used: Vec<&str> = text.split_whitespace().filter(|w| is_path(w) || w.starts_with("requirements")).collect();
-    assert!(used.len() > 3, "{used:?}");
-    let missing: Vec<_> = used.into_iter().filter(|path| !root().join(path).exists()).collect();
-    assert!(missing.is_empty(), "{missing:?}");
+fn files_and_targets_of_make_that_the_recipes_for_hosted_runners_use_exist() {
+    let makefile = fs::read_to_string(root().join("Makefile")).unwrap();
+    let (mut used, mut missing) = (0, Vec::new());
+    for entry in fs::read_dir(root().join(".github/workflows")).unwrap() {
+        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+        let paths = text.split_whitespace().filter(|w| is_path(w) || w.starts_with("requirements"));
+        for path in paths.map(|path| path.trim_end_matches(['.', ',', ')'])) {
+            used += 1;
+            missing.extend((!root().join(path).exists()).then(|| path.to_owned()));
+        }
+        for target in text.split("run: make ").skip(1).filter_map(|rest| rest.split_whitespace().next()) {
+            used += 1;
+            missing.extend((!makefile.contains(&format!("\n{target}:"))).then(|| format!("make {target}")));
+        }
+    }
+    assert!(used > 5 && missing.is_empty(), "{used} {missing:?}");
 }
 
 #[test]

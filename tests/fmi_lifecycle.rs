@@ -413,3 +413,27 @@ fn tunable_parameters_change_between_steps_and_survive_save_and_restore() {
     assert_eq!(slave.free_state(&mut state), fmi2OK);
     assert_eq!(slave.free_state(&mut tuned_state), fmi2OK);
 }
+
+#[test]
+fn instances_that_are_freed_or_made_up_are_refused_and_never_followed() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    let freed = {
+        let other = Slave::coarse(&dll);
+        other.component
+    };
+    // Within the memory of one that lives, but not its address, and addresses at which nothing can be read.
+    let inside = slave.component.wrapping_byte_add(8);
+    for component in [freed, inside, ptr::without_provenance_mut(0x10), ptr::without_provenance_mut(usize::MAX - 7)] {
+        let (reference, mut value) = (variable("wheel.velocity").reference, f64::NAN);
+        // SAFETY: what is under test: a component that is none is not followed.
+        unsafe {
+            assert_eq!(dll.fmi2DoStep(component, 0.0, 1e-3, 1), fmi2Error);
+            assert_eq!(dll.fmi2GetReal(component, &reference, 1, &mut value), fmi2Error);
+            assert_eq!(dll.fmi2Reset(component), fmi2Error);
+            dll.fmi2FreeInstance(component);
+        }
+        assert!(value.is_nan());
+    }
+    assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+}

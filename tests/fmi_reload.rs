@@ -5,6 +5,7 @@
 mod common;
 mod slave;
 use slave::*;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Largest memory that a load, run and unload may leave behind on average [kB]. Statics own no heap, so that nothing is lost
 /// with them (measured 0.6 kB, in the first rounds only).
@@ -27,30 +28,83 @@ fn mapped() -> bool {
     maps.contains(library().to_str().unwrap())
 }
 
-/// Bits of a short run in a library that is loaded for it.
-fn load_run_unload() -> Vec<Vec<u64>> {
+/// Bits of a short run in a library that is loaded for it, of a wheel that is set up as asked for.
+fn load_run_unload(settings: impl Fn(&Slave)) -> Vec<Vec<u64>> {
     let dll = load();
     assert!(mapped());
     let arguments = Arguments { resources: Some(STORED_BASES), ..Default::default() };
     let slave = Slave::try_new(&dll, &arguments).unwrap_or_else(|messages| panic!("{messages:?}"));
-    slave.coarsen();
+    settings(&slave);
     slave.initialize();
     slave.brake(0)
 }
 
+/// Tests of a mapping that belongs to the whole process, one after the other.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Runs in a process of its own, whose cache is empty: see the next test.
+#[test]
+#[ignore = "called by the_library_goes_whatever_was_computed_in_it"]
+fn compute_and_unload() {
+    assert_eq!(std::env::var("WHEELRAIL_CACHE").as_deref(), Ok(""));
+    const FULL: i32 = 2;
+    let cases: [(&str, &dyn Fn(&Slave)); 4] = [
+        ("bases computed, on threads", &|slave| slave.coarsen()),
+        ("a patch of many nodes, whose system is solved at once", &|slave| {
+            assert_eq!(slave.set_integer("mesh.elements_per_half_width", 12), fmi2OK);
+            assert_eq!(slave.set_integer("solver.modes_wheel", 6), fmi2OK);
+            assert_eq!(slave.set_integer("solver.modes_rail", 4), fmi2OK);
+        }),
+        ("matrices factorised in steps", &|slave| {
+            slave.coarsen();
+            assert_eq!(slave.set_integer("solver.response", FULL), fmi2OK);
+        }),
+        ("two patches", &|slave| {
+            slave.coarsen();
+            let hole = "hole(position = 0, length = 0.004, depth = 0.001)";
+            assert_eq!(slave.set_string("rail.profile", hole), fmi2OK);
+        }),
+    ];
+    for (what, settings) in cases {
+        load_run_unload(settings);
+        assert!(!mapped(), "{what}");
+        // A thread that goes after the library it has used: nothing is called in a library that is gone.
+        std::thread::scope(|scope| {
+            scope.spawn(|| drop(load_run_unload(|slave| slave.coarsen())));
+        });
+        assert!(!mapped(), "{what}, on another thread");
+    }
+}
+
+#[test]
+fn the_library_goes_whatever_was_computed_in_it() {
+    let _alone = alone();
+    let output = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "compute_and_unload", "--ignored", "--nocapture"])
+        .env("WHEELRAIL_CACHE", "")
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && text.contains("1 passed"), "{text}{}", String::from_utf8_lossy(&output.stderr));
+}
+
 #[test]
 fn the_library_comes_and_goes_a_hundred_times() {
+    let _alone = alone();
     let mut config = common::preset("railway", 4);
     (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     common::model(config);
-    let expected = load_run_unload();
+    let expected = load_run_unload(|slave| slave.coarsen());
     // A region that the operating system turns into one page of two megabytes would look like memory lost.
     const PR_SET_THP_DISABLE: i32 = 41;
     // SAFETY: this option reads its first argument only and changes no memory.
     assert_eq!(unsafe { prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) }, 0);
     let mut memory = Vec::new();
     for round in 0..=100 {
-        assert_eq!(load_run_unload(), expected, "round {round}");
+        assert_eq!(load_run_unload(|slave| slave.coarsen()), expected, "round {round}");
         assert!(!mapped(), "round {round}");
         if round % 10 == 0 {
             memory.push(resident());

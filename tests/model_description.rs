@@ -94,7 +94,7 @@ fn every_preset_is_valid() {
 }
 
 /// Every field of the configuration is a parameter of the interface and has its name there; tunable ones are together in
-/// `tuning` and keep the group of their name.
+/// `tuning`, or in `files` if no result depends on them, and keep the group of their name.
 #[test]
 fn parameters_are_the_fields_of_the_configuration() {
     let json = serde_json::to_value(Config::default()).unwrap();
@@ -104,6 +104,7 @@ fn parameters_are_the_fields_of_the_configuration() {
     }
     fields.push("preset".to_owned());
     let group = |v: &'static Variable| match v.name.split_once('.') {
+        Some(_) if v.name == "wheel.profile_save" => "files",
         Some(_) if v.tunable => "tuning",
         Some((group, _)) => group,
         None => "",

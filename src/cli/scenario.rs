@@ -2,10 +2,10 @@
 
 use super::Failure;
 use super::setting::{find, parse};
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use wheelrail::config::display_number;
+use wheelrail::files;
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
 use wheelrail::piecewise::between;
 
@@ -40,8 +40,8 @@ impl Scenario {
     /// Reads a file with the column `time` [s] and columns named after inputs.
     pub fn read(path: &Path) -> Result<Scenario, Failure> {
         let wrong = |why: String| Failure::Usage(format!("scenario {}: {why}", path.display()));
-        let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
-        Scenario::parse(file).map_err(wrong)
+        let text = files::read_text(path).map_err(|error| wrong(error.to_string()))?;
+        Scenario::parse(text.as_bytes()).map_err(wrong)
     }
 
     /// Reads CSV text; an error says what is wrong in it.

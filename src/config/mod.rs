@@ -11,9 +11,9 @@ pub mod units;
 pub mod value;
 
 pub use table::{
-    BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Friction, Given, Hub, Initial,
-    Material, MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters, StartTemperature,
-    Thermal, TimeScheme, Tuning, Vehicle, Wear, Wheel,
+    BrakeParameters, ConductanceLaw, Config, ContactMethod, CrossSection, Damping, Files, Friction, Given, Hub,
+    Initial, Material, MeshParameters, ModelParameters, Physics, Rail, RailEnds, Response, SolverParameters,
+    StartTemperature, Thermal, TimeScheme, Tuning, Vehicle, Wear, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 
@@ -91,9 +91,9 @@ impl Dependent {
 }
 
 impl Config {
-    /// This configuration with the tuning of another one.
+    /// This configuration with all that may change during a run from another one.
     pub fn tuned_like(&self, other: &Config) -> Config {
-        Config { tuning: other.tuning.clone(), ..self.clone() }
+        Config { tuning: other.tuning.clone(), files: other.files.clone(), ..self.clone() }
     }
 
     /// Refuses values for which the model has no meaning; the message names parameter, value and range, and the other

@@ -247,9 +247,13 @@ parameters! {
             1162 threshold: f64 = 300.0, of "damage", in "K", from 1.0 to 1e4,
                 "Excess temperature of the tread over the wheel's mean above which a place that the contact heats in \
                  one piece is followed";
+        }
+        /// What a run leaves behind in files; no result depends on it, and no state remembers it but as a parameter that was set.
+        files: Files tunable {
             1192 profile_save: String = String::new(), of "wheel",
                 "File to which the present profile of the wheel is written when the run is terminated, for wheel.profile of \
-                 another run: its path, absolute or from the working directory; empty: none";
+                 another run: its path, absolute or from the working directory, ending in .csv; tried before the run begins, \
+                 and a file that is there stays until then; empty: none";
         }
     }
 }

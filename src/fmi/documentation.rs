@@ -1,5 +1,7 @@
-//! `documentation/index.html` of the FMU: conventions with a figure, use, and the table of variables; the theory is beside it.
+//! `documentation/index.html` of the FMU: conventions with a figure, use, the table of variables, and links to all
+//! [`pages`](super::pages).
 
+use super::pages::{Page, escaped, pages};
 use super::presets;
 use super::reference::{self, Cells};
 use super::table::{enumerations, table};
@@ -20,15 +22,20 @@ pub fn index_html() -> String {
         .replace("{guid}", &description::guid())
         .replace("{signs}", SIGNS)
         .replace("{preset}", presets::DEFAULT)
+        .replace("{theory}", &links(Page::is_theory))
+        .replace("{guides}", &links(|page| !page.is_theory()))
         .replace("{mit}", &escaped(include_str!("../../LICENSE-MIT")))
         .replace("{apache}", &escaped(include_str!("../../LICENSE-APACHE")));
     for (title, causality) in
         [("Inputs", Causality::Input), ("Outputs", Causality::Output), ("Parameters", Causality::Parameter)]
     {
-        let _ = write!(html, "<h3>{title}</h3>\n<table>\n<tr><th>name</th><th>reference</th><th>unit</th>");
+        let _ = write!(
+            html,
+            "<h3>{title}</h3>\n<div class=\"wide\"><table>\n<tr><th>name</th><th>reference</th><th>unit</th>"
+        );
         let _ = writeln!(html, "<th>range</th><th>default</th><th>meaning</th></tr>");
         table().iter().filter(|v| v.causality() == causality).for_each(|variable| row(&mut html, variable));
-        html.push_str("</table>\n");
+        html.push_str("</table></div>\n");
     }
     html.push_str(
         "<h3>Enumerations</h3>\n<table>\n<tr><th>type</th><th>value</th><th>item</th><th>meaning</th></tr>\n",
@@ -52,7 +59,8 @@ fn row(html: &mut String, variable: &Variable) {
     );
 }
 
-/// Plain text for HTML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+/// A list of links to some of the pages.
+fn links(wanted: impl Fn(&Page) -> bool) -> String {
+    let item = |page: Page| format!("<li><a href=\"{}\">{}</a></li>\n", page.file(), escaped(&page.title()));
+    format!("<ul>\n{}</ul>", pages().filter(wanted).map(item).collect::<String>())
 }

@@ -2,7 +2,7 @@
 //!
 //! `table` (every variable once) → `variables` (scalars) → `instance` (the safe slave with the rules of `lifecycle`),
 //! `snapshot` (its states as bytes) → `v2` (description, GUID and the exported C functions, the only `unsafe`) →
-//! `documentation` (HTML), `reference` (Markdown) and `package`, which zips the FMU.
+//! `documentation` and `pages` (HTML), `reference` (Markdown) and `package`, which zips the FMU.
 //!
 //! Source of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4.
 
@@ -11,6 +11,7 @@ pub mod instance;
 pub mod lifecycle;
 pub mod log;
 pub mod package;
+pub mod pages;
 pub mod presets;
 pub mod reference;
 pub mod settings;

@@ -2,7 +2,9 @@
 
 use super::MODEL_IDENTIFIER;
 use super::documentation::index_html;
+use super::pages::{PICTURES, pages};
 use super::v2::description::{Extent, model_description};
+use crate::files;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -28,8 +30,9 @@ pub struct Contents {
     pub bases: Vec<Basis>,
 }
 
-/// Files that are the same in every FMU: picture and licence texts.
-const FIXED: [(&str, &[u8]); 8] = [
+/// Files that are the same in every FMU: pictures, licence texts, style of the pages.
+const FIXED: [(&str, &[u8]); 9] = [
+    ("documentation/style.css", include_bytes!("../../docs/style.css")),
     ("model.png", include_bytes!("../../docs/model.png")),
     ("terminalsAndIcons/terminalsAndIcons.xml", include_bytes!("../../docs/terminalsAndIcons.xml")),
     ("terminalsAndIcons/icon.png", include_bytes!("../../docs/icon.png")),
@@ -38,37 +41,6 @@ const FIXED: [(&str, &[u8]); 8] = [
     ("documentation/licenses/LICENSE-APACHE", include_bytes!("../../LICENSE-APACHE")),
     ("documentation/licenses/LICENSE-MIT", include_bytes!("../../LICENSE-MIT")),
     ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../docs/LICENSE-THIRD-PARTY")),
-];
-
-/// Name and text of a page of `docs/theory`.
-macro_rules! theory {
-    ($($page:literal),* $(,)?) => {
-        [$((concat!("documentation/theory/", $page), include_bytes!(concat!("../../docs/theory/", $page)))),*]
-    };
-}
-
-/// Derivations, which the documentation links.
-const THEORY: [(&str, &[u8]); 20] = theory![
-    "README.md",
-    "ale-balance.md",
-    "condensation.md",
-    "contact.md",
-    "damping.md",
-    "edge-consistent-rows.md",
-    "equivalent-width.md",
-    "lever-arms.md",
-    "friction-and-coupling.md",
-    "heat.md",
-    "kernel-correction.md",
-    "limits-of-steel.md",
-    "material-history.md",
-    "patch-contact.md",
-    "profiles.md",
-    "rail-ends.md",
-    "time-formula.md",
-    "track-support.md",
-    "wear.md",
-    "width-of-conduction.md",
 ];
 
 /// Platforms of FMI 2.0 and the extension of their shared libraries.
@@ -202,7 +174,7 @@ fn platform_of(os: &'static str, architecture: &'static str) -> Result<&'static 
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, PackageError> {
-    fs::read(path).map_err(|source| PackageError::File { path: path.to_owned(), source })
+    files::read(path).map_err(|source| PackageError::File { path: path.to_owned(), source })
 }
 
 /// Files of a directory whose names satisfy the condition, sorted by name.
@@ -232,7 +204,9 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
         }
         entries.push((binary.entry(), binary.read()?));
     }
-    entries.extend(FIXED.into_iter().chain(THEORY).map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
+    entries.extend(FIXED.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
+    entries.extend(pages().map(|page| (format!("documentation/{}", page.file()), page.html().into_bytes())));
+    entries.extend(PICTURES.map(|(path, bytes)| (format!("documentation/{path}"), bytes.to_vec())));
     for (name, path) in files(&contents.resources, |name| name.ends_with(".json"))? {
         entries.push((format!("resources/{name}"), read(&path)?));
     }

@@ -1,8 +1,9 @@
 //! Presets: parameter sets by name.
 
 use crate::config::Config;
-use std::fs;
+use crate::files;
 use std::path::Path;
+use std::{fs, io};
 
 /// Name of the preset that holds until another is chosen.
 pub const DEFAULT: &str = "railway";
@@ -18,9 +19,10 @@ pub fn load(resources: Option<&Path>, name: &str) -> Result<Config, String> {
     if name.is_empty() || !name.chars().all(plain) {
         return unknown("is not a preset name (letters, digits, _ and -)");
     }
-    let text = match resources.map(|directory| fs::read_to_string(directory.join(format!("{name}.json")))) {
+    let text = match resources.map(|directory| files::read_text(&directory.join(format!("{name}.json")))) {
         Some(Ok(text)) => text,
-        _ if name == DEFAULT => return Ok(Config::default()),
+        Some(Err(error)) if name == DEFAULT && error.kind() == io::ErrorKind::NotFound => return Ok(Config::default()),
+        None if name == DEFAULT => return Ok(Config::default()),
         Some(Err(error)) => return unknown(&format!("cannot be read ({error})")),
         None => return unknown("is unknown because the resources of the FMU cannot be read"),
     };

@@ -2,9 +2,15 @@
 
 use super::vectorised::vectorised;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::factor;
-use faer::{MatMut, Par};
+use faer::linalg::lu::partial_pivoting::factor::{self, PartialPivLuParams};
+use faer::{Auto, MatMut, Par, Spec};
 use nalgebra::DMatrix;
+
+/// Factorises column by column, without products of blocks: those keep a buffer with a destructor in the thread that asks
+/// for them, which would hold a library of an FMU loaded as long as the thread of its master lives.
+fn by_columns() -> Spec<PartialPivLuParams, f64> {
+    Spec::new(PartialPivLuParams { recursion_threshold: usize::MAX, ..<PartialPivLuParams as Auto<f64>>::auto() })
+}
 
 /// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
 ///
@@ -52,7 +58,7 @@ impl DenseSystem {
             return true;
         }
         if self.stack.is_none() || self.prepared < n {
-            let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
+            let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, by_columns());
             self.stack = Some(MemBuffer::new(factor));
             self.prepared = n;
         }
@@ -63,7 +69,7 @@ impl DenseSystem {
         // Rows of A in memory are columns of Aᵀ, which faer factorises; A x = b is then the transposed solve.
         let transposed = MatMut::from_column_major_slice_mut(&mut self.rows, n, n);
         let (forward, inverse) = (&mut forward[..n], &mut inverse[..n]);
-        factor::lu_in_place(transposed, forward, inverse, Par::Seq, MemStack::new(stack), Default::default());
+        factor::lu_in_place(transposed, forward, inverse, Par::Seq, MemStack::new(stack), by_columns());
         (0..n).all(|i| self.rows[i * (n + 1)].is_finite())
     }
 

@@ -182,10 +182,10 @@ outputs! {
         "Vertical velocity of the hub, up positive; conjugate to hub.force_y";
     255 rail_energy: real "rail.energy_per_metre", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
         "Friction energy per metre of rail: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
-         standstill";
+         standstill. Equal to damage.t_gamma, which means it as a load on the wheel";
     256 heat_per_metre: real "rail.heat_per_metre", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
         "Heat left per metre of rail: heat.to_rail over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at standstill \
-         and where the rail gives heat to the wheel";
+         and where the rail gives heat to the wheel. Equal to damage.rail_heat";
     261 brake_moment: real "brake.torque_actual", in "N.m" as "kN.m", nominal 1e4,
         "Moment of the brake on the wheel, forward positive (negative while it brakes forward rolling): brake.torque \
          against the rotation, or while brake.locked the reaction, as its mean over the last internal step";
@@ -249,7 +249,7 @@ outputs! {
          thermal.enabled";
     708 rail_heat: real "damage.rail_heat", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
         "Heat that the contact leaves behind per metre of rail: heat.to_rail over |wheel.velocity|, or over 0.02 m/s if that \
-         is more; 0 at standstill and where the rail gives heat to the wheel";
+         is more; 0 at standstill and where the rail gives heat to the wheel. Equal to rail.heat_per_metre";
     710 yielded: real "damage.yielded", in "1" as "%", from 0.0 to 1.0, nominal 0.1,
         "Share of the contact width in which the steel yields now";
     711 flattening: real "damage.flattening", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
@@ -275,7 +275,7 @@ outputs! {
         "The same of the modelled piece of rail, where the contact stayed";
     700 t_gamma: real "damage.t_gamma", in "N", from 0.0, nominal 10.0,
         "Friction energy per metre travelled: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
-         standstill";
+         standstill. Equal to rail.energy_per_metre, which means it as a load on the rail";
     800 internal_steps: count "solver.internal_steps", start zero, "Internal time steps in the last communication step";
     801 iterations: count "solver.iterations", start zero, "Contact iterations in the last communication step";
     804 suggested_step: real "solver.suggested_step", in "s", from 0.0, nominal 1e-3,

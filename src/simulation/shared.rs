@@ -1,4 +1,4 @@
-//! Models shared by all simulations of a process: the one global of the crate.
+//! Models shared by all simulations of a process: the one global of the crate outside of the C interface.
 //!
 //! A model is prepared by the first who asks for it; others who ask meanwhile wait for it. Nobody keeps a model but its
 //! users: with the last of them it is gone.

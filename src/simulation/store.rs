@@ -1,7 +1,8 @@
 //! Where computed bases are kept: beside the presets in the FMU, in the cache of the user, or where a caller says.
 
 use crate::config::Config;
-use crate::mechanics::{self, Basis, BasisError};
+use crate::files;
+use crate::mechanics::{self, Basis};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 use std::{env, fs, io, process, thread};
@@ -24,12 +25,12 @@ pub struct BasisStore {
     resources: Option<PathBuf>,
 }
 
-/// A stored basis that is not one.
+/// A stored basis that is not one, or a file that is none.
 #[derive(Debug, thiserror::Error)]
-#[error("stored basis {}: {source}", path.display())]
+#[error("stored basis {}: {problem}", path.display())]
 pub struct StoreError {
     path: PathBuf,
-    source: BasisError,
+    problem: String,
 }
 
 /// File name of the stored basis of a configuration.
@@ -77,13 +78,18 @@ impl BasisStore {
         self.resources.as_deref()
     }
 
-    /// The stored basis of a configuration, with its file; a file of the cache that is damaged counts as none.
+    /// The stored basis of a configuration, with its file; a file of the cache that is damaged, or no regular
+    /// file, counts as none.
     pub fn find(&self, config: &Config) -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
         let name = basis_file_name(config);
         let read = |directory: &PathBuf| -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
             let path = directory.join(&name);
-            let Ok(bytes) = fs::read(&path) else { return Ok(None) };
-            let basis = Basis::from_bytes(&bytes).map_err(|source| StoreError { path, source })?;
+            let bytes = match files::read(&path) {
+                Ok(bytes) => bytes,
+                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+                Err(error) => return Err(StoreError { path, problem: error.to_string() }),
+            };
+            let basis = Basis::from_bytes(&bytes).map_err(|error| StoreError { path, problem: error.to_string() })?;
             Ok(Some((basis, bytes)).filter(|(basis, _)| basis.fits(config)))
         };
         for directory in &self.packed {

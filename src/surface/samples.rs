@@ -2,6 +2,7 @@
 
 use super::error::ProfileError;
 use crate::config::display_number;
+use crate::files;
 use crate::piecewise::Piecewise;
 use std::path::{Path, PathBuf};
 
@@ -30,7 +31,7 @@ impl Samples {
     /// Reads a file; `factor` multiplies its heights.
     pub fn read(path: &str, folder: Option<&Path>, factor: f64) -> Result<Self, ProfileError> {
         let found = folder.map_or_else(|| PathBuf::from(path), |folder| folder.join(path));
-        let text = std::fs::read_to_string(&found).map_err(|error| ProfileError::Unreadable {
+        let text = files::read_text(&found).map_err(|error| ProfileError::Unreadable {
             path: found.display().to_string(),
             reason: error.to_string(),
             folder: folder.map_or_else(|| "the working directory".to_owned(), |folder| folder.display().to_string()),

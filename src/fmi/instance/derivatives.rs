@@ -61,7 +61,7 @@ impl Instance {
         }
         let outputs = real_outputs(unknown)?;
         let failed = |error| CallError::error(format!("directional derivative: {error}"));
-        let difference = self.simulation()?.difference(&direction).map_err(failed)?;
+        let difference = self.compute(|simulation| simulation.difference(&direction))?.map_err(failed)?;
         let quotient = |variable: &Variable| {
             let value = difference.quotient(|o| variable.real_output(o));
             let name = &variable.name;

@@ -2,6 +2,7 @@
 //!
 //! Every refused call leaves the instance as it was, so a master may report the error and go on.
 
+pub mod aside;
 pub mod derivatives;
 mod experiment;
 mod notices;
@@ -10,6 +11,7 @@ mod saving;
 mod values;
 mod warned;
 
+use self::aside::Aside;
 use super::lifecycle::{Call, Phase};
 use super::log::{CallError, Log, Status};
 use super::presets;
@@ -31,6 +33,8 @@ const STOP_TOLERANCE: f64 = 0.1;
 /// A slave between `fmi2Instantiate` and `fmi2FreeInstance`.
 pub struct Instance {
     log: Log,
+    /// Where long computations run.
+    aside: Aside,
     resources: Option<PathBuf>,
     phase: Phase,
     preset: String,
@@ -70,6 +74,7 @@ impl Instance {
         let base = presets::load(resources.as_deref(), presets::DEFAULT).map_err(CallError::error)?;
         Ok(Instance {
             log,
+            aside: aside::here,
             resources,
             phase: Phase::Instantiated,
             preset: presets::DEFAULT.to_owned(),
@@ -89,6 +94,11 @@ impl Instance {
             hopeless: false,
             warned: Warned::default(),
         })
+    }
+
+    /// Long computations run there from now on.
+    pub fn compute_on(&mut self, aside: Aside) {
+        self.aside = aside;
     }
 
     /// Where messages go.
@@ -152,7 +162,7 @@ impl Instance {
     /// Ends Initialization Mode. If parameters and inputs do not go together, it stays, so that they can be corrected.
     pub fn exit_initialization(&mut self) -> Outcome {
         self.allow(Call::ExitInitializationMode)?;
-        self.file_to_save()?;
+        Self::try_to_save(&self.config)?;
         self.simulation()?;
         self.warn_of_settings();
         self.inputs = self.given().into_owned();
@@ -218,7 +228,7 @@ impl Instance {
         let end = inputs.at(h);
         end.validate().map_err(|error| CallError::error(format!("at the end of the step {error}")))?;
         self.warn_of_inputs(&inputs);
-        match self.simulation()?.advance(&inputs, h) {
+        match self.compute(|simulation| simulation.advance(&inputs, h))? {
             Ok(()) => {
                 self.hold(end);
                 self.time = start + h;

@@ -1,7 +1,8 @@
 //! The simulation behind an instance: prepared when it is needed, saved and restored.
 
+use super::aside::{self, Report};
 use super::{Instance, Outcome};
-use crate::config::Config;
+use crate::config::{Config, Files, Response};
 use crate::fmi::lifecycle::Call;
 use crate::fmi::log::{CallError, Status};
 use crate::fmi::settings::with_parameters;
@@ -74,17 +75,27 @@ impl Instance {
                 CallError::error(format!("no stationary state for these inputs: {why}"))
             };
             let tuning = self.config.tuning.clone();
+            let start = |inputs: &Inputs| {
+                let (model, tuning) = (model.clone(), tuning.clone());
+                aside::run(self.aside, &mut |_, _| {}, |_| Simulation::start(model, tuning, inputs))
+            };
             if let Some(reference) = self.height_to_find(&inputs) {
                 let pressed = Inputs { vertical: Vertical::Force, ..inputs };
-                let loaded = Simulation::start(model.clone(), tuning.clone(), &pressed);
-                let loaded = loaded.map_err(|error| failed(error, &pressed))?;
+                let loaded = start(&pressed)?.map_err(|error| failed(error, &pressed))?;
                 inputs.drive.displacement = loaded.outputs().hub_height;
                 self.bumpless.insert(reference, Value::Real(inputs.drive.displacement));
             }
-            let started = Simulation::start(model, tuning, &inputs);
-            self.simulation = Some(started.map_err(|error| failed(error, &inputs))?);
+            self.simulation = Some(start(&inputs)?.map_err(|error| failed(error, &inputs))?);
         }
         self.simulation.as_mut().ok_or_else(|| CallError::error("no simulation"))
+    }
+
+    /// What the simulation computes; aside where it factorises matrices.
+    pub(super) fn compute<R: Send>(&mut self, work: impl FnOnce(&mut Simulation) -> R + Send) -> Outcome<R> {
+        let full = self.config.solver.response == Response::Full;
+        let aside = if full { self.aside } else { aside::here };
+        let simulation = self.simulation()?;
+        aside::run(aside, &mut |_, _| {}, |_| work(simulation))
     }
 
     /// Reference of the hub height, if it is prescribed at the start and has not been set.
@@ -140,9 +151,13 @@ impl Instance {
                 last = (what.to_owned(), share);
             }
         };
+        // Wheels that leave different files behind share a model.
+        let config = Config { files: Files::default(), ..config };
         let store = BasisStore::of_user().with_packed(self.resources.as_deref());
         let failed = |error| CallError::error(advice::failed_preparation(&error, &config));
-        let model = Model::shared(config.clone(), &store, &mut progress).map_err(failed)?;
+        let prepare =
+            |report: &mut Report| Model::shared(config.clone(), &store, &mut |what, share| report(what, share));
+        let model = aside::run(self.aside, &mut progress, prepare)?.map_err(failed)?;
         if let Some(why) = model.not_kept() {
             self.log.report(Status::Warning, why);
         }

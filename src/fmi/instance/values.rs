@@ -77,6 +77,9 @@ impl Instance {
         }
         if !early && config != self.config {
             config.validate().map_err(|error| CallError::error(error.to_string()))?;
+            if config.files != self.config.files {
+                Self::try_to_save(&config)?;
+            }
             if let Some(simulation) = &mut self.simulation {
                 simulation.retune(&config.tuning);
                 self.model = Some(simulation.model().clone());

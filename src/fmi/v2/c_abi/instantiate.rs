@@ -60,7 +60,10 @@ impl Arguments {
             None
         });
         let resources = resources(location, &log);
-        Instance::new(resources, log)
+        let mut instance = Instance::new(resources, log)?;
+        #[cfg(unix)]
+        instance.compute_on(super::aside::beside);
+        Ok(instance)
     }
 }
 
@@ -91,7 +94,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let error = match catch_unwind(AssertUnwindSafe(|| unsafe { arguments.instance(functions) })) {
         Ok(Ok(instance)) => {
             let component = Component { instance, strings: Vec::new(), states: States::default() };
-            return Box::into_raw(Box::new(component)).cast();
+            return component.hand_out();
         }
         Ok(Err(error)) => error,
         Err(panic) => CallError { status: Status::Fatal, message: format!("internal error: {}", panic_text(panic)) },
@@ -102,12 +105,12 @@ pub unsafe extern "C" fn fmi2Instantiate(
     ptr::null_mut()
 }
 
-/// Frees an instance with all its states.
+/// Frees an instance with all its states; a pointer that is no instance, or no longer, is left alone.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    if !c.is_null() {
-        // SAFETY: see the module: `c` came from `Box::into_raw` in `fmi2Instantiate` and is not used afterwards.
-        let component = unsafe { Box::from_raw(c.cast::<Component>()) };
+    if let Some(component) = Component::take_back(c) {
+        // SAFETY: `component` came from `Box::into_raw` in `hand_out` and is known no more.
+        let component = unsafe { Box::from_raw(component) };
         let _ = catch_unwind(AssertUnwindSafe(|| drop(component)));
     }
 }

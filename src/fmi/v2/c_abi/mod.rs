@@ -2,12 +2,14 @@
 //!
 //! Each function checks its pointers, copies what it is given, calls [`Instance`](crate::fmi::instance::Instance) behind a barrier that turns panics
 //! into `fmi2Fatal`, and reports errors in one place. Enumerations and booleans arrive as C integers, whatever their
-//! value. What the standard demands of masters, and what every `SAFETY` comment below relies on: a component is one that
-//! `fmi2Instantiate` returned and `fmi2FreeInstance` has not freed, used by one thread at a time; arrays have the stated
-//! lengths; strings end with NUL.
+//! value. A component that `fmi2Instantiate` has not returned, or `fmi2FreeInstance` has freed, is refused and never followed.
+//! What the standard demands of masters, and what every `SAFETY` comment below relies on: a component is used by one thread at a
+//! time; arrays have the stated lengths; strings end with NUL.
 
 #![allow(unsafe_code, non_snake_case, clippy::missing_safety_doc)]
 
+#[cfg(unix)]
+mod aside;
 mod component;
 mod instantiate;
 mod logger;
@@ -30,10 +32,11 @@ use std::ptr;
 
 /// Runs the body on the component: errors are logged and become a status, panics become `fmi2Fatal`.
 unsafe fn call(c: fmi2Component, name: &str, body: impl FnOnce(&mut Component) -> Outcome) -> fmi2Status {
-    // SAFETY: see the module: `c` is null or ours, and nobody else uses it now.
-    let Some(component) = (unsafe { c.cast::<Component>().as_mut() }) else {
+    let Some(component) = Component::find(c) else {
         return fmi2Status::fmi2Error;
     };
+    // SAFETY: it lives, and nobody else uses it now: see the module.
+    let component = unsafe { &mut *component };
     let error = match catch_unwind(AssertUnwindSafe(|| body(component))) {
         Ok(Ok(())) => return fmi2Status::fmi2OK,
         Ok(Err(error)) => error,
@@ -342,7 +345,7 @@ mod tests {
         let sink: Sink = Box::new(move |status, _, message| heard.borrow_mut().push((status, message.to_owned())));
         let instance = Instance::new(None, Log::new(sink, false)).unwrap();
         let component = Component { instance, strings: Vec::new(), states: States::default() };
-        let c: fmi2Component = Box::into_raw(Box::new(component)).cast();
+        let c = component.hand_out();
         // SAFETY: a component as `fmi2Instantiate` makes it, freed once at the end.
         unsafe {
             assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::fmi2OK);
