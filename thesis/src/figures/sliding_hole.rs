@@ -252,7 +252,7 @@ mod tests {
         let at = |k: i32, wheel: f64, rail: f64| [1e-6 * f64::from(k), 1.0, 30.0 + wheel, 20.0 + rail, 1.0];
         let swing = |k: i32| if k % 2 == 0 { -9.0 } else { 9.0 };
         let points: Vec<Instant> =
-            (0..=20).map(|k| if k < 5 || k > 14 { at(k, 0.0, 0.0) } else { at(k, swing(k), -1.0) }).collect();
+            (0..=20).map(|k| if (5..=14).contains(&k) { at(k, swing(k), -1.0) } else { at(k, 0.0, 0.0) }).collect();
         let change = Change::new(&points, [4.5e-6, 14.5e-6]);
         assert_eq!((change.mean, change.swing), ([0.0, -1.0], [[-9.0, 9.0], [-1.0, 0.0]]));
     }
