@@ -1,4 +1,4 @@
-//! The test of \[B] 4: heat in a rotating annulus with a uniform source and cold rims, whose exact temperature does not
+//! The test of \[B] § 4: heat in a rotating annulus with a uniform source and cold rims, whose exact temperature does not
 //! depend on the rotation.
 
 use crate::Error;
@@ -42,9 +42,14 @@ pub struct Field {
 
 /// Temperature of an annulus that turns with `omega` [rad/s] as the thesis has it, `v = ω (y, −x)`.
 pub fn solve(mesh: Mesh, order: Order, scheme: Scheme, omega: f64) -> Result<Field, Error> {
+    solve_by(mesh, order, scheme, omega, 5)
+}
+
+/// The same with a quadrature of the given degree, 2 to 5.
+pub fn solve_by(mesh: Mesh, order: Order, scheme: Scheme, omega: f64, degree: usize) -> Result<Field, Error> {
     let space = Space::new(&mesh, order);
     let velocity = |[x, y]: [f64; 2]| [omega * y, -omega * x];
-    let flow = Flow { capacity: CAPACITY, conductivity: CONDUCTIVITY, velocity: &velocity, source: SOURCE };
+    let flow = Flow { capacity: CAPACITY, conductivity: CONDUCTIVITY, velocity: &velocity, source: SOURCE, degree };
     let (mut matrix, mut load) = (Matrix::new(space.places.len()), vec![0.0; space.places.len()]);
     for (t, nodes) in space.elements.iter().enumerate() {
         let (part, share) = flow.element(&mesh.corners(t), order, scheme);

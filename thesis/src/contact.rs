@@ -1,5 +1,5 @@
 //! Contact of a node of the wheel with a segment of the rail's surface: penalty and regularised friction
-//! (\[B] 36–40, \[C] 12–16).
+//! (\[B] (36)–(40), \[C] (12)–(16)).
 
 use crate::dual::Dual;
 
@@ -28,7 +28,7 @@ pub struct Pair {
     pub centre: [f64; 2],
 }
 
-/// How the nodes of a contact element came where they are within a time step: backward differences give `d_t u` (\[D] 17).
+/// How the nodes of a contact element came where they are within a time step: backward differences give `d_t u` (\[D] (17)).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Past {
     /// Displacements of slave, upstream node and both masters at the beginning of the step \[m].

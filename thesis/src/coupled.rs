@@ -1,5 +1,5 @@
-//! Displacements, temperatures and velocities in one Newton iteration (\[B] 33 and 5.3, \[D] 21 to 28): thermal strain acts on the bodies and
-//! their contact, contact and friction act on the temperatures. The Gough–Joule term is left out, as in \[D] 3.
+//! Displacements, temperatures and velocities in one Newton iteration (\[B] (33) and § 5.3, \[D] (21) to (28)): thermal strain acts on the bodies and
+//! their contact, contact and friction act on the temperatures. The Gough–Joule term is left out, as in \[D] § 3.
 
 use crate::Error;
 use crate::dual::Dual;
@@ -21,7 +21,7 @@ pub struct Warm {
     pub theta: Vec<f64>,
 }
 
-/// Forces of temperatures (`−K_uθ` of \[B] 33).
+/// Forces of temperatures (`−K_uθ` of \[B] (33)).
 pub struct Expansion {
     size: usize,
     /// Unknown, or after all unknowns the moment and the force on the hub; node; force [N/(m K)].
@@ -99,7 +99,7 @@ impl<M: Motions> Coupled<'_, M> {
         lacking
     }
 
-    /// What a place in contact takes from its nodes, with derivatives (\[B] 44, \[C] 17 to 19, \[D] 4).
+    /// What a place in contact takes from its nodes, with derivatives (\[B] (44), \[C] (17) to (19), \[D] § 4).
     fn exchange(&self, touch: &Touch, theta: &[f64]) -> Exchange {
         let [conductance, heated] = self.warming.heating.contact;
         let [slave, _, left, right] = touch.nodes;
@@ -118,7 +118,7 @@ impl<M: Motions> Coupled<'_, M> {
         Exchange { flows: [0, 1, 2].map(flow), by_theta: [0, 1, 2].map(|i| [0, 1, 2].map(|j| by_theta(i, j))) }
     }
 
-    /// Derivative of the residual (\[D] B.2), without that of the stabilisation by the velocities (\[D] 5.3.1).
+    /// Derivative of the residual (\[D] App. B.2), without that of the stabilisation by the velocities (\[D] § 5.3.1).
     pub fn tangent(&self, warm: &Warm) -> Matrix {
         let (warming, system, first) = (self.warming, self.motions.system(), self.first());
         let motion = [warm.state.motion.omega, warm.state.motion.velocity];

@@ -1,4 +1,4 @@
-//! Matrices as sums of constant ones with coefficients of the velocities (\[D] 5.2.1, 20 and Appendix A): assembled once, combined in
+//! Matrices as sums of constant ones with coefficients of the velocities (\[D] § 5.2.1, (20) and Appendix A): assembled once, combined in
 //! every step.
 
 use crate::elastic;
@@ -38,7 +38,7 @@ pub enum Part {
 const PARTS: usize = 6;
 
 /// The parts over the unknowns. Two rows more sum up what acts on the hub: the moment about the centre, forward, and the force
-/// along the rail (`A_M` and `A_F` of \[D] 24).
+/// along the rail (`A_M` and `A_F` of \[D] (24)).
 pub struct Decomposition {
     /// Number of unknowns.
     pub size: usize,

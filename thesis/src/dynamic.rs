@@ -1,4 +1,4 @@
-//! Rolling in time with friction as \[D] 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the velocities,
+//! Rolling in time with friction as \[D] § 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the velocities,
 //! contact at the end of the step, and one Newton iteration for the displacements and for the velocities that are found.
 //!
 //! Moment and force may be prescribed at once here: the wheel's own inertia tells its velocity, which no stationary state does.
@@ -82,7 +82,7 @@ pub struct End {
     touches: Vec<Touch>,
 }
 
-/// The equations of a time step (\[D] 27, 28).
+/// The equations of a time step (\[D] (27), (28)).
 pub struct TimeStep<'a> {
     before: &'a Rolling<'a>,
     step: f64,

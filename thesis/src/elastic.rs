@@ -1,10 +1,10 @@
-//! Triangles in plane strain, linear or quadratic, and what a stationary stream of material adds (\[B] 33, stationary): matrices without
-//! velocities, as the decomposition of \[D] 20 wants them.
+//! Triangles in plane strain, linear or quadratic, and what a stationary stream of material adds (\[B] (33), stationary): matrices without
+//! velocities, as the decomposition of \[D] (20) wants them.
 
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, edges};
 use crate::rail::Plate;
 use crate::sparse::Matrix;
-use crate::triangle::{Point, Space, points};
+use crate::triangle::{Point, Space, linear_gradients, points};
 
 /// `∫ Bᵀ E B` \[Pa] for Young's modulus \[Pa] and Poisson's ratio; unknowns 2i and 2i + 1 of node i.
 pub fn stiffness(space: &Space, young: f64, poisson: f64) -> Matrix {
@@ -19,7 +19,7 @@ pub fn stiffness(space: &Space, young: f64, poisson: f64) -> Matrix {
     })
 }
 
-/// `3Kα ∫ (∇N) N` [N/(m K)] (`−K_uθ` of \[B] 33): forces of temperatures on nodes, rows 2i and 2i + 1 of node i, one column for each node; with the
+/// `3Kα ∫ (∇N) N` [N/(m K)] (`−K_uθ` of \[B] (33)): forces of temperatures on nodes, rows 2i and 2i + 1 of node i, one column for each node; with the
 /// thermal expansion \[1/K].
 pub fn expansion(space: &Space, [young, poisson, expansion]: [f64; 3]) -> Matrix {
     let stress = young * expansion / (1.0 - 2.0 * poisson);
@@ -71,7 +71,7 @@ fn along(velocity: &impl Fn([f64; 2]) -> [f64; 2], point: &Point, function: usiz
     v[0] * slope[0] + v[1] * slope[1]
 }
 
-/// `ρ ∮ (c_P n n + c_S t t) N N` [kg/(m s)] on the vertical ends of a plate (Lysmer and Kuhlemeyer; \[A] 2.5), for Young's modulus
+/// `ρ ∮ (c_P n n + c_S t t) N N` [kg/(m s)] on the vertical ends of a plate (Lysmer and Kuhlemeyer; \[A] § 2.5), for Young's modulus
 /// \[Pa], Poisson's ratio and density [kg/m³].
 pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) -> Matrix {
     let shear = 0.5 * young / (1.0 + poisson);
@@ -83,6 +83,28 @@ pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) 
         let length = (mesh.nodes[a][1] - mesh.nodes[b][1]).abs();
         for (i, j, share) in [(a, a, 2.0), (b, b, 2.0), (a, b, 1.0), (b, a, 1.0)] {
             (0..2).for_each(|axis| matrix.add(2 * i + axis, 2 * j + axis, impedance[axis] * length * share / 6.0));
+        }
+    }
+    matrix
+}
+
+/// `ρ ∮ (v·n) N (v·∇N)` [kg/m³] on the vertical ends of a plate of linear triangles, through which material passes with `v = −e_x`, to be taken `V²`
+/// times (\[B] (33), \[D] (35)): what makes an end free of the traction `P·n` instead of the natural one, which carries the stream's momentum, too.
+pub fn open_ends(mesh: &Mesh, plate: Plate, density: f64) -> Matrix {
+    let mut matrix = Matrix::new(2 * mesh.nodes.len());
+    let at_end = |node: usize| mesh.nodes[node][0].abs() > 0.5 * plate.length - 1e-9;
+    for (t, nodes) in mesh.triangles.iter().enumerate() {
+        let slopes = linear_gradients(&mesh.corners(t));
+        for (a, b) in edges(*nodes).into_iter().filter(|(a, b)| at_end(*a) && at_end(*b)) {
+            let [p, q] = [a, b].map(|node| mesh.nodes[node]);
+            // v·n is −1 where material comes in, on the right, and v·∇ is −∂x.
+            let through = -p[0].signum();
+            let share = 0.5 * density * through * (p[1] - q[1]).abs();
+            for row in [a, b] {
+                for (column, slope) in nodes.iter().zip(&slopes) {
+                    (0..2).for_each(|axis| matrix.add(2 * row + axis, 2 * column + axis, -share * slope[0]));
+                }
+            }
         }
     }
     matrix
@@ -144,6 +166,21 @@ mod tests {
             println!("{order:?}: {:.1e}", error / scale);
             assert!(error < 1e-12 * scale);
         }
+    }
+
+    /// With it a uniform stretch, whose material has no acceleration, needs no forces at all; without it the ends would be pushed.
+    #[test]
+    fn the_term_of_the_ends_makes_them_blind_to_a_uniform_stretch() {
+        let (plate, density) = (Plate { length: 1.0, height: 0.1 }, 8000.0);
+        let mesh = rail::rolling(plate, 11, 0.01, 0.02);
+        let stream = convection(&Space::new(&mesh, Order::Linear), density, |_| [-1.0, 0.0]);
+        let ends = open_ends(&mesh, plate, density);
+        let stretch: Vec<f64> = mesh.nodes.iter().flat_map(|[x, y]| [*x, *y]).collect();
+        let [inner, outer] = [&stream, &ends].map(|matrix| matrix.multiply(&stretch));
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, force| most.max(force.abs()));
+        let (left, scale) = (most(&mut inner.iter().zip(&outer).map(|(s, b)| s - b)), most(&mut inner.iter().copied()));
+        println!("{left:.1e} of {scale:.1e} N/m");
+        assert!(left < 1e-12 * scale && scale > 1.0);
     }
 
     /// Error in the mean square of a stream through a held plate with `2n × n` cells, over that of the field.

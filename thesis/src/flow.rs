@@ -1,7 +1,7 @@
 //! Conduction in a stream on one triangle, `∫ w ρc v·∇θ + k ∇w·∇θ = ∫ w s`, with the stabilisations of the thesis.
 
 use crate::stabilise::{Scheme, bubble_position, intrinsic_time, stream_length};
-use crate::triangle::{Order, laplacians, linear_gradients, place, points};
+use crate::triangle::{Order, laplacians, linear_gradients, place, points_of_degree};
 use nalgebra::{DMatrix, DVector};
 
 /// What streams and conducts.
@@ -14,6 +14,8 @@ pub struct Flow<'a> {
     pub velocity: &'a dyn Fn([f64; 2]) -> [f64; 2],
     /// Source [W/m³].
     pub source: f64,
+    /// Degree of the polynomials that the quadrature integrates exactly, 2 to 5.
+    pub degree: usize,
 }
 
 /// Matrix [W/(m K)] and load [W/m] of an element.
@@ -42,7 +44,7 @@ impl Flow<'_> {
         let n = order.count();
         let curvature = laplacians(corners, order);
         let (mut matrix, mut load) = (DMatrix::zeros(n, n), DVector::zeros(n));
-        for point in points(corners, order) {
+        for point in points_of_degree(corners, order, self.degree) {
             let (values, slopes) = (point.shape.values, point.shape.gradients);
             let velocity = (self.velocity)(point.place);
             let tau = tau(&slopes[..n]);
@@ -134,7 +136,7 @@ mod tests {
     }
 
     fn flow(velocity: &dyn Fn([f64; 2]) -> [f64; 2]) -> Flow<'_> {
-        Flow { capacity: 2.0, conductivity: 0.3, velocity, source: 1.5 }
+        Flow { capacity: 2.0, conductivity: 0.3, velocity, source: 1.5, degree: 5 }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Stationary heat of rolling wheel and rail on triangles (\[B] 2 to 5, \[C] 4): bubbles or SUPG in the wheel, SUPG in the rail,
+//! Stationary heat of rolling wheel and rail on triangles (\[B] §§ 2 to 5, \[C] § 4): bubbles or SUPG in the wheel, SUPG in the rail,
 //! conductance and friction heat at the nodes in contact.
 //!
 //! The contact is given: its expansion by these temperatures, some micrometres at most, does not act back.
@@ -126,7 +126,8 @@ impl Heating<'_> {
         let streaming = |_: [f64; 2]| [-velocity, 0.0];
         let flows: [&dyn Fn([f64; 2]) -> [f64; 2]; 2] = [&turning, &streaming];
         self.assemble(spaces, |body, corners| {
-            let flow = Flow { capacity: self.material[0], conductivity: k, velocity: flows[body], source: 0.0 };
+            let velocity = flows[body];
+            let flow = Flow { capacity: self.material[0], conductivity: k, velocity, source: 0.0, degree: 5 };
             flow.element(corners, spaces[body].order, schemes[body]).0
         })
     }
@@ -137,11 +138,20 @@ impl Heating<'_> {
         spaces: &[Space; 2],
         element: impl Fn(usize, &[[f64; 2]; 3]) -> DMatrix<f64>,
     ) -> Matrix {
+        self.assemble_some(spaces, |body, _, corners| Some(element(body, corners)))
+    }
+
+    /// The same where the element, by its number, has a part.
+    pub(crate) fn assemble_some(
+        &self,
+        spaces: &[Space; 2],
+        element: impl Fn(usize, usize, &[[f64; 2]; 3]) -> Option<DMatrix<f64>>,
+    ) -> Matrix {
         let first = spaces[0].places.len();
         let mut matrix = Matrix::new(first + spaces[1].places.len());
         for (body, space) in spaces.iter().enumerate() {
             for (t, nodes) in space.elements.iter().enumerate() {
-                let part = element(body, &self.meshes[body].corners(t));
+                let Some(part) = element(body, t, &self.meshes[body].corners(t)) else { continue };
                 for (a, row) in nodes.iter().enumerate() {
                     nodes.iter().enumerate().for_each(|(b, column)| {
                         matrix.add(row + body * first, column + body * first, part[(a, b)]);

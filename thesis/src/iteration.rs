@@ -1,4 +1,4 @@
-//! Newton's iteration with halved steps (\[B] 5.3), and what it asks of equations.
+//! Newton's iteration with halved steps (\[B] § 5.3), and what it asks of equations.
 
 use crate::Error;
 use crate::rolling::{State, System, Touch};

@@ -1,7 +1,7 @@
 //! `wheelrail-thesis [--full] [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads and writes the report.
 //!
 //! Ends with an error if a figure shows something else than it must, a quoted number has the wrong status, or, of all figures without `--full`, if
-//! a value is not the one of `thesis/values.csv` or they took longer than they may.
+//! a value is not the one of `thesis/values.csv`. How long it took is said, and fails nothing.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -10,9 +10,6 @@ use std::process::ExitCode;
 use std::time::Instant;
 use wheelrail_thesis::figures::{self, ALL, Extent, Figure};
 use wheelrail_thesis::{paper_a, quoted, report};
-
-/// Longest time for all figures without `--full` \[s].
-const LONGEST: f64 = 720.0;
 
 fn main() -> ExitCode {
     match run() {
@@ -70,9 +67,6 @@ fn run() -> Result<(), String> {
     }
     if wanted.is_empty() && extent == Extent::Quick {
         wrong.extend(report::departures(report::COMMITTED, &report::csv(&figures)));
-        if seconds > LONGEST {
-            wrong.push(format!("{seconds:.0} s instead of at most {LONGEST} s; {}", slowest(&figures)));
-        }
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
 }

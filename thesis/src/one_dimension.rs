@@ -1,4 +1,4 @@
-//! The one-dimensional example of the introduction (\[I] 4.2, 5.3): heated rod in a stream,
+//! The one-dimensional example of the introduction (\[I] § 4.2, 5.3): heated rod in a stream,
 //! `ρc V dθ/dx − k d²θ/dx² = R`, `θ = 0` at both ends, by three schemes.
 
 use crate::stabilise::{Scheme, bubble_position, upwind};

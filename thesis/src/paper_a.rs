@@ -45,7 +45,7 @@ impl Meshes {
     }
 }
 
-/// Meshes of \[A] 3.1: `global` refinements of the wheel, `columns` nodes along a rail of seven rows at 0.1 m, refined under the contact down
+/// Meshes of \[A] § 3.1: `global` refinements of the wheel, `columns` nodes along a rail of seven rows at 0.1 m, refined under the contact down
 /// to one and a half of the wheel's smallest element.
 pub fn meshes(base: f64, global: usize, columns: usize, plate: Plate) -> Meshes {
     let wheel = wheel::early(ANNULUS, PATCH, base, global);

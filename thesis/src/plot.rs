@@ -1,4 +1,4 @@
-//! Curves as drawings (SVG) that need nothing from elsewhere.
+//! Curves, meshes and maps as drawings (SVG) that need nothing from elsewhere.
 
 use std::fmt::Write;
 
@@ -13,6 +13,22 @@ pub enum Source {
     Exact,
     /// A number in the text: a thin line.
     Quoted,
+    /// Edges of a mesh, thin and without a name in the legend: lines, parted by a point without numbers ([`GAP`]).
+    Mesh,
+    /// Where a field has values of this level, 0 to [`LEVELS`] − 1: filled outlines, parted alike.
+    Level(usize),
+}
+
+/// A point without numbers, which ends a line or an outline.
+pub const GAP: [f64; 2] = [f64::NAN; 2];
+/// Number of levels of a map.
+pub const LEVELS: usize = 10;
+
+impl Source {
+    /// Whether places are drawn, so that both axes have one scale.
+    fn is_picture(self) -> bool {
+        matches!(self, Self::Mesh | Self::Level(_))
+    }
 }
 
 /// A curve.
@@ -36,46 +52,56 @@ pub struct Plot {
 }
 
 const WIDTH: f64 = 640.0;
+/// Height of a drawing of curves, and largest height of one of places.
 const HEIGHT: f64 = 360.0;
+const TALLEST: f64 = 620.0;
 /// Left, right, top and bottom margin.
 const MARGIN: [f64; 4] = [70.0, 15.0, 15.0, 48.0];
-const COLOURS: [&str; 6] = ["#1b5e9e", "#b3401a", "#2e7d32", "#6a3d9a", "#8a6d00", "#00707a"];
+/// Colours of curves: a drawing that has more curves than these is refused ([`Plot::flaw`]).
+const COLOURS: [&str; 12] = [
+    "#1b5e9e", "#b3401a", "#2e7d32", "#6a3d9a", "#8a6d00", "#00838f", "#c2185b", "#4e342e", "#7cb342", "#5c6bc0",
+    "#ef6c00", "#455a64",
+];
+
+/// Colour of a level, from pale yellow to dark red.
+fn shade(level: usize) -> String {
+    let share = level as f64 / (LEVELS - 1) as f64;
+    let mix = |from: f64, to: f64| (from + (to - from) * share).round();
+    format!("rgb({},{},{})", mix(255.0, 110.0), mix(243.0, 0.0), mix(190.0, 40.0))
+}
 
 impl Plot {
+    /// What is wrong with it: curves that look alike.
+    pub fn flaw(&self) -> Option<String> {
+        let curves = self.curves.iter().filter(|curve| !curve.source.is_picture()).count();
+        (curves > COLOURS.len())
+            .then(|| format!("{curves} curves over \"{}\" have {} colours", self.axes[0], COLOURS.len()))
+    }
+
     /// The drawing as SVG.
     pub fn svg(&self) -> String {
         let [left, right, top, bottom] = MARGIN;
         let ranges = [0, 1].map(|axis| self.range(axis));
-        let x = |value: f64| left + (value - ranges[0][0]) / (ranges[0][1] - ranges[0][0]) * (WIDTH - left - right);
-        let y = |value: f64| {
-            HEIGHT - bottom - (value - ranges[1][0]) / (ranges[1][1] - ranges[1][0]) * (HEIGHT - top - bottom)
-        };
-        let mut svg = format!("<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\">");
-        let (end, floor) = (WIDTH - right, HEIGHT - bottom);
-        for tick in ticks(ranges[0]) {
-            let at = x(tick);
-            let _ = write!(svg, "<path class=\"grid\" d=\"M{at:.1} {top}V{floor}\"/>");
-            let _ =
-                write!(svg, "<text x=\"{at:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>", floor + 16.0, label(tick));
-        }
-        for tick in ticks(ranges[1]) {
-            let at = y(tick);
-            let _ = write!(svg, "<path class=\"grid\" d=\"M{left} {at:.1}H{end}\"/>");
-            let _ = write!(
-                svg,
-                "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                left - 6.0,
-                at + 4.0,
-                label(tick)
-            );
-        }
-        let (middle, centre) = (0.5 * (left + end), 0.5 * (top + floor));
-        let _ =
-            write!(svg, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{}</text>", HEIGHT - 10.0, self.axes[0]);
-        let turned = format!("transform=\"rotate(-90 16 {centre})\"");
-        let _ = write!(svg, "<text x=\"16\" y=\"{centre}\" {turned} text-anchor=\"middle\">{}</text>", self.axes[1]);
-        for (i, curve) in self.curves.iter().enumerate() {
-            let colour = COLOURS[i % COLOURS.len()];
+        let [across, up] = ranges.map(|[low, high]| high - low);
+        let picture = self.curves.iter().any(|curve| curve.source.is_picture());
+        // Places have one scale in both directions.
+        let tall = (WIDTH - left - right) * up / across;
+        let height = if picture { tall.min(TALLEST) + top + bottom } else { HEIGHT };
+        let wide = if picture { (height - top - bottom) * across / up } else { WIDTH - left - right };
+        let x = |value: f64| left + (value - ranges[0][0]) / across * wide;
+        let y = |value: f64| height - bottom - (value - ranges[1][0]) / up * (height - top - bottom);
+        let mut svg = format!("<svg viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\">");
+        let (end, floor) = (left + wide, height - bottom);
+        svg += &self.frame([left, end, top, floor], &x, &y);
+        let mut colours = COLOURS.iter().cycle();
+        for curve in &self.curves {
+            let fill = if let Source::Level(level) = curve.source { shade(level) } else { "none".into() };
+            let colour = match curve.source {
+                // Of the fill, so that neighbouring cells leave no seam.
+                Source::Level(_) => fill.as_str(),
+                Source::Mesh => "#5a5a5a",
+                _ => colours.next().unwrap_or(&""),
+            };
             if curve.source == Source::Exact {
                 for [a, b] in &curve.points {
                     let _ =
@@ -86,27 +112,63 @@ impl Plot {
             let style = match curve.source {
                 Source::Method => "stroke-width=\"1.8\" stroke-dasharray=\"7 4\"",
                 Source::Quoted => "stroke-width=\"1\"",
+                Source::Mesh => "stroke-width=\"0.35\"",
+                Source::Level(_) => "stroke-width=\"0.4\"",
                 _ => "stroke-width=\"1.8\"",
             };
-            let points: Vec<String> = curve.points.iter().map(|[a, b]| format!("{:.1},{:.1}", x(*a), y(*b))).collect();
-            let _ =
-                write!(svg, "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" {style}/>", points.join(" "));
+            // One path for all lines and outlines of a curve, each from its first point on.
+            let mut path = String::new();
+            let mut starts = true;
+            for [a, b] in &curve.points {
+                if !a.is_nan() {
+                    let _ = write!(path, "{}{:.1} {:.1}", if starts { 'M' } else { 'L' }, x(*a), y(*b));
+                }
+                starts = a.is_nan();
+            }
+            let _ = write!(svg, "<path d=\"{path}\" fill=\"{fill}\" stroke=\"{colour}\" {style}/>");
         }
         svg + "</svg>" + &self.legend()
     }
 
+    /// Grid, numbers and names of the axes; `x` and `y` give the place of a value.
+    fn frame(&self, [left, end, top, floor]: [f64; 4], x: &dyn Fn(f64) -> f64, y: &dyn Fn(f64) -> f64) -> String {
+        let mut svg = String::new();
+        for (at, text) in ticks(self.range(0)) {
+            let at = x(at);
+            let _ = write!(svg, "<path class=\"grid\" d=\"M{at:.1} {top}V{floor:.1}\"/>");
+            let _ = write!(svg, "<text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{text}</text>", floor + 16.0);
+        }
+        for (at, text) in ticks(self.range(1)) {
+            let at = y(at);
+            let _ = write!(svg, "<path class=\"grid\" d=\"M{left} {at:.1}H{end:.1}\"/>");
+            let _ = write!(svg, "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>", left - 6.0, at + 4.0);
+        }
+        let (middle, centre) = (0.5 * (left + end), 0.5 * (top + floor));
+        let under = floor + 38.0;
+        let _ = write!(svg, "<text x=\"{middle:.1}\" y=\"{under:.1}\" text-anchor=\"middle\">{}</text>", self.axes[0]);
+        let turned = format!("transform=\"rotate(-90 16 {centre:.1})\"");
+        let _ = write!(svg, "<text x=\"16\" y=\"{centre:.1}\" {turned} text-anchor=\"middle\">{}</text>", self.axes[1]);
+        svg
+    }
+
     /// Names of the curves in their colours.
     fn legend(&self) -> String {
-        let line = |(i, curve): (usize, &Curve)| {
+        let mut colours = COLOURS.iter().cycle();
+        let line = |curve: &Curve| {
             let mark = match curve.source {
                 Source::Method => "– –",
                 Source::Ours => "——",
                 Source::Exact => "• •",
                 Source::Quoted => "──",
+                Source::Mesh => return None,
+                Source::Level(level) => {
+                    let chip = format!("<span class=\"chip\" style=\"background:{}\"></span>", shade(level));
+                    return Some(format!("<span>{chip} {}</span>", curve.name));
+                }
             };
-            format!("<span style=\"color:{}\">{mark} {}</span>", COLOURS[i % COLOURS.len()], curve.name)
+            Some(format!("<span style=\"color:{}\">{mark} {}</span>", colours.next().unwrap_or(&""), curve.name))
         };
-        let lines: Vec<String> = self.curves.iter().enumerate().map(line).collect();
+        let lines: Vec<String> = self.curves.iter().filter_map(line).collect();
         format!("<p class=\"legend\">{}</p>", lines.join(" &nbsp; "))
     }
 
@@ -114,30 +176,32 @@ impl Plot {
     fn range(&self, axis: usize) -> [f64; 2] {
         let values = || self.curves.iter().flat_map(|curve| &curve.points).map(|point| point[axis]);
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let room = if axis == 1 { 0.05 * (high - low) } else { 0.0 };
+        let picture = self.curves.iter().any(|curve| curve.source.is_picture());
+        let room = if axis == 1 && !picture { 0.05 * (high - low) } else { 0.0 };
         if high > low { [low - room, high + room] } else { [low - 1.0, high + 1.0] }
     }
 }
 
-/// Round numbers within a range, about six.
-fn ticks([low, high]: [f64; 2]) -> Vec<f64> {
+/// Round numbers within a range, about six, and how they are written: all with as many digits as tell neighbours apart.
+fn ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     let rough = (high - low) / 6.0;
     let power = 10.0_f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| *step >= rough).unwrap_or(rough);
+    let last = step.log10().floor() as i32;
+    let text = |value: f64| {
+        let largest = low.abs().max(high.abs());
+        if value == 0.0 {
+            "0".into()
+        } else if largest < 1e5 && last > -5 {
+            format!("{value:.*}", usize::try_from(-last).unwrap_or_default())
+        } else {
+            let first = value.abs().log10().floor() as i32;
+            format!("{value:.*e}", usize::try_from(first - last).unwrap_or_default())
+        }
+    };
     let first = (low / step).ceil() as i64;
-    (first..=(high / step).floor() as i64).map(|i| i as f64 * step).collect()
-}
-
-/// A number as short as it can be.
-fn label(value: f64) -> String {
-    if value == 0.0 {
-        "0".into()
-    } else if (1e-3..1e5).contains(&value.abs()) {
-        let text = format!("{value:.4}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        format!("{value:.1e}")
-    }
+    let values = (first..=(high / step).floor() as i64).map(|i| i as f64 * step);
+    values.map(|value| (value, text(value))).collect()
 }
 
 #[cfg(test)]
@@ -145,11 +209,51 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_round_and_within_the_range() {
-        assert_eq!(ticks([0.0, 6.0]), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        let found = ticks([-0.83, 1.1]);
-        assert!(found.len() >= 3 && found.iter().all(|tick| (-0.83..=1.1).contains(tick)), "{found:?}");
-        assert_eq!([0.0, 0.25, 3e-7, 1200.0].map(label), ["0", "0.25", "3.0e-7", "1200"]);
+    fn ticks_are_round_within_the_range_and_no_two_read_alike() {
+        let texts = |range: [f64; 2]| ticks(range).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
+        assert_eq!(texts([0.0, 6.0]), ["0", "1", "2", "3", "4", "5", "6"]);
+        assert_eq!(texts([0.0, 0.3])[1..3], ["0.05", "0.10"]);
+        let awkward = [[-0.83, 1.1], [0.499_88, 0.500_02], [0.4999, 0.5], [2e-8, 5e-7], [1e5, 1.004e5], [-3e7, 9e8]];
+        for range in awkward {
+            let (found, mut read) = (ticks(range), texts(range));
+            println!("{read:?}");
+            assert!(found.len() >= 3 && found.iter().all(|(at, _)| (range[0]..=range[1]).contains(at)));
+            // What is written is the number, and only that.
+            let parsed = |text: &str| text.parse::<f64>().unwrap();
+            assert!(found.iter().all(|(at, text)| (parsed(text) - at).abs() <= 1e-9 * at.abs()), "{found:?}");
+            read.dedup();
+            assert_eq!(read.len(), found.len());
+        }
+    }
+
+    #[test]
+    fn curves_of_one_drawing_differ_in_colour_or_are_refused() {
+        let line = || Curve { source: Source::Ours, name: "line".into(), points: vec![[0.0, 0.0], [1.0, 1.0]] };
+        let plot = |count: usize| Plot { axes: ["x".into(), "y".into()], curves: (0..count).map(|_| line()).collect() };
+        let svg = plot(COLOURS.len()).svg();
+        assert!(COLOURS.iter().all(|colour| svg.matches(&format!("stroke=\"{colour}\"")).count() == 1));
+        assert!(plot(COLOURS.len()).flaw().is_none() && plot(COLOURS.len() + 1).flaw().is_some());
+    }
+
+    #[test]
+    fn places_have_one_scale_and_lines_end_at_gaps() {
+        let edges = vec![[0.0, 0.0], [3.0, 0.0], GAP, [3.0, 0.0], [3.0, 1.0]];
+        let mesh = Curve { source: Source::Mesh, name: String::new(), points: edges };
+        let svg = Plot { axes: ["x".into(), "y".into()], curves: vec![mesh] }.svg();
+        let path = drawn(&svg);
+        let lines: Vec<Vec<f64>> = path.split('M').skip(1).map(numbers).collect();
+        assert_eq!(lines.len(), 2);
+        let (across, up) = (lines[0][2] - lines[0][0], lines[1][1] - lines[1][3]);
+        assert!((across / up - 3.0).abs() < 1e-2 && !svg.contains("NaN"), "{across} {up}");
+    }
+
+    /// The last path, which is that of the last curve.
+    fn drawn(svg: &str) -> &str {
+        svg.rsplit("<path d=\"").next().and_then(|rest| rest.split('"').next()).unwrap()
+    }
+
+    fn numbers(path: &str) -> Vec<f64> {
+        path.split([' ', 'L']).map(|number| number.parse().unwrap()).collect()
     }
 
     #[test]
@@ -157,9 +261,8 @@ mod tests {
         let points = (0..50).map(|i| [f64::from(i) * 0.1, (f64::from(i) * 0.3).sin() * 1e6]).collect();
         let curve = Curve { source: Source::Ours, name: "sine".into(), points };
         let svg = Plot { axes: ["x".into(), "y".into()], curves: vec![curve] }.svg();
-        let drawn = svg.split("points=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
-        for point in drawn.split(' ') {
-            let (x, y) = point.split_once(',').unwrap();
+        for point in drawn(&svg)[1..].split('L') {
+            let (x, y) = point.split_once(' ').unwrap();
             assert!((MARGIN[0]..=WIDTH).contains(&x.parse().unwrap()));
             assert!((0.0..=HEIGHT - MARGIN[3]).contains(&y.parse().unwrap()));
         }

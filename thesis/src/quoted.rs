@@ -5,30 +5,71 @@ use std::collections::BTreeMap;
 /// What a recomputation says about a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Recomputed, within the tolerance of its entry.
+    /// Recomputed by simulation, within the tolerance of its entry: it could have failed.
     Agrees,
-    /// Recomputed, outside of the tolerance; the note says which proof shows it.
+    /// Recomputed within the tolerance from other stated numbers alone, by arithmetic or a closed form: no simulation can fail it.
+    Follows,
+    /// Recomputed within the tolerance, but something of ours was chosen so that it comes out.
+    Fitted,
+    /// Put in, not found: a parameter that is used as it is, or a ratio that is one by definition.
+    Given,
+    /// An error of the thesis: recomputed, outside of the tolerance; the note says which proof shows it.
     ThesisError,
+    /// A misprint of the text at hand: other places of the thesis show that it means something else.
+    Misprint,
+    /// A judgement of ours: the number differs from a measure that we chose, not from anything that the thesis says.
+    Judgement,
     /// Its figure needs a value that the thesis does not state; the note says what is assumed.
     NotStated,
     /// A trend in words.
     Qualitative,
-    /// Not recomputed yet.
+    /// Not recomputed.
     Open,
 }
 
 impl Status {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Agrees,
+        Self::Follows,
+        Self::Fitted,
+        Self::Given,
+        Self::ThesisError,
+        Self::Misprint,
+        Self::Judgement,
+        Self::NotStated,
+        Self::Qualitative,
+        Self::Open,
+    ];
+
     /// Name in `quoted.toml`, and in the report.
     pub fn name(self) -> &'static str {
         match self {
             Self::Agrees => "agrees",
+            Self::Follows => "follows",
+            Self::Fitted => "fitted",
+            Self::Given => "given",
             Self::ThesisError => "thesis_error",
+            Self::Misprint => "misprint",
+            Self::Judgement => "judgement",
             Self::NotStated => "not_stated",
             Self::Qualitative => "qualitative",
             Self::Open => "open",
         }
     }
+
+    /// Whether the recomputed value must be the quoted one (`Some(true)`), must differ from it, or is not compared.
+    fn demands(self) -> Option<bool> {
+        match self {
+            Self::Agrees | Self::Follows | Self::Fitted => Some(true),
+            Self::ThesisError | Self::Judgement => Some(false),
+            _ => None,
+        }
+    }
 }
+
+/// Beginning of the names of recomputed values that come from stated numbers alone.
+pub const ARITHMETIC: &str = "closed.";
 
 /// A quoted number.
 #[derive(Clone, Debug)]
@@ -39,6 +80,8 @@ pub struct Quoted {
     pub quantity: String,
     /// The number, in `unit`.
     pub value: f64,
+    /// Its upper end, where the thesis states a range.
+    pub to: Option<f64>,
     /// Unit.
     pub unit: String,
     /// What became of it.
@@ -74,48 +117,56 @@ pub fn parse(text: &str) -> Result<Vec<Quoted>, String> {
 
 /// One entry from its keys.
 fn entry(table: &BTreeMap<&str, &str>) -> Result<Quoted, String> {
-    const KEYS: [&str; 8] = ["item", "quantity", "value", "unit", "status", "computed", "tolerance", "note"];
+    const KEYS: [&str; 9] = ["item", "quantity", "value", "to", "unit", "status", "computed", "tolerance", "note"];
     let wrong = |what: &str| format!("{what} in {table:?}");
     if let Some(unknown) = table.keys().find(|key| !KEYS.contains(key)) {
         return Err(wrong(unknown));
     }
     let text = |key: &str| table.get(key).map(|value| (*value).to_owned()).ok_or_else(|| wrong(key));
     let number = |key: &str| text(key)?.parse::<f64>().map_err(|_| wrong(key));
-    let known = [Status::Agrees, Status::ThesisError, Status::NotStated, Status::Qualitative, Status::Open];
+    let optional = |key: &str| table.contains_key(key).then(|| number(key)).transpose();
     let name = text("status")?;
-    let status = known.into_iter().find(|status| status.name() == name).ok_or_else(|| wrong("status"))?;
-    let tolerance = table.contains_key("tolerance").then(|| number("tolerance")).transpose()?;
+    let status = Status::ALL.into_iter().find(|status| status.name() == name).ok_or_else(|| wrong("status"))?;
     let quoted = Quoted {
         item: text("item")?,
         quantity: text("quantity")?,
         value: number("value")?,
+        to: optional("to")?,
         unit: text("unit")?,
         status,
         computed: text("computed").ok(),
-        tolerance,
+        tolerance: optional("tolerance")?,
         note: text("note")?,
     };
-    let compared = quoted.computed.is_some() && quoted.tolerance.is_some();
-    match status {
-        Status::Agrees | Status::ThesisError if !compared => Err(wrong("computed and tolerance are missing")),
-        Status::Agrees if quoted.tolerance.is_some_and(|tolerance| tolerance > 0.05) => {
-            Err(wrong("tolerance above 5 %"))
-        }
-        _ => Ok(quoted),
-    }
+    quoted.sound().map_or(Ok(quoted), |flaw| Err(wrong(flaw)))
 }
 
 impl Quoted {
+    /// What contradicts its status, whatever is recomputed.
+    fn sound(&self) -> Option<&'static str> {
+        let (demands, computed) = (self.status.demands(), self.computed.as_deref());
+        let arithmetic = computed.is_some_and(|name| name.starts_with(ARITHMETIC));
+        if demands.is_some() && (computed.is_none() || self.tolerance.is_none()) {
+            return Some("computed and tolerance are missing");
+        }
+        if demands == Some(true) && self.tolerance.is_some_and(|tolerance| tolerance > 0.05) {
+            return Some("tolerance above 5 %");
+        }
+        match self.status {
+            Status::Agrees if arithmetic => Some("what arithmetic alone gives cannot fail: follows"),
+            Status::Follows if !arithmetic => Some("a simulation can fail: agrees"),
+            Status::Given if computed.is_some() => Some("what was put in is not compared"),
+            _ => None,
+        }
+    }
+
     /// Whether the status is what the recomputed value says; an error where that value does not exist.
     pub fn holds(&self, values: &BTreeMap<String, f64>) -> Result<bool, String> {
         let (Some(name), Some(tolerance)) = (&self.computed, self.tolerance) else { return Ok(true) };
         let value = values.get(name).ok_or_else(|| format!("{}: no figure computes {name}", self.item))?;
-        let agrees = (value / self.value - 1.0).abs() <= tolerance;
-        Ok(match self.status {
-            Status::Agrees => agrees,
-            Status::ThesisError => !agrees,
-            _ => true,
-        })
+        let [low, high] = [self.value, self.to.unwrap_or(self.value)];
+        let agrees = (low - tolerance * low.abs()..=high + tolerance * high.abs()).contains(value);
+        Ok(value.is_finite() && self.status.demands().is_none_or(|wanted| wanted == agrees))
     }
 }
 
@@ -139,6 +190,14 @@ mod tests {
         assert!(with("status = \"agrees\"").is_err());
         assert!(with("status = \"agrees\"\ncomputed = \"x\"\ntolerance = 0.05").is_ok());
         assert!(with("status = \"agrees\"\ncomputed = \"x\"\ntolerance = 0.06").is_err());
+        // What cannot fail does not agree, and what can fail does not follow.
+        let closed = "computed = \"closed.x\"\ntolerance = 0.01";
+        assert!(with(&format!("status = \"agrees\"\n{closed}")).is_err());
+        assert!(with(&format!("status = \"follows\"\n{closed}")).is_ok());
+        assert!(with("status = \"follows\"\ncomputed = \"x\"\ntolerance = 0.01").is_err());
+        assert!(with("status = \"given\"").is_ok());
+        assert!(with("status = \"given\"\ncomputed = \"x\"\ntolerance = 0.01").is_err());
+        assert!(with("status = \"judgement\"").is_err());
         assert!(with("status = \"fine\"").is_err());
         assert!(with("status = \"open\"\ncolour = \"red\"").is_err());
         assert!(with("status = \"open\"\nstatus = \"open\"").is_err());
@@ -156,6 +215,21 @@ mod tests {
         assert_eq!(entry("agrees").holds(&values(2030.0)), Ok(false));
         assert_eq!(entry("thesis_error").holds(&values(2030.0)), Ok(true));
         assert_eq!(entry("thesis_error").holds(&values(2010.0)), Ok(false));
-        assert!(entry("agrees").holds(&BTreeMap::new()).is_err());
+        assert_eq!(
+            [entry("judgement").holds(&values(2030.0)), entry("fitted").holds(&values(2030.0))],
+            [Ok(true), Ok(false)]
+        );
+        assert!(
+            entry("agrees").holds(&BTreeMap::new()).is_err() && entry("agrees").holds(&values(f64::NAN)) == Ok(false)
+        );
+    }
+
+    #[test]
+    fn a_range_agrees_from_its_lower_to_its_upper_end() {
+        let text = ENTRY.replace("2e3", "3");
+        let entry =
+            parse(&format!("{text}to = 5\nstatus = \"agrees\"\ncomputed = \"x\"\ntolerance = 0")).unwrap().remove(0);
+        let holds = |x: f64| entry.holds(&BTreeMap::from([("x".to_owned(), x)])) == Ok(true);
+        assert!([3.0, 4.2, 5.0].into_iter().all(holds) && ![2.9, 5.1].into_iter().any(holds));
     }
 }

@@ -1,4 +1,4 @@
-//! Mesh of the rail: a plate whose top runs from `(−b/2, 0)` to `(b/2, 0)`, refined under the contact (\[A] 3.1, \[C] 5.1).
+//! Mesh of the rail: a plate whose top runs from `(−b/2, 0)` to `(b/2, 0)`, refined under the contact (\[A] § 3.1, \[C] § 5.1).
 
 use crate::mesh::Mesh;
 use crate::rivara;

@@ -1,6 +1,6 @@
 //! The report: one page without anything from elsewhere, and the recomputed values as a table.
 
-use crate::errors;
+use crate::errors::{self, Kind};
 use crate::figures::{Figure, MISSING};
 use crate::quoted::{Quoted, Status};
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,36 +10,64 @@ const STYLE: &str = "body{font:15px/1.5 Georgia,serif;max-width:52rem;margin:2re
 h1,h2,h3,th,.status,svg,.legend{font-family:system-ui,sans-serif}table{border-collapse:collapse;width:100%;font-size:13px}\
 td,th{border-bottom:1px solid #ccc;padding:.3rem .5rem;text-align:left;vertical-align:top}\
 svg{width:100%;font-size:12px}.grid{stroke:#e2e2e2}.legend{font-size:12px;margin-top:0}\
-.agrees{color:#1b6e2c}.thesis_error{color:#a3260f}.not_stated{color:#7a5b00}.open{color:#666}\
+.agrees{color:#1b6e2c}.thesis_error{color:#a3260f}.not_stated{color:#7a5b00}.misprint,.judgement{color:#6a3d9a}\
+.open,.given,.follows,.fitted,.qualitative{color:#555}.chip{display:inline-block;width:.9em;height:.9em;vertical-align:-.1em}\
+.items a{margin-right:.5em;white-space:nowrap}.legend span{display:inline-block}\
 section,tr{break-inside:avoid}@media print{body{max-width:none;margin:0}h2{break-before:page}}";
 
-/// Status in words.
-fn words(status: Status) -> &'static str {
+/// Status in words, and what it says.
+fn words(status: Status) -> [&'static str; 2] {
     match status {
-        Status::Agrees => "agrees",
-        Status::ThesisError => "proven error",
-        Status::NotStated => "not stated",
-        Status::Qualitative => "qualitative",
-        Status::Open => "not recomputed yet",
+        Status::Agrees => ["agrees", "recomputed by simulation within its tolerance"],
+        Status::Follows => {
+            ["follows", "arithmetic or a closed form of other stated numbers gives it; no simulation could fail"]
+        }
+        Status::Fitted => ["fitted", "recomputed, but something of ours was chosen so that it comes out"],
+        Status::Given => ["given", "a parameter that is used as it is, or one by definition"],
+        Status::ThesisError => ["error of the thesis", "recomputed otherwise, with a proof"],
+        Status::Misprint => ["misprint", "other places of the thesis show that it means something else"],
+        Status::Judgement => ["judgement of ours", "differs from a measure that we chose"],
+        Status::NotStated => ["not stated", "hangs on a value that the thesis does not state"],
+        Status::Qualitative => ["qualitative", "a trend in words"],
+        Status::Open => ["not recomputed", "nothing of it was computed"],
     }
 }
 
 fn badge(status: Status) -> String {
-    format!("<span class=\"status {}\">{}</span>", status.name(), words(status))
+    format!("<span class=\"status {}\">{}</span>", status.name(), words(status)[0])
 }
 
-/// How many of the quoted numbers have each status, in a sentence.
+/// How many of the quoted numbers have each status, and what it means.
 fn counts(quoted: &[Quoted]) -> String {
-    let known = [Status::Agrees, Status::ThesisError, Status::NotStated, Status::Qualitative, Status::Open];
     let count = |status: Status| quoted.iter().filter(|entry| entry.status == status).count();
-    let part = |status: &Status| format!("{} {}", count(*status), badge(*status));
-    let parts: Vec<String> = known.iter().filter(|status| count(**status) > 0).map(part).collect();
-    format!("<p>Quoted numbers, {} in all: {}. The last table lists them.</p>", quoted.len(), parts.join(", "))
+    let row = |status: &Status| format!("{} {}: {}", count(*status), badge(*status), words(*status)[1]);
+    let rows: Vec<String> = Status::ALL.iter().filter(|status| count(**status) > 0).map(row).collect();
+    format!("<p>Quoted numbers, {} in all, in the last table. {}.</p>", quoted.len(), rows.join("; "))
+}
+
+/// The deviations in one table for each kind.
+fn deviations() -> String {
+    let mut text = String::from("<h2>Where text and recomputation differ</h2>");
+    for kind in Kind::ALL {
+        let _ = write!(text, "<h3>{}</h3><p>{}</p>", kind.title(), kind.meaning());
+        text += "<table><tr><th>place</th><th>it says</th><th>right is</th><th>because</th></tr>";
+        for error in errors::ALL.iter().filter(|error| error.kind == kind) {
+            let cells = [error.place, error.says, error.right, error.proof].map(escape);
+            let _ = write!(text, "<tr><td>{}</td></tr>", cells.join("</td><td>"));
+        }
+        text += "</table>";
+    }
+    text
 }
 
 /// Text with the characters that mean something in HTML replaced.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// A number as short as it can be.
+fn number(value: f64) -> String {
+    if (1e-3..1e5).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }
 
 /// The page.
@@ -49,30 +77,19 @@ pub fn html(figures: &[(Figure, f64)], quoted: &[Quoted]) -> String {
          <style>{STYLE}</style></head><body><h1>The thesis recomputed</h1>\
          <p>A. Draganis, <i>Numerical simulation of thermomechanically coupled transient rolling contact</i>, Chalmers 2014. The \
          thesis's own method is dashed, ours solid, closed forms are dots, quoted numbers thin lines. I is the introduction, A to D \
-         are the papers.</p><h3>Summary</h3>{}<table><tr><th>item</th><th>shows</th><th>status</th><th>found</th></tr>",
+         are the papers. Figures come first, then where text and recomputation differ, then every quoted number.</p>{}",
         counts(quoted)
     );
+    page += "<p class=\"items\">";
     for (figure, _) in figures {
-        let (item, finding) = (figure.item.replace(' ', ""), escape(&figure.finding));
-        let _ = write!(
-            page,
-            "<tr><td><a href=\"#{item}\">{}</a></td><td>{}</td><td>{}</td><td>{finding}</td></tr>",
-            figure.item,
-            figure.title,
-            badge(figure.status)
-        );
+        let item = figure.item.replace(' ', "");
+        let _ = write!(page, "<a href=\"#{item}\" title=\"{}\">{}</a> ", figure.title, figure.item);
     }
-    page += "</table>";
+    page += "</p>";
     if !MISSING.is_empty() {
-        let _ = write!(page, "<p class=\"open\">Not recomputed yet: {}.</p>", MISSING.join(", "));
+        let _ = write!(page, "<p class=\"open\">Not recomputed: {}.</p>", MISSING.join(", "));
     }
-    page +=
-        "<h2>Errors of the thesis</h2><table><tr><th>place</th><th>it says</th><th>right is</th><th>because</th></tr>";
-    for error in errors::ALL {
-        let cells = [error.place, error.says, error.right, error.proof].map(escape);
-        let _ = write!(page, "<tr><td>{}</td></tr>", cells.join("</td><td>"));
-    }
-    page += "</table><h2>Figures</h2>";
+    page += "<h2>Figures</h2>";
     for (figure, seconds) in figures {
         let _ = write!(page, "<section id=\"{}\">", figure.item.replace(' ', ""));
         let _ = write!(page, "<h3>{}: {} {}</h3>", figure.item, figure.title, badge(figure.status));
@@ -85,9 +102,11 @@ pub fn html(figures: &[(Figure, f64)], quoted: &[Quoted]) -> String {
         }
         let _ = write!(page, "</ul><p class=\"open\">{seconds:.1} s</p></section>");
     }
+    page += &deviations();
     page += "<h2>Every quoted number</h2><table><tr><th>item</th><th>quantity</th><th>value</th><th>status</th><th>note</th></tr>";
     for q in quoted {
-        let value = format!("{} {}", q.value, escape(&q.unit));
+        let upper = q.to.map_or_else(String::new, |to| format!(" to {}", number(to)));
+        let value = format!("{}{upper} {}", number(q.value), escape(&q.unit));
         let _ = write!(
             page,
             "<tr><td>{}</td><td>{}</td><td>{value}</td><td>{}</td><td>{}</td></tr>",
@@ -139,10 +158,29 @@ mod tests {
     fn the_summary_counts_every_quoted_number_once() {
         let page = html(&[], &crate::quoted::all().unwrap());
         let sentence = page.split("Quoted numbers, ").nth(1).unwrap().split("</p>").next().unwrap();
-        let parts = sentence.split(&[' ', '>'][..]).filter_map(|word| word.parse::<usize>().ok());
-        let numbers: Vec<usize> = parts.collect();
         println!("{sentence}");
-        assert!(numbers.len() > 3 && numbers[0] == numbers[1..].iter().sum::<usize>());
+        let number = |text: &str| text.split(' ').find_map(|word| word.parse::<usize>().ok());
+        let (all, rest) = sentence.split_once("table. ").unwrap();
+        let parts: Vec<usize> = rest.split("; ").filter_map(number).collect();
+        assert!(parts.len() > 5 && number(all) == Some(parts.iter().sum::<usize>()));
+    }
+
+    /// No deviation is hidden, and none stands in two tables.
+    #[test]
+    fn deviations_of_three_kinds_stand_in_tables_of_their_own() {
+        let page = html(&[], &crate::quoted::all().unwrap());
+        let tables: Vec<&str> = Kind::ALL
+            .iter()
+            .map(|kind| {
+                let table = page.split(&format!("<h3>{}</h3>", kind.title())).nth(1).unwrap();
+                table.split("</table>").next().unwrap()
+            })
+            .collect();
+        for error in errors::ALL {
+            let found: Vec<bool> = tables.iter().map(|table| table.contains(&escape(error.says))).collect();
+            let own: Vec<bool> = Kind::ALL.iter().map(|kind| *kind == error.kind).collect();
+            assert_eq!(found, own, "{}: {}", error.place, error.says);
+        }
     }
 
     #[test]

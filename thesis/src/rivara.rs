@@ -1,5 +1,5 @@
 //! Longest-edge refinement of triangles after M. C. Rivara, *Int. J. Numer. Methods Engng* 20 (1984) 745–756: the only
-//! refinement of the thesis (\[A] 3.1, \[B] 6.1).
+//! refinement of the thesis (\[A] § 3.1, \[B] § 6.2).
 //!
 //! From a triangle that is to be cut one follows longest edges, each to the neighbour behind it, until both sides agree on
 //! the longest one or the boundary is reached. That edge is halved on both sides, and the walk begins again until the

@@ -1,8 +1,8 @@
-//! Stationary rolling of wheel and rail on triangles: what is linear, and the search for contact (\[C] 3 to 5, \[D] 5).
+//! Stationary rolling of wheel and rail on triangles: what is linear, and the search for contact (\[C] §§ 3 to 5, \[D] § 5).
 //!
 //! Both bodies are of linear triangles, as in Paper A, or the wheel of quadratic ones, as in Papers B to D; contact is between corners
 //! in both cases. The hub is rigid, held in x and free in y, where it carries the load;
-//! the base of the rail is held; its ends let material pass without traction of their own (Robin condition).
+//! the base of the rail is held; its ends let material pass free of traction, by the Robin term of \[B] (33) and \[D] (35).
 
 use crate::contact::{Forces, Law, Pair, Past};
 use crate::mesh::Mesh;
@@ -59,7 +59,7 @@ pub struct System {
     pub elastic: Matrix,
     /// To be taken `−ω²` times.
     pub turning: Matrix,
-    /// To be taken `−V²` times.
+    /// To be taken `−V²` times; with the term of the ends.
     pub streaming: Matrix,
     /// To be taken `ω²` times [N/m · s²].
     pub centrifugal: Vec<f64>,
@@ -110,7 +110,10 @@ impl System {
         let mut elastic = shifted(elastic::stiffness(&turned, young, poisson), 0);
         elastic.entries.extend(shifted(elastic::stiffness(&streamed, young, poisson), first).entries);
         let turning = shifted(elastic::convection(&turned, density, |[x, y]| [y, -x]), 0);
-        let streaming = shifted(elastic::convection(&streamed, density, |_| [-1.0, 0.0]), first);
+        let mut streaming = shifted(elastic::convection(&streamed, density, |_| [-1.0, 0.0]), first);
+        // Its ends are free of traction, which the stream's own would not be.
+        let ends = shifted(elastic::open_ends(rail, parameters.plate, density), first);
+        streaming.entries.extend(ends.entries.into_iter().map(|(i, j, value)| (i, j, -value)));
         let mut centrifugal = elastic::centrifugal(&turned, density);
         centrifugal.resize(2 * count, 0.0);
         let lift = |[x, y]: &[f64; 2]| [*x, y + annulus.outer];

@@ -1,4 +1,4 @@
-//! Stabilisation of convection: streamline upwinding (\[I] 5.2.1, \[D] 5.2.3) and quasi-residual-free bubbles (\[B] Fig. 2).
+//! Stabilisation of convection: streamline upwinding (\[I] § 5.2.1, \[D] § 5.2.3) and quasi-residual-free bubbles (\[B] Fig. 2).
 
 /// How an element treats convection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,23 @@ pub fn intrinsic_time(length: f64, capacity: f64, speed: f64, conductivity: f64)
         return length * length / (12.0 * conductivity);
     }
     0.25 * length * length / conductivity * upwind(half_peclet) / half_peclet
+}
+
+/// Half Péclet numbers up to which `coth P ≈ 1/P + P/3` and from which on `coth P ≈ 1` (\[D] § 5.2.3): either changes the share of upwinding by a
+/// hundredth at most.
+pub const SPLIT: [f64; 2] = [0.38, 2.9];
+
+/// `(ρc|v|)² τ` of SUPG as `a + b |v| + c |v|²` with constants a [W/(m K)], b [J/(m² K)] and c [J s/(m³ K)], where one of the two approximations of \[D] § 5.2.3 holds at
+/// all speeds [m/s] from the first to the second; `None` where the half Péclet number comes into the range between them.
+pub fn split_time(length: f64, capacity: f64, [slowest, fastest]: [f64; 2], conductivity: f64) -> Option<[f64; 3]> {
+    let half_peclet = |speed: f64| 0.5 * capacity * speed * length / conductivity;
+    if half_peclet(fastest) <= SPLIT[0] {
+        Some([0.0, 0.0, capacity * capacity * length * length / (12.0 * conductivity)])
+    } else if half_peclet(slowest) >= SPLIT[1] {
+        Some([-conductivity, 0.5 * capacity * length, 0.0])
+    } else {
+        None
+    }
 }
 
 /// Length along the stream, `2|v|/Σ|v·∇Nᵢ|` \[m]; `gradients` [1/m] of all shape functions of the element at a place. Those of linear
@@ -80,6 +97,23 @@ mod tests {
         let v = 10.0;
         let strong = h / (2.0 * rho_c * v) - k / (rho_c * v).powi(2);
         assert!((intrinsic_time(h, rho_c, v, k) / strong - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn both_approximations_are_within_a_hundredth_of_upwinding_and_none_stands_between_them() {
+        let (h, rho_c, k) = (0.02, 3.68e6, 45.0);
+        let speed = |half_peclet: f64| 2.0 * half_peclet * k / (rho_c * h);
+        for p in [1e-6, 0.1, SPLIT[0], SPLIT[1], 10.0, 1e4] {
+            let v = speed(p);
+            let [a, b, c] = split_time(h, rho_c, [v, v], k).unwrap();
+            let exact = intrinsic_time(h, rho_c, v, k) * (rho_c * v).powi(2);
+            let off = (a + b * v + c * v * v) / exact - 1.0;
+            println!("{p}: {off:.1e}");
+            assert!(off.abs() < 0.011);
+        }
+        // Not where speeds reach from one range into the other, nor in between.
+        assert!(split_time(h, rho_c, [speed(0.1), speed(10.0)], k).is_none());
+        assert!(split_time(h, rho_c, [speed(1.0), speed(1.0)], k).is_none());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Rolling in time as \[A] 2 and 3 compute it: linear triangles, no friction, Lagrange multipliers on the nodes of the tread,
+//! Rolling in time as \[A] §§ 2 and 3 compute it: linear triangles, no friction, Lagrange multipliers on the nodes of the tread,
 //! an irregular profile as offset of the gaps, Rayleigh damping, free or non-reflecting ends, one θ scheme.
 //!
 //! Velocities are prescribed and constant, so that all matrices are: they are factorised once, and a step is one solution
@@ -86,7 +86,14 @@ impl Rolling {
         let parameters = Parameters { annulus, plate, young, poisson, density, load, law };
         let system = System::new(parameters, wheel, rail, case.reach);
         let motion = Motion { omega: velocity / annulus.outer, velocity };
-        let stiffness = system.reduce(&system.stiffness(motion)).compressed();
+        let mut stiffness = system.stiffness(motion);
+        if case.ends == RailEnds::Nonreflecting {
+            // Dashpots take the place of the Robin term.
+            let by = 2 * system.wheel_nodes;
+            let ends = elastic::open_ends(rail, plate, density).entries.into_iter();
+            stiffness.entries.extend(ends.map(|(i, j, value)| (i + by, j + by, -velocity * velocity * value)));
+        }
+        let stiffness = system.reduce(&stiffness).compressed();
         let [mass, damping] = inertia(&system, &case, wheel, rail, motion);
         let pairs = pairs(&system);
         let numbers = system.unknown[..2 * system.wheel_nodes].to_vec();

@@ -1,4 +1,4 @@
-//! Meshes without any order for the rotating annulus of \[B] 4, "deliberately unstructured" there: refined after Rivara, relaxed to
+//! Meshes without any order for the rotating annulus of \[B] § 4, "deliberately unstructured" there: refined after Rivara, relaxed to
 //! triangles of good shape, then disturbed at random.
 
 use crate::mesh::{Mesh, edges};

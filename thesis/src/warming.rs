@@ -1,11 +1,13 @@
-//! Heat in time steps as \[D] 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the velocities, and stabilisation
-//! that is assembled again only when a velocity has changed by a given share (\[D] 5.2.2). The capacity is not stabilised, as in \[D] 28.
+//! Heat in time steps as \[D] § 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the velocities, and stabilisation
+//! that is assembled again only when a velocity has changed by a given share (\[D] § 5.2.2), but for SUPG in the rail where it joins the sums (\[D] § 5.2.3).
+//! The capacity is not stabilised, as in \[D] (28).
 
 use crate::Error;
+use crate::flow::Flow;
 use crate::heat::{Heating, Spot};
 use crate::sparse::{Factors, Matrix};
-use crate::stabilise::Scheme;
-use crate::triangle::{Space, points};
+use crate::stabilise::{Scheme, split_time, stream_length};
+use crate::triangle::{Space, linear_gradients, points};
 use nalgebra::DMatrix;
 
 /// Heat of a time step [W/m].
@@ -36,7 +38,9 @@ pub struct Warming<'a> {
     pub spaces: [Space; 2],
     /// Conduction, convection for a unit angular velocity and for a unit velocity, and heat capacity.
     parts: [Matrix; 4],
-    /// What stabilisation adds, and the velocities for which it was assembled.
+    /// What SUPG in the rail adds where it is a sum, if it is one anywhere.
+    split: Option<Split>,
+    /// What other stabilisation adds, and the velocities for which it was assembled.
     stabilisation: ([f64; 2], Matrix),
     /// Relative change of a velocity that it outlasts \[1].
     tolerance: f64,
@@ -50,6 +54,44 @@ pub struct Warming<'a> {
     kept: Option<(Key, Factors, Matrix)>,
     /// Temperatures over the reference \[K] of the wheel's nodes, then of the rail's.
     pub theta: Vec<f64>,
+}
+
+/// SUPG of the rail's elements as a sum with the coefficients 1, `|V|` and `V²`.
+struct Split {
+    /// Speeds for which it holds [m/s]; beyond them it is given up.
+    speeds: [f64; 2],
+    parts: [Matrix; 3],
+    /// Which elements of the rail are in it.
+    within: Vec<bool>,
+}
+
+impl Split {
+    fn new(heating: &Heating, spaces: &[Space; 2], speeds: [f64; 2]) -> Self {
+        let [capacity, conductivity] = heating.material;
+        let (first, rail) = (spaces[0].places.len(), &spaces[1]);
+        let mut parts = [0; 3].map(|_| Matrix::new(first + rail.places.len()));
+        let element = |(t, nodes): (usize, &Vec<usize>)| {
+            let corners = heating.meshes[1].corners(t);
+            let slopes = linear_gradients(&corners);
+            let factors = split_time(stream_length(&slopes, [-1.0, 0.0]), capacity, speeds, conductivity);
+            let area = 0.5 * crate::mesh::double_area(&corners);
+            for (part, factor) in parts.iter_mut().zip(factors.into_iter().flatten()) {
+                for (row, a) in nodes.iter().zip(&slopes) {
+                    for (column, b) in nodes.iter().zip(&slopes) {
+                        part.add(first + row, first + column, factor * area * a[0] * b[0]);
+                    }
+                }
+            }
+            factors.is_some()
+        };
+        let within = rail.elements.iter().enumerate().map(element).collect();
+        Self { speeds, parts: parts.map(Matrix::compressed), within }
+    }
+
+    /// Coefficients of the parts.
+    fn factors(&self, velocity: f64) -> [f64; 3] {
+        [1.0, velocity.abs(), velocity * velocity]
+    }
 }
 
 /// Step \[s], velocities, and places in contact.
@@ -70,33 +112,67 @@ impl<'a> Warming<'a> {
         let fixed = heating.fixed(&spaces);
         let mut arcs = vec![0.0; parts[0].size];
         Heating { arcs: 1.0, ..heating }.heat_arcs(&spaces[0], &mut arcs);
-        Self { heating, spaces, parts, stabilisation, tolerance, fixed, arcs, assemblies: 0, kept: None, theta }
+        let (split, assemblies, kept) = (None, 0, None);
+        Self { heating, spaces, parts, split, stabilisation, tolerance, fixed, arcs, assemblies, kept, theta }
+    }
+
+    /// Takes SUPG of the rail into the sums, for all speeds [m/s] from the first to the second, where the half Péclet number of an element stays small
+    /// or large. Other elements are assembled as before. Returns the share of the elements that need not be.
+    pub fn split(&mut self, speeds: [f64; 2]) -> f64 {
+        let split = Split::new(&self.heating, &self.spaces, speeds);
+        let share = split.within.iter().filter(|within| **within).count() as f64 / split.within.len() as f64;
+        (self.split, self.stabilisation.0) = (Some(split), [f64::NAN; 2]);
+        share
+    }
+
+    /// What stabilisation adds that is no sum.
+    fn lagging(&self, motion: [f64; 2]) -> Matrix {
+        let [omega, velocity] = motion;
+        let (heating, schemes) = (&self.heating, [self.heating.wheel.1, Scheme::Supg]);
+        let turning = |[x, y]: [f64; 2]| [omega * y, -omega * x];
+        let streaming = |_: [f64; 2]| [-velocity, 0.0];
+        let flows: [&dyn Fn([f64; 2]) -> [f64; 2]; 2] = [&turning, &streaming];
+        let [capacity, conductivity] = heating.material;
+        heating.assemble_some(&self.spaces, |body, t, corners| {
+            let within = body == 1 && self.split.as_ref().is_some_and(|split| split.within[t]);
+            let flow = Flow { capacity, conductivity, velocity: flows[body], source: 0.0, degree: 5 };
+            let order = self.spaces[body].order;
+            let element = |scheme: Scheme| flow.element(corners, order, scheme).0;
+            (!within).then(|| element(schemes[body]) - element(Scheme::Galerkin))
+        })
     }
 
     /// Assembles the stabilisation for velocities, if one of them has left the tolerance.
     pub fn renew(&mut self, motion: [f64; 2]) {
+        let [slowest, fastest] = self.split.as_ref().map_or([0.0, f64::INFINITY], |split| split.speeds);
+        if !(slowest..=fastest).contains(&motion[1].abs()) {
+            (self.split, self.stabilisation.0) = (None, [f64::NAN; 2]);
+        }
         let of = self.stabilisation.0;
         let lasts = |k: usize| (motion[k] - of[k]).abs() <= self.tolerance * of[k].abs();
         if !(lasts(0) && lasts(1)) {
-            let heating = Heating { motion, ..self.heating };
-            let plain = heating.flowing(&self.spaces, [Scheme::Galerkin; 2], heating.material[1], motion);
-            let added = Matrix::sum(&[(1.0, &heating.stabilised(&self.spaces)), (-1.0, &plain)]);
-            self.stabilisation = (motion, added);
+            self.stabilisation = (motion, self.lagging(motion).compressed());
             self.assemblies += 1;
         }
     }
 
+    /// The constant matrices and their coefficients for velocities, with the stabilisation that is at hand.
+    fn terms(&self, [omega, velocity]: [f64; 2]) -> Vec<(f64, &Matrix)> {
+        let [still, turning, streaming, _] = &self.parts;
+        let mut terms = vec![(1.0, still), (omega, turning), (velocity, streaming), (1.0, &self.stabilisation.1)];
+        terms.extend(self.split.iter().flat_map(|split| split.factors(velocity).into_iter().zip(&split.parts)));
+        terms
+    }
+
     /// Conduction and convection for velocities, with the stabilisation that is at hand.
     pub fn matrix(&self, motion: [f64; 2]) -> Matrix {
-        let [still, turning, streaming, _] = &self.parts;
-        Matrix::sum(&[(1.0, still), (motion[0], turning), (motion[1], streaming), (1.0, &self.stabilisation.1)])
+        Matrix::sum(&self.terms(motion))
     }
 
     /// Heat that conduction and convection take from every node [W/m]: the matrix for velocities times temperatures over the reference \[K].
     pub fn flow(&self, motion: [f64; 2], theta: &[f64]) -> Vec<f64> {
-        let [still, turning, streaming, _] = &self.parts;
-        let mut flow = still.multiply(theta);
-        for (factor, part) in [(motion[0], turning), (motion[1], streaming), (1.0, &self.stabilisation.1)] {
+        let mut flow = vec![0.0; theta.len()];
+        for (factor, part) in self.terms(motion) {
             flow.iter_mut().zip(part.multiply(theta)).for_each(|(flow, more)| *flow += factor * more);
         }
         flow
@@ -112,7 +188,7 @@ impl<'a> Warming<'a> {
         self.arcs.iter().map(|share| self.heating.arcs * share)
     }
 
-    /// What changes the matrix with the angular velocity (0) or the velocity (1), without stabilisation (\[D] 5.3.1).
+    /// What changes the matrix with the angular velocity (0) or the velocity (1), without stabilisation (\[D] § 5.3.1).
     pub fn by_velocity(&self, k: usize) -> &Matrix {
         &self.parts[1 + k]
     }

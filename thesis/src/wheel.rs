@@ -1,5 +1,5 @@
 //! Meshes of the wheel: an annulus about the origin, refined after Rivara, with round rims and its centre of gravity
-//! corrected (\[C] 5.1).
+//! corrected (\[C] § 5.1).
 
 use crate::Error;
 use crate::elastic;
@@ -104,7 +104,7 @@ fn polygon_area(mesh: &Mesh, nodes: &[usize]) -> f64 {
     corners.iter().enumerate().map(|(i, a)| 0.5 * (a[0] * next(i)[1] - a[1] * next(i)[0])).sum()
 }
 
-/// Mesh of a rolling wheel as \[C] 5.1 builds it: refined about the contact, as `graded` does, until the edges there would be
+/// Mesh of a rolling wheel as \[C] § 5.1 builds it: refined about the contact, as `graded` does, until the edges there would be
 /// shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the longest edges of
 /// the tread, the round rims, and the centre of gravity.
 pub fn rolling(annulus: Annulus, patch: f64, size: f64, global: usize, poisson: f64) -> Result<Mesh, Error> {
@@ -115,7 +115,7 @@ pub fn rolling(annulus: Annulus, patch: f64, size: f64, global: usize, poisson: 
     Ok(mesh)
 }
 
-/// Mesh of a rolling wheel as \[A] 3.1 builds it: refined about the contact, then as a whole, then with round rims.
+/// Mesh of a rolling wheel as \[A] § 3.1 builds it: refined about the contact, then as a whole, then with round rims.
 pub fn early(annulus: Annulus, patch: f64, base: f64, global: usize) -> Mesh {
     let mut mesh = graded(annulus, patch, base, global);
     make_round(&mut mesh, annulus);

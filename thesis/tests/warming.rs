@@ -108,6 +108,42 @@ fn decomposed_matrices_are_those_assembled_anew_but_for_stabilisation_that_lags(
     }
 }
 
+/// With a Galerkin wheel all stabilisation is the rail's. From 50 to 10 km/h every element has a large Péclet number, so that nothing is assembled
+/// again and the sum is what would be; where the rail nearly stands small ones join, and those between the ranges are assembled.
+#[test]
+fn supg_of_the_rail_joins_the_sums_where_peclet_numbers_are_small_or_large() {
+    let (meshes, spots) = bodies();
+    let of = (Order::Linear, Scheme::Galerkin);
+    let apart = |speeds: [f64; 2], tolerance: f64| {
+        let mut warming = Warming::new(heating(&meshes, &spots, of), tolerance, None);
+        let share = warming.split(speeds);
+        let unit: Vec<f64> = (0..warming.theta.len()).map(|i| (1.7 * i as f64).sin()).collect();
+        let mut worst = 0.0_f64;
+        for k in 0..=10 {
+            let velocity = speeds[0] + 0.1 * f64::from(k) * (speeds[1] - speeds[0]);
+            for motion in [[MOTION[0], velocity], [MOTION[0], -velocity]] {
+                let anew = Heating { motion, ..heating(&meshes, &spots, of) };
+                let (exact, plain) = (anew.stabilised(&anew.spaces()), anew);
+                let plain = Heating { motion: [motion[0], 0.0], ..plain }.stabilised(&anew.spaces());
+                warming.renew(motion);
+                let [a, b, c] = [&warming.matrix(motion), &exact, &plain].map(|matrix| matrix.multiply(&unit));
+                let largest = b.iter().zip(&c).fold(0.0_f64, |most, (b, c)| most.max((b - c).abs()));
+                worst = a.iter().zip(&b).fold(worst, |worst, (a, b)| worst.max((a - b).abs() / largest));
+            }
+        }
+        println!(
+            "{speeds:?} m/s: {:.1} % of the elements, off by {worst:.1e}, {} assemblies",
+            100.0 * share,
+            warming.assemblies
+        );
+        (share, worst, warming.assemblies)
+    };
+    let fast = apart([10.0 / 3.6, 50.0 / 3.6], 1e3);
+    assert!(fast.0 == 1.0 && fast.1 < 1e-9 && fast.2 == 1);
+    let (share, off, _) = apart([1e-6, 1e-3], 0.0);
+    assert!((0.3..1.0).contains(&share) && off < 2e-3);
+}
+
 /// Braking within ten seconds: how much a tolerance of 5 % changes the temperatures, and that half of it changes half.
 #[test]
 fn temperatures_of_braking_converge_with_the_tolerance_of_the_stabilisation() {

@@ -1,5 +1,4 @@
-//! Paper D, section 6.2: braking with prescribed velocities and with a prescribed moment, by the product beside balances of
-//! momentum and Carter.
+//! Paper D, figures 16 and 17: braking with a prescribed moment, by the product and the thesis's own method beside balances of momentum and Carter.
 
 use super::{Figure, curve, must, rolling};
 use crate::annulus::{INNER, OUTER};
@@ -13,72 +12,47 @@ use std::f64::consts::PI;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::simulation::{Rotation, Translation};
 
-const LOAD: f64 = 100e3;
-const FRICTION: f64 = 0.4;
+pub(super) const LOAD: f64 = 100e3;
+pub(super) const FRICTION: f64 = 0.4;
 /// Velocities at the start and at the end [m/s].
-const START: f64 = 50.0 / 3.6;
-const END: f64 = 10.0 / 3.6;
-/// Time in which the tread slows down in example a \[s], and length of the quadratic end of the travel velocity \[s], assumed.
-const TREAD: f64 = 1.1;
-const ROUNDING: f64 = 0.3;
+pub(super) const START: f64 = 50.0 / 3.6;
+pub(super) const END: f64 = 10.0 / 3.6;
 /// Steps of ten seconds by the thesis's own method, as many as the thesis has.
 const METHOD_STEPS: u32 = 100;
 
 /// Mass \[kg] and moment of inertia [kg m²] of a metre of wheel.
-fn inertia() -> [f64; 2] {
+pub(super) fn inertia() -> [f64; 2] {
     let mass = 8000.0 * PI * (OUTER * OUTER - INNER * INNER);
     [mass, 0.5 * mass * (OUTER * OUTER + INNER * INNER)]
 }
 
 /// Paper D on a coarser mesh without centrifugal load, as the references.
-fn paper_d() -> Result<Product, String> {
+pub(super) fn paper_d() -> Result<Product, String> {
     Product::with("paper_d", |config| {
         (config.physics.centrifugal, config.mesh.elements_per_half_width) = (false, 10);
     })
 }
 
-/// A velocity that falls from the start at `rate` [m/s²] and rounds off into the end.
-fn slowing(t: f64, rate: f64) -> f64 {
-    // On a parabola of the length T the velocity falls by half of what the rate makes in T.
-    let round = (START - END) / rate - 0.5 * ROUNDING;
-    match t {
-        t if t <= round => START - rate * t,
-        t if t <= round + ROUNDING => END + 0.5 * rate / ROUNDING * (round + ROUNDING - t).powi(2),
-        _ => END,
-    }
-}
+/// What is drawn of a motion: time, V, rω, moment, force, contact force, creepage, temperature of the wheel at the contact point over the reference.
+pub(super) type Row = [f64; 8];
 
-/// What is drawn of a motion: time, V, rω, moment, force, contact force, creepage.
-fn row(t: f64, run: &Run) -> [f64; 7] {
+pub(super) fn row(t: f64, run: &Run) -> Row {
     let o = run.outputs();
-    [t, o.wheel_velocity, o.wheel_omega * OUTER, o.hub_moment, o.hub_force_x, o.contact_force_x, o.contact_creepage]
+    let (tread, warm) = (o.wheel_omega * OUTER, run.warmth().wheel_centre);
+    [t, o.wheel_velocity, tread, o.hub_moment, o.hub_force_x, o.contact_force_x, o.contact_creepage, warm]
 }
 
-/// Motion with both velocities prescribed, V and rω over time, in steps \[s] to `end` \[s].
-fn prescribed(end: f64, step: f64, velocities: impl Fn(f64) -> [f64; 2]) -> Result<Vec<[f64; 7]>, String> {
-    let mut run = paper_d()?.rolling(START, 0.0, |_| ())?;
-    let mut rows = vec![row(0.0, &run)];
-    for k in 1..=(end / step).round() as usize {
-        let t = k as f64 * step;
-        let [travel, tread] = velocities(t);
-        (run.inputs.drive.velocity, run.inputs.drive.omega) = (travel, tread / OUTER);
-        run.advance(step)?;
-        rows.push(row(t, &run));
-    }
-    Ok(rows)
-}
-
-fn column(rows: &[[f64; 7]], i: usize, scale: f64, source: Source, name: &str) -> Curve {
+pub(super) fn column(rows: &[Row], i: usize, scale: f64, source: Source, name: &str) -> Curve {
     curve(source, name, rows.iter().map(|row| [row[0], scale * row[i]]).collect())
 }
 
 /// The row at a time.
-fn at(rows: &[[f64; 7]], t: f64) -> [f64; 7] {
+pub(super) fn at(rows: &[Row], t: f64) -> Row {
     rows.iter().copied().find(|row| row[0] >= t - 1e-9).unwrap_or(rows[rows.len() - 1])
 }
 
 /// Velocities, moment and forces of a motion.
-fn drawings(rows: &[[f64; 7]], name: &str) -> Vec<Plot> {
+fn drawings(rows: &[Row], name: &str) -> Vec<Plot> {
     let time = || "time in s".to_owned();
     let label = |what: &str| format!("{what}, {name}");
     vec![
@@ -100,75 +74,8 @@ fn drawings(rows: &[[f64; 7]], name: &str) -> Vec<Plot> {
     ]
 }
 
-/// Figures D 11 to 15: braking with prescribed velocities.
-pub fn velocities() -> Result<Figure, String> {
-    let [mass, moment_of_inertia] = inertia();
-    let rate = FRICTION * LOAD / mass;
-    let tread = |t: f64| START + (END - START) * (t / TREAD).min(1.0);
-    let a = prescribed(2.5, 0.01, |t| [slowing(t, rate), tread(t)])?;
-    // Example b, whose history is not stated: four seconds of slight creepage.
-    let (time, creepage) = (4.0, 2e-4);
-    let b = prescribed(10.0, 0.1, |t| {
-        let v = START + (END - START) * (t / time).min(1.0);
-        let xi = if t < time { creepage } else { 0.0 };
-        [v, v * (1.0 - 0.5 * xi) / (1.0 + 0.5 * xi)]
-    })?;
-    let sliding = moment_of_inertia * (END - START) / TREAD / OUTER - FRICTION * LOAD * OUTER;
-    let (first, second) = (at(&a, 0.6), at(&a, 1.25));
-    let largest = a.iter().fold(0.0_f64, |worst, row| worst.max(row[6]));
-    let limit = 1.05 * FRICTION * LOAD * OUTER;
-    let leaves = a.iter().find(|row| row[0] > 0.6 && row[3].abs() < limit).map_or(f64::NAN, |row| row[0]);
-    // Newton and Carter in the middle of b.
-    let middle = at(&b, 2.0);
-    let full = carter_full_slip(FRICTION, hertz_half_width(LOAD, OUTER, contact_modulus(200e9, 0.3)), OUTER);
-    let contact = carter_force(creepage, full) * FRICTION * LOAD;
-    let slowed = (END - START) / time;
-    let force = mass * slowed - contact;
-    let moment = moment_of_inertia * slowed / OUTER + contact * OUTER;
-    let scale = FRICTION * LOAD;
-    let off = [(middle[3] - moment) / (scale * OUTER), (middle[4] - force) / scale];
-    let mut plots = drawings(&a, "a");
-    plots.extend(drawings(&b, "b"));
-    Ok(Figure {
-        item: "D 11–15",
-        title: "Braking with prescribed velocities from 50 to 10 km/h",
-        status: Status::NotStated,
-        parameters: "Base of Paper D, P = 100 kN/m, μ = 0.4. a: rω falls linearly in 1.1 s, V at μP/m with a quadratic end of 0.3 s \
-                     (assumed), steps of 10 ms over 2.5 s. b: its history is not stated; V falls linearly in 4 s at ξ = 2e-4 (assumed), \
-                     100 steps over 10 s. Without centrifugal load.",
-        finding: format!(
-            "a: moment {:.0} N m while the tread slows down, then {:.0} N m, which is μPr; the force on the hub is {:.0} N, since \
-             friction alone brakes; the creepage reaches {largest:.3}. b: moment {:.0} N m and force {:.0} N in the middle.",
-            first[3], second[3], first[4], middle[3], middle[4]
-        ),
-        plots,
-        values: vec![
-            ("d11.moment.first".into(), first[3]),
-            ("d11.moment.second".into(), second[3]),
-            ("d11.creepage".into(), largest),
-            ("d11.plateau".into(), leaves),
-        ],
-        predicates: vec![
-            must(
-                format!("first moment within 0.5 % of Newton's {sliding:.0} and of the reference's −35 864 N m"),
-                (first[3] / sliding - 1.0).abs() < 5e-3 && (first[3] / -35_864.0 - 1.0).abs() < 5e-3,
-            ),
-            must("second moment within 0.5 % of μPr, 20 000 N m", (second[3] / -20e3 - 1.0).abs() < 5e-3),
-            must(format!("no force on the hub, within 1 % of μP: {:.0} N", first[4]), first[4].abs() < 0.01 * scale),
-            must(format!("largest creepage within 1 % of 0.842: {largest:.4}"), (largest / 0.842 - 1.0).abs() < 0.01),
-            must(
-                format!(
-                    "b: moment and force within 1 % of the limit of Newton and Carter: {:+.4}, {:+.4}",
-                    off[0], off[1]
-                ),
-                off.iter().all(|off| off.abs() < 0.01),
-            ),
-        ],
-    })
-}
-
 /// Braking by a moment that grows in `ramp` \[s], holds for `hold` \[s] and goes back; ten seconds in steps \[s].
-fn controlled(peak: f64, times: [f64; 2], step: f64) -> Result<Vec<[f64; 7]>, String> {
+fn controlled(peak: f64, times: [f64; 2], step: f64) -> Result<Vec<Row>, String> {
     let product = paper_d()?;
     let held = product.rolling(START, 0.0, |_| ())?;
     let (force, moment) = (held.outputs().hub_force_x, held.outputs().hub_moment);
@@ -193,7 +100,7 @@ fn share_of_peak(t: f64, [ramp, hold]: [f64; 2]) -> f64 {
 
 /// The same by the thesis's own step in time, on linear triangles with edges of `edge` half-widths in the contact: moment and no force on the
 /// hub prescribed at once. Rows as of the product, with the creepage over that of rolling freely, which such a mesh has.
-fn by_method(peak: f64, times: [f64; 2], edge: f64) -> Result<Vec<[f64; 7]>, String> {
+fn by_method(peak: f64, times: [f64; 2], edge: f64) -> Result<Vec<Row>, String> {
     let said = |error: crate::Error| error.to_string();
     let (system, [wheel, rail]) = rolling::triangles(edge, 1)?;
     let (held, _) = newton::rolling(&system, rolling::motion(START, 0.0)).map_err(said)?;
@@ -204,7 +111,7 @@ fn by_method(peak: f64, times: [f64; 2], edge: f64) -> Result<Vec<[f64; 7]>, Str
         let Motion { omega, velocity } = run.state.motion;
         let creepage = 2.0 * (velocity - OUTER * omega) / (velocity + OUTER * omega);
         let [moment, force] = run.efforts;
-        [t, velocity, OUTER * omega, moment, force, newton::resultant(&run.touches)[0], creepage]
+        [t, velocity, OUTER * omega, moment, force, newton::resultant(&run.touches)[0], creepage, f64::NAN]
     };
     let mut rows = vec![row(0.0, &run)];
     for k in 1..=METHOD_STEPS {
@@ -226,7 +133,7 @@ pub fn moment() -> Result<Figure, String> {
     let share = 0.48 * FRICTION * LOAD;
     let peak = share * (OUTER + moment_of_inertia / (mass * OUTER));
     let lighter = controlled(peak, [1.4, 2.2], 0.02)?;
-    let largest = |rows: &[[f64; 7]], i: usize| rows.iter().fold(0.0_f64, |worst, row| worst.max(row[i].abs()));
+    let largest = |rows: &[Row], i: usize| rows.iter().fold(0.0_f64, |worst, row| worst.max(row[i].abs()));
     let limit = FRICTION * LOAD;
     let [used, less] = [&creeping, &lighter].map(|rows| largest(rows, 5) / limit);
     let [creep, slight] = [&creeping, &lighter].map(|rows| largest(rows, 6));

@@ -1,14 +1,13 @@
 //! Paper C: tractions and friction heat of stationary rolling and sliding, by the product beside Carter, references and balances.
 
-use super::{Extent, Figure, balanced, curve, largest, must};
+use super::mesh_heat::half_width;
+use super::{Extent, Figure, balanced, carter, curve, largest, maps, must};
 use crate::annulus::{CONDUCTIVITY, INNER, OUTER};
 use crate::ours::{Product, Run};
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 use std::f64::consts::TAU;
-use wheelrail::analytic::{
-    carter_force, carter_full_slip, contact_modulus, flash_temperature, hertz_half_width, hertz_peak_pressure,
-};
+use wheelrail::analytic::{flash_temperature, hertz_peak_pressure};
 use wheelrail::config::Config;
 
 /// Load [N/m], velocity [m/s] and friction coefficient, which Paper C does not state.
@@ -29,28 +28,6 @@ fn paper_c(change: impl FnOnce(&mut Config)) -> Result<Product, String> {
     })
 }
 
-/// Half of the contact \[m].
-fn half_width() -> f64 {
-    hertz_half_width(LOAD, OUTER, contact_modulus(200e9, 0.3))
-}
-
-/// End of the slip zone behind which the contact sticks \[m], after Carter: it sticks from there to the front.
-fn slip_end(creepage: f64, friction: f64) -> f64 {
-    let a = half_width();
-    let share = carter_force(creepage, carter_full_slip(friction, a, OUTER)).abs();
-    a * (1.0 - 2.0 * (1.0 - share).sqrt())
-}
-
-/// Carter's traction \[Pa] at x \[m].
-fn carter(x: f64, creepage: f64, friction: f64) -> f64 {
-    let a = half_width();
-    let peak = friction * hertz_peak_pressure(LOAD, a);
-    let end = slip_end(creepage, friction);
-    let (half, middle) = (0.5 * (a - end), 0.5 * (a + end));
-    let root = |value: f64| value.max(0.0).sqrt();
-    peak * (root(1.0 - (x / a).powi(2)) - half / a * root(1.0 - ((x - middle) / half).powi(2)))
-}
-
 /// Figures C 8 to 11: pressure, traction and slip at three creepages.
 pub fn profiles() -> Result<Figure, String> {
     let product = Product::with("paper_c", |config| {
@@ -59,21 +36,32 @@ pub fn profiles() -> Result<Figure, String> {
     let run =
         |creepage: f64, friction: f64| product.rolling(SPEED, creepage, |inputs| inputs.drive.friction = friction);
     let runs = CREEPAGES.map(|creepage| run(creepage, FRICTION)).into_iter().collect::<Result<Vec<_>, _>>()?;
-    let a = half_width();
+    let a = half_width(LOAD);
     let peak = hertz_peak_pressure(LOAD, a);
-    let (mut shear, mut slip, mut worst) = (Vec::new(), Vec::new(), 0.0_f64);
+    let (mut pressure, mut shear, mut slip, mut worst) = (Vec::new(), Vec::new(), Vec::new(), [0.0_f64; 2]);
     for (creepage, run) in CREEPAGES.into_iter().zip(&runs) {
         let traction = run.traction();
         let shown = |profile: &wheelrail::piecewise::Piecewise, scale: f64| -> Vec<[f64; 2]> {
             profile.x.iter().zip(&profile.value).map(|(x, v)| [1e3 * x, scale * v]).collect()
         };
-        let exact = |x: f64| carter(x, creepage, FRICTION);
-        let closed = (-40..=40).map(|i| a * f64::from(i) / 40.0).map(|x| [1e3 * x, 1e-6 * exact(x)]).collect();
+        let exact = |x: f64| carter::traction(x, creepage, FRICTION, LOAD);
+        let hertz = |x: f64| peak * (1.0 - (x / a).powi(2)).max(0.0).sqrt();
+        let closed = |f: &dyn Fn(f64) -> f64| {
+            (-40..=40).map(|i| a * f64::from(i) / 40.0).map(|x| [1e3 * x, 1e-6 * f(x)]).collect::<Vec<_>>()
+        };
+        if pressure.is_empty() {
+            pressure.push(curve(Source::Exact, "Hertz", closed(&hertz)));
+        }
+        pressure.push(curve(Source::Ours, format!("ours, ξ = {creepage:e}"), shown(&traction.pressure, 1e-6)));
         shear.push(curve(Source::Ours, format!("ours, ξ = {creepage:e}"), shown(&traction.shear, 1e-6)));
-        shear.push(curve(Source::Exact, format!("Carter, ξ = {creepage:e}"), closed));
+        shear.push(curve(Source::Exact, format!("Carter, ξ = {creepage:e}"), closed(&exact)));
         slip.push(curve(Source::Ours, format!("ours, ξ = {creepage:e}"), shown(&traction.slip, 1e3)));
-        let points = traction.shear.x.iter().zip(&traction.shear.value).filter(|(x, _)| x.abs() < 0.9 * a);
-        worst = points.fold(worst, |worst, (x, q)| worst.max((q - exact(*x)).abs() / (FRICTION * peak)));
+        let profiles: [(_, &dyn Fn(f64) -> f64, f64); 2] =
+            [(&traction.shear, &exact, FRICTION * peak), (&traction.pressure, &hertz, peak)];
+        for (worst, (profile, wanted, scale)) in worst.iter_mut().zip(profiles) {
+            let points = profile.x.iter().zip(&profile.value).filter(|(x, _)| x.abs() < 0.9 * a);
+            *worst = points.fold(*worst, |worst, (x, q)| worst.max((q - wanted(*x)).abs() / scale));
+        }
     }
     // Where the traction leaves its limit, and the share of the contact that sticks, for both friction coefficients.
     let end = |run: &Run| run.traction().half_width() * (1.0 - 2.0 * run.traction().stick_fraction);
@@ -81,7 +69,8 @@ pub fn profiles() -> Result<Figure, String> {
     let (weak, strong) = (end(&runs[0]), end(&other));
     let element = a / 20.0;
     let plot = |name: &str, curves| Plot { axes: ["place in mm".into(), name.into()], curves };
-    let stuck = [weak - slip_end(CREEPAGES[0], FRICTION), strong - slip_end(CREEPAGES[0], 0.5)];
+    let stuck =
+        [weak - carter::slip_end(CREEPAGES[0], FRICTION, LOAD), strong - carter::slip_end(CREEPAGES[0], 0.5, LOAD)];
     let sliding = runs[2].traction().stick_fraction;
     Ok(Figure {
         item: "C 8–11",
@@ -96,14 +85,25 @@ pub fn profiles() -> Result<Figure, String> {
             -1e3 * weak,
             -1e3 * strong
         ),
-        plots: vec![plot("traction in MPa", shear), plot("slip velocity in mm/s", slip)],
+        plots: vec![
+            plot("pressure in MPa", pressure),
+            plot("traction in MPa", shear),
+            plot("slip velocity in mm/s", slip),
+        ],
         values: vec![
             ("c8.slip_end.04".into(), weak),
             ("c8.slip_end.05".into(), strong),
             ("c8.slip_begin".into(), -runs[0].traction().half_width()),
         ],
         predicates: vec![
-            must(format!("traction within 3 % of its limit of Carter's inside of 0.9 a: {worst:.4}"), worst < 0.03),
+            must(
+                format!("traction within 3 % of its limit of Carter's inside of 0.9 a: {:.4}", worst[0]),
+                worst[0] < 0.03,
+            ),
+            must(
+                format!("pressure within 1 % of Hertz' peak of his inside of 0.9 a: {:.4}", worst[1]),
+                worst[1] < 0.01,
+            ),
             must(
                 format!(
                     "ends of the slip zones within half an element, 6e-6 m, of Carter's: {:.1e}, {:.1e} m",
@@ -133,6 +133,16 @@ fn imbalance(run: &Run) -> [f64; 2] {
     [warmth.wheel_mean / (outputs.heat_to_hub * per_heat()) - 1.0, warmth.rail_mean / rail - 1.0]
 }
 
+/// Maps of wheel and rail, 1.5 mm along the surface and 0.3 mm deep, as in figures C 12 and C 13.
+pub(super) fn pictures(run: &Run) -> Result<Vec<Plot>, String> {
+    let (fields, contact) = (run.fields()?, run.outputs().contact_half_width);
+    let map = |body: usize| {
+        let nodes = maps::nodes(&fields[body], body == 0, [1.5e-3, 0.5e-3]);
+        maps::map(&nodes, body == 0, [-1e-3, 0.5e-3], 0.3e-3, contact)
+    };
+    Ok(vec![map(0), map(1)])
+}
+
 /// Figure C 13: temperatures of the locked wheel, ξ = 2.
 pub fn locked() -> Result<Figure, String> {
     let run = paper_c(|_| ())?.rolling(SPEED, 2.0, |_| ())?;
@@ -147,11 +157,19 @@ pub fn locked() -> Result<Figure, String> {
     let off = [reference.wheel_centre / 28.639_17 - 1.0, reference.rail_centre / 26.402_03 - 1.0];
     // A rail that takes all heat in, with the root of the velocity.
     let power = 0.1 * FRICTION * LOAD * SPEED;
-    let flash = flash_temperature(power, half_width(), SPEED, (CONDUCTIVITY * CAPACITY).sqrt());
+    let flash = flash_temperature(power, half_width(LOAD), SPEED, (CONDUCTIVITY * CAPACITY).sqrt());
     let (outputs, share) = (run.outputs(), warmth.rail_max / flash);
     let points = |values: &[f64]| -> Vec<[f64; 2]> {
         outputs.profile_x.iter().zip(values).map(|(x, t)| [1e3 * x, t - 293.0]).collect()
     };
+    let mut plots = pictures(&run)?;
+    plots.push(Plot {
+        axes: ["place in mm".into(), "temperature in K".into()],
+        curves: vec![
+            curve(Source::Ours, "wheel", points(&outputs.profile_temperature_wheel)),
+            curve(Source::Ours, "rail", points(&outputs.profile_temperature_rail)),
+        ],
+    });
     let to_hub = outputs.heat_to_hub / power;
     let arrives = (outputs.heat_to_wheel + outputs.heat_to_rail) / power;
     Ok(Figure {
@@ -169,13 +187,7 @@ pub fn locked() -> Result<Figure, String> {
             warmth.rail_max,
             100.0 * to_hub
         ),
-        plots: vec![Plot {
-            axes: ["place in mm".into(), "temperature in K".into()],
-            curves: vec![
-                curve(Source::Ours, "wheel", points(&outputs.profile_temperature_wheel)),
-                curve(Source::Ours, "rail", points(&outputs.profile_temperature_rail)),
-            ],
-        }],
+        plots,
         values: vec![
             ("c13.wheel".into(), warmth.wheel_centre),
             ("c13.rail".into(), warmth.rail_centre),

@@ -1,23 +1,21 @@
-//! Sharp holes: Paper A figures 13 and 14, Paper B figures 18 and 19, Paper D figures 19 to 21.
+//! Sharp holes under a rolling wheel: Paper A figures 13 and 14, Paper B figures 18 and 19.
 
-use super::mesh_heat::{self, ANNULUS, PLATE};
+use super::mesh_heat::{self, ANNULUS, PLATE, half_width};
 use super::{Figure, corrugation::standard, curve, must};
-use crate::annulus::OUTER;
 use crate::ours::{Product, Run};
 use crate::paper_a::{self as a, LOAD, SPEED, STEP, case};
 use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 use crate::transient::{Case, Rolling};
-use wheelrail::analytic::{contact_modulus, hertz_half_width};
 use wheelrail::config::RailEnds;
 
 /// Smallest and largest force over a load.
-fn extremes(points: &[[f64; 2]], load: f64) -> [f64; 2] {
+pub(super) fn extremes(points: &[[f64; 2]], load: f64) -> [f64; 2] {
     let fold = |pick: fn(f64, f64) -> f64, from: f64| points.iter().fold(from, |found, point| pick(found, point[1]));
     [fold(f64::min, f64::MAX) / load, fold(f64::max, f64::MIN) / load]
 }
 
-fn hole(position: f64, length: f64, depth: f64) -> String {
+pub(super) fn hole(position: f64, length: f64, depth: f64) -> String {
     format!("hole(position = {position:?}, length = {length:?}, depth = {depth:?})")
 }
 
@@ -128,11 +126,6 @@ pub fn discontinuity() -> Result<Figure, String> {
 
 /// Paper B's load [N/m] and velocity [m/s].
 const B: [f64; 2] = [10e3, 50.0 / 3.6];
-
-/// Half of a contact on the wheel of Papers B to D \[m].
-fn half_width(load: f64) -> f64 {
-    hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
-}
 
 /// Way \[m] and force [N/m].
 type Points = Vec<[f64; 2]>;
@@ -271,116 +264,4 @@ pub fn small() -> Result<Figure, String> {
 fn pressure(run: &Run) -> Vec<[f64; 2]> {
     let pressure = &run.traction().pressure;
     pressure.x.iter().zip(&pressure.value).map(|(x, p)| [1e3 * x, 1e-6 * p]).collect()
-}
-
-/// Paper D's hole: place of its middle, length and depth \[m]; the depth is assumed, the place follows from the first instant.
-const SHARP: [f64; 3] = [2.26e-3, 0.5e-3, 20e-6];
-
-/// A locked wheel over that hole: time \[s], force over load, temperatures over the reference at the contact point of wheel and rail.
-fn locked(damping: f64, elements: usize, heat: bool, step: f64, duration: f64) -> Result<Vec<[f64; 4]>, String> {
-    let product = Product::with("paper_d", |config| {
-        config.thermal.enabled = heat;
-        config.mesh.elements_per_half_width = elements;
-        config.tuning.tolerance = 0.0;
-        config.damping.rayleigh_stiffness = damping;
-        config.rail.profile = hole(SHARP[0], SHARP[1], SHARP[2]);
-    })?;
-    let load = product.config().model.nominal_load;
-    let mut run = product.rolling(50.0 / 3.6, 2.0, |inputs| inputs.drive.omega = 0.0)?;
-    let see = |time: f64, run: &Run| {
-        let warmth = run.warmth();
-        [time, run.outputs().contact_force_y / load, warmth.wheel_centre, warmth.rail_centre]
-    };
-    let mut points = vec![see(0.0, &run)];
-    for k in 1..=(duration / step).round() as usize {
-        run.advance(step)?;
-        points.push(see(k as f64 * step, &run));
-    }
-    Ok(points)
-}
-
-fn plot(axis: &str, curves: Vec<Curve>) -> Plot {
-    Plot { axes: ["time in ms".into(), axis.into()], curves }
-}
-
-/// Figures D 19 to 21: temperatures and force as a locked wheel slides over a hole of 0.5 mm.
-pub fn sharp() -> Result<Figure, String> {
-    let forces = |points: &[[f64; 4]]| extremes(&points.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>(), 1.0);
-    let (coarse, fine) = (forces(&locked(0.0, 40, false, 5e-6, 1e-3)?), forces(&locked(0.0, 40, false, 2.5e-6, 1e-3)?));
-    let damped =
-        [1e-5, 5e-6, 2.5e-6].map(|step| locked(a::DAMPING, 20, false, step, 1e-3).map(|points| forces(&points)));
-    let damped = damped.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let warm = locked(a::DAMPING, 20, true, 1e-5, 1e-2)?;
-    let (a, velocity, load) = (half_width(100e3), B[1], 100e3);
-    let [reaches, leaves] = [-1.0, 1.0].map(|sign| (SHARP[0] + sign * (0.5 * SHARP[1] + a)) / velocity);
-    let start = warm[0];
-    let over = |body: usize| warm.iter().filter(|p| p[0] <= leaves + 1e-5).map(move |p| p[body] - start[body]);
-    let (rise, fall) = (over(2).fold(0.0, f64::max), -over(3).fold(0.0, f64::min));
-    let points = |body: usize, until: f64, scale: f64| {
-        let kept = warm.iter().filter(|p| p[0] <= until);
-        kept.map(|p| [1e3 * p[0], scale * p[body]]).collect::<Vec<_>>()
-    };
-    let marks = |low: f64, high: f64| {
-        [(reaches, "reached"), (leaves, "left")].map(|(t, name)| {
-            curve(Source::Exact, name, (0..=20).map(|i| [1e3 * t, low + (high - low) * f64::from(i) / 20.0]).collect())
-        })
-    };
-    let mut zoom =
-        vec![curve(Source::Ours, "wheel", points(2, 4.6e-4, 1.0)), curve(Source::Ours, "rail", points(3, 4.6e-4, 1.0))];
-    zoom.extend(marks(start[3] - fall, start[2] + rise));
-    let settles = (fine[0] - coarse[0]).abs().max((fine[1] - coarse[1]).abs());
-    let list = |k: usize| damped.iter().map(|e| format!("{:.4}", e[k])).collect::<Vec<_>>().join(", ");
-    Ok(Figure {
-        item: "D 19–21",
-        title: "Temperatures and force as a locked wheel slides over a hole of 0.5 mm",
-        status: Status::Qualitative,
-        parameters: "Base of Paper D, locked, 50 km/h; depth of the hole, 20 µm, assumed (5 µm to 1 mm give the same), its middle at 2.26 mm follows from \
-                     t₁. Drawn: 1e-5 s and α₁ = 1e-4 s as the thesis, 20 elements.",
-        finding: format!(
-            "The contact reaches the hole after {:.1} µs and leaves it after {:.1} µs (stated about 90 and 230). Meanwhile the wheel warms by {rise:.3} K and \
-             the rail cools by {fall:.3} K, from {:.2} and {:.2} K: as stated, with the rail's change the larger. Undamped the force goes from {:.4} to {:.4} of \
-             the load, half the step changes {settles:.4}. With the thesis's damping the least force at 10, 5 and 2.5 µs is {}, the largest {}: not converged.",
-            1e6 * reaches,
-            1e6 * leaves,
-            start[2],
-            start[3],
-            fine[0],
-            fine[1],
-            list(0),
-            list(1)
-        ),
-        plots: vec![
-            plot("temperature over the reference in K", zoom),
-            plot(
-                "temperature over the reference in K",
-                vec![
-                    curve(Source::Ours, "wheel", points(2, 1e-2, 1.0)),
-                    curve(Source::Ours, "rail", points(3, 1e-2, 1.0)),
-                ],
-            ),
-            plot("force in kN/m", vec![curve(Source::Ours, "ours", points(1, 1e-2, 1e-3 * load))]),
-        ],
-        values: vec![
-            ("d19.reaches".into(), reaches),
-            ("d19.leaves".into(), leaves),
-            ("d19.rail_fall".into(), fall),
-            ("d21.least".into(), fine[0]),
-            ("d21.largest".into(), fine[1]),
-        ],
-        predicates: vec![
-            must(
-                format!("undamped 0.974 and 1.0058 within 0.003: {:.4}, {:.4}", fine[0], fine[1]),
-                (fine[0] - 0.974).abs() < 3e-3 && (fine[1] - 1.0058).abs() < 3e-3,
-            ),
-            must(format!("undamped, half the step changes less than 0.2 %: {settles:.4}"), settles < 2e-3),
-            must(
-                format!("starts within 1 % of the references 28.64 and 26.40 K: {:.3}, {:.3}", start[2], start[3]),
-                (start[2] / 28.639 - 1.0).abs() < 0.01 && (start[3] / 26.402 - 1.0).abs() < 0.01,
-            ),
-            must(
-                format!("over the hole the wheel warms and the rail cools, by more: {rise:.3}, {fall:.3} K"),
-                rise > 0.0 && fall > rise,
-            ),
-        ],
-    })
 }

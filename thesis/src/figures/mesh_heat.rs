@@ -27,7 +27,7 @@ pub(super) fn half_width(load: f64) -> f64 {
     hertz_half_width(load, OUTER, contact_modulus(200e9, 0.3))
 }
 
-/// Meshes of \[B] 6.2 and \[C] 5.1 for a load, with so many refinements of the whole wheel.
+/// Meshes of \[B] § 6.2 and \[C] § 5.1 for a load, with so many refinements of the whole wheel.
 pub(super) fn meshes(load: f64, base: f64, global: usize) -> Result<[Mesh; 2], String> {
     let a = half_width(load);
     let size = base * a / 2.0_f64.powf(0.5 * global as f64);

@@ -2,23 +2,30 @@
 
 mod annulus;
 mod braking;
+mod carter;
 mod closed_forms;
 mod corrugation;
 mod extent;
 mod extrapolation;
 mod friction_heat;
+mod heat_switched;
 mod holes;
 mod introduction;
 mod lost_heat;
+mod maps;
 mod mesh_heat;
+mod meshes;
 mod paper_b;
 mod plate;
+mod prescribed_braking;
 mod queue;
 mod ramp_steps;
 mod ramps;
 mod rolling;
 mod rough;
 mod share;
+mod sliding_hole;
+mod tractions;
 mod tread_heat;
 mod tread_map;
 mod validation;
@@ -60,13 +67,15 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// What is wrong with it: nothing that tests it, or something that does not hold.
+    /// What is wrong with it: nothing that tests it, something that does not hold, or curves that look alike.
     pub fn flaws(&self) -> Vec<String> {
         if self.predicates.is_empty() {
             return vec![format!("{}: nothing tests it", self.item)];
         }
         let broken = self.predicates.iter().filter(|predicate| !predicate.holds);
-        broken.map(|predicate| format!("{}: {} does not hold", self.item, predicate.says)).collect()
+        let broken = broken.map(|predicate| format!("{}: {} does not hold", self.item, predicate.says));
+        let alike = self.plots.iter().filter_map(Plot::flaw).map(|flaw| format!("{}: {flaw}", self.item));
+        broken.chain(alike).collect()
     }
 }
 
@@ -74,6 +83,7 @@ impl Figure {
 pub const ITEMS: &[&str] = &[
     "I 4.2",
     "I 5.1",
+    "A 4",
     "A T1",
     "A T2",
     "A T3",
@@ -84,9 +94,11 @@ pub const ITEMS: &[&str] = &[
     "A 11",
     "A 12",
     "A 13–14",
+    "B 4",
     "B 5",
     "B 6",
     "B 7",
+    "B 10",
     "B 11",
     "B 12",
     "B 13",
@@ -95,6 +107,7 @@ pub const ITEMS: &[&str] = &[
     "B 16",
     "B 17",
     "B 18–19",
+    "C 4",
     "C 6",
     "C 7",
     "C 8–11",
@@ -102,6 +115,7 @@ pub const ITEMS: &[&str] = &[
     "C 13",
     "C 14",
     "C 15",
+    "D 4",
     "D 6",
     "D T1",
     "D 7–8",
@@ -141,6 +155,7 @@ impl Recipe {
 pub const ALL: &[(&str, Recipe)] = &[
     ("I 4.2", Recipe::Fixed(introduction::rod)),
     ("I 5.1", Recipe::Fixed(introduction::schemes)),
+    ("A 4", Recipe::Fixed(meshes::paper_a)),
     ("A text", Recipe::Fixed(closed_forms::hertz)),
     ("A T1", Recipe::Fixed(corrugation::mesh)),
     ("A T2", Recipe::Fixed(corrugation::step)),
@@ -151,17 +166,20 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("A 11", Recipe::Fixed(corrugation::force)),
     ("A 12", Recipe::Extended(corrugation::excitation)),
     ("A 13–14", Recipe::Fixed(holes::discontinuity)),
+    ("B 4", Recipe::Fixed(meshes::ring)),
     ("B 5", Recipe::Fixed(annulus::galerkin)),
     ("B 6", Recipe::Fixed(annulus::supg)),
     ("B 7", Recipe::Fixed(annulus::bubble)),
+    ("B 10", Recipe::Fixed(meshes::paper_b)),
     ("B 11", Recipe::Extended(mesh_heat::convergence)),
     ("B 12", Recipe::Fixed(tread_map::map)),
     ("B 13", Recipe::Fixed(tread_heat::pressure)),
     ("B 14", Recipe::Extended(tread_heat::velocity)),
     ("B 15", Recipe::Extended(tread_heat::conductance)),
     ("B 16", Recipe::Extended(tread_heat::load)),
-    ("B 17", Recipe::Fixed(tread_heat::transient)),
+    ("B 17", Recipe::Fixed(heat_switched::transient)),
     ("B 18–19", Recipe::Fixed(holes::small)),
+    ("C 4", Recipe::Fixed(meshes::paper_c)),
     ("C 6", Recipe::Extended(mesh_heat::regularisation)),
     ("C 7", Recipe::Fixed(rolling::paper_c)),
     ("C 8–11", Recipe::Fixed(friction_heat::profiles)),
@@ -169,15 +187,16 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("C 13", Recipe::Fixed(friction_heat::locked)),
     ("C 14", Recipe::Extended(friction_heat::velocity)),
     ("C 15", Recipe::Extended(friction_heat::conductance)),
+    ("D 4", Recipe::Fixed(meshes::paper_d)),
     ("D 6", Recipe::Extended(rolling::paper_d)),
     ("D T1", Recipe::Fixed(ramps::table)),
     ("D 7–8", Recipe::Fixed(ramps::force)),
-    ("D 9", Recipe::Fixed(ramps::profiles)),
+    ("D 9", Recipe::Fixed(tractions::profiles)),
     ("D 10", Recipe::Fixed(ramps::temperature)),
-    ("D 11–15", Recipe::Fixed(braking::velocities)),
+    ("D 11–15", Recipe::Fixed(prescribed_braking::velocities)),
     ("D 16–17", Recipe::Fixed(braking::moment)),
     ("D 18", Recipe::Extended(share::braking)),
-    ("D 19–21", Recipe::Fixed(holes::sharp)),
+    ("D 19–21", Recipe::Fixed(sliding_hole::sharp)),
 ];
 
 /// What is not recomputed yet.

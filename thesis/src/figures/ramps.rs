@@ -7,7 +7,7 @@ use crate::plot::{Curve, Plot, Source};
 use crate::quoted::Status;
 
 /// Durations of the six simulations \[s]. The first and the last are stated; half decades between them are assumed.
-const DURATIONS: [f64; 6] = [1e-3, 3.2e-3, 1e-2, 3.2e-2, 1e-1, 3.2e-1];
+pub(super) const DURATIONS: [f64; 6] = [1e-3, 3.2e-3, 1e-2, 3.2e-2, 1e-1, 3.2e-1];
 /// Time steps of a ramp.
 const STEPS: usize = 400;
 
@@ -19,7 +19,7 @@ const REFERENCES: [(usize, [f64; 10]); 3] = [
 ];
 
 /// Paper D without centrifugal load, as the references.
-fn paper_d() -> Result<Product, String> {
+pub(super) fn paper_d() -> Result<Product, String> {
     Product::with("paper_d", |config| {
         config.physics.centrifugal = false;
         config.tuning.tolerance = 0.0;
@@ -27,7 +27,12 @@ fn paper_d() -> Result<Product, String> {
 }
 
 /// A ramp in equal steps; `see` looks at the state after each, with the share of the duration.
-fn ramp(product: &Product, duration: f64, steps: usize, mut see: impl FnMut(f64, &Run)) -> Result<(), String> {
+pub(super) fn ramp(
+    product: &Product,
+    duration: f64,
+    steps: usize,
+    mut see: impl FnMut(f64, &Run),
+) -> Result<(), String> {
     let mut run = product.rolling(SPEED, 0.0, |_| ())?;
     see(0.0, &run);
     for k in 1..=steps {
@@ -55,10 +60,10 @@ fn forces(product: &Product) -> Result<(Vec<Points>, Points), String> {
 }
 
 /// Edges in the contact over its half-width, and steps of a ramp, by the thesis's own method.
-const EDGE: f64 = 0.4;
+pub(super) const EDGE: f64 = 0.4;
 const COARSE: usize = 50;
 /// Steps of a ramp whose tractions or temperatures are shown.
-const METHOD_STEPS: usize = 40;
+pub(super) const METHOD_STEPS: usize = 40;
 
 /// Largest difference of a ramp from stationary rolling.
 fn lag(points: &[[f64; 2]], slow: &[[f64; 2]]) -> f64 {
@@ -104,7 +109,7 @@ pub fn table() -> Result<Figure, String> {
         values: DURATIONS
             .iter()
             .zip(&lags)
-            .flat_map(|(te, lag)| [(format!("dt1.lag.{te}"), *lag), (format!("dt1.rate.{te}"), rate(*te))])
+            .flat_map(|(te, lag)| [(format!("dt1.lag.{te}"), *lag), (format!("closed.dt1.rate.{te}"), rate(*te))])
             .collect(),
         predicates: vec![
             must(
@@ -193,96 +198,6 @@ pub fn force() -> Result<Figure, String> {
             ),
             must(format!("the thesis's method ends in full slip: {full:.4}"), full > 0.999),
             must(format!("the limit is never exceeded: {exceeds:.1e}"), exceeds < 1e-9),
-        ],
-    })
-}
-
-/// Figure D 9: pressure and traction at three instants of simulations 3 and 5.
-pub fn profiles() -> Result<Figure, String> {
-    const INSTANTS: [f64; 3] = [0.2, 0.35, 0.5];
-    let product = paper_d()?;
-    let bodies = Bodies::new(0.5 * EDGE, 2)?;
-    let at = INSTANTS.map(|share| (share * METHOD_STEPS as f64).round() as usize);
-    let limit = 0.4
-        * wheelrail::analytic::hertz_peak_pressure(100e3, product.rolling(SPEED, 0.0, |_| ())?.traction().half_width());
-    let points = |run: &Run| {
-        let shear = &run.traction().shear;
-        shear.x.iter().zip(&shear.value).map(|(x, q)| [1e3 * x, 1e-6 * q]).collect::<Vec<_>>()
-    };
-    let mut plots = Vec::new();
-    let (mut joins, mut pressures, mut apart) = (Vec::new(), 0.0_f64, Vec::new());
-    for sim in [3, 5] {
-        let mut theirs = bodies.tractions(DURATIONS[sim - 1], METHOD_STEPS, &at)?.into_iter();
-        let (mut curves, mut join, mut failed) = (Vec::new(), 1.0, None);
-        let (mut before, mut joined) = (0.0, false);
-        ramp(&product, DURATIONS[sim - 1], 200, |share, run| {
-            if !((share * 200.0).round() as usize).is_multiple_of(10) {
-                return;
-            }
-            match product.rolling(SPEED, creepage(share), |_| ()) {
-                Ok(slow) => {
-                    let (ours, still) = (&run.traction().shear, &slow.traction().shear);
-                    let off = still.x.iter().zip(&still.value).map(|(x, q)| (ours.at(*x) - q).abs() / limit);
-                    let off = off.fold(0.0, f64::max);
-                    // From here on within a twentieth of the limit, where it crosses on a straight line.
-                    if off >= 0.05 {
-                        joined = false;
-                    } else if !joined {
-                        join = if share > 0.0 && before > off {
-                            share - 0.05 * (0.05 - off) / (before - off)
-                        } else {
-                            share
-                        };
-                        joined = true;
-                    }
-                    before = off;
-                    let ratio = run.traction().pressure_max / slow.traction().pressure_max - 1.0;
-                    pressures = pressures.max(ratio.abs());
-                    if INSTANTS.iter().any(|t| (t - share).abs() < 1e-9) {
-                        curves.push(curve(Source::Ours, format!("simulation {sim} at {share}"), points(run)));
-                        curves.push(curve(Source::Exact, format!("stationary at {share}"), points(&slow)));
-                        let nodes = theirs.next().unwrap_or_default();
-                        let off: f64 = nodes.iter().map(|[x, q]| (1e6 * q - ours.at(1e-3 * x)).abs() / limit).sum();
-                        apart.push(off / nodes.len() as f64);
-                        curves.push(curve(Source::Method, format!("thesis's method at {share}"), nodes));
-                    }
-                }
-                Err(error) => failed = Some(error),
-            }
-        })?;
-        failed.map_or(Ok(()), Err)?;
-        joins.push(join);
-        plots.push(Plot { axes: ["place in mm".into(), "traction in MPa".into()], curves });
-    }
-    let farthest = largest(apart.iter().copied());
-    Ok(Figure {
-        item: "D 9",
-        title: "Tractions at three instants of simulations 3 and 5",
-        status: Status::NotStated,
-        parameters: "As table D 1, 200 steps. The instants, 0.2, 0.35 and 0.5 of the duration, are assumed.",
-        finding: format!(
-            "Tractions stay within 5 % of the limit of the stationary ones from {:.2} of the duration on in simulation 3 and from {:.2} in \
-             simulation 5; the thesis says 0.65 and 0.5 without a measure, on a regularised law. The pressure is the stationary one \
-             within {:.1e}. The thesis's own step in time (40 steps, linear triangles with edges of 0.2 a) has them at its nodes within {:.3} of \
-             the limit in the mean of the nodes, with the force that an uneven mesh has by itself.",
-            joins[0], joins[1], pressures, farthest
-        ),
-        plots,
-        values: vec![
-            ("d9.join.3".into(), joins[0]),
-            ("d9.join.5".into(), joins[1]),
-            ("d9.method.apart".into(), farthest),
-        ],
-        predicates: vec![
-            must("the slower simulation joins earlier", joins[1] < joins[0]),
-            must("both have joined when the creepage stops growing, 0.7", joins.iter().all(|join| *join < GROWTH)),
-            must(format!("the pressure is that of stationary rolling within 1 %: {pressures:.1e}"), pressures < 0.01),
-            must(
-                format!(
-                    "the thesis's method at six instants within 0.15 of the limit in the mean of its nodes: {apart:.3?}"
-                ),
-                apart.len() == 6 && farthest < 0.15,
-            ),
         ],
     })
 }

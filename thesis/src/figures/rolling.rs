@@ -103,6 +103,17 @@ fn thesis_path(creepages: &[f64], edge: f64) -> Result<Vec<[f64; 2]>, String> {
     creepages.iter().map(force).collect()
 }
 
+/// Smallest creepage, traction negative, at which nothing of the contact sticks, within 1e-6: by halving the interval in which that begins.
+fn slides_from(product: &Product) -> Result<f64, String> {
+    let (mut sticks, mut slides) = (4e-4, 8e-4);
+    while slides - sticks > 1e-6 {
+        let middle = 0.5 * (sticks + slides);
+        let run = product.rolling(product.config().initial.velocity, -middle, |_| ())?;
+        if run.traction().stick_fraction > 0.0 { sticks = middle } else { slides = middle }
+    }
+    Ok(-slides)
+}
+
 /// Figure D 6: force over creepage, and the creepage of full slip.
 pub fn paper_d(extent: Extent) -> Result<Figure, String> {
     let product = Product::new("paper_d", true)?;
@@ -113,7 +124,7 @@ pub fn paper_d(extent: Extent) -> Result<Figure, String> {
         points: vec![[-6.0, -1.0], [-6.0, 1.0]],
     });
     let free = product.stationary(0.0, None)?.utilisation;
-    let full = full_slip(100e3, 0.4);
+    let (full, slides) = (full_slip(100e3, 0.4), slides_from(&product)?);
     let axis = extent.axis(&[-8e-4, -4e-4, -1.9e-4, 0.0, 1.9e-4, 4e-4, 8e-4]);
     let (mut worst, mut soft, mut bias) = (0.0_f64, Vec::new(), Vec::new());
     for edge in extent.choose(&[0.2][..], &[0.2, 0.1]) {
@@ -135,14 +146,26 @@ pub fn paper_d(extent: Extent) -> Result<Figure, String> {
         parameters: "Base of Paper D, P = 100 kN/m, μ = 0.4, 50 km/h, ε_r = 1e-4 m/s, ε_n = 5e12; own mesh of 4946 linear triangles (in full, one with edges of half the length, too), rigid hub, no \
                      heat.",
         finding: format!(
-            "Full slip at ∓{full:.3e} after Carter, stated −6e-4. F(0) = {free:.4} of the limit, not quite zero. The \
+            "Full slip from {slides:.3e} on in ours, at ∓{full:.3e} after Carter, stated −6e-4. Ours is within {difference:.1e} of the limit of Carter on the whole curve, with all deformations of \
+             both bodies; F(0) = {free:.4} of the limit is that of the centrifugal load. So the deviation from Carter that the thesis ascribes to local deformations is not theirs. The \
              thesis's path has {biases} there, a bias of its meshes, and {soft:.3} at 1.9e-4 in the mean of \
              traction and braking."
         ),
         plots: vec![plot(all)],
-        values: vec![("d6.free".into(), free), ("d6.tanh".into(), soft), ("d6.tanh_bias".into(), bias[0])],
+        values: vec![
+            ("d6.full_slip".into(), slides),
+            ("d6.carter".into(), difference),
+            ("d6.free".into(), free),
+            ("d6.tanh".into(), soft),
+            ("d6.tanh_bias".into(), bias[0]),
+        ],
         predicates: vec![
-            must(format!("within 0.002 of Carter: {difference:.4}"), difference < 2e-3),
+            must(
+                format!(
+                    "deformable bodies are within 0.001 of the limit of Carter on the whole curve: {difference:.1e}"
+                ),
+                difference < 1e-3,
+            ),
             must(format!("thesis's path within 0.03 of Carter in the mean of both signs: {worst:.4}"), worst < 0.03),
             must(
                 format!("the bias of its mesh below 0.05 of the limit: {biases}"),

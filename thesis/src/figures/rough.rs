@@ -84,7 +84,7 @@ fn moments(forces: &[f64]) -> [f64; 2] {
     [mean, (forces.iter().map(|force| (force - mean).powi(2)).sum::<f64>() / count).sqrt()]
 }
 
-/// Probability density [m/MN] over the force [MN/m] as \[A] 7 has it, in forty classes.
+/// Probability density [m/MN] over the force [MN/m] as \[A] (7) has it, in forty classes.
 fn density(forces: &[f64]) -> Vec<[f64; 2]> {
     let (low, high) = forces.iter().fold((f64::MAX, f64::MIN), |(low, high), f| (low.min(*f), high.max(*f)));
     let width = (high - low) / 40.0;

@@ -138,8 +138,8 @@ pub fn braking(extent: Extent) -> Result<Figure, String> {
         ),
         plots: vec![plot(&rows, share)],
         values: [
-            ("d18.share".into(), share),
-            ("d6.full_slip".into(), full),
+            ("closed.d18.share".into(), share),
+            ("closed.d6.full_slip".into(), full),
             ("d18.method.low".into(), low),
             ("d18.method.high".into(), high),
             ("d18.method.mean".into(), average),

@@ -1,27 +1,16 @@
 //! Paper B, figure 12: temperatures beside the contact, by the product.
 
+use super::maps::{self, Node};
 use super::paper_b::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
 use super::{Figure, balanced, curve, must};
-use crate::annulus::OUTER;
 use crate::plot::{Plot, Source};
 use crate::quoted::Status;
-use wheelrail::heat::TemperatureField;
 
 /// Half of the length and depth of the map \[m].
 const REACH: f64 = 1e-3;
 
-/// Place along the surface, depth \[m] and temperature \[K] of all nodes of the map; the wheel is about its centre.
-fn nodes(field: &TemperatureField, wheel: bool) -> Vec<[f64; 3]> {
-    let place = |[x, y]: [f64; 2]| if wheel { [OUTER * x.atan2(-y), OUTER - x.hypot(y)] } else { [x, -y] };
-    let all = field.mesh.nodes.iter().zip(&field.temperature).map(|(node, t)| {
-        let [s, z] = place(*node);
-        [s, z, *t]
-    });
-    all.filter(|[s, z, _]| s.abs() < 1.5 * REACH && *z < 1.5 * REACH).collect()
-}
-
 /// Temperature over the depth in the column next to a place \[m].
-fn column(nodes: &[[f64; 3]], place: f64) -> Vec<[f64; 2]> {
+fn column(nodes: &[Node], place: f64) -> Vec<[f64; 2]> {
     let nearest = nodes.iter().min_by(|a, b| (a[0] - place).abs().total_cmp(&(b[0] - place).abs()));
     let at = nearest.map_or(place, |node| node[0]);
     let mut column: Vec<_> = nodes.iter().filter(|n| (n[0] - at).abs() < 1e-9).map(|n| [n[1], n[2]]).collect();
@@ -39,8 +28,11 @@ fn carried(column: &[[f64; 2]]) -> f64 {
 pub fn map() -> Result<Figure, String> {
     let run = heated(&paper_b(|_| ())?, SPEED, LOAD)?;
     let (warmth, [wheel, rail]) = (run.warmth(), run.fields()?);
-    let bodies = [nodes(&wheel, true), nodes(&rail, false)];
-    let (mut plots, mut gains) = (Vec::new(), Vec::new());
+    let reach = [2.0 * REACH, 1.5 * REACH];
+    let bodies = [maps::nodes(&wheel, true, reach), maps::nodes(&rail, false, reach)];
+    let (window, contact) = ([-1.5 * REACH, 0.5 * REACH], run.outputs().contact_half_width);
+    let maps = [0, 1].map(|body| maps::map(&bodies[body], body == 0, window, REACH, contact));
+    let (mut plots, mut gains) = (maps.to_vec(), Vec::new());
     for (body, name) in bodies.iter().zip(["wheel", "rail"]) {
         let mut surface: Vec<_> = body.iter().filter(|n| n[1].abs() < 1e-9).map(|n| [1e3 * n[0], n[2]]).collect();
         surface.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -66,7 +58,7 @@ pub fn map() -> Result<Figure, String> {
         item: "B 12",
         title: "Temperatures beside the contact",
         status: Status::Qualitative,
-        parameters: "Base of Paper B, P = 10 kN/m, 50 km/h, 2 × 30 W/m at ±90° (assumed); 2 mm along the surface, 1 mm deep.",
+        parameters: "Base of Paper B, P = 10 kN/m, 50 km/h, 2 × 30 W/m at ±90° (assumed); 2 mm along the surface, 1 mm deep, the contact between grey lines a quarter from the right (the thesis: displaced to the left).",
         finding: format!(
             "At the contact point {:.4} K in the wheel and {:.4} K in the rail; the wheel comes in with {:.4} K. These fit the colours at \
              hand of the thesis's maps, 0.06 to 0.12 K and 0 to 0.05 K; no number is stated.",
