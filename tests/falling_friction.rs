@@ -7,10 +7,13 @@ use std::sync::Arc;
 use wheelrail::config::Tuning;
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation};
 
+/// A sliding distance within which nothing happens [m].
+const AT_ONCE: f64 = 1e-12;
+
 /// Polach's law on a dry rail without memory, slip and heat of a dry-braked wheel.
 fn polach(response_heat: bool) -> Arc<Model> {
     let mut config = preset("railway_dry", 8);
-    config.tuning.memory_length = 0.0;
+    config.tuning.memory_length = AT_ONCE;
     config.thermal.enabled = response_heat;
     model(config)
 }
@@ -60,7 +63,8 @@ fn lock_up_breaking_loose_reversal_and_standstill_find_their_coefficient_at_ever
 fn a_law_that_slip_does_not_change_costs_no_iteration() {
     let iterations = |ratio: f64, decay: f64| {
         let model = polach(false);
-        let tuning = Tuning { falling_ratio: ratio, falling_decay: decay, ..model.config().tuning.clone() };
+        let tuning =
+            Tuning { falling_ratio: ratio, falling_decay: decay, memory_length: 0.0, ..model.config().tuning.clone() };
         let mut inputs = prescribed(&model, 20.0, 0.0);
         let mut simulation = Simulation::start(model, tuning, &inputs).unwrap();
         (0..100u32)
@@ -152,4 +156,37 @@ fn derivatives_see_the_friction_that_falls() {
     let quotient = (again(1e-4) - again(-1e-4)) / 2e-4;
     println!("d mu/dV = {slope:e} and {quotient:e} s/m");
     assert!(slope < 0.0 && (slope / quotient - 1.0).abs() < 1e-4);
+}
+
+/// Without a memory slip and friction jump in every internal step; samples of the force look converged, and are not its mean.
+#[test]
+fn sampled_force_dissipation_and_moment_of_a_held_slip_agree_where_friction_falls_by_default() {
+    for (load, h) in [(0.5, 1e-4), (0.05, 1e-4), (0.95, 1e-4), (0.5, 1e-5), (0.5, 1e-3)] {
+        let mut config = preset("railway", 10);
+        config.thermal.enabled = false;
+        config.model.nominal_load = 200e3;
+        (config.initial.velocity, config.friction.coefficient) = (15.0, 0.4);
+        (config.tuning.falling_ratio, config.tuning.falling_decay) = (0.4, 0.6);
+        assert_eq!(config.tuning.memory_length, 0.0);
+        let (model, slip, speed) = (model(config), 2.0, 15.0);
+        let radius = model.config().wheel.radius;
+        let mut inputs = prescribed(&model, speed, 2.0 * slip / (2.0 * speed - slip));
+        inputs.drive.load = load * 200e3;
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let (end, mut sums, mut count) = (if h < 1e-4 { 0.02 } else { 0.1 }, [0.0; 3], 0.0);
+        for k in 1..=(end / h).round() as usize {
+            simulation.advance(&inputs, h).unwrap();
+            if k as f64 * h > 0.5 * end {
+                let o = simulation.outputs();
+                let found = [-o.contact_force_x, o.friction_power / slip, -o.hub_moment / radius];
+                sums.iter_mut().zip(found).for_each(|(sum, value)| *sum += value);
+                count += 1.0;
+            }
+        }
+        let [sampled, power, moment] = sums.map(|sum: f64| sum / count);
+        println!("load {load}, steps of {h} s: {sampled:.0} N sampled, {power:.0} N by power, {moment:.0} N by moment");
+        for other in [power, moment] {
+            assert!((other / sampled - 1.0).abs() < 0.01, "{other} for {sampled}");
+        }
+    }
 }

@@ -26,8 +26,8 @@ const FINEST: f64 = 1e-5;
 const PERSISTENCE: (f64, f64) = (0.3, 500.0);
 /// Change of the highest contact temperature [K] that always refines steps longer than this [s].
 const HEATING: (f64, f64) = (300.0, 1e-3);
-/// Internal step that overheating alone does not halve any further [s]: a molten film takes friction away in the next one.
-const OVERHEATED: f64 = 1e-4;
+/// Internal step that overheating alone does not halve any further [s].
+const OVERHEATED: f64 = 1e-5;
 /// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
 const GROWTH: f64 = 0.125;
 /// Largest noise that passes, in tolerances [1].

@@ -19,7 +19,7 @@ use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
-use crate::material::{FILM_GROWS, SOFTENS};
+use crate::material::SOFTENS;
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
@@ -93,6 +93,16 @@ pub struct Scratch {
 struct Sight {
     seen: Observation,
     smoothing: [Smoothing; 2],
+    /// How far the film with which a step was taken is from that at its end [1].
+    unsettled: f64,
+}
+
+impl Scratch {
+    /// By how much at most the share of friction on a molten place, with which the last step was taken, differs from that which
+    /// belongs to its temperature at the end \[1].
+    pub fn unsettled(&self) -> f64 {
+        self.sight.unsettled
+    }
 }
 
 /// Refuses, before any memory is taken, what [`ThermalModel::new`] would refuse on the mesh of the configuration: too many
@@ -120,7 +130,7 @@ impl ThermalModel {
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
             spacing: margin,
-            weakening: WeakSteel::new(config),
+            weakening: WeakSteel::new(config, margin),
             points: profile_points(zone),
         })
     }
@@ -133,18 +143,8 @@ impl ThermalModel {
     /// Absolute temperature \[K] that a contact with molten films does not exceed by itself: [`OVERHEATING`] above the
     /// liquidus, or that of the wheel at the start. Infinite where melting leaves friction alone.
     pub fn hottest(&self) -> f64 {
-        self.above_liquidus(OVERHEATING)
-    }
-
-    /// Absolute temperature \[K] from which on a molten film carries no friction, or that of the wheel at the start: a step that
-    /// heats the contact beyond had too much friction.
-    pub fn frictionless(&self) -> f64 {
-        self.above_liquidus(FILM_GROWS)
-    }
-
-    fn above_liquidus(&self, excess: f64) -> f64 {
         let start = self.reference + self.wheel_excess;
-        self.weakening.liquidus().map_or(f64::INFINITY, |liquidus| (liquidus + excess).max(start))
+        self.weakening.liquidus().map_or(f64::INFINITY, |liquidus| (liquidus + OVERHEATING).max(start))
     }
 
     /// What temperatures see of a contact with a rail that arrives with the absolute temperature `rail` \[K].
@@ -226,7 +226,7 @@ impl ThermalModel {
 
     /// Fills all that follows from the temperature fields.
     fn observe(&self, touch: &Touch, dt: f64, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
-        let Sight { seen, smoothing } = sight;
+        let Sight { seen, smoothing, unsettled } = sight;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
         if touch.reversible.iter().any(|surface| !surface.is_empty()) {
@@ -252,7 +252,7 @@ impl ThermalModel {
         });
         thermal.loaded_mean =
             [0, 1].map(|body| piecewise::weighted_mean(&touch.traction.pressure, zone, &seen.surface[body]));
-        let mean = 0.5 * (thermal.loaded_mean[0] + thermal.loaded_mean[1]);
+        let mean = thermal.friction_excess();
         let friction = touch.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         let warm = seen.temperatures.wheel_max.max(seen.temperatures.rail_max) > SMOOTHED;
@@ -266,7 +266,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&self.heat, touch.traction, dt, thermal, seen)?;
+        *unsettled = self.weakening.find(&self.heat, touch.traction, dt, thermal, seen)?;
         Ok(())
     }
 

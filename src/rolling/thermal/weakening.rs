@@ -17,9 +17,6 @@ const LOADED_DEPTH: f64 = 0.5;
 /// Share of friction below which temperatures say nothing about those without a film [1].
 const LEAST: f64 = 1e-3;
 
-/// Largest part of the friction on a place that one step takes away because it is overheated [1].
-const CUT: f64 = 0.75;
-
 /// How steel weakens.
 #[derive(Clone, Debug)]
 pub struct WeakSteel {
@@ -30,16 +27,25 @@ pub struct WeakSteel {
     yields: bool,
     /// Unless melting is left out.
     melts: bool,
+    /// Distance up to which friction heats what lies beside it \[m]: two elements of the contact. The film at its nodes is that of
+    /// all places within: where it is thick, friction on the colder node beside would go on heating what has no friction itself.
+    reach: f64,
 }
 
 impl WeakSteel {
     /// From the parameters.
-    pub fn new(config: &Config) -> Self {
+    pub fn new(config: &Config, spacing: f64) -> Self {
         let (material, reference) = (config.material.clone(), config.thermal.reference);
         let melts = material.latent_heat > 0.0 && reference < material.solidus;
         // Beyond the solidus nothing is known of strength, and bodies that are so hot as a whole are no steel.
         let start = reference + config.thermal.wheel_excess.max(0.0);
-        Self { melts, yields: config.physics.yielding && start < material.solidus, reference, material }
+        Self {
+            melts,
+            reach: 2.0 * spacing,
+            yields: config.physics.yielding && start < material.solidus,
+            reference,
+            material,
+        }
     }
 
     /// Absolute temperature at which melting is complete \[K]; `None` where it does not act on friction.
@@ -48,7 +54,8 @@ impl WeakSteel {
     }
 
     /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s], infinite in the stationary state; its
-    /// film is still that of the step before.
+    /// film is still that with which the step was taken. Returns by how much at most the share of friction on a place in contact
+    /// differs from the one that belongs to its temperature at the end \[1].
     pub fn find(
         &self,
         heat: &Heat,
@@ -56,16 +63,17 @@ impl WeakSteel {
         dt: f64,
         thermal: &mut ThermalState,
         seen: &mut Observation,
-    ) -> Result<(), StepError> {
+    ) -> Result<f64, StepError> {
         let weakening = &mut thermal.weakening;
         weakening.strength.clear();
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
-        if self.melts {
-            self.melt(heat.zone_x(), dt, hottest, traction, seen, &mut weakening.film);
-        }
+        let unsettled = match self.melts {
+            true => self.melt(heat.zone_x(), [dt, hottest], traction, seen, &mut weakening.film),
+            false => 0.0,
+        };
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
-            return Ok(());
+            return Ok(unsettled);
         }
         let length: f64 = traction.patches.iter().map(|patch| patch.high - patch.low).sum();
         let depth = LOADED_DEPTH * 0.5 * length;
@@ -77,41 +85,83 @@ impl WeakSteel {
         }
         let Piecewise { x, value } = &mut weakening.strength;
         smear(x, value, depth);
-        Ok(())
+        Ok(unsettled)
     }
 
-    /// Factor by which the share of friction falls at least on a place at the excess temperature `hot` \[K]: a place that has
-    /// overheated carries little, whatever the prediction says.
-    fn overheated(&self, hot: f64) -> f64 {
-        match self.liquidus() {
-            Some(liquidus) => 1.0 - CUT * ((self.reference + hot - liquidus) / FILM_GROWS).clamp(0.0, 1.0),
-            None => 1.0,
-        }
-    }
-
-    /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as linear in
-    /// the share, and the share that belongs to its own temperature is found; a share from the temperature before would let
+    /// Share of friction on molten places in a step of about `dt` \[s]: that at whose end each place has the temperature to which
+    /// its share belongs. `film` is what a step was taken with, and `seen` is how it ended. The temperature at its end is taken as
+    /// linear in the share, and the share that belongs to its own temperature is found; one from the temperature before would let
     /// the surface overheat and freeze in turns. In a long step the flash follows friction in full, as in
     /// [`crate::contact::Friction::local`]; in a short one it rises by what the power warms a half-space, `q √(Δt/π)/√(kρc)` with
-    /// half of the power for each body.
-    fn melt(&self, zone: &[f64], dt: f64, hottest: f64, traction: &Traction, seen: &Observation, film: &mut Piecewise) {
+    /// half of the power `q` of full friction for each body. Returns what [`Self::find`] does.
+    fn melt(
+        &self,
+        zone: &[f64],
+        [dt, hottest]: [f64; 2],
+        traction: &Traction,
+        seen: &Observation,
+        film: &mut Piecewise,
+    ) -> f64 {
         if film.is_empty() && hottest <= self.material.solidus {
-            return;
+            return 0.0;
         }
         let before = std::mem::take(film);
         let Material { conductivity, density, specific_heat, .. } = self.material;
         let warming = (dt / (PI * conductivity * density * specific_heat)).sqrt();
-        let (Piecewise { x, value: power }, [wheel, rail]) = (&traction.dissipation, &seen.surface);
-        for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
-            let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
-            let (hot, whole) = (wheel.max(*rail), 1.0 / share.max(LEAST));
-            let rise = whole * hot.min(warming * interpolate(x, power, at).max(0.0));
-            let rest = self.reference + hot - share * rise;
-            let found = melted_share(rise, rest, &self.material);
-            film.push(at, found.min(share * self.overheated(hot)));
+        let place = |(&at, (wheel, rail)): (&f64, (&f64, &f64))| {
+            let (share, hot) = (share_at(&before, at), wheel.max(*rail));
+            let whole = (traction.friction * traction.pressure.at(at) * traction.slip.at(at)).abs();
+            let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
+            Place { at, slides: whole > 0.0, share, temperature: self.reference + hot, rise }
+        };
+        let [wheel, rail] = &seen.surface;
+        let places: Vec<Place> = zone.iter().zip(wheel.iter().zip(rail)).map(place).collect();
+        let mut unsettled = 0.0_f64;
+        for (k, place) in places.iter().enumerate() {
+            let Place { at, share, temperature, rise, .. } = *place;
+            let mut own = melted_share(0.0, temperature, &self.material);
+            let mut found = melted_share(rise, temperature - share * rise, &self.material);
+            let near = |other: &&Place| (other.at - at).abs() <= self.reach;
+            let before = places[..k].iter().rev().take_while(near);
+            for beside in places[k + 1..].iter().take_while(near).chain(before) {
+                own = own.min(self.borne(beside.temperature, 0.0));
+                let rise = rise.max(beside.rise);
+                found = found.min(self.borne(beside.temperature - share * rise, rise));
+            }
+            if place.slides {
+                unsettled = unsettled.max((own - share).abs());
+            }
+            film.push(at, found);
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
         }
+        unsettled
     }
+
+    /// Share of friction that a place carries beside one with the temperature `rest` \[K] and `rise` \[K] times the share: nothing
+    /// where the film there is so thick that it carries nothing, and all up to the liquidus.
+    fn borne(&self, rest: f64, rise: f64) -> f64 {
+        let Some(liquidus) = self.liquidus() else { return 1.0 };
+        ((liquidus + FILM_GROWS - rest) / (FILM_GROWS + rise)).clamp(0.0, 1.0)
+    }
+}
+
+/// A place of the surface where steel may melt.
+struct Place {
+    /// Where it lies \[m].
+    at: f64,
+    /// Whether there is friction.
+    slides: bool,
+    /// Share of it that is left \[1].
+    share: f64,
+    /// Temperature of the hotter surface \[K].
+    temperature: f64,
+    /// Part of it that full friction makes in a step \[K].
+    rise: f64,
+}
+
+/// Share of friction at a place under a film.
+fn share_at(film: &Piecewise, x: f64) -> f64 {
+    if film.is_empty() { 1.0 } else { interpolate(&film.x, &film.value, x) }
 }
