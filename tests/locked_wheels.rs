@@ -192,7 +192,7 @@ fn rolling(speed: f64, softening: f64) -> (Simulation, Inputs) {
 /// In the end a node that heats its neighbours without friction of its own ended the run, at 140 and 160 km/h within 0.5 s.
 #[test]
 fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_and_by_brake() {
-    for (speed, h, by_brake) in [(140.0, 1e-3, false), (160.0, 2e-4, true)] {
+    for (speed, h, by_brake) in [(140.0, 1e-3_f64, false), (160.0, 2e-4, true)] {
         let (mut simulation, mut inputs) = rolling(speed * KMH, 0.0);
         let (omega, strong) = (inputs.drive.omega, 100e3);
         if by_brake {
