@@ -18,7 +18,7 @@ use crate::multistep::{History, TimeDerivative, formula, settled};
 
 /// How often a step is taken again at most until the share of friction on molten places is that of their temperatures at its end.
 const SETTLING: usize = 8;
-/// Difference of both at which they agree \[1]; 4 K between solidus and liquidus of the default steel.
+/// Part of the friction power for which this need not hold \[1].
 const SETTLED: f64 = 0.05;
 /// Step from which on flashes follow friction within it \[s].
 const FOLLOWED: f64 = 4e-5;

@@ -98,8 +98,8 @@ struct Sight {
 }
 
 impl Scratch {
-    /// By how much at most the share of friction on a molten place, with which the last step was taken, differs from that which
-    /// belongs to its temperature at the end \[1].
+    /// Part of the friction power of the last step that belongs to other temperatures of molten places than those at its end, or the
+    /// largest share of friction on a place that bears none any more \[1].
     pub fn unsettled(&self) -> f64 {
         self.sight.unsettled
     }

@@ -54,8 +54,8 @@ impl WeakSteel {
     }
 
     /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s], infinite in the stationary state; its
-    /// film is still that with which the step was taken. Returns by how much at most the share of friction on a place in contact
-    /// differs from the one that belongs to its temperature at the end \[1].
+    /// film is still that with which the step was taken. Returns how much of the friction power
+    /// belongs to other temperatures than those at the end, or the largest share of friction on a place that bears none any more \[1].
     pub fn find(
         &self,
         heat: &Heat,
@@ -112,11 +112,11 @@ impl WeakSteel {
             let (share, hot) = (share_at(&before, at), wheel.max(*rail));
             let whole = (traction.friction * traction.pressure.at(at) * traction.slip.at(at)).abs();
             let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
-            Place { at, slides: whole > 0.0, share, temperature: self.reference + hot, rise }
+            Place { at, whole, share, temperature: self.reference + hot, rise }
         };
         let [wheel, rail] = &seen.surface;
         let places: Vec<Place> = zone.iter().zip(wheel.iter().zip(rail)).map(place).collect();
-        let mut unsettled = 0.0_f64;
+        let (mut missed, mut carried, mut overheated) = (0.0, 0.0, 0.0_f64);
         for (k, place) in places.iter().enumerate() {
             let Place { at, share, temperature, rise, .. } = *place;
             let mut own = melted_share(0.0, temperature, &self.material);
@@ -128,15 +128,17 @@ impl WeakSteel {
                 let rise = rise.max(beside.rise);
                 found = found.min(self.borne(beside.temperature - share * rise, rise));
             }
-            if place.slides {
-                unsettled = unsettled.max((own - share).abs());
+            missed += place.whole * (own - share).abs();
+            carried += place.whole * share;
+            if own == 0.0 && place.whole > 0.0 {
+                overheated = overheated.max(share);
             }
             film.push(at, found);
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
         }
-        unsettled
+        if carried > 0.0 { overheated.max(missed / carried) } else { 0.0 }
     }
 
     /// Share of friction that a place carries beside one with the temperature `rest` \[K] and `rise` \[K] times the share: nothing
@@ -151,8 +153,8 @@ impl WeakSteel {
 struct Place {
     /// Where it lies \[m].
     at: f64,
-    /// Whether there is friction.
-    slides: bool,
+    /// Power of friction without a film [W/m²].
+    whole: f64,
     /// Share of it that is left \[1].
     share: f64,
     /// Temperature of the hotter surface \[K].
