@@ -15,7 +15,8 @@
 # make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
-# make locked-wheels wheels locked at five speeds, three steps and three meshes: pressure, temperature, friction
+# make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
+#                pressure, temperature, friction
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
@@ -114,6 +115,8 @@ surfaces: $(FMU) $(INSTALLED)
 
 locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
+	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results --name locked_wheels_presets \
+		--presets all --by speed,brake --speeds 40,80,120,160,200 --steps 1e-3 --meshes 10
 
 thesis:
 	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- $(if $(FULL),--full) --out results/thesis

@@ -350,4 +350,14 @@ mod tests {
         assert_eq!(peak(&[0.0, 1.0, 2.0], &[5.0, 1.0, 0.0]), 5.0);
         assert_eq!(peak(&[], &[]), f64::NEG_INFINITY);
     }
+
+    #[test]
+    fn a_kink_beside_a_maximum_does_not_raise_it_and_a_parabola_keeps_its_own() {
+        // The leading edge of a molten contact [mm], [K]: the cubic alone reaches 1855 K.
+        let (x, hot) = ([2.9, 3.32, 3.73, 4.15, 4.56], [1785.6, 1726.7, 1792.8, 1731.0, 367.3]);
+        let found = peak(&x, &hot);
+        assert!((1792.8..1800.0).contains(&found), "{found}");
+        let parabola: Vec<f64> = x.iter().map(|x| 5.0 - (x - 3.6) * (x - 3.6)).collect();
+        assert!((peak(&x, &parabola) - 5.0).abs() < 1e-12);
+    }
 }

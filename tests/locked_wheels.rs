@@ -176,3 +176,94 @@ fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
     });
     assert!(differ(means[0], means[1]) < 0.04, "{means:?}");
 }
+
+/// A dry wheel with friction that falls with the slip: inputs that hold its speed, and the simulation.
+fn rolling(speed: f64, softening: f64) -> (Simulation, Inputs) {
+    let mut config = preset("railway_dry", 10);
+    config.initial.velocity = speed;
+    config.tuning.softening = softening;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+    (Simulation::new(model, &inputs).unwrap(), inputs)
+}
+
+/// Where a place overheated, friction did not come back as long as any was molten: the film only grew, colder than the solidus, too.
+/// In the end a node that heats its neighbours without friction of its own ended the run, at 140 and 160 km/h within 0.5 s.
+#[test]
+fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_and_by_brake() {
+    for (speed, h, by_brake) in [(140.0, 1e-3_f64, false), (160.0, 2e-4, true)] {
+        let (mut simulation, mut inputs) = rolling(speed * KMH, 0.0);
+        let (omega, strong) = (inputs.drive.omega, 100e3);
+        if by_brake {
+            inputs.rotation = Rotation::Moment;
+        }
+        let (mut hottest, mut coolest, mut force) = (0.0_f64, f64::INFINITY, [f64::INFINITY, 0.0_f64]);
+        for k in 1..=(0.2 / h).round() as usize {
+            let time = k as f64 * h;
+            inputs.drive.omega = omega * (1.0 - time / LOCK).max(0.0);
+            inputs.drive.torque = strong * (time / LOCK).min(1.0);
+            simulation.advance(&inputs, h).unwrap_or_else(|error| panic!("{speed} km/h, {time} s: {error}"));
+            let o = simulation.outputs();
+            let peak = o.temperature_wheel_max.max(o.temperature_rail_max);
+            hottest = hottest.max(peak);
+            if time > SETTLED {
+                coolest = coolest.min(peak);
+                force = [force[0].min(-o.contact_force_x), force[1].max(-o.contact_force_x)];
+            }
+        }
+        let (o, material) = (simulation.outputs(), &simulation.model().config().material);
+        println!(
+            "{speed} km/h, brake {by_brake}: {coolest:.0} to {hottest:.0} K, {force:.0?} N, audit {:.1e}",
+            o.energy_residual
+        );
+        assert!(o.wheel_omega.abs() < 1e-6 && o.energy_residual.abs() < 0.01);
+        assert!(hottest < material.liquidus + 50.0, "{hottest} K");
+        assert!(coolest > material.solidus, "{coolest} K: a film that grew without melting");
+        assert!(force[0] > 0.0);
+    }
+}
+
+/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever.
+#[test]
+fn friction_comes_back_when_a_molten_contact_has_cooled() {
+    let (mut simulation, mut inputs) = rolling(120.0 * KMH, 0.0);
+    let (omega, h) = (inputs.drive.omega, 1e-3);
+    for k in 1..=250 {
+        let time = f64::from(k) * h;
+        // Locked, held, released to a slip of 3 %.
+        let share = if time < 0.06 { 1.0 - time / LOCK } else { (time - 0.06) / 0.05 };
+        inputs.drive.omega = omega * share.clamp(0.0, if time < 0.06 { 1.0 } else { 0.97 });
+        simulation.advance(&inputs, h).unwrap();
+    }
+    let o = simulation.outputs();
+    let carried = -o.contact_force_x / o.contact_force_y;
+    println!("{carried:.4} of {:.4} at {:.0} K, {:.1e} m molten", o.friction, o.temperature_wheel_max, o.melted);
+    assert!(o.melted > 0.0 && o.temperature_wheel_max < 1000.0);
+    assert!((carried / o.friction - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn the_law_at_the_temperature_of_friction_gives_the_friction_coefficient() {
+    let (mut simulation, mut inputs) = rolling(15.0, 1e-3);
+    let (omega, h) = (inputs.drive.omega, 1e-3);
+    for k in 1..=150 {
+        inputs.drive.omega = omega * (1.0 - f64::from(k) * h / LOCK).max(0.0);
+        simulation.advance(&inputs, h).unwrap();
+    }
+    let (o, config) = (simulation.outputs(), simulation.model().config());
+    let (tuning, reference) = (&config.tuning, config.thermal.reference);
+    let falling = tuning.falling_ratio
+        + (1.0 - tuning.falling_ratio) * (-tuning.falling_decay * o.contact_tread_slip.abs()).exp();
+    let at = |kelvin: f64| {
+        inputs.drive.friction * falling * (1.0 - tuning.softening * (kelvin - reference)).max(tuning.softening_floor)
+    };
+    let plain = 0.5 * (o.temperature_wheel_mean + o.temperature_rail_mean);
+    let (law, other) = (at(o.temperature_friction), at(plain));
+    println!(
+        "friction {:.4}, law {law:.4} at {:.1} K, {other:.4} at the plain mean of {plain:.1} K",
+        o.friction, o.temperature_friction
+    );
+    assert!((law / o.friction - 1.0).abs() < 0.01);
+    assert!((other / o.friction - 1.0).abs() > 0.1, "the plain mean is another temperature");
+}

@@ -13,6 +13,8 @@ use wheelrail::simulation::{Inputs, Model, Rotation, Simulation};
 const FRICTION: f64 = 0.4;
 /// Slip velocity of the sliding wheel [m/s].
 const SLIP: f64 = 0.1;
+/// Sliding distance within which nothing happens: friction without a memory [m].
+const AT_ONCE: f64 = 1e-12;
 /// Share of the coefficient that remains at high slip.
 const RATIO: f64 = 0.4;
 
@@ -43,7 +45,7 @@ fn law_of_slope(config: &Config, slope: f64) -> Tuning {
         let middle = 0.5 * (low + high);
         if steep(middle).abs() < slope.abs() { low = middle } else { high = middle }
     }
-    Tuning { falling_ratio: ratio, falling_decay: low, softening: 0.0, ..config.tuning.clone() }
+    Tuning { falling_ratio: ratio, falling_decay: low, softening: 0.0, memory_length: AT_ONCE, ..config.tuning.clone() }
 }
 
 /// A wheel that slides steadily under a moment, and its inputs.

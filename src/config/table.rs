@@ -216,7 +216,7 @@ parameters! {
         /// `μ(s, T) = rail.friction · (A + (1 − A) e^{−B|s|}) · max(m, 1 − K (T − T_ref))`
         ///
         /// with `A` the falling ratio, `B` the falling decay, `K` the softening and `m` the softening floor, mean slip velocity
-        /// `s` of the tread and mean contact temperature `T` (O. Polach, *Wear* 258 (2005), for the falling part), both at
+        /// `s` of the tread and mean contact temperature `T` (`temperature.friction`: weighted with the pressure) (O. Polach, *Wear* 258 (2005), for the falling part), both at
         /// the end of the step: the slip velocity is solved for with the contact, the temperature is `T − T_ref = θ μ` with
         /// the heating θ extrapolated, which makes the last factor `1/(1 + K θ · rail.friction · (…))`. Within a step the
         /// friction cone is exact.
@@ -226,12 +226,13 @@ parameters! {
             1062 falling_decay: f64 = 0.0, of "friction", in "s/m", from 0.0 to 1e3,
                 "Decay of the rest with the slip velocity of the tread (Polach's B)";
             1063 softening: f64 = 0.001, of "friction", in "1/K", from 0.0 to 1.0,
-                "Decrease of the friction coefficient per kelvin of mean contact temperature over thermal.reference; \
-                 0: constant";
+                "Decrease of the friction coefficient per kelvin by which temperature.friction, the pressure-weighted mean of \
+                 both surfaces, exceeds thermal.reference; 0: constant";
             1064 softening_floor: f64 = 0.1, of "friction", from 0.0 to 1.0,
                 "Share of the friction coefficient that remains in a hot contact";
             1065 memory_length: f64 = 0.0, of "friction", in "m" as "mm", from 0.0 to 1e3,
-                "Sliding distance over which the coefficient follows the law of slip and temperature; 0: at once";
+                "Sliding distance over which the coefficient follows the law of slip and temperature; 0: 25 um where friction falls \
+                 with the slip, else at once. A tiny length makes falling friction follow at once, too: it jumps in short steps";
             1095 max_step: f64 = 0.1, of "solver", in "s", from 0.0 to 500.0,
                 "Largest internal time step; longer communication steps are divided evenly; 0: 0.1 s, and a fortieth of the \
                  time in which the shortest wave of wheel.profile and rail.profile near the contact passes";

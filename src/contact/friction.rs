@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// `μ(s, T) = μ₀ · (A + (1 − A) e^{−B |s|}) · max(m, 1 − K (T − T_ref))`
 ///
-/// with the available coefficient `μ₀`, the mean slip velocity s of the surfaces in the patch and their mean temperature T
-/// (O. Polach, *Wear* 258 (2005) 992–1000, for the falling part). With a memory the coefficient follows this local law
+/// with the available coefficient `μ₀`, the mean slip velocity s of the surfaces in the patch and their mean temperature T, both
+/// weighted with the pressure (O. Polach, *Wear* 258 (2005) 992–1000, for the falling part). With a memory the coefficient follows this local law
 /// over a sliding distance `d`: `dμ/dt = (μ(s, T) − μ) |s|/d` (after E. A. H. Vollebregt, H. M. Schuttelaars, *J. Sound
 /// Vib.* 331 (2012) 2141–2155).
 #[derive(Clone, Copy, Debug, PartialEq)]

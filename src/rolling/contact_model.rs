@@ -223,6 +223,16 @@ pub fn friction_law(tuning: &Tuning) -> FrictionLaw {
         falling_decay: tuning.falling_decay,
         softening: tuning.softening,
         softening_floor: tuning.softening_floor,
-        memory_length: tuning.memory_length,
+        memory_length: memory_length(tuning),
     }
+}
+
+/// Sliding distance over which friction that falls with the slip follows its law unless another one is given \[m]: of the size
+/// of a contact of asperities. The tread has no mass of its own and answers a lower friction with a slip that lowers it further.
+const MEMORY: f64 = 25e-6;
+
+/// Sliding distance over which friction follows its law \[m].
+pub fn memory_length(tuning: &Tuning) -> f64 {
+    let falls = tuning.falling_ratio < 1.0 && tuning.falling_decay > 0.0;
+    if tuning.memory_length == 0.0 && falls { MEMORY } else { tuning.memory_length }
 }

@@ -209,6 +209,9 @@ outputs! {
         "Mean surface temperature of the wheel over the contact patch";
     613 temperature_rail_mean: real "temperature.rail_mean", in "K" as "degC", from 0.0, nominal 300.0,
         "Mean surface temperature of the rail over the contact patch";
+    617 temperature_friction: real "temperature.friction", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature at which friction acts: pressure-weighted mean over the contact patch of the surface temperatures of \
+         wheel and rail; friction.softening counts from it, and contact.friction belongs to it; thermal.reference without contact";
     614 temperature_wheel_nominal: real "temperature.wheel_nominal", in "K" as "degC", from 0.0, nominal 300.0,
         "Surface temperature of the wheel below its centre";
     615 temperature_rail_nominal: real "temperature.rail_nominal", in "K" as "degC", from 0.0, nominal 300.0,

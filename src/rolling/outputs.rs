@@ -132,6 +132,7 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         temperature_rail_max: kelvin + temperatures.rail_max,
         temperature_wheel_mean: kelvin + thermal.patch_mean[0],
         temperature_rail_mean: kelvin + thermal.patch_mean[1],
+        temperature_friction: kelvin + thermal.friction_excess(),
         temperature_wheel_nominal: kelvin + temperatures.wheel_centre,
         temperature_rail_nominal: kelvin + temperatures.rail_centre,
         temperature_wheel_bulk: kelvin + temperatures.wheel_mean,

@@ -198,6 +198,13 @@ pub struct ThermalState {
     pub weakening: Weakening,
 }
 
+impl ThermalState {
+    /// Excess temperature at which friction acts \[K]: the pressure-weighted mean of both surfaces.
+    pub fn friction_excess(&self) -> f64 {
+        0.5 * (self.loaded_mean[0] + self.loaded_mean[1])
+    }
+}
+
 /// What heat leaves of the strength of the steel under the contact, over x.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Weakening {

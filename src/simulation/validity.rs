@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::material::INDENTATION;
 use crate::mechanics::nominal_half_width;
+use crate::rolling::contact_model::memory_length;
 
 /// A limit of what the meshes resolve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,7 +216,8 @@ impl Simulation {
         let half_width = nominal_half_width(config);
         let load = outputs.contact_force_y / config.model.nominal_load;
         let shift = TREAD_SHIFT * load * half_width * half_width / config.wheel.radius;
-        let memory = if tuning.memory_length > 0.0 { 0.5 * state.last_step * slip / tuning.memory_length } else { 1.0 };
+        let length = memory_length(tuning);
+        let memory = if length > 0.0 { 0.5 * state.last_step * slip / length } else { 1.0 };
         slope.max(0.0) * shift * memory.min(1.0)
     }
 

@@ -13,7 +13,8 @@
 //!   falls with the temperature follows the temperatures of the steps before;
 //! - where it gets hotter than molten steel under friction can be, with or without a tolerance, down to steps of
 //!   0.1 ms: a molten film takes friction away only from the step on after which it is seen. What is too hot in the shortest of
-//!   them is refused.
+//!   them is refused;
+//! - where the molten depth is not found.
 
 mod control;
 mod prediction;
@@ -24,7 +25,7 @@ use super::model::{Model, Workspace};
 use super::state::{State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
-use crate::heat::HeatFlows;
+use crate::heat::{HeatError, HeatFlows};
 use control::Control;
 use prediction::{Found, controlled};
 
@@ -158,9 +159,11 @@ fn march(
         let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, last_step };
         match step(model, from, &demand, dt, workspace, next) {
             Ok(()) => {}
-            Err(StepError::Contact { .. } | StepError::NotFinite { .. })
-                if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP =>
-            {
+            Err(
+                StepError::Contact { .. }
+                | StepError::NotFinite { .. }
+                | StepError::Heat(HeatError::MeltingNotConverged { .. }),
+            ) if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP => {
                 failures += 1;
                 last_step = 0.0;
                 place.halve();

@@ -264,7 +264,7 @@ impl ThermalModel {
         });
         thermal.loaded_mean =
             [0, 1].map(|body| piecewise::weighted_mean(&touch.traction.pressure, zone, &seen.surface[body]));
-        let mean = 0.5 * (thermal.loaded_mean[0] + thermal.loaded_mean[1]);
+        let mean = thermal.friction_excess();
         let friction = touch.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         let warm = seen.temperatures.wheel_max.max(seen.temperatures.rail_max) > SMOOTHED;
