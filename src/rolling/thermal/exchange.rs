@@ -3,7 +3,7 @@
 use crate::config::Config;
 use crate::contact::Traction;
 use crate::heat::{Exchange, HeatConfig, TreadHeat};
-use crate::piecewise::Piecewise;
+use crate::piecewise::{self, Piecewise};
 
 /// Arrangement of the brake blocks on the tread.
 #[derive(Clone, Debug)]
@@ -55,13 +55,18 @@ pub struct Touch<'a> {
 
 impl Touch<'_> {
     /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Patches of the
-    /// new time act over the whole step; the heat of friction is the energy that the mechanical step has dissipated.
-    pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, exchange: &mut Exchange) {
+    /// new time act over the whole step; the heat of friction is the energy that the mechanical step has dissipated. Within the reach
+    /// of a contact node it arises where the `film` of molten steel leaves friction, as the node's friction is the mean of it.
+    pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, film: &Piecewise, exchange: &mut Exchange) {
         let contact = self.traction;
         exchange.clear();
         exchange.patches.extend(&contact.edges);
         copy(&contact.pressure, &mut exchange.pressure);
-        copy(&contact.dissipation, &mut exchange.friction_power);
+        if film.is_empty() {
+            copy(&contact.dissipation, &mut exchange.friction_power);
+        } else {
+            piecewise::divided(&contact.dissipation, film, &mut exchange.friction_power);
+        }
         exchange.friction_excess = contact.dissipation_excess;
         blocks.fill(tread_heat, &mut exchange.tread);
         exchange.arriving = self.arriving;

@@ -14,14 +14,14 @@ mod weakening;
 use super::contact_model::ContactModel;
 use super::error::StepError;
 use super::profile::{PROFILE_POINTS, profile_points};
-use super::state::{State, ThermalDeformation, ThermalState};
+use super::state::{State, ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{Heating, Traction};
 use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
-use crate::piecewise;
+use crate::piecewise::{self, Piecewise};
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 pub use exchange::Touch;
@@ -174,7 +174,7 @@ impl ThermalModel {
         let moving = [v, omega * self.radius].map(|speed| speed.abs() > AT_REST);
         if moving != [false; 2] {
             let mut exchange = Exchange::default();
-            touch.fill(&self.blocks, tread_heat, &mut exchange);
+            touch.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
             // With which temperature the rail arrives belongs to what passes, not to what lasts.
             exchange.arriving = 0.0;
             let (stationary, flows) = self.heat.settle([v, omega], &exchange)?;
@@ -197,7 +197,7 @@ impl ThermalModel {
     /// All of a start that follows from its temperature fields.
     fn begun(&self, touch: &Touch, mut thermal: ThermalState) -> Result<ThermalState, StepError> {
         let mut sight = Sight::default();
-        self.observe(touch, f64::INFINITY, &mut thermal, &mut sight)?;
+        self.observe(touch, &touch.traction.dissipation, f64::INFINITY, &mut thermal, &mut sight)?;
         thermal.damage = self.history.begin(&sight.seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
@@ -217,10 +217,10 @@ impl ThermalModel {
         let HeatStep { dt, tread_heat, criteria } = step;
         let Scratch { heat, exchange, sight } = scratch;
         thermal.weakening.film.clone_from(&before.weakening.film);
-        touch.fill(&self.blocks, tread_heat, exchange);
+        touch.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(touch, dt, &mut thermal, sight)?;
+        self.observe(touch, &exchange.friction_power, dt, &mut thermal, sight)?;
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
@@ -236,8 +236,15 @@ impl ThermalModel {
         Ok(thermal)
     }
 
-    /// Fills all that follows from the temperature fields.
-    fn observe(&self, touch: &Touch, dt: f64, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
+    /// Fills all that follows from the temperature fields after a step of `dt` \[s] under the friction power `power` [W/m²].
+    fn observe(
+        &self,
+        touch: &Touch,
+        power: &Piecewise,
+        dt: f64,
+        thermal: &mut ThermalState,
+        sight: &mut Sight,
+    ) -> Result<(), StepError> {
         let Sight { seen, smoothing } = sight;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
@@ -278,7 +285,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&self.heat, touch.traction, dt, thermal, seen)?;
+        self.weakening.find(&self.heat, touch.traction, (power, dt), thermal, seen)?;
         Ok(())
     }
 

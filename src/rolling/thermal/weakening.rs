@@ -53,7 +53,7 @@ impl WeakSteel {
         &self,
         heat: &Heat,
         traction: &Traction,
-        dt: f64,
+        (power, dt): (&Piecewise, f64),
         thermal: &mut ThermalState,
         seen: &mut Observation,
     ) -> Result<(), StepError> {
@@ -62,7 +62,7 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            self.melt(heat.zone_x(), dt, hottest, traction, seen, &mut weakening.film);
+            self.melt(heat.zone_x(), [dt, hottest], power, seen, &mut weakening.film);
         }
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
             return Ok(());
@@ -80,13 +80,11 @@ impl WeakSteel {
         Ok(())
     }
 
-    /// Factor by which the share of friction falls at least on a place at the excess temperature `hot` \[K]: a place that has
-    /// overheated carries little, whatever the prediction says.
-    fn overheated(&self, hot: f64) -> f64 {
-        match self.liquidus() {
-            Some(liquidus) => 1.0 - CUT * ((self.reference + hot - liquidus) / FILM_GROWS).clamp(0.0, 1.0),
-            None => 1.0,
-        }
+    /// Largest share of friction on a place at the excess temperature `hot` \[K] after a step with `share` of it: a place that has
+    /// overheated carries less than before, whatever the prediction says.
+    fn overheated(&self, share: f64, hot: f64) -> f64 {
+        let excess = self.liquidus().map_or(0.0, |liquidus| (self.reference + hot - liquidus).max(0.0));
+        if excess > 0.0 { share * (1.0 - CUT * (excess / FILM_GROWS).min(1.0)) } else { 1.0 }
     }
 
     /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as linear in
@@ -94,21 +92,21 @@ impl WeakSteel {
     /// the surface overheat and freeze in turns. In a long step the flash follows friction in full, as in
     /// [`crate::contact::Friction::local`]; in a short one it rises by what the power warms a half-space, `q √(Δt/π)/√(kρc)` with
     /// half of the power for each body.
-    fn melt(&self, zone: &[f64], dt: f64, hottest: f64, traction: &Traction, seen: &Observation, film: &mut Piecewise) {
+    fn melt(&self, zone: &[f64], [dt, hottest]: [f64; 2], power: &Piecewise, seen: &Observation, film: &mut Piecewise) {
         if film.is_empty() && hottest <= self.material.solidus {
             return;
         }
         let before = std::mem::take(film);
         let Material { conductivity, density, specific_heat, .. } = self.material;
         let warming = (dt / (PI * conductivity * density * specific_heat)).sqrt();
-        let (Piecewise { x, value: power }, [wheel, rail]) = (&traction.dissipation, &seen.surface);
+        let [wheel, rail] = &seen.surface;
         for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
             let (hot, whole) = (wheel.max(*rail), 1.0 / share.max(LEAST));
-            let rise = whole * hot.min(warming * interpolate(x, power, at).max(0.0));
+            let rise = whole * hot.min(warming * interpolate(&power.x, &power.value, at).max(0.0));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);
-            film.push(at, found.min(share * self.overheated(hot)));
+            film.push(at, found.min(self.overheated(share, hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
