@@ -424,10 +424,14 @@ mod tests {
         assert_eq!([parted.at(0.9), parted.at(1.1), parted.at(1.3)], [0.0; 3]);
         // A place within whose reach nothing is left keeps its part.
         assert_eq!(divided_by([0.0; 6]).at(1.0), 4.0);
-        let share = [1.0, 1.0, 0.0, 0.0, 1.0, 1.0];
-        let mean = hat_mean(&[0.0, 0.4, 0.9, 1.3, 1.7, 3.0], &share, 1.0, 1.0);
-        // ∫ of the product of both, by hand: 0.08 + 0.5·(0.4·…) is left to the sum of an even share.
-        assert!(mean > 0.0 && mean < 0.5 && (hat_mean(&[0.0, 3.0], &[0.7, 0.7], 1.0, 0.5) - 0.7).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_mean_under_a_hat_is_exact_for_lines_and_kinks() {
+        assert!((hat_mean(&[0.0, 3.0], &[0.7, 0.7], 1.0, 0.5) - 0.7).abs() < 1e-15);
+        assert!((hat_mean(&[0.0, 2.0], &[0.0, 4.0], 1.0, 1.0) - 2.0).abs() < 1e-14);
+        // max(0, x) under the hat of half-width 1: ∫₀¹ x (1 − x) dx.
+        assert!((hat_mean(&[-1.0, 0.0, 1.0], &[0.0, 0.0, 1.0], 0.0, 1.0) - 1.0 / 6.0).abs() < 1e-14);
     }
 
     #[test]

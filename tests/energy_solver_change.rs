@@ -31,7 +31,7 @@ fn steps(
         let of = &mut largest[usize::from(!changed)];
         *of = of.max((now - residual).abs());
         changes += usize::from(changed);
-        (patch, residual) = (!changed == patch, now);
+        (patch, residual) = (changed != patch, now);
     }
     println!(
         "{preset_name}, {elements} elements, heat {heat}, {contact:?}: {changes} changes, residual steps by {largest:?}"
@@ -44,10 +44,11 @@ fn the_energy_residual_does_not_jump_where_the_contact_solver_changes() {
     let friction = |moment: f64| {
         move |inputs: &mut Inputs, k: usize| {
             inputs.drive.moment = moment;
-            inputs.drive.friction = if (k / 10) % 2 == 0 { 0.3 } else { 0.1 };
+            inputs.drive.friction = if (k / 10).is_multiple_of(2) { 0.3 } else { 0.1 };
         }
     };
-    let brake = |inputs: &mut Inputs, k: usize| inputs.drive.torque = if (k / 40) % 2 == 0 { 0.0 } else { 4000.0 };
+    let brake =
+        |inputs: &mut Inputs, k: usize| inputs.drive.torque = if (k / 40).is_multiple_of(2) { 0.0 } else { 4000.0 };
     let load = |inputs: &mut Inputs, k: usize| {
         inputs.drive.moment = -6000.0;
         inputs.drive.load = 1e5 * (1.0 + 0.3 * (0.9 * k as f64).sin() * (0.37 * k as f64).cos());

@@ -51,7 +51,8 @@ fn alone() -> MutexGuard<'static, ()> {
 fn compute_and_unload() {
     assert_eq!(std::env::var("WHEELRAIL_CACHE").as_deref(), Ok(""));
     const FULL: i32 = 2;
-    let cases: [(&str, &dyn Fn(&Slave)); 4] = [
+    type Change<'a> = (&'a str, &'a dyn Fn(&Slave));
+    let cases: [Change; 4] = [
         ("bases computed, on threads", &|slave| slave.coarsen()),
         ("a patch of many nodes, whose system is solved at once", &|slave| {
             assert_eq!(slave.set_integer("mesh.elements_per_half_width", 12), fmi2OK);

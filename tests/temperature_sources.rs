@@ -139,7 +139,7 @@ fn excess(row: &Row, duration: f64) -> [f64; 2] {
     }
     let reference = config.thermal.reference;
     let base = Inputs::rolling(&config);
-    let mut inputs = base.clone();
+    let mut inputs = base;
     let at = |t: f64, way: f64, inputs: &mut Inputs| {
         inputs.drive = base.drive;
         (inputs.drive.friction, inputs.drive.temperature) = (row.friction, reference + row.rail);
