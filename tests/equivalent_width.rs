@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use std::f64::consts::PI;
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure, moving_source};
-use wheelrail::config::Config;
+use wheelrail::config::{Config, StartTemperature};
 use wheelrail::simulation::{Inputs, Simulation};
 
 /// Radius of the rail head across the rail \[m].
@@ -165,6 +165,7 @@ fn with_width(width: f64) -> Config {
     config.model.contact_width = width;
     config.tuning.softening = 0.0;
     (config.physics.centrifugal, config.physics.thermal_expansion) = (false, false);
+    config.initial.temperature = StartTemperature::Stationary;
     // Equal temperatures of both surfaces.
     config.thermal.conductance = 1e9;
     config

@@ -1,6 +1,7 @@
 //! What steel bears in the contact: a largest pressure, and less friction where its surface melts.
 
-use crate::piecewise::{self, Piecewise, interpolate};
+use super::film;
+use crate::piecewise::{Piecewise, interpolate};
 use std::f64::consts::PI;
 
 /// Pressure above the limit per depth by which the surface gives way in a step [Pa/m]: so small that 100 µm take 1 MPa, but enough to
@@ -97,7 +98,7 @@ impl<'a> Limits<'a> {
         if self.film.is_empty() {
             return 1.0;
         }
-        piecewise::hat_mean(&self.film.x, &self.film.value, x, spacing)
+        film::hat_mean(&self.film.x, &self.film.value, x, spacing)
     }
 
     /// Largest pressure at `x` \[m] \[Pa].

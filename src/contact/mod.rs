@@ -7,6 +7,7 @@
 //! rail receives the opposite.
 
 pub mod error;
+pub mod film;
 pub mod flattening;
 pub mod friction;
 pub mod grid;

@@ -182,7 +182,7 @@ fn pressure_peak(grid: &ContactGrid, yields: &[bool], normal: impl Fn(usize) -> 
     let beside = |i: usize| (pressure(i) > PEAK * peak || i.abs_diff(top) <= 1) && pressure(i) > 0.0;
     let first = (0..top).rev().take_while(|&i| beside(i)).last().unwrap_or(top);
     let last = (top + 1..grid.len()).take_while(|&i| beside(i)).last().unwrap_or(top);
-    if yields[first..=last].contains(&true) {
+    if (first..=last).any(|i| yields.get(i) == Some(&true)) {
         return peak;
     }
     let samples = (first..=last).map(|i| ((grid.x[i] - grid.x[top]) / grid.spacing, pressure(i).powi(2)));

@@ -2,8 +2,9 @@
 
 use crate::config::Config;
 use crate::contact::Traction;
+use crate::contact::film;
 use crate::heat::{Exchange, HeatConfig, TreadHeat};
-use crate::piecewise::{self, Piecewise};
+use crate::piecewise::Piecewise;
 
 /// Arrangement of the brake blocks on the tread.
 #[derive(Clone, Debug)]
@@ -65,7 +66,7 @@ impl Touch<'_> {
         if film.is_empty() {
             copy(&contact.dissipation, &mut exchange.friction_power);
         } else {
-            piecewise::divided(&contact.dissipation, film, &mut exchange.friction_power);
+            film::divided(&contact.dissipation, film, &mut exchange.friction_power);
         }
         exchange.friction_excess = contact.dissipation_excess;
         blocks.fill(tread_heat, &mut exchange.tread);
