@@ -9,7 +9,6 @@ use super::nodal::Known;
 use super::state::HeatState;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::Exchange;
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// How far a node may lie beyond a datum before it is moved back \[K].
 pub(super) const MARGIN: f64 = 0.09;
@@ -19,40 +18,25 @@ const SLOWLY: f64 = 0.25;
 const NEAR_ZERO: f64 = 0.9;
 /// Excess relative to the span of temperatures up to which moving back is enough: the step is not taken again \[1].
 const SLIGHT: f64 = 0.05;
-/// Flux into a surface that counts as none [W/m²]: it warms steel by 0.01 K in an hour.
-const NO_FLUX: f64 = 1.0;
+/// Flux of friction heat that counts as none [W/m²]: that of a contact that sticks all over is round-off.
+const NO_FLUX: f64 = 1e-6;
 
 impl Heat {
-    /// Coldest and hottest datum of a step of `dt` \[s] \[K]: hub and air at the reference, the arriving rail, the wheel at the
-    /// start, and what reversible temperatures may have moved. There is no lower bound while brake blocks cool. Friction never
-    /// cools: where round-off gives it a negative share somewhere, the bound holds all the same. The upper bound rises with heat,
-    /// by what its largest flux warms a half-space; from the end of the heat on, what is hottest then is a datum.
-    pub(super) fn data(&self, state: &HeatState, dt: f64, exchange: &Exchange) -> [f64; 2] {
+    /// Coldest and hottest datum of a step \[K]: hub and air at the reference, the arriving rail, the wheel at the start, and what
+    /// reversible temperatures may have moved. There is no lower bound while brake blocks cool, and no upper one while they or
+    /// friction heat; from the end of the heat on, what is hottest then is a datum. Friction never cools: where round-off gives
+    /// it a negative share somewhere, the lower bound holds all the same.
+    pub(super) fn data(&self, state: &HeatState, exchange: &Exchange) -> [f64; 2] {
         let moved = exchange.reversible.value.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let cooled = exchange.tread.iter().any(|tread| tread.heat < 0.0);
-        let [low, mut high] = state.data;
-        let flux = self.largest_flux(exchange);
-        if flux > NO_FLUX {
-            let effusivity = (self.config.material.conductivity * self.config.heat_capacity()).sqrt();
-            high += 2.0 * flux * (dt / PI).sqrt() / effusivity;
-        } else if state.last.is_some_and(|last| last.heat.iter().any(|heat| *heat > 0.0)) {
-            high = self.extremes(&state.field)[1].max(0.0).min(high);
-        }
-        // Latent heat stays where it is.
-        if self.melting.is_some_and(|melting| high > melting.solidus) && flux > NO_FLUX {
-            high = f64::INFINITY;
-        }
-        let low = if cooled { f64::NEG_INFINITY } else { low.min(state.arriving).min(-moved) };
-        [low, high.max(state.arriving).max(moved)]
-    }
-
-    /// Largest flux of heat into a surface at any time of the step [W/m²].
-    fn largest_flux(&self, exchange: &Exchange) -> f64 {
-        let power = exchange.friction_power.value.iter().fold(0.0_f64, |most, power| most.max(*power));
-        // The first of two stages takes up to this share of it.
-        let share = 1.0 + exchange.friction_excess.abs() / FRAC_1_SQRT_2;
-        let blocks = exchange.tread.iter().map(|tread| tread.heat / (tread.width * self.config.wheel.radius));
-        self.config.thermal.heat_ratio * share * power + blocks.map(|flux| flux.max(0.0)).sum::<f64>()
+        let heated = exchange.friction_power.value.iter().any(|power| *power > NO_FLUX)
+            || exchange.tread.iter().any(|tread| tread.heat > 0.0);
+        let [low, high] = state.data;
+        let high = if high == f64::INFINITY && !heated { self.extremes(&state.field)[1].max(0.0) } else { high };
+        [
+            if cooled { f64::NEG_INFINITY } else { low.min(state.arriving).min(-moved) },
+            if heated { f64::INFINITY } else { high.max(state.arriving).max(moved) },
+        ]
     }
 
     /// Fills the bounds of the nodal values of `next`, exactly where they are needed.

@@ -93,7 +93,7 @@ impl Heat {
         self.set_radiation(state, dt, &mut work.loads.radiation);
         let now = boundary(speeds, &work.loads);
         next.arriving = state.arriving;
-        next.data = self.data(state, dt, exchange);
+        next.data = self.data(state, exchange);
         let molten = |range: [f64; 2]| self.melting.filter(|melting| range[1] > melting.solidus);
         let smooth = state.last.is_some_and(|before| !before.jumps_to(&now));
         let march = March { dt, speeds, excess: exchange.friction_excess, smooth, melting: molten(state.range) };
@@ -207,7 +207,7 @@ impl Heat {
         }
         let (last, arriving) = (Some(boundary(speeds, &loads)), loads.arriving);
         let mut state = HeatState { field, last, arriving, ..HeatState::default() };
-        state.data = self.data(&state, f64::INFINITY, exchange);
+        state.data = self.data(&state, exchange);
         state.range = self.extremes(&state.field);
         Ok((state, flows))
     }
