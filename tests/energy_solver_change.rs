@@ -74,7 +74,7 @@ fn the_energy_residual_does_not_jump_where_the_contact_solver_changes() {
         // The load widens the patch beyond the nodes that lie at one spacing, and lets it return, at 17 and 27 ms.
         + of_meshes("railway", false, &load, &[10, 20]);
     println!("{changes} changes");
-    assert!(changes > 100, "the contact solver must change: {changes}");
+    assert!(changes > 60, "the contact solver must change: {changes}");
 }
 
 /// Checks the energy on meshes of 10 and 20 elements, and that it comes nearer; number of changes.
