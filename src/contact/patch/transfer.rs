@@ -12,6 +12,7 @@ use crate::linalg::POINTS;
 use crate::multistep::History;
 use nalgebra::DVector;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Steps on the grid before the patch is tried again.
 const REST: u32 = 32;
@@ -106,12 +107,26 @@ fn share(state: &GridState, upstream_right: bool) -> Option<(f64, f64)> {
     single.then(|| (stuck as f64 / closed.len() as f64, directions.signum()))
 }
 
-/// The state of a grid as that of a patch; `None` where it is none, or the grid has not rested for long.
+/// Nodes in the middle of a grid that have one spacing; those of a wide grid grow apart outside of them.
+fn even(grid: &ContactGrid) -> Range<usize> {
+    let x = &grid.x;
+    let uneven = |i: &usize| (x[i + 1] - x[*i] - grid.spacing).abs() > 1e-6 * grid.spacing;
+    let middle = x.len() / 2;
+    let first = (0..middle).rev().find(uneven).map_or(0, |i| i + 1);
+    first..(middle..x.len() - 1).find(uneven).map_or(x.len(), |i| i + 1)
+}
+
+/// The state of a grid as that of a patch; `None` where it is none, reaches nodes that lie farther apart, or the grid has not
+/// rested for long.
 pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (SolverState::Grid(state), traction) = (&from.solver, &from.traction) else { return None };
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant[1]) else { return None };
     let reach = ROOM * constants.points.reach;
     if state.rest > 0 || load <= 0.0 || traction.yielding > 0.0 || edges.low < -reach || edges.high > reach {
+        return None;
+    }
+    let even = even(grid);
+    if edges.low < grid.x[even.start] || edges.high > grid.x[even.end - 1] {
         return None;
     }
     let upstream_right = traction.rigid[0] >= 0.0;
@@ -127,7 +142,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     let slide = direction * traction.friction;
     let history = |before: bool| {
         let value = |h: &History| if before { h.before } else { h.now };
-        Past::Grid(grid.x[0], grid.spacing, state.tangential_gap.iter().map(value).collect())
+        Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
     let tractions = Tractions { pressure, slide, stick };
     let friction = slip_history(constants, &tractions, side, state, traction);
