@@ -1,5 +1,10 @@
 //! One slave: parameters, inputs, communication points and the running coach, without a word of C.
 
+#[path = "../../../src/fmi/instance/aside.rs"]
+#[allow(dead_code)]
+pub mod aside;
+
+use self::aside::Aside;
 use super::lifecycle::{Call, Phase};
 use super::log::{CallError, Log, Status};
 use super::snapshot::Snapshot;
@@ -46,6 +51,9 @@ impl Instance {
             last_step: Status::Ok,
         })
     }
+
+    /// A coach computes nothing long: it stays on the thread of the caller.
+    pub fn compute_on(&mut self, _: Aside) {}
 
     /// Where messages go.
     pub fn log(&self) -> &Log {
