@@ -22,7 +22,8 @@ fn locked(config: Config, [stop, end]: [f64; 2], mut seen: impl FnMut(&Simulatio
 }
 
 /// The peak of a smooth pressure lies between nodes, a little above them; that of steel which yields follows its strength from
-/// node to node.
+/// node to node. The parabola through the squares of three nodes, none of them negative, rises above the middle one by an eighth at
+/// most; it comes near where a hot patch is pressed most beside a steep edge.
 #[test]
 fn the_largest_pressure_is_nowhere_below_the_profile() {
     for name in ["railway", "railway_wet"] {
@@ -40,7 +41,7 @@ fn the_largest_pressure_is_nowhere_below_the_profile() {
             }
         });
         println!("{name}: {least:.5} to {most:.5} of the largest nodal pressure, {yielding} steps yield");
-        assert!(least >= 1.0 && most < 1.03 && yielding > 5);
+        assert!(least >= 1.0 && most * most < 1.125 && yielding > 5);
     }
 }
 

@@ -68,8 +68,13 @@ fn the_railway_wheel_creeps_as_on_the_grid_from_a_tenth_of_the_load_to_nearly_tw
 }
 
 fn creeps(heat: bool) {
-    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid]
-        .map(|method| solved_by(method, "railway", |config| config.thermal.enabled = heat));
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(|method| {
+        solved_by(method, "railway", |config| {
+            config.thermal.enabled = heat;
+            // At nearly twice the load steel yields under its shear, for which the patch method is not made.
+            config.physics.yielding = false;
+        })
+    });
     for share in [0.1, 1.0, 1.9] {
         for xi in [-6e-3, -2e-3, -5e-4, 0.0, 1e-3, 3e-3] {
             for velocity in [1.0, 80.0 * KMH, -20.0] {

@@ -60,7 +60,7 @@ fn lead(
     (simulation, inputs): &mut (Simulation, Inputs),
     [load, velocity]: [f64; 2],
     [time, h]: [f64; 2],
-    mut seen: impl FnMut(&Outputs),
+    mut seen: impl FnMut(&Simulation),
 ) {
     let from = [inputs.drive.load, inputs.drive.velocity];
     let steps = (time / h).round();
@@ -70,7 +70,7 @@ fn lead(
         inputs.rate.load = (at(k, 0) - at(k - 1, 0)) / h;
         inputs.drive.velocity = at(k, 1);
         simulation.advance(inputs, h).unwrap();
-        seen(simulation.outputs());
+        seen(simulation);
     }
     (inputs.drive.load, inputs.rate.load) = (load, 0.0);
 }
@@ -99,7 +99,8 @@ fn a_locked_wheel_bears_the_slip_line_pressure_of_its_friction() {
         let mut run = standing(soft(elements, friction));
         let (mut most, mut sheared) = (0.0f64, 0.0f64);
         lead(&mut run, [2e4, direction * SLIDE], [0.02, h], |_| ());
-        lead(&mut run, [1.3e5, direction * SLIDE], [0.1, h], |o| {
+        lead(&mut run, [1.3e5, direction * SLIDE], [0.1, h], |simulation| {
+            let o = simulation.outputs();
             most = most.max(o.contact_pressure_max);
             sheared = o.profile_shear.iter().fold(sheared, |most, shear| most.max(shear.abs()));
         });
@@ -129,7 +130,9 @@ fn a_locked_wheel_bears_the_slip_line_pressure_of_its_friction() {
     }
 }
 
-/// Where the contact sticks its shear is any, in every place another, and so is the pressure that steel bears.
+/// Where the contact sticks its shear is any, in every place another, and so is the pressure that steel bears. In a step it is that
+/// of the ratio of shear to pressure in the step before, to 2e-5. From that of its own shear it differs by up to 0.53 % below 0.7 k, and
+/// by more towards the strength, where the limit falls vertically with the shear: up to 3.07 k instead of 2.57 k at k.
 #[test]
 fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
     for (elements, h) in [(10, 2.5e-4), (20, 2.5e-4), (10, 1e-4)] {
@@ -137,16 +140,27 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
         let (mut stuck, mut sheared) = (0, 0.0f64);
         // The wheel is pushed by 0.4 mm while the load grows, most of which it gives way in torsion.
         for load in [4e4, 6e4, 8e4, 1e5, 1.2e5] {
-            lead(&mut run, [load, PUSH], [0.02, h], |_| ());
-            let state = run.0.state();
-            let t = &state.contact.traction;
-            let at = |x: f64| (t.pressure.at(x) / SHEAR, t.shear.at(x).abs() / SHEAR, t.overlap.at(x));
-            for &x in &t.pressure.x {
-                let (p, shear, overlap) = at(x);
-                // The limit is that of the step before, and falls steeply close to the strength.
-                assert!(p <= bearing(shear) * if shear < 0.7 { 1.005 } else { 1.05 }, "{x}: {p} k under {shear} k");
+            let nodes = |simulation: &Simulation| {
+                let t = &simulation.state().contact.traction;
+                let at = |&x: &f64| [t.pressure.at(x) / SHEAR, t.shear.at(x).abs() / SHEAR, t.overlap.at(x)];
+                t.pressure.x.iter().map(|x| (*x, at(x))).collect::<Vec<_>>()
+            };
+            let mut latest = [Vec::new(), Vec::new()];
+            lead(&mut run, [load, PUSH], [0.02, h], |simulation| {
+                latest.swap(0, 1);
+                latest[1] = nodes(simulation);
+            });
+            let [before, now] = &latest;
+            for &(x, [p, shear, overlap]) in now {
+                let [p_before, shear_before, _] =
+                    before.iter().find(|node| node.0 == x).map_or([0.0; 3], |node| node.1);
+                // What opens or closes takes the ratio of a neighbour.
+                if p_before > 0.0 {
+                    let limit = sliding(shear_before / p_before);
+                    assert!(p <= limit * (1.0 + 1e-4) && shear < 1.0001, "{x}: {p} k of {limit} k, under {shear} k");
+                }
                 if overlap > 0.0 && shear < 0.7 {
-                    assert!((p / bearing(shear) - 1.0).abs() < 5e-3, "{x}: {p} k under {shear} k");
+                    assert!((p / bearing(shear) - 1.0).abs() < 5.5e-3, "{x}: {p} k under {shear} k");
                     (stuck, sheared) = (stuck + 1, sheared.max(shear));
                 }
             }
