@@ -224,23 +224,31 @@ fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_
     }
 }
 
-/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever.
+/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever. At a slip of 3 % dry
+/// friction falls with the slip, and the torsion sticks and slips: the force is that of the coefficient while the contact slips, which it
+/// does again and again, and below it while it sticks.
 #[test]
 fn friction_comes_back_when_a_molten_contact_has_cooled() {
     let (mut simulation, mut inputs) = rolling(120.0 * KMH, 0.0);
     let (omega, h) = (inputs.drive.omega, 1e-3);
-    for k in 1..=250 {
+    let mut carried: Vec<f64> = Vec::new();
+    for k in 1..=200 {
         let time = f64::from(k) * h;
         // Locked, held, released to a slip of 3 %.
         let share = if time < 0.06 { 1.0 - time / LOCK } else { (time - 0.06) / 0.05 };
         inputs.drive.omega = omega * share.clamp(0.0, if time < 0.06 { 1.0 } else { 0.97 });
         simulation.advance(&inputs, h).unwrap();
+        let o = simulation.outputs();
+        if time > 0.15 {
+            carried.push(-o.contact_force_x / o.contact_force_y / o.friction);
+        }
     }
     let o = simulation.outputs();
-    let carried = -o.contact_force_x / o.contact_force_y;
-    println!("{carried:.4} of {:.4} at {:.0} K, {:.1e} m molten", o.friction, o.temperature_wheel_max, o.melted);
+    let slips = carried.iter().filter(|share| (**share - 1.0).abs() < 0.01).count();
+    let most = carried.iter().copied().fold(0.0, f64::max);
+    println!("{slips} of {} steps slip, {most:.4} at most, {:.0} K, {:.1e} m molten", carried.len(), o.temperature_wheel_max, o.melted);
     assert!(o.melted > 0.0 && o.temperature_wheel_max < 1000.0);
-    assert!((carried / o.friction - 1.0).abs() < 0.01);
+    assert!(2 * slips > carried.len() && most < 1.01, "{carried:.3?}");
 }
 
 #[test]
