@@ -14,13 +14,8 @@ use std::f64::consts::PI;
 /// a punch down to some depth does so over more than that depth to both sides, and its strength counts everywhere on the way.
 const LOADED_DEPTH: f64 = 0.5;
 
-/// Least share of friction on a place [1]: with less, temperatures and power say nothing about those without a film, and a place
-/// below the solidus would take all of its friction back at once.
+/// Share of friction below which temperatures say nothing about those without a film [1].
 const LEAST: f64 = 1e-3;
-
-/// Factor by which the share of friction on a place grows in a step at most [1]: how hot a place gets depends on its neighbours, too,
-/// whose film becomes thinner at the same time.
-const RETURNS: f64 = 2.0;
 
 /// Largest part of the friction on a place that one step takes away because it is overheated [1].
 const CUT: f64 = 0.75;
@@ -107,13 +102,11 @@ impl WeakSteel {
         let [wheel, rail] = &seen.surface;
         for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
-            let share = share.max(LEAST);
-            let (hot, whole) = (wheel.max(*rail), 1.0 / share);
+            let (hot, whole) = (wheel.max(*rail), 1.0 / share.max(LEAST));
             let rise = whole * hot.min(warming * interpolate(&power.x, &power.value, at).max(0.0));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);
-            let most = self.overheated(share, hot).min(RETURNS * share);
-            film.push(at, found.min(most).max(LEAST));
+            film.push(at, found.min(self.overheated(share, hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
