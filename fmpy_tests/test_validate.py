@@ -59,7 +59,8 @@ def test_package_is_complete(packed):
     presets = {f"resources/{path.name}" for path in (ROOT / "resources").glob("*.json")}
     texts = [*ROOT.glob("LICENSE*"), *ROOT.glob("docs/LICENSE*"), ROOT / "docs" / "license.txt"]
     licences = {f"documentation/licenses/{path.name}" for path in texts}
-    theory = {f"documentation/theory/{path.name}" for path in (ROOT / "docs" / "theory").glob("*.md")}
+    pages = [path.stem.replace("README", "index") for path in (ROOT / "docs" / "theory").glob("*.md")]
+    theory = {f"documentation/theory/{page}.html" for page in pages}
     expected = {"binaries/linux64/wheelrail.so", "documentation/index.html", "model.png"} | presets | licences | theory
     assert len(licences) == 4 and expected <= names
     assert description == (ROOT / "modelDescription.xml").read_bytes()

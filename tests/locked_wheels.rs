@@ -249,7 +249,12 @@ fn friction_comes_back_when_a_molten_contact_has_cooled() {
     let o = simulation.outputs();
     let slips = carried.iter().filter(|share| (**share - 1.0).abs() < 0.01).count();
     let most = carried.iter().copied().fold(0.0, f64::max);
-    println!("{slips} of {} steps slip, {most:.4} at most, {:.0} K, {:.1e} m molten", carried.len(), o.temperature_wheel_max, o.melted);
+    println!(
+        "{slips} of {} steps slip, {most:.4} at most, {:.0} K, {:.1e} m molten",
+        carried.len(),
+        o.temperature_wheel_max,
+        o.melted
+    );
     assert!(o.melted > 0.0 && o.temperature_wheel_max < 1000.0);
     assert!(2 * slips > carried.len() && most < 1.01, "{carried:.3?}");
 }

@@ -1,22 +1,9 @@
-//! Friction under a molten film that is finer than the elements of the contact: its mean on a node, and where the heat of the node's
-//! friction arises.
+//! Where the heat of friction arises under a molten film that is finer than the elements of the contact.
 
 use crate::piecewise::{Piecewise, interpolate};
 
 /// Mean share within the reach of a place below which there is nothing to divide by \[1].
 const VANISHES: f64 = 1e-6;
-
-/// Mean of a piecewise linear function around `at`, weighted with the hat that falls to zero `reach` to both sides.
-pub fn hat_mean(x: &[f64], values: &[f64], at: f64, reach: f64) -> f64 {
-    let weighted = |place: f64| interpolate(x, values, place) * (1.0 - (place - at).abs() / reach) / reach;
-    let (low, high) = (at - reach, at + reach);
-    let inside = x.iter().copied().filter(|&place| place > low && place < high);
-    let mut places: Vec<f64> = inside.chain([low, at, high]).collect();
-    places.sort_by(f64::total_cmp);
-    // Between these it is a parabola.
-    let simpson = |a: f64, b: f64| (b - a) / 6.0 * (weighted(a) + 4.0 * weighted(0.5 * (a + b)) + weighted(b));
-    places.windows(2).map(|ends| simpson(ends[0], ends[1])).sum()
-}
 
 /// Divides `density`, linear between its places, within the reach of every place as `share` \[1] has it, and replaces `out` by it; the
 /// integral of every place's part stays. A place within whose reach the share vanishes keeps its part as it was. `share` is
@@ -80,13 +67,5 @@ mod tests {
         assert_eq!([parted.at(0.9), parted.at(1.1), parted.at(1.3)], [0.0; 3]);
         // A place within whose reach nothing is left keeps its part.
         assert_eq!(divided_by([0.0; 6]).at(1.0), 4.0);
-    }
-
-    #[test]
-    fn the_mean_under_a_hat_is_exact_for_lines_and_kinks() {
-        assert!((hat_mean(&[0.0, 3.0], &[0.7, 0.7], 1.0, 0.5) - 0.7).abs() < 1e-15);
-        assert!((hat_mean(&[0.0, 2.0], &[0.0, 4.0], 1.0, 1.0) - 2.0).abs() < 1e-14);
-        // max(0, x) under the hat of half-width 1: ∫₀¹ x (1 − x) dx.
-        assert!((hat_mean(&[-1.0, 0.0, 1.0], &[0.0, 0.0, 1.0], 0.0, 1.0) - 1.0 / 6.0).abs() < 1e-14);
     }
 }

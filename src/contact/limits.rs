@@ -1,6 +1,5 @@
 //! What steel bears in the contact: a largest pressure, and less friction where its surface melts.
 
-use super::film;
 use crate::piecewise::{Piecewise, interpolate};
 use std::f64::consts::PI;
 
@@ -92,13 +91,9 @@ impl<'a> Limits<'a> {
         if self.sheared == 0.0 { most } else { (most * borne_in_sliding(self.sheared, ratio)).max(self.least) }
     }
 
-    /// Share of the friction coefficient that is left on a node at `x` \[m] \[1]: the mean over its reach of `spacing` \[m] to both
-    /// sides, weighted as the node's force is spread.
-    pub fn film_around(&self, x: f64, spacing: f64) -> f64 {
-        if self.film.is_empty() {
-            return 1.0;
-        }
-        film::hat_mean(&self.film.x, &self.film.value, x, spacing)
+    /// Share of the friction coefficient at `x` \[m] that is left \[1].
+    pub fn film_at(&self, x: f64) -> f64 {
+        if self.film.is_empty() { 1.0 } else { interpolate(&self.film.x, &self.film.value, x) }
     }
 
     /// Largest pressure at `x` \[m] \[Pa].

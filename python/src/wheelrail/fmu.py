@@ -92,7 +92,9 @@ class Wheel:
         self.slave.instantiate(callbacks=_callbacks)
         try:
             self._call(self.slave.setupExperiment, startTime=0.0)
-            self.set({"initial.given": "written"} | (parameters or {}))
+            # Other FMUs of this project, such as the coach, have no such choice.
+            given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
+            self.set(given | (parameters or {}))
             self._call(self.slave.enterInitializationMode)
             self.set(inputs or {})
             self._call(self.slave.exitInitializationMode)

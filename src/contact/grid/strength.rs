@@ -32,7 +32,7 @@ impl Iterate<'_> {
             self.state.yielded.fill(false);
         }
         if !limits.film.is_empty() {
-            film.extend(grid.x.iter().enumerate().map(|(i, &x)| limits.film_around(x, grid.width(i))));
+            film.extend(grid.x.iter().map(|&x| limits.film_at(x)));
         }
     }
 

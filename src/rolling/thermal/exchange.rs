@@ -57,7 +57,7 @@ pub struct Touch<'a> {
 impl Touch<'_> {
     /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Patches of the
     /// new time act over the whole step; the heat of friction is the energy that the mechanical step has dissipated. Within the reach
-    /// of a contact node it arises where the `film` of molten steel leaves friction, as the node's friction is the mean of it.
+    /// of a contact node it arises where the `film` of molten steel leaves friction.
     pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, film: &Piecewise, exchange: &mut Exchange) {
         let contact = self.traction;
         exchange.clear();

@@ -21,7 +21,7 @@ use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
-use crate::piecewise::{self, Piecewise};
+use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
 pub use exchange::Touch;
@@ -197,7 +197,7 @@ impl ThermalModel {
     /// All of a start that follows from its temperature fields.
     fn begun(&self, touch: &Touch, mut thermal: ThermalState) -> Result<ThermalState, StepError> {
         let mut sight = Sight::default();
-        self.observe(touch, &touch.traction.dissipation, f64::INFINITY, &mut thermal, &mut sight)?;
+        self.observe(touch, f64::INFINITY, &mut thermal, &mut sight)?;
         thermal.damage = self.history.begin(&sight.seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
@@ -220,7 +220,7 @@ impl ThermalModel {
         touch.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(touch, &exchange.friction_power, dt, &mut thermal, sight)?;
+        self.observe(touch, dt, &mut thermal, sight)?;
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
@@ -236,15 +236,8 @@ impl ThermalModel {
         Ok(thermal)
     }
 
-    /// Fills all that follows from the temperature fields after a step of `dt` \[s] under the friction power `power` [W/m²].
-    fn observe(
-        &self,
-        touch: &Touch,
-        power: &Piecewise,
-        dt: f64,
-        thermal: &mut ThermalState,
-        sight: &mut Sight,
-    ) -> Result<(), StepError> {
+    /// Fills all that follows from the temperature fields after a step of `dt` \[s].
+    fn observe(&self, touch: &Touch, dt: f64, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
         let Sight { seen, smoothing } = sight;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
@@ -285,7 +278,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&self.heat, touch.traction, (power, dt), thermal, seen)?;
+        self.weakening.find(&self.heat, touch.traction, dt, thermal, seen)?;
         Ok(())
     }
 

@@ -53,7 +53,7 @@ impl WeakSteel {
         &self,
         heat: &Heat,
         traction: &Traction,
-        (power, dt): (&Piecewise, f64),
+        dt: f64,
         thermal: &mut ThermalState,
         seen: &mut Observation,
     ) -> Result<(), StepError> {
@@ -62,7 +62,7 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            self.melt(heat.zone_x(), [dt, hottest], power, seen, &mut weakening.film);
+            self.melt(heat.zone_x(), [dt, hottest], traction, seen, &mut weakening.film);
         }
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
             return Ok(());
@@ -84,16 +84,24 @@ impl WeakSteel {
     /// overheated carries less than before, whatever the prediction says.
     fn overheated(&self, share: f64, hot: f64) -> f64 {
         let excess = self.liquidus().map_or(0.0, |liquidus| (self.reference + hot - liquidus).max(0.0));
-        if excess > 0.0 { share * (1.0 - CUT * (excess / FILM_GROWS).min(1.0)) } else { 1.0 }
+        share * (1.0 - CUT * (excess / FILM_GROWS).min(1.0))
     }
 
     /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as linear in
     /// the share, and the share that belongs to its own temperature is found; a share from the temperature before would let
     /// the surface overheat and freeze in turns. In a long step the flash follows friction in full, as in
-    /// [`crate::contact::Friction::local`]; in a short one it rises by what the power warms a half-space, `q √(Δt/π)/√(kρc)` with
-    /// half of the power for each body.
-    fn melt(&self, zone: &[f64], [dt, hottest]: [f64; 2], power: &Piecewise, seen: &Observation, film: &mut Piecewise) {
-        if film.is_empty() && hottest <= self.material.solidus {
+    /// [`crate::contact::Friction::local`]; in a short one it rises by what the power of friction without a film warms a half-space,
+    /// `q √(Δt/π)/√(kρc)` with half of the power for each body.
+    fn melt(
+        &self,
+        zone: &[f64],
+        [dt, hottest]: [f64; 2],
+        traction: &Traction,
+        seen: &Observation,
+        film: &mut Piecewise,
+    ) {
+        if hottest <= SOFTENS || film.is_empty() && hottest <= self.material.solidus {
+            film.clear();
             return;
         }
         let before = std::mem::take(film);
@@ -102,10 +110,12 @@ impl WeakSteel {
         let [wheel, rail] = &seen.surface;
         for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
-            let (hot, whole) = (wheel.max(*rail), 1.0 / share.max(LEAST));
-            let rise = whole * hot.min(warming * interpolate(&power.x, &power.value, at).max(0.0));
+            let hot = wheel.max(*rail);
+            let whole = (traction.friction * traction.pressure.at(at) * traction.slip.at(at)).abs();
+            let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);
+            // While the contact is hot a film only grows: a place whose friction comes back overheats within a step.
             film.push(at, found.min(self.overheated(share, hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
