@@ -17,6 +17,9 @@ use crate::piecewise::Piecewise;
 /// Length over which wear is evened out, in cells, below which it is not \[1].
 const ROUGH: f64 = 0.1;
 
+/// Smallest cell in which wear is counted \[m]: the cells of a way of metres have room in memory, however small the contact.
+const FINEST: f64 = 1e-5;
+
 /// The law with its parameters.
 pub fn law(config: &Config) -> WearLaw {
     let damage = &config.damage;
@@ -47,8 +50,9 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     }
     let spread = traction.dissipation.clone();
     let worn_rail = flattening::stands(model, next)[1];
-    let spacing = model.contact.nominal_half_width() / model.config.mesh.elements_per_half_width as f64;
-    let even = even(model, volume / load);
+    let element = model.contact.nominal_half_width() / model.config.mesh.elements_per_half_width as f64;
+    let spacing = element.max(FINEST);
+    let even = even(model, volume / load).min(model.wheel.radius);
     let even = if even > ROUGH * spacing { even } else { 0.0 };
     let (from, to) = (state.place(model.wheel.radius), next.place(model.wheel.radius));
     let loss = |body: usize| Loss { way: [from[body], to[body]], spread: &spread, volume, even };
