@@ -24,6 +24,7 @@
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
+# make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
@@ -56,13 +57,16 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-rust test-fmpy fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check house docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
 	$(PY) examples/ex01_braking_stop.py --fmu $(FMU) --out results
 
-test: test-rust test-fmpy
+test: test-tools test-rust test-fmpy
+
+test-tools:
+	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
 	$(CARGO) test --release --locked
@@ -148,6 +152,9 @@ leak-check:
 			-- --test-threads 1 --exact $(LEAK_TESTS) > $(TARGET)/leak-check.log 2>&1; status=$$?; \
 		cat $(TARGET)/leak-check.log; grep -q '$(words $(LEAK_TESTS)) passed' $(TARGET)/leak-check.log && exit $$status; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
+
+house:
+	@$(PYTHON) tools/house.py
 
 docs:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
