@@ -1,0 +1,214 @@
+"""Results of two binaries compared bit for bit, on runs of all presets, controls, solvers and states of the surfaces.
+
+    python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]
+
+BEFORE and AFTER are two builds of the command line tool `wheelrail`. Each case below runs with both; every output that both
+know, all points of the profiles included, is compared at every communication point. Runs of BEFORE are kept beside the
+system's temporary files under a digest of the binary, so that they are computed once.
+
+Printed for each case: `same` (every bit), or the largest difference over the largest magnitude of that output in the run,
+with the output's name and the time. Ends with 1 if a difference exceeds the tolerance.
+"""
+
+import argparse
+import csv
+import hashlib
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+RESOURCES = Path(__file__).resolve().parent.parent / "resources"
+
+# Scenarios: rows of inputs over time, linear between the rows.
+STOP = {"time": [0, 0.05, 0.3], "brake.torque": [0, 9000, 9000], "drive.velocity": [20, 20, 19.5]}
+VARYING = {
+    "time": [0, 0.02, 0.04, 0.06, 0.1, 0.2],
+    "drive.moment": [0, -6000, -2000, -7000, -5000, 4000],
+    "drive.load": [100e3, 80e3, 110e3, 95e3, 190e3, 10e3],
+    "rail.friction": [0.3, 0.3, 0.25, 0.35, 0.3, 0.2],
+    "rail.temperature": [293, 293, 300, 285, 320, 293],
+}
+BRAKE = {"time": [0, 0.02, 0.2], "brake.torque": [0, 40e3, 40e3]}
+BLOCKS = {"time": [0, 0.1, 0.3], "drive.tread_heat": [0, 40e3, 40e3], "drive.moment": [0, -5000, -5000]}
+RISING = {"time": [0, 0.1, 0.3], "rail.elevation": [0, 0.0005, 0], "rail.slope": [0, 0.01, 0.02]}
+LIFTED = {"time": [0, 0.05, 0.1, 0.2], "drive.load": [100e3, 0, 0, 100e3]}
+STANDSTILL = {"time": [0, 0.2, 0.4], "drive.velocity": [0.5, -0.5, 0], "brake.torque": [0, 0, 20e3]}
+
+
+def locked(velocity, radius=0.46):
+    """A wheel that is stopped within 20 ms by its angular velocity while its centre goes on at a velocity [m/s]."""
+    return {"time": [0, 0.02, 0.2], "drive.omega": [velocity / radius, 0, 0], "drive.velocity": [velocity] * 3}
+
+
+SPEEDS = {"control.rotation": "velocity", "control.translation": "velocity"}
+DRAWN = {"control.translation": "velocity"}
+
+# Name: preset, settings, scenario, communication step [s], end [s].
+CASES = {
+    "railway": ("railway", {}, VARYING, 1e-3, 0.2),
+    "railway_dry": ("railway_dry", {}, VARYING, 1e-3, 0.2),
+    "railway_wet": ("railway_wet", {}, VARYING, 1e-3, 0.2),
+    "railway_low_adhesion": ("railway_low_adhesion", {}, VARYING, 1e-3, 0.2),
+    "railway_damage": ("railway_damage", DRAWN | {"initial.velocity": 20}, STOP, 1e-3, 0.3),
+    "paper_a": ("paper_a", {"initial.creepage": 1e-3} | SPEEDS, {}, 1e-3, 0.05),
+    "paper_b": ("paper_b", {}, {"time": [0, 0.05], "drive.force": [0, 1000]}, 1e-3, 0.05),
+    "paper_c": ("paper_c", SPEEDS, {}, 1e-3, 0.05),
+    "paper_d": ("paper_d", {}, {"time": [0, 0.05], "drive.moment": [0, 8000]}, 1e-3, 0.05),
+    "fine_steps": ("railway", {"mesh.elements_per_half_width": 10}, VARYING, 1e-4, 0.1),
+    "series": ("railway", {"solver.contact": "patch"}, {"time": [0, 0.2], "drive.moment": [0, -8000]}, 1e-3, 0.2),
+    "auto": ("railway", {"solver.contact": "auto"}, VARYING, 1e-3, 0.2),
+    "full_bodies": ("railway", {"solver.response": "full", "mesh.elements_per_half_width": 5}, VARYING, 1e-3, 0.01),
+    "locked": ("railway", SPEEDS | {"initial.velocity": 60 / 3.6}, locked(60 / 3.6), 1e-3, 0.2),
+    "locked_by_brake": ("railway_wet", DRAWN | {"initial.velocity": 30, "drive.velocity": 30}, BRAKE, 1e-3, 0.2),
+    "melting": ("railway_dry", SPEEDS | {"initial.velocity": 40, "mesh.elements_per_half_width": 10}, locked(40.0), 5e-4, 0.1),
+    "falling_friction": (
+        "railway",
+        SPEEDS | {"friction.falling_ratio": 0.4, "friction.falling_decay": 0.6, "initial.velocity": 15},
+        {"time": [0, 0.2], "drive.omega": [15 / 0.46, 13.5 / 0.46], "drive.velocity": [15, 15]},
+        1e-3,
+        0.2,
+    ),
+    "rough_rail": (
+        "railway",
+        {"rail.profile": "sinusoid(amplitude = 20e-6, wavelength = 0.05)", "mesh.elements_per_half_width": 10},
+        VARYING,
+        5e-4,
+        0.1,
+    ),
+    "flat": ("railway", {"wheel.profile": "flat(position = 0.7, length = 0.04)", "mesh.elements_per_half_width": 10}, {}, 5e-4, 0.06),
+    "step": ("railway", {"rail.profile": "step(position = 1.0, height = 5e-5)", "mesh.elements_per_half_width": 10}, {}, 2e-4, 0.05),
+    "wear": ("railway", SPEEDS | {"damage.wear": "t_gamma", "initial.creepage": 0.02}, {}, 1e-3, 0.1),
+    "worn_locked": ("railway_damage", SPEEDS | {"damage.wear": "t_gamma", "initial.velocity": 10}, locked(10.0), 1e-3, 0.1),
+    "blocks": ("railway", {"thermal.convection": 30, "thermal.emissivity": 0.8}, BLOCKS, 1e-3, 0.3),
+    "support": (
+        "railway",
+        {"rail.support_stiffness": 5e7, "rail.support_damping": 5e4, "rail.support_mass": 100, "rail.ends": "nonreflecting"},
+        RISING,
+        1e-3,
+        0.3,
+    ),
+    "lifted": ("railway", {"mesh.elements_per_half_width": 10}, LIFTED, 1e-3, 0.2),
+    "standstill": ("railway", DRAWN | {"initial.velocity": 0.5, "initial.creepage": 0}, STANDSTILL, 1e-3, 0.4),
+    "hub_height": (
+        "railway",
+        {"control.vertical": "displacement"},
+        {"time": [0, 0.1], "drive.displacement": [-1e-4, -1.2e-4], "drive.moment": [0, -5000]},
+        1e-3,
+        0.1,
+    ),
+    "hot_wheel": ("railway", {"thermal.wheel_excess": 200, "thermal.conductance_law": "pressure"}, VARYING, 1e-3, 0.2),
+}
+
+
+def outputs(binary):
+    """Names of all outputs that a binary has, points of profiles by the name of their array."""
+    described = subprocess.run([binary, "describe"], capture_output=True, text=True, check=True).stdout
+    model = ElementTree.fromstring(described)
+    names = (v.get("name") for v in model.iter("ScalarVariable") if v.get("causality") == "output")
+    return list(dict.fromkeys(name.split("[")[0] for name in names))
+
+
+def scenario_text(rows):
+    """A scenario as the command line reads it."""
+    lines = [",".join(rows)] + [",".join(repr(value) for value in values) for values in zip(*rows.values())]
+    return "\n".join(lines) + "\n"
+
+
+def run(binary, names, case, directory):
+    """Runs a case with a binary and returns the file of its results, or of what it said when it failed."""
+    preset, settings, rows, step, stop = CASES[case]
+    out, failed = directory / f"{case}.csv", directory / f"{case}.txt"
+    if out.exists() or failed.exists():
+        return out if out.exists() else failed
+    part = directory / f"{case}_{os.getpid()}.part"
+    command = [binary, "simulate", "--preset", preset, "--resources", RESOURCES, "--step", step, "--stop", stop]
+    command += ["--out", part, "--outputs", ",".join(names)]
+    command += [word for name, value in settings.items() for word in ("--set", f"{name}={value}")]
+    if rows:
+        scenario = directory / f"{case}_scenario.csv"
+        scenario.write_text(scenario_text(rows))
+        command += ["--scenario", scenario]
+    ran = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    if ran.returncode:
+        failed.write_text(ran.stderr)
+        return failed
+    return part.rename(out)
+
+
+def table(file):
+    """Columns of a file of results by name."""
+    with open(file, newline="") as source:
+        rows = csv.reader(source)
+        names = next(rows)
+        return dict(zip(names, zip(*[[float(value) for value in row] for row in rows])))
+
+
+def difference(before, after):
+    """Largest difference of two tables, relative to the largest magnitude of its column, with its column and time."""
+    worst = (0.0, "", 0.0)
+    for name, values in before.items():
+        others = after[name]
+        if values == others:
+            continue
+        if len(values) != len(others):
+            return float("inf"), "number of points", min(len(values), len(others))
+        scale = max(map(abs, values)) or 1.0
+        apart = [0.0 if a == b else abs(a - b) / scale for a, b in zip(values, others)]
+        # A value that is no number differs from everything.
+        apart = [float("inf") if d != d else d for d in apart]
+        place = apart.index(max(apart))
+        worst = max(worst, (apart[place], name, before["time"][place]))
+    return worst
+
+
+def compare(before, after):
+    """Compares two files of results: how far they are apart, and a line that says so."""
+    if before.suffix != after.suffix:
+        which, failed = ("BEFORE", before) if before.suffix == ".txt" else ("AFTER", after)
+        return float("inf"), f"{which} failed: {failed.read_text()[-300:]}"
+    if before.read_bytes() == after.read_bytes():
+        return 0.0, "same" if before.suffix == ".csv" else f"both fail: {before.read_text()[-200:]}"
+    if before.suffix == ".txt":
+        return 0.0, "both fail, in other words"
+    distance, name, when = difference(table(before), table(after))
+    return distance, f"{distance:.2e}  {name} at {when:g} s" if distance else "same"
+
+
+def digest(binary):
+    """Digest of a binary."""
+    return hashlib.sha256(binary.read_bytes()).hexdigest()[:16]
+
+
+def main():
+    """All cases; 1 if one differs by more than the tolerance."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("before", type=Path)
+    parser.add_argument("after", type=Path)
+    parser.add_argument("--only", type=lambda text: text.split(","), default=list(CASES), help="names of cases")
+    parser.add_argument("--tolerance", type=float, default=0.0, help="largest relative difference; default: none")
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
+    options = parser.parse_args()
+    before, after = options.before.resolve(), options.after.resolve()
+    names = [name for name in outputs(before) if name in set(outputs(after))]
+    store = Path(tempfile.gettempdir()) / "wheelrail_same_results" / digest(before)
+    store.mkdir(parents=True, exist_ok=True)
+    failures = 0
+    with tempfile.TemporaryDirectory() as fresh, ThreadPoolExecutor(options.jobs) as pool:
+        pairs = {
+            case: (pool.submit(run, before, names, case, store), pool.submit(run, after, names, case, Path(fresh)))
+            for case in options.only
+        }
+        for case, (first, second) in pairs.items():
+            distance, text = compare(first.result(), second.result())
+            failures += distance > options.tolerance
+            print(f"{case:>22}  {text}", flush=True)
+    print(f"{failures} of {len(options.only)} cases differ")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
