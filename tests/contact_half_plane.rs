@@ -8,7 +8,7 @@ use common::Random;
 use half_planes::{HalfPlanes, NOMINAL, RADIUS, grid_state_mut, modulus};
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::contact::ContactError;
-use wheelrail::contact::grid::Status;
+use wheelrail::contact::line::Status;
 
 #[test]
 fn carter_force_is_smooth_while_the_edges_move_between_nodes() {

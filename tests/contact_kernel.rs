@@ -6,7 +6,7 @@ use common::Random;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 use wheelrail::analytic::contact_modulus;
-use wheelrail::contact::grid::kernel::{KernelCorrection, REACH};
+use wheelrail::contact::line::kernel::{KernelCorrection, REACH};
 
 const NODES: usize = 41;
 

@@ -4,8 +4,8 @@
 use nalgebra::DVector;
 use std::f64::consts::PI;
 use wheelrail::contact::Traction;
-use wheelrail::contact::grid::observe::read_off;
-use wheelrail::contact::grid::{ContactGrid, GridState, Status};
+use wheelrail::contact::line::observe::read_off;
+use wheelrail::contact::line::{ContactGrid, LineState, Status};
 
 /// Cells per half-width.
 const CELLS: f64 = 20.0;
@@ -23,7 +23,7 @@ fn grid(shift: f64) -> ContactGrid {
 fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn(f64) -> f64) -> Traction {
     let (n, ports) = (grid.len(), DVector::zeros(grid.ports()));
     let mut state =
-        GridState { status: vec![Status::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
+        LineState { status: vec![Status::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
     let surface = [ports.clone(), ports.clone()];
     let mut traction = Traction { port_forces: ports, surface, ..Traction::default() };
     for (i, &x) in grid.x.iter().enumerate() {

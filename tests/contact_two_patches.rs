@@ -11,7 +11,7 @@ use half_planes::{FRICTION, HalfPlanes, NOMINAL, grid_state, grid_state_mut, mod
 use std::f64::consts::PI;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::contact::ContactState;
-use wheelrail::contact::grid::Status;
+use wheelrail::contact::line::Status;
 
 /// The double well of an outer and an inner edge under the nominal load.
 struct DoubleWell {

@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::contact::grid::{ContactGrid, GridSolver};
-use wheelrail::contact::patch::{HalfPlane, PatchSolver};
+use wheelrail::contact::active_set::ActiveSetSolver;
+use wheelrail::contact::line::ContactGrid;
+use wheelrail::contact::series::{HalfPlane, SeriesSolver};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, Limits, Placement,
     RigidMotion, Scratch, SolverState, SurfaceResponse, Surfaces,
@@ -25,7 +26,7 @@ fn modulus() -> f64 {
 
 /// Two half-planes and nothing else.
 struct HalfPlanes {
-    solver: PatchSolver,
+    solver: SeriesSolver,
     none: [DMatrix<f64>; 4],
     still: DVector<f64>,
 }
@@ -39,10 +40,10 @@ impl HalfPlanes {
         };
         let grid = ContactGrid::uniform((-9..=9).map(|i| f64::from(i) * 1e-3).collect(), 1e-3, 3);
         let unused = DMatrix::from_fn(50, 50, |i, j| if i == j { 1.0 } else { 0.0 });
-        let grid = GridSolver::new(grid, &unused, &unused, modulus());
+        let grid = ActiveSetSolver::new(grid, &unused, &unused, modulus());
         let none =
             [DMatrix::zeros(PORTS, PORTS), DMatrix::zeros(PORTS, 3), DMatrix::zeros(3, PORTS), DMatrix::zeros(3, 3)];
-        Self { solver: PatchSolver::new(grid, half_plane, 0.02, true), none, still: DVector::zeros(PORTS) }
+        Self { solver: SeriesSolver::new(grid, half_plane, 0.02, true), none, still: DVector::zeros(PORTS) }
     }
 
     /// Rolling at mean speed `speed` with prescribed creepage, in a step with the time formula `time`.
@@ -65,7 +66,7 @@ impl HalfPlanes {
                 inertial: &self.none[1],
                 momentum: &self.none[2],
                 deformation_inertia: &self.none[3],
-                late: [None; 2],
+                retarded: [None; 2],
             },
             membrane: [&flat, &flat],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
@@ -200,5 +201,5 @@ fn what_is_no_single_smooth_patch_is_refused() {
     assert!(matches!(planes.roll((LOAD, FRICTION), (10.0, 1e-3), theta, &start), Err(ContactError::Unsuited { .. })));
     let wide = planes.roll((100.0 * LOAD, FRICTION), (10.0, 1e-3), TimeDerivative::default(), &start);
     assert!(matches!(wide, Err(ContactError::ZoneExceeded { .. })), "{wide:?}");
-    assert!(matches!(start.solver, SolverState::Patch(_)) && planes.solver.fits(&start));
+    assert!(matches!(start.solver, SolverState::Series(_)) && planes.solver.fits(&start));
 }

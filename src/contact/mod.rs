@@ -2,18 +2,19 @@
 //!
 //! The bodies enter only through the answer of their surfaces ([`ContactProblem`]), so this room knows neither finite
 //! elements nor how the rolling motion is advanced. What anyone else learns of a solved contact is its [`Traction`]; how it
-//! was found is the business of a [`ContactSolver`], today the one on a [`grid`] of paired surface nodes. Everything is
+//! was found is the business of a [`ContactSolver`], today the one on the paired surface nodes of a [`line`]. Everything is
 //! per metre of width. Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure) lifts it; the
 //! rail receives the opposite.
 
+pub mod active_set;
 pub mod error;
 pub mod film;
 pub mod flattening;
 pub mod friction;
-pub mod grid;
 pub mod limits;
-pub mod patch;
+pub mod line;
 pub mod problem;
+pub mod series;
 pub mod solver;
 pub mod surface;
 pub mod traction;
@@ -23,7 +24,7 @@ pub use error::ContactError;
 pub use flattening::Flattening;
 pub use friction::{Friction, FrictionLaw, Heating};
 pub use limits::Limits;
-pub use problem::{AxisDrive, ContactProblem, LateLayer, RigidMotion, SurfaceResponse};
+pub use problem::{AxisDrive, ContactProblem, RetardedLayer, RigidMotion, SurfaceResponse};
 pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
 pub use surface::{Placement, Relief, Surfaces};
 pub use traction::Traction;

@@ -23,13 +23,13 @@ pub struct SurfaceResponse<'a> {
     /// Rate of deformation momentum per unit rigid acceleration, 3 × 3.
     pub deformation_inertia: &'a DMatrix<f64>,
     /// Layers of wheel and rail that answer late; `None`: all flexibility answers at once.
-    pub late: [Option<LateLayer<'a>>; 2],
+    pub retarded: [Option<RetardedLayer<'a>>; 2],
 }
 
 /// A layer at the surface of a body that answers with the elastic part `share · force + known` of the nodal forces, from which
 /// these run ahead.
 #[derive(Clone, Copy)]
-pub struct LateLayer<'a> {
+pub struct RetardedLayer<'a> {
     /// Displacement per unit elastic nodal force [m/(N/m)].
     pub flexibility: &'a DMatrix<f64>,
     /// Part of a new force that counts at once \[1].

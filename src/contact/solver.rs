@@ -1,10 +1,10 @@
 //! The seam behind which contact is solved.
 
+use super::active_set::iterate::ActiveSetScratch;
 use super::error::ContactError;
-use super::grid::iterate::GridScratch;
-use super::grid::state::GridState;
-use super::patch::state::{PatchState, SlipHistory};
+use super::line::state::LineState;
 use super::problem::ContactProblem;
+use super::series::state::{SeriesState, SlipHistory};
 use super::traction::Traction;
 use crate::piecewise::Piecewise;
 use nalgebra::DMatrix;
@@ -71,10 +71,10 @@ pub enum SolverState {
     /// Nothing but the traction.
     #[default]
     Stateless,
-    /// Of the solver on a grid of paired nodes.
-    Grid(Box<GridState>),
-    /// Of the solver on a single patch.
-    Patch(Box<PatchState>),
+    /// Of the active set on paired nodes.
+    Line(Box<LineState>),
+    /// Of the series on a single patch.
+    Series(Box<SeriesState>),
 }
 
 impl ContactState {
@@ -82,12 +82,12 @@ impl ContactState {
     pub fn rest(&mut self) {
         self.traction.rest();
         match &mut self.solver {
-            SolverState::Grid(grid) => {
+            SolverState::Line(grid) => {
                 grid.slip.fill(0.0);
                 grid.friction.slip.fill(0.0);
                 grid.friction.slope_power = 0.0;
             }
-            SolverState::Patch(patch) => {
+            SolverState::Series(patch) => {
                 patch.friction = SlipHistory { slip: Default::default(), slope_power: 0.0, ..patch.friction };
             }
             SolverState::Stateless => {}
@@ -95,10 +95,10 @@ impl ContactState {
     }
 
     /// Angle by which the rim under the contact has turned against the hub, positive where the tread moves towards `+x` \[rad].
-    pub fn turn(&self) -> f64 {
+    pub fn rim_angle(&self) -> f64 {
         match &self.solver {
-            SolverState::Grid(grid) => grid.turn.now,
-            SolverState::Patch(patch) => patch.turn.now,
+            SolverState::Line(line) => line.rim_angle.now,
+            SolverState::Series(series) => series.rim_angle.now,
             SolverState::Stateless => 0.0,
         }
     }
@@ -107,8 +107,8 @@ impl ContactState {
     /// solution is a smooth function of the data.
     pub fn same_branch(&self, other: &Self) -> bool {
         match (&self.solver, &other.solver) {
-            (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status && a.yielded == b.yielded,
-            (SolverState::Patch(a), SolverState::Patch(b)) => a.tractions.same_branch(&b.tractions),
+            (SolverState::Line(a), SolverState::Line(b)) => a.status == b.status && a.yielded == b.yielded,
+            (SolverState::Series(a), SolverState::Series(b)) => a.tractions.same_branch(&b.tractions),
             (SolverState::Stateless, SolverState::Stateless) => true,
             _ => false,
         }
@@ -118,6 +118,6 @@ impl ContactState {
 /// Buffers of the contact solvers; nothing in them outlives a solution.
 #[derive(Default)]
 pub struct Scratch {
-    /// Of the solver on a grid of paired nodes.
-    pub grid: GridScratch,
+    /// Of the active set on paired nodes.
+    pub active_set: ActiveSetScratch,
 }

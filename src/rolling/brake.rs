@@ -1,7 +1,7 @@
 //! The brake of the wheel: what it does in a step, and where its power goes.
 //!
 //! Its strength is that of the input `brake.torque`; whether it slips or holds is found with the contact
-//! ([`crate::contact::grid`]). There it is an impulse of the step, as all forces in the time formula are: the brake that
+//! ([`crate::contact::active_set`]). There it is an impulse of the step, as all forces in the time formula are: the brake that
 //! stops the wheel within a step gives what that takes, and one that holds it balances what the step brings. Theory:
 //! `docs/theory/time-formula.md`.
 

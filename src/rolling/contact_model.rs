@@ -7,8 +7,8 @@ use super::state::{State, ThermalDeformation, Weakening};
 use crate::config::{Config, Tuning};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, LateLayer,
-    Limits, Placement, RigidMotion, Scratch, SurfaceResponse, Surfaces, Traction,
+    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
+    Placement, RetardedLayer, RigidMotion, Scratch, SurfaceResponse, Surfaces, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -133,10 +133,10 @@ impl ContactModel {
             inertial: &operators.wheel.inertial_response,
             momentum: &operators.wheel.momentum,
             deformation_inertia: &operators.wheel.deformation_inertia,
-            late: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
+            retarded: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
                 let layer = operator.layer.as_ref()?;
                 let share = layer.share(operator.a0);
-                Some(LateLayer { flexibility: &layer.flexibility, share, known: &free.retarded })
+                Some(RetardedLayer { flexibility: &layer.flexibility, share, known: &free.retarded })
             }),
         };
         let [distance, angle] = step.place;

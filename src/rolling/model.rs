@@ -9,8 +9,9 @@ use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::analytic;
 use crate::config::{Config, ContactMethod, TimeScheme};
-use crate::contact::grid::{ContactGrid, GridSolver};
-use crate::contact::patch::{HalfPlane, PatchSolver};
+use crate::contact::active_set::ActiveSetSolver;
+use crate::contact::line::ContactGrid;
+use crate::contact::series::{HalfPlane, SeriesSolver};
 use crate::contact::{self, ContactSolver, Surfaces};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
@@ -66,14 +67,14 @@ impl Model {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
         let modulus = Isotropic::from(&config.material).contact_modulus();
-        let mut solver = GridSolver::new(grid(&bodies), &wheel.surface, &rail.surface, modulus);
+        let mut solver = ActiveSetSolver::new(grid(&bodies), &wheel.surface, &rail.surface, modulus);
         if let Some(wide) = &bodies.wide {
             solver = solver.with_wider(grid(wide));
         }
         let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies, &surfaces) {
             Some((half_plane, reach)) => {
                 let only = config.solver.contact == ContactMethod::Patch;
-                Box::new(PatchSolver::new(solver, half_plane, reach, only))
+                Box::new(SeriesSolver::new(solver, half_plane, reach, only))
             }
             None => Box::new(solver),
         };

@@ -73,7 +73,7 @@ impl State {
     /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre. That of
     /// the wheel goes by the rim, which torsion turns against the hub.
     pub fn place(&self, radius: f64) -> [f64; 2] {
-        [(self.angle - self.contact.turn()) * radius, self.distance]
+        [(self.angle - self.contact.rim_angle()) * radius, self.distance]
     }
 
     /// Thermal deformation that acts on the contact.

@@ -194,7 +194,7 @@ fn solve_and_commit(
     // Where the material lies goes by the rim under the contact.
     let place = [
         moved_by(state.distance, &state.motion.velocity, speeds[0], *dt),
-        moved_by(state.angle, &state.motion.omega, speeds[1], *dt) - state.contact.turn(),
+        moved_by(state.angle, &state.motion.omega, speeds[1], *dt) - state.contact.rim_angle(),
     ];
     let contact = ContactStep {
         operators: &operators,

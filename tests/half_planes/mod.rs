@@ -6,7 +6,8 @@
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
-use wheelrail::contact::grid::{ContactGrid, GridSolver, GridState};
+use wheelrail::contact::active_set::ActiveSetSolver;
+use wheelrail::contact::line::{ContactGrid, LineState};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, Limits, Placement,
     RigidMotion, Scratch, SolverState, SurfaceResponse, Surfaces,
@@ -24,7 +25,7 @@ pub const NOMINAL: f64 = 1e5;
 pub struct HalfPlanes {
     pub grid: ContactGrid,
     pub surfaces: Surfaces,
-    solver: GridSolver,
+    solver: ActiveSetSolver,
     /// Compliance of each half-plane, and of both.
     half: DMatrix<f64>,
     relative: DMatrix<f64>,
@@ -52,7 +53,7 @@ impl HalfPlanes {
         let half =
             DMatrix::from_fn(n, n, |i, j| if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 });
         // The compliance is that of half-planes already, so that the correction vanishes.
-        let solver = GridSolver::new(grid.clone(), &half, &half, modulus());
+        let solver = ActiveSetSolver::new(grid.clone(), &half, &half, modulus());
         let none = [DMatrix::zeros(n, 3), DMatrix::zeros(3, n), DMatrix::zeros(3, 3)];
         let (relative, free) = (2.0 * &half, [DVector::zeros(n), DVector::zeros(n)]);
         Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none }
@@ -91,7 +92,7 @@ impl HalfPlanes {
                 inertial: &self.none[0],
                 momentum: &self.none[1],
                 deformation_inertia: &self.none[2],
-                late: [None; 2],
+                retarded: [None; 2],
             },
             membrane: [&flat, &flat],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
@@ -143,17 +144,17 @@ impl HalfPlanes {
 }
 
 /// What the solver on the grid remembers.
-pub fn grid_state(state: &ContactState) -> &GridState {
+pub fn grid_state(state: &ContactState) -> &LineState {
     match &state.solver {
-        SolverState::Grid(grid) => grid,
+        SolverState::Line(grid) => grid,
         other => panic!("state of another solver: {other:?}"),
     }
 }
 
 /// The same to change.
-pub fn grid_state_mut(state: &mut ContactState) -> &mut GridState {
+pub fn grid_state_mut(state: &mut ContactState) -> &mut LineState {
     match &mut state.solver {
-        SolverState::Grid(grid) => grid,
+        SolverState::Line(grid) => grid,
         other => panic!("state of another solver: {other:?}"),
     }
 }

@@ -130,7 +130,7 @@ impl Pass<'_> {
             rigid: goal.motions(model, trial, self.sought, state.contact.traction.rigid[1], free[0].momentum),
             time: td,
             duration: 0.0,
-            place: [0.0, -state.contact.turn()],
+            place: [0.0, -state.contact.rim_angle()],
             elevation: goal.drive.elevation,
             deformation: state.deformation(),
             flattening: &state.flattening,

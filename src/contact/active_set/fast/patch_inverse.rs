@@ -1,0 +1,155 @@
+//! Pressures that close a given patch: the inverse of the normal part of the compliance, kept from step to step.
+//!
+//! Patches that begin at the same node share one factor: the longer one only has more rows. So an inverse costs little where
+//! uneven surfaces move the edges, and the [guess](super::foresight) of the closed nodes needs the factor alone. What is kept has the same bits whatever came before ([`InverseFactor`]), so that a
+//! step is a function of the state alone.
+
+use crate::contact::line::ContactGrid;
+use crate::contact::problem::ContactProblem;
+use crate::linalg::InverseFactor;
+use std::ops::Range;
+
+/// Step sizes for which anything is kept, and factors and inverses of each.
+const KEPT: [usize; 3] = [4, 16, 8];
+
+/// What belongs to one patch of neighbouring nodes and to one step size.
+#[derive(Clone, Copy)]
+pub(in crate::contact::active_set) struct PatchInverse<'a> {
+    /// Normal forces at the closed nodes per gap [N/m per m], by columns.
+    pub inverse: &'a [f64],
+    /// Columns of the gap at the closed nodes per tangential force there [m/(N/m)], which are `apart` entries apart.
+    pub coupling: &'a [f64],
+    pub apart: usize,
+}
+
+/// What belongs to one step size.
+struct OfStep {
+    /// Weight of the new value in the time formula [1/s].
+    a0: f64,
+    /// First normal column of the compliance: those of other models and grids are told apart by it.
+    column: Vec<f64>,
+    /// Gap at all candidates per tangential force at all candidates [m/(N/m)], by columns.
+    coupling: Vec<f64>,
+    /// First closed nodes and their factors, the last one used at the end.
+    factors: Vec<(usize, InverseFactor)>,
+    /// Patches and their inverses, the last one used at the end: products with them are cheaper than with their factors.
+    inverses: Vec<(Range<usize>, Vec<f64>)>,
+}
+
+/// Inverses of the last patches.
+#[derive(Default)]
+pub(in crate::contact::active_set) struct KeptInverses {
+    recent: Vec<OfStep>,
+}
+
+/// Normal displacement at candidate `i` per normal force at candidate `j` [m/(N/m)].
+pub(in crate::contact::active_set) fn compliance(
+    problem: &ContactProblem,
+    grid: &ContactGrid,
+    i: usize,
+    j: usize,
+) -> f64 {
+    problem.bodies.relative[(grid.port(i) + 1, grid.port(j) + 1)]
+}
+
+impl OfStep {
+    fn new(problem: &ContactProblem, grid: &ContactGrid) -> Self {
+        let relative = problem.bodies.relative;
+        let nodes = 0..grid.len();
+        let of_shear = |j: usize| nodes.clone().map(move |i| relative[(grid.port(i) + 1, grid.port(j))]);
+        Self {
+            a0: problem.time.a0,
+            column: first_column(problem, grid).to_vec(),
+            coupling: nodes.clone().flat_map(of_shear).collect(),
+            factors: Vec::new(),
+            inverses: Vec::new(),
+        }
+    }
+
+    /// The factor of the compliance from one node on with at least `size` rows; `None` if there is none.
+    fn factor(&mut self, problem: &ContactProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<&InverseFactor> {
+        match self.factors.iter().position(|(first, _)| *first == patch.start) {
+            Some(at) => self.factors[at..].rotate_left(1),
+            None if self.factors.len() < KEPT[1] => self.factors.push((patch.start, InverseFactor::default())),
+            None => {
+                self.factors.rotate_left(1);
+                let (first, factor) = self.factors.last_mut()?;
+                *first = patch.start;
+                factor.truncate(0);
+            }
+        }
+        let (_, factor) = self.factors.last_mut()?;
+        for i in patch.start + factor.size()..patch.end {
+            let beside = (patch.start..i).map(|j| compliance(problem, grid, i, j));
+            factor.append(beside, compliance(problem, grid, i, i))?;
+        }
+        Some(factor)
+    }
+
+    /// The inverse of a patch; `None` if there is none.
+    fn inverse(&mut self, problem: &ContactProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<()> {
+        if let Some(at) = self.inverses.iter().position(|(of, _)| of == patch) {
+            self.inverses[at..].rotate_left(1);
+            return Some(());
+        }
+        self.factor(problem, grid, patch)?;
+        let factor = &self.factors.last()?.1;
+        let mut inverse = if self.inverses.len() < KEPT[2] { Vec::new() } else { self.inverses.remove(0).1 };
+        inverse.clear();
+        let (mut column, mut product) = (Vec::new(), Vec::new());
+        for j in 0..patch.len() {
+            column.clear();
+            column.resize(patch.len(), 0.0);
+            column[j] = 1.0;
+            factor.solve(&mut column, &mut product);
+            inverse.extend_from_slice(&column);
+        }
+        self.inverses.push((patch.clone(), inverse));
+        Some(())
+    }
+}
+
+/// The column of the first candidate's normal force in the compliance.
+fn first_column<'a>(problem: &ContactProblem<'a>, grid: &ContactGrid) -> &'a [f64] {
+    let relative = problem.bodies.relative;
+    &relative.as_slice()[(grid.port(0) + 1) * relative.nrows()..][..relative.nrows()]
+}
+
+impl KeptInverses {
+    /// The matrices of a patch; `None` if its compliance has no inverse.
+    pub fn of(
+        &mut self,
+        problem: &ContactProblem,
+        grid: &ContactGrid,
+        patch: &Range<usize>,
+    ) -> Option<PatchInverse<'_>> {
+        let kept = self.of_step(problem, grid)?;
+        kept.inverse(problem, grid, patch)?;
+        let (coupling, apart) = (&kept.coupling[patch.start * (grid.len() + 1)..], grid.len());
+        Some(PatchInverse { inverse: &kept.inverses.last()?.1, coupling, apart })
+    }
+
+    /// A factor of the inverse of a patch, which may have more rows.
+    pub fn factor(
+        &mut self,
+        problem: &ContactProblem,
+        grid: &ContactGrid,
+        patch: &Range<usize>,
+    ) -> Option<&InverseFactor> {
+        self.of_step(problem, grid)?.factor(problem, grid, patch)
+    }
+
+    fn of_step(&mut self, problem: &ContactProblem, grid: &ContactGrid) -> Option<&mut OfStep> {
+        let column = first_column(problem, grid);
+        match self.recent.iter().position(|kept| kept.a0 == problem.time.a0 && kept.column == column) {
+            Some(at) => self.recent[at..].rotate_left(1),
+            None => {
+                if self.recent.len() >= KEPT[0] {
+                    self.recent.remove(0);
+                }
+                self.recent.push(OfStep::new(problem, grid));
+            }
+        }
+        self.recent.last_mut()
+    }
+}

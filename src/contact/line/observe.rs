@@ -1,0 +1,244 @@
+//! Reads the traction off a solution on the grid. What it reports varies smoothly while the contact edges move between
+//! nodes.
+
+use super::grid::ContactGrid;
+use super::rim::RimFrame;
+use super::slopes::Slopes;
+use super::state::{LineState, Status, for_each_patch};
+use super::streamline::edge_offset;
+use crate::contact::traction::Traction;
+use crate::piecewise::{Interval, Piecewise};
+use nalgebra::DVector;
+use std::ops::Range;
+
+/// Share of the peak above which nodes beside it take part in the fit of the pressure maximum [1].
+const PEAK: f64 = 0.9;
+/// Ratio of the two outermost nodal pressures below which the outer node is fading out [1].
+const FADING: f64 = 0.2;
+/// Least distance of the end of a profile from the outermost node of a patch [spacings].
+const MARGIN: f64 = 1e-3;
+
+/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m]; `wheel`: rolling radius,
+/// turn of the rim and surface displacement.
+///
+/// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
+/// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
+pub(in crate::contact) fn lever_arms(
+    (radius, frame, u): (f64, &RimFrame, &DVector<f64>),
+    slopes: Slopes,
+    i: usize,
+) -> [f64; 2] {
+    let (grid, port) = (slopes.grid, slopes.grid.port(i));
+    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) + radius * slopes.arm(i)]
+}
+
+/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
+/// friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that the
+/// steel bears anywhere \[Pa].
+pub fn read_off(
+    grid: &ContactGrid,
+    (power, limit): (f64, f64),
+    state: &LineState,
+    centred_slip: &[f64],
+    traction: &mut Traction,
+) {
+    let forces = &traction.port_forces;
+    let tangential = |i: usize| forces[grid.port(i)];
+    let normal = |i: usize| forces[grid.port(i) + 1];
+    traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
+    traction.edges.clear();
+    traction.patches.clear();
+    let (mut length, mut stuck) = (0.0, 0.0);
+    for_each_patch(&state.status, |run| {
+        let edges = edges(grid, normal, &run);
+        traction.edges.push(edges);
+        traction.patches.push(stretch(grid, edges, &run));
+        length += run.clone().map(|i| grid.width(i)).sum::<f64>();
+        let margin =
+            |i: usize| (grid.share(i) * (traction.friction * normal(i) - tangential(i).abs())).max(0.0).powi(2);
+        stuck += stick_length(grid, &state.status, margin, run);
+    });
+    traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
+
+    let (patches, status) = (&traction.patches, &state.status);
+    over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
+    over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
+    over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
+    // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at stuck
+    // nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
+    let density = |i: usize| match status[i] {
+        Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.width(i)).max(0.0),
+        Status::Stick | Status::Open => 0.0,
+    };
+    over_patches(grid, status, patches, density, &mut traction.dissipation);
+    scale_to(&mut traction.dissipation, power, &traction.pressure);
+}
+
+/// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].
+pub(in crate::contact) fn overlap(grid: &ContactGrid, state: &LineState, overlap: &[f64], traction: &mut Traction) {
+    traction.overlap.clear();
+    let closed = state.status.iter().filter(|s| s.is_active()).count();
+    let yielding = state.yielded.iter().filter(|yields| **yields).count();
+    traction.yielding = if closed > 0 { yielding as f64 / closed as f64 } else { 0.0 };
+    let first = state.yielded.iter().position(|yields| *yields);
+    let (Some(first), Some(last)) = (first, state.yielded.iter().rposition(|yields| *yields)) else { return };
+    let stretch = first.saturating_sub(1)..(last + 2).min(grid.len());
+    for (x, depth) in grid.x[stretch.clone()].iter().zip(&overlap[stretch]) {
+        traction.overlap.push(*x, depth.max(0.0));
+    }
+}
+
+/// Work [J/m] that yielding candidates would give back if none of their depth `overlap` \[m] stayed. Their force rises with the
+/// depth from the `limit` on [N/m] and falls with it again, so that the work is that of the mean of both.
+pub(in crate::contact) fn springing_work(
+    grid: &ContactGrid,
+    overlap: &[f64],
+    limit: &[f64],
+    traction: &Traction,
+) -> f64 {
+    let mean = |i: usize, limit: f64| 0.5 * (limit + traction.port_forces[grid.port(i) + 1]);
+    let of_node = |(i, (depth, limit)): (usize, (&f64, &f64))| if *depth > 0.0 { depth * mean(i, *limit) } else { 0.0 };
+    overlap.iter().zip(limit).enumerate().map(of_node).sum()
+}
+
+/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling
+/// radius [m].
+pub(in crate::contact) fn resultant(radius: f64, frame: &RimFrame, slopes: Slopes, traction: &Traction) -> [f64; 3] {
+    let grid = slopes.grid;
+    let wheel = (radius, frame, &traction.surface[0]);
+    let mut sum = [0.0; 3];
+    for i in 0..grid.len() {
+        let port = grid.port(i);
+        let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
+        let [arm_t, arm_n] = lever_arms(wheel, slopes, i);
+        sum[0] += t + n * slopes.rail(i);
+        sum[1] += n;
+        sum[2] -= arm_t * t + arm_n * n;
+    }
+    sum
+}
+
+/// Scales a profile to the given integral; where it is zero itself, or too small to be scaled, it takes the shape of the
+/// `fallback`.
+fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
+    let factor = total / profile.integral();
+    if factor.is_finite() {
+        return profile.scale(factor);
+    }
+    profile.x.iter().zip(&mut profile.value).for_each(|(&x, v)| *v = fallback.at(x));
+    let load = profile.integral();
+    profile.scale(if load > 0.0 { total / load } else { 0.0 });
+}
+
+/// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.
+fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
+    let (first, last) = (run.start, run.end - 1);
+    let pressure = |i: Option<usize>| i.filter(|i| run.contains(i)).map_or(0.0, |i| normal(i) * grid.share(i));
+    let offset = |nodes: [Option<usize>; 3], edge: usize, outwards: bool| {
+        let [outer, inner, next] = nodes.map(&pressure);
+        grid.cells_beside(edge, outwards)[0] * continuous_offset(outer, inner, next)
+    };
+    Interval {
+        low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k)), first, false),
+        high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k)), last, true),
+    }
+}
+
+/// Distance of the contact edge beyond the outermost of three nodes [cells]. As the pressure of that node vanishes, the edge
+/// tends to where it is without it, whatever the shape of the pressure; for a Hertzian one it does so by itself.
+fn continuous_offset(edge: f64, inner: f64, next: f64) -> f64 {
+    let own = edge_offset(edge, inner);
+    let ratio = if inner > 0.0 { (edge / inner).max(0.0) } else { 1.0 };
+    if ratio >= FADING || next <= 0.0 {
+        return own;
+    }
+    let jump = edge_offset(inner, next) - 1.0 - edge_offset(0.0, inner);
+    own + (1.0 - ratio / FADING) * jump
+}
+
+/// The patch of a run of closed nodes with these edges. An edge up to a quarter of a cell inside the outermost node is moved
+/// just beyond it, so that the force of that node acts, heats and conducts within the patch.
+fn stretch(grid: &ContactGrid, edges: Interval, run: &Range<usize>) -> Interval {
+    let margin = MARGIN * grid.spacing;
+    Interval { low: edges.low.min(grid.x[run.start] - margin), high: edges.high.max(grid.x[run.end - 1] + margin) }
+}
+
+/// Writes a nodal quantity as a profile over all patches that falls to zero at their ends.
+fn over_patches(
+    grid: &ContactGrid,
+    status: &[Status],
+    patches: &[Interval],
+    value: impl Fn(usize) -> f64,
+    profile: &mut Piecewise,
+) {
+    profile.clear();
+    let mut patches = patches.iter();
+    for_each_patch(status, |run| {
+        let Some(patch) = patches.next() else { return };
+        profile.push(patch.low, 0.0);
+        run.for_each(|i| profile.push(grid.x[i], value(i)));
+        profile.push(patch.high, 0.0);
+    });
+}
+
+/// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one, at most the `limit`: for
+/// the elliptic pressure of a Hertzian patch it is exact. Where the largest pressure is a node's, it is that: where steel `yields`
+/// pressures follow its strength from node to node, and a parabola through a skewed peak passes below it.
+fn pressure_peak(grid: &ContactGrid, yields: &[bool], normal: impl Fn(usize) -> f64, limit: f64) -> f64 {
+    let pressure = |i: usize| normal(i) / grid.width(i);
+    let Some(top) = (0..grid.len()).max_by(|&a, &b| pressure(a).total_cmp(&pressure(b))) else { return 0.0 };
+    let peak = pressure(top).max(0.0);
+    let beside = |i: usize| (pressure(i) > PEAK * peak || i.abs_diff(top) <= 1) && pressure(i) > 0.0;
+    let first = (0..top).rev().take_while(|&i| beside(i)).last().unwrap_or(top);
+    let last = (top + 1..grid.len()).take_while(|&i| beside(i)).last().unwrap_or(top);
+    if (first..=last).any(|i| yields.get(i) == Some(&true)) {
+        return peak;
+    }
+    let samples = (first..=last).map(|i| ((grid.x[i] - grid.x[top]) / grid.spacing, pressure(i).powi(2)));
+    parabola_peak(samples).map_or(peak, |squared| squared.sqrt().min(limit).max(peak))
+}
+
+/// Maximum of the least-squares parabola through `(x, y)` if it lies between them.
+fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let mut normal = nalgebra::Matrix3::<f64>::zeros();
+    let mut rhs = nalgebra::Vector3::<f64>::zeros();
+    let (mut count, mut ends) = (0, [f64::INFINITY, f64::NEG_INFINITY]);
+    for (x, y) in samples {
+        let row = nalgebra::Vector3::new(1.0, x, x * x);
+        normal += row * row.transpose();
+        rhs += row * y;
+        ends = [ends[0].min(x), ends[1].max(x)];
+        count += 1;
+    }
+    if count < 3 {
+        return None;
+    }
+    let c = normal.lu().solve(&rhs)?;
+    let at = -0.5 * c[1] / c[2];
+    (c[2] < 0.0 && at >= ends[0] && at <= ends[1]).then(|| c[0] + 0.5 * c[1] * at).filter(|p| *p > 0.0)
+}
+
+/// Length of the stick zone of one run [m]; its boundary between stick and slip is found below grid scale from
+/// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
+fn stick_length(grid: &ContactGrid, status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
+    let mut stuck = run.clone().filter(|&i| status[i] == Status::Stick);
+    let Some(low) = stuck.next() else { return 0.0 };
+    let high = stuck.next_back().unwrap_or(low);
+    let beyond = |edge: usize, inward: isize| {
+        let at_end = if inward < 0 { edge + 1 >= run.end } else { edge <= run.start };
+        if at_end || high - low < 2 {
+            return 0.5;
+        }
+        let at = |k: isize| margin((edge as isize + k * inward) as usize);
+        let (f0, f1, f2) = (at(0), at(1), at(2));
+        // f(s) = f0 + b s + c s² with s in cells towards the inside; its root lies at s in [−1, 0].
+        let (b, c) = (2.0 * f1 - 1.5 * f0 - 0.5 * f2, 0.5 * (f0 + f2) - f1);
+        let discriminant = b * b - 4.0 * c * f0;
+        if b <= 0.0 || discriminant < 0.0 {
+            return 0.5;
+        }
+        (2.0 * f0 / (b + discriminant.sqrt())).clamp(0.0, 1.0)
+    };
+    let beside = |edge: usize, to_right: bool| grid.cells_beside(edge, to_right)[0];
+    grid.x[high] - grid.x[low] + beyond(low, 1) * beside(low, false) + beyond(high, -1) * beside(high, true)
+}

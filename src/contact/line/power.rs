@@ -1,0 +1,101 @@
+//! Where the power of the contact forces goes: into friction, and out of thermal expansion.
+//!
+//! Slopes are central differences: for these, not for upwind ones, the forces do no work on the derivative of their own
+//! displacement, so that the power of hub, friction and expansion balances. Derivation: `docs/theory/lever-arms.md`.
+
+use super::grid::ContactGrid;
+use super::rim::RimFrame;
+use super::state::FrictionHistory;
+use crate::contact::traction::Traction;
+use crate::multistep::TimeDerivative;
+use nalgebra::DVector;
+
+/// Contact forces and motions of a solution.
+pub(in crate::contact) struct Power<'a> {
+    pub grid: &'a ContactGrid,
+    pub traction: &'a Traction,
+    /// Turn of the rim.
+    pub frame: &'a RimFrame<'a>,
+    /// Velocity with which the rim passes the contact [m/s].
+    pub rim_velocity: f64,
+    /// Slip velocity at the candidates with central differences [m/s].
+    pub slip: &'a [f64],
+    /// Swelling of the hot layers of wheel and rail at the candidates [m]; empty without any.
+    pub swelling: &'a [Vec<f64>; 2],
+    /// Displacement of wheel and rail by the membrane forces of their hot layers [m]; empty without any.
+    pub membrane: &'a [DVector<f64>; 2],
+    /// Force with which the late layer of the rail spares the hub [N/m].
+    pub late: f64,
+}
+
+impl Power<'_> {
+    /// Power [W/m] that friction turns from mechanical energy into heat, contact forces times relative velocity less what
+    /// hot material gives back by expanding, and its energy in a step with the time formula `time` [J/m]: the impulse of every
+    /// force times the mean velocity.
+    pub fn friction(&self, time: &TimeDerivative, history: &mut FrictionHistory) -> [f64; 2] {
+        let slope_power = self.slope_power() - self.expansion();
+        let (mut power, mut work) = (slope_power, 0.0);
+        for i in 0..self.grid.len() {
+            let ([force, _], slip) = (self.forces(i), self.slip[i]);
+            power -= force * slip;
+            if !time.is_stationary() {
+                history.impulse[i] = time.impulse(force, history.force[i], history.impulse[i]);
+                work -= history.impulse[i] * 0.5 * (history.slip[i] + slip);
+            }
+            (history.force[i], history.slip[i]) = (force, slip);
+        }
+        if !time.is_stationary() {
+            history.slope_work = time.impulse(slope_power, history.slope_power, history.slope_work);
+            work += history.slope_work;
+        }
+        history.slope_power = slope_power;
+        [power, work]
+    }
+
+    /// Power [W/m] of pressure on the slope of the deformed rail where the surfaces slide over each other.
+    fn slope_power(&self) -> f64 {
+        let rail = &self.traction.surface[1];
+        let slope = |i: usize| self.slope(rail, i, self.grid.port(i) + 1) + self.swelling_slope(1, i);
+        let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
+        (self.rim_velocity - self.traction.rigid[0]) * (load + self.late)
+    }
+
+    /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the change of
+    /// the expansion in time adds, force times expansion, is not counted: hundredths of a joule in a whole run.
+    fn expansion(&self) -> f64 {
+        let velocity = [self.rim_velocity, self.traction.rigid[0]];
+        let of_node = |i: usize| {
+            let [_, normal] = self.forces(i);
+            -normal * (velocity[0] * self.swelling_slope(0, i) + velocity[1] * self.swelling_slope(1, i))
+        };
+        let swelling: f64 = (0..self.grid.len()).map(of_node).sum();
+        let turning = self.rim_velocity / self.frame.radius;
+        let membrane = |body: usize| -> f64 {
+            let u = &self.membrane[body];
+            let of_node = |i: usize| {
+                let ([tangential, normal], port) = (self.forces(i), self.grid.port(i));
+                let straight = tangential * self.slope(u, i, port) + normal * self.slope(u, i, port + 1);
+                let turned = tangential * u[port + 1] - normal * u[port];
+                velocity[body] * straight + if body == 0 { turning * turned } else { 0.0 }
+            };
+            if u.is_empty() { 0.0 } else { (0..self.grid.len()).map(of_node).sum() }
+        };
+        swelling + membrane(0) - membrane(1)
+    }
+
+    fn forces(&self, i: usize) -> [f64; 2] {
+        let port = self.grid.port(i);
+        [self.traction.port_forces[port], self.traction.port_forces[port + 1]]
+    }
+
+    /// Slope of a displacement, of whose component at candidate `i` `port` is the port.
+    fn slope(&self, u: &DVector<f64>, i: usize, port: usize) -> f64 {
+        (u[port + 2] - u[port - 2]) / self.grid.span(i)
+    }
+
+    fn swelling_slope(&self, body: usize, i: usize) -> f64 {
+        let layer = &self.swelling[body];
+        let at = |k: Option<usize>| k.and_then(|k| layer.get(k)).copied().unwrap_or(0.0);
+        (at(Some(i + 1)) - at(i.checked_sub(1))) / self.grid.span(i)
+    }
+}

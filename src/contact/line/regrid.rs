@@ -1,0 +1,136 @@
+//! Changes between a grid and a wider one about the same middle, whose innermost nodes are those of the first.
+//!
+//! Both see the same bodies, so that a contact within the smaller grid is the same on both: to widen a state is to add open
+//! nodes without forces. Gaps and displacements of new nodes start as those of the outermost old one: nodes that close in
+//! the very step of the change lie next to it, and after it all are known.
+
+use super::grid::ContactGrid;
+use super::state::{FrictionHistory, LineState, Status};
+use crate::contact::traction::Traction;
+use nalgebra::DVector;
+
+/// Share of a grid within which all patches must lie before a wider one is left for it \[1]: a patch that breathes about
+/// the end of the grid does not change it from step to step.
+const LEAVING: f64 = 0.8;
+/// Pull of hot layers on what would be cut off, in nominal loads, below which the bodies hardly notice that it ends \[1].
+const SLIGHT_PULL: f64 = 0.01;
+
+/// Where values about a middle are found in a longer or shorter list about the same middle; beyond its ends `Err` with the
+/// nearer end.
+fn place(i: usize, len: usize, source: usize) -> Result<usize, usize> {
+    match (i + source / 2).checked_sub(len / 2) {
+        Some(k) if k < source => Ok(k),
+        Some(_) => Err(source - 1),
+        None => Err(0),
+    }
+}
+
+/// The values of the common nodes, and outside of them those of the nearest.
+fn nearest<T: Copy>(values: &[T], len: usize) -> Vec<T> {
+    (0..len).map(|i| values[place(i, len, values.len()).unwrap_or_else(|end| end)]).collect()
+}
+
+/// The values of the common nodes, and `outside` of them another.
+fn padded<T: Copy>(values: &[T], len: usize, outside: T) -> Vec<T> {
+    (0..len).map(|i| place(i, len, values.len()).map_or(outside, |k| values[k])).collect()
+}
+
+/// Components x and y of every node by [`nearest`] or, with a value for those outside, [`padded`].
+fn components(values: &DVector<f64>, ports: usize, outside: Option<[f64; 2]>) -> DVector<f64> {
+    let pairs: Vec<[f64; 2]> = values.as_slice().chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+    let resized = match outside {
+        Some(outside) => padded(&pairs, ports / 2, outside),
+        None => nearest(&pairs, ports / 2),
+    };
+    DVector::from_iterator(ports, resized.into_iter().flatten())
+}
+
+/// Gives a state the nodes of `grid`.
+pub(in crate::contact) fn move_to(grid: &ContactGrid, state: &mut LineState, traction: &mut Traction) {
+    let (n, ports) = (grid.len(), grid.ports());
+    if state.status.is_empty() {
+        return;
+    }
+    let LineState { status, yielded, slip, gap, tangential_gap, friction, rim_angle: _, rest: _ } = state;
+    *status = padded(status, n, Status::Open);
+    *yielded = padded(yielded, n, false);
+    *slip = padded(slip, n, 0.0);
+    *gap = nearest(gap, n);
+    *tangential_gap = nearest(tangential_gap, n);
+    let FrictionHistory { force, impulse, slip, slope_power: _, slope_work: _ } = friction;
+    for values in [force, impulse, slip] {
+        *values = padded(values, n, 0.0);
+    }
+    let Traction { port_forces, loads, surface, .. } = traction;
+    for forces in loads.iter_mut().chain([port_forces]) {
+        *forces = components(forces, ports, Some([0.0; 2]));
+    }
+    surface.iter_mut().for_each(|u| *u = components(u, ports, None));
+}
+
+/// Whether a state of the grid `wide` may as well live on the smaller grid `narrow`.
+pub(in crate::contact) fn fits_into(
+    narrow: &ContactGrid,
+    wide: &ContactGrid,
+    state: &LineState,
+    traction: &Traction,
+    nominal_load: f64,
+) -> bool {
+    let end = LEAVING * narrow.x.last().copied().unwrap_or(0.0);
+    let beyond = |(x, status): (&f64, &Status)| status.is_active() && x.abs() > end;
+    if wide.x.iter().zip(&state.status).any(beyond) {
+        return false;
+    }
+    let inner = place(0, narrow.ports() / 2, wide.ports() / 2).map_or(0, |first| 2 * first);
+    let pull = |loads: &DVector<f64>| -> f64 {
+        let (before, from_first) = loads.as_slice().split_at(inner);
+        before.iter().chain(&from_first[narrow.ports()..]).map(|force| force.abs()).sum()
+    };
+    traction.loads.iter().all(|loads| pull(loads) <= SLIGHT_PULL * nominal_load)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_that_goes_to_a_wider_grid_and_back_is_the_same() {
+        let narrow = ContactGrid::uniform((-4..=4).map(f64::from).collect(), 1.0, 2);
+        let wide = ContactGrid::uniform((-9..=9).map(f64::from).collect(), 1.0, 2);
+        let values = |n: usize, from: f64| (0..n).map(|i| from + i as f64).collect::<Vec<_>>();
+        let vector = |from| DVector::from_vec(values(narrow.ports(), from));
+        let mut state = LineState {
+            status: vec![Status::Open; 9],
+            yielded: vec![false; 9],
+            slip: values(9, 1.0),
+            gap: values(9, 2.0),
+            tangential_gap: values(9, 3.0).into_iter().map(crate::multistep::History::constant).collect(),
+            friction: FrictionHistory {
+                force: values(9, 4.0),
+                impulse: values(9, 5.0),
+                slip: values(9, 6.0),
+                ..FrictionHistory::default()
+            },
+            ..LineState::default()
+        };
+        state.status[4] = Status::Stick;
+        let mut traction = Traction {
+            port_forces: vector(7.0),
+            loads: [vector(8.0), vector(9.0)],
+            surface: [vector(10.0), vector(11.0)],
+            ..Traction::default()
+        };
+        let before = (state.clone(), traction.clone());
+        move_to(&wide, &mut state, &mut traction);
+        assert_eq!((state.status.len(), state.status[9], traction.port_forces.len()), (19, Status::Stick, 46));
+        assert_eq!((traction.loads[0][0], traction.surface[0][1], state.slip[18]), (0.0, 11.0, 0.0));
+        assert!(fits_into(&narrow, &wide, &state, &traction, 1.0));
+        state.status[5] = Status::Stick;
+        assert!(!fits_into(&narrow, &wide, &state, &traction, 1.0));
+        state.status[5] = Status::Open;
+        traction.loads[1][2] = 0.02;
+        assert!(!fits_into(&narrow, &wide, &state, &traction, 1.0));
+        move_to(&narrow, &mut state, &mut traction);
+        assert_eq!((state, traction), before);
+    }
+}

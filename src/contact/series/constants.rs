@@ -1,0 +1,59 @@
+//! What does not change from problem to problem.
+
+use super::chebyshev::{HalfPlane, TERMS};
+use super::tables::{SMOOTH, Tables};
+use crate::linalg::Lagrange;
+use std::f64::consts::PI;
+
+/// Parts into which θ is divided; there are three quarters as many sines.
+pub const PARTS: usize = 16;
+/// What layers hold at the ends of the parts.
+pub type Samples = [f64; PARTS + 1];
+
+/// What is the same for all layers.
+#[derive(Clone, Debug)]
+pub struct LayerTables {
+    /// `cos θ` at the ends of the parts.
+    pub places: Samples,
+    /// Weights of the inner samples in the sines, by sine.
+    pub sines: [[f64; PARTS - 1]; TERMS],
+    /// Zeros of `T_16`.
+    pub zeros: [f64; PARTS],
+    /// Weights of the values there in the coefficients of `T_n`, by n.
+    pub zeros_terms: [[f64; PARTS]; SMOOTH],
+}
+
+impl LayerTables {
+    /// All constants.
+    pub fn new() -> Self {
+        let angle = |m: usize| m as f64 * PI / PARTS as f64;
+        let zero = |m: usize| angle(m) + 0.5 * angle(1);
+        let mean = |n: usize| if n == 0 { 1.0 } else { 2.0 } / PARTS as f64;
+        let weight = |k: usize, m: usize| 2.0 / PARTS as f64 * ((k + 1) as f64 * angle(m + 1)).sin();
+        Self {
+            places: std::array::from_fn(|m| angle(m).cos()),
+            sines: std::array::from_fn(|k| std::array::from_fn(|m| weight(k, m))),
+            zeros: std::array::from_fn(|m| zero(m).cos()),
+            zeros_terms: std::array::from_fn(|n| std::array::from_fn(|m| mean(n) * (n as f64 * zero(m)).cos())),
+        }
+    }
+}
+
+impl Default for LayerTables {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What does not change from problem to problem.
+#[derive(Clone, Debug)]
+pub struct Constants {
+    /// What the bodies lack.
+    pub half_plane: HalfPlane,
+    /// Points between which their smooth displacements are polynomials.
+    pub points: Lagrange,
+    /// Constants of the series.
+    pub tables: Tables,
+    /// Constants of hot layers.
+    pub layers: LayerTables,
+}

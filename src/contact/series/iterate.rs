@@ -1,0 +1,223 @@
+//! One contact problem on its way to the solution on a single patch.
+
+use super::constants::Constants;
+use super::hot_layers::{self, Warmth};
+use super::state::{SeriesState, Tractions};
+use super::surface::{AtPoints, Moments, Surface, dot};
+use super::tables::{POWER, QUADRATURE};
+use crate::contact::problem::{AxisDrive, ContactProblem};
+
+/// A place of integration with everything that does not depend on shear.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Place {
+    /// Position \[m].
+    pub x: f64,
+    /// Polynomials of the points there.
+    pub values: AtPoints,
+    /// Traction of the series there times the weight [N/m].
+    pub force: f64,
+    /// `∫ p ln|x − s| ds` there [N/m].
+    pub logarithm: f64,
+}
+
+/// Contact on a single patch in the present iterate.
+pub struct Iterate<'a> {
+    pub constants: &'a Constants,
+    pub problem: &'a ContactProblem<'a>,
+    pub before: &'a SeriesState,
+    /// What hot layers do; none: they are cold.
+    pub warmth: Option<Warmth>,
+    /// Moments of their pulls on wheel and rail.
+    pub pulls: [AtPoints; 2],
+    pub tractions: Tractions,
+    /// V [m/s], U \[m], Ω [rad/s].
+    pub rigid: [f64; 3],
+    /// See [`SeriesState::slope`].
+    pub slope: f64,
+    /// Turn of the rim \[rad].
+    pub rim_angle: f64,
+    /// Friction coefficient \[1].
+    pub friction: f64,
+    /// Places of the pressure.
+    pub pressed: [Place; QUADRATURE],
+    /// Places of the shear of [`Tractions::stick`].
+    pub stuck: [Place; QUADRATURE],
+    /// Moments of all tractions.
+    pub moments: Moments,
+    /// Smooth displacements under them.
+    pub surface: Surface,
+    /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
+    pub slips: [f64; POWER],
+}
+
+impl<'a> Iterate<'a> {
+    pub fn new(
+        constants: &'a Constants,
+        problem: &'a ContactProblem<'a>,
+        before: &'a SeriesState,
+        height: f64,
+    ) -> Self {
+        let start = |k: usize| problem.rigid[k].start();
+        let hub = problem.rigid[1].target().unwrap_or(height);
+        let none = [Place::default(); QUADRATURE];
+        let warmth = Warmth::new(constants, problem, &before.tractions.pressure);
+        Self {
+            constants,
+            problem,
+            before,
+            pulls: hot_layers::pulls(&warmth),
+            warmth,
+            tractions: before.tractions,
+            rigid: [start(0), hub, start(2)],
+            slope: before.slope,
+            rim_angle: before.rim_angle.now,
+            friction: problem.friction.coefficient(0.0),
+            pressed: none,
+            stuck: none,
+            moments: Moments::default(),
+            surface: Surface::default(),
+            slips: [0.0; POWER],
+        }
+    }
+
+    /// Velocity with which the rim passes the contact [m/s].
+    pub fn rim_velocity(&self) -> f64 {
+        let time = &self.problem.time;
+        self.problem.radius() * (self.rigid[2] - time.a0 * self.rim_angle - self.before.rim_angle.offset(time))
+    }
+
+    /// Side from which the material arrives: 1 from `+x`.
+    pub fn upstream(&self) -> f64 {
+        if self.rigid[0] + self.rim_velocity() >= 0.0 { 1.0 } else { -1.0 }
+    }
+
+    /// Sum of the speeds of both surfaces [m/s].
+    pub fn speed(&self) -> f64 {
+        self.rigid[0].abs() + self.rim_velocity().abs()
+    }
+
+    /// Load of the patch [N/m].
+    pub fn load(&self) -> f64 {
+        self.tractions.pressure.total()
+    }
+
+    /// Rigid accelerations with the present motions.
+    pub fn accelerations(&self) -> [f64; 3] {
+        std::array::from_fn(|k| self.problem.rigid[k].acceleration(self.rigid[k]))
+    }
+
+    /// What hot layers do at x.
+    pub fn warm<const N: usize>(&self, x: &[f64; N], of: impl Fn(&Warmth, &[f64; N]) -> [f64; N]) -> [f64; N] {
+        self.warmth.as_ref().map_or([0.0; N], |warmth| of(warmth, x))
+    }
+
+    /// `∫ p f dx` for something that hot layers do.
+    pub fn over_pressure(&self, f: impl Fn(&Warmth, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
+        let values = self.warm(&self.pressed.map(|place| place.x), f);
+        self.pressed.iter().zip(values).map(|(place, value)| place.force * value).sum()
+    }
+
+    /// `∫ q f dx`.
+    pub fn over_shear(&self, f: impl Fn(&Warmth, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
+        let slipping = self.tractions.slide * self.over_pressure(&f);
+        if self.tractions.slides() {
+            return slipping;
+        }
+        let values = self.warm(&self.stuck.map(|place| place.x), f);
+        slipping + self.stuck.iter().zip(values).map(|(place, value)| place.force * value).sum::<f64>()
+    }
+
+    /// Tangential displacement of the wheel less that of the rail at the points, without half-planes under the contact forces.
+    pub fn relative(&self, surface: &Surface) -> AtPoints {
+        let smooth = surface.relative();
+        self.warmth.as_ref().map_or(smooth, |warmth| std::array::from_fn(|k| smooth[k] + warmth.relative[k]))
+    }
+
+    /// Places and moments of the pressure.
+    pub fn place_pressure(&mut self) {
+        let Constants { tables, points, .. } = self.constants;
+        let pressure = &self.tractions.pressure;
+        self.moments.normal = AtPoints::default();
+        if let Some(warmth) = &mut self.warmth {
+            warmth.fit(pressure);
+        }
+        let places = tables.places.map(|t| pressure.centre + pressure.half_width * t);
+        let logarithms = pressure.logarithm(&places);
+        for (q, place) in self.pressed.iter_mut().enumerate() {
+            let x = places[q];
+            let terms = pressure.terms.iter().zip(&tables.moments);
+            let force = pressure.half_width * terms.take(pressure.count).map(|(p, m)| p * m[q]).sum::<f64>();
+            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
+            self.moments.normal.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
+        }
+        self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
+    }
+
+    /// Places of the shear, and the moments of pressure and shear.
+    pub fn place_shear(&mut self) {
+        let Constants { tables, points, .. } = self.constants;
+        let Tractions { pressure, slide, stick } = &self.tractions;
+        self.moments.tangential = self.moments.normal.map(|m| slide * m);
+        if stick.half_width == 0.0 {
+            self.stuck = [Place::default(); QUADRATURE];
+            return;
+        }
+        let places = tables.places.map(|t| stick.centre + stick.half_width * t);
+        let logarithms = pressure.logarithm(&places);
+        for (q, place) in self.stuck.iter_mut().enumerate() {
+            let x = places[q];
+            let terms = stick.terms.iter().zip(&tables.moments);
+            let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
+            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
+            self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
+        }
+    }
+
+    /// Smooth displacements under the present tractions, and the turn of the rim: the mean of `û_x` over the pressure
+    /// vanishes.
+    pub fn displace(&mut self) {
+        self.surface = Surface::new(self.problem, &self.moments, &self.pulls, self.accelerations());
+        let (radius, kernel, slide) =
+            (self.problem.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
+        let (mut sum, mut arm) = (0.0, 0.0);
+        for place in &self.pressed {
+            let smooth = dot(&place.values, &self.surface.wheel.tangential);
+            sum += place.force * (smooth - kernel * slide * place.logarithm);
+            arm += place.force * (radius * radius - place.x * place.x).sqrt();
+        }
+        sum += self.over_pressure(|warmth, _| warmth.along[0]);
+        // The work of the pressure on what the shear does is that of the shear on what the pressure does.
+        sum -= kernel * self.stuck.iter().map(|place| place.force * place.logarithm).sum::<f64>();
+        self.rim_angle = sum / arm;
+    }
+
+    /// Forces of the contact on the wheel: x, y [N/m], forward moment \[N]. Lever arms are those of the deformed wheel about the
+    /// turned rim; the mean of `û_x` over the pressure vanishes.
+    pub fn resultant(&self) -> [f64; 3] {
+        let kernel = self.constants.half_plane.kernel;
+        let Tractions { pressure, slide, stick } = &self.tractions;
+        let tangential = slide * pressure.total() + stick.total();
+        let lift = |place: &Place| {
+            let smooth = dot(&place.values, &self.surface.wheel.normal);
+            place.force * (smooth - self.rim_angle * place.x - kernel * place.logarithm)
+        };
+        let lifted = slide * self.pressed.iter().map(lift).sum::<f64>() + self.stuck.iter().map(lift).sum::<f64>();
+        let middle: f64 = self.pressed.iter().map(|place| place.force * place.x).sum();
+        [tangential, pressure.total(), lifted - self.problem.radius() * tangential - middle]
+    }
+
+    /// What is left of the balance of a rigid motion under the present tractions [N/m, N].
+    pub fn unbalance(&self, axis: usize, resultant: [f64; 3]) -> f64 {
+        let (bodies, motion) = (&self.problem.bodies, &self.problem.rigid[axis]);
+        let AxisDrive::Free { load } = motion.drive else { return 0.0 };
+        let mut sum = motion.momentum - load - resultant[axis];
+        for (k, (t, n)) in self.moments.tangential.iter().zip(&self.moments.normal).enumerate() {
+            sum += bodies.momentum[(axis, 2 * k)] * (t + self.pulls[0][k]) + bodies.momentum[(axis, 2 * k + 1)] * n;
+        }
+        for (l, acceleration) in self.accelerations().into_iter().enumerate() {
+            let own = if l == axis { motion.inertia } else { 0.0 };
+            sum += (bodies.deformation_inertia[(axis, l)] + own) * acceleration;
+        }
+        sum
+    }
+}

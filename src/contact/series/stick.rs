@@ -1,0 +1,191 @@
+//! The search for the place where slip begins.
+
+use super::iterate::Iterate;
+use super::state::Tractions;
+use crate::contact::error::ContactError;
+
+/// Shortest stretch that sticks, over the half-width of the patch \[1].
+const SHORTEST: f64 = 2e-3;
+/// Traction above friction where it sticks, over the largest friction, that counts as an error of the series \[1].
+const OVERSHOOT: f64 = 5e-3;
+/// Slip against the direction of friction, over that at which rolling becomes sliding, that does \[1].
+const BACKWARD: f64 = 5e-3;
+/// Times that slip and stick, or the directions of slip, change.
+const CHANGES: usize = 4;
+/// Change of the length of stick that says something about how the root depends on it, over all changes of the iteration
+/// before: beside larger ones the root changes for other reasons \[1].
+const TELLING: f64 = 0.2;
+
+/// Largest relative change expected of a further iteration that ends them; changes fall about as they fell last.
+const TOLERANCE: f64 = 1e-10;
+/// The same where rounding allows no more.
+const ROUNDING: f64 = 1e-9;
+/// Iterations of the normal problem before those of both, and the change that makes them needless.
+const WARM: usize = 3;
+const CLOSE: f64 = 1e-3;
+/// Iterations of normal and tangential problem.
+const MOST: usize = 30;
+
+impl Iterate<'_> {
+    /// Finds tractions and motions.
+    pub fn run(&mut self) -> Result<(), ContactError> {
+        self.place_pressure();
+        self.place_shear();
+        self.displace();
+        let mut normal = self.press()?;
+        for _ in 1..WARM {
+            if normal < CLOSE {
+                break;
+            }
+            normal = self.press()?;
+        }
+        let mut search = Search::new(self);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST {
+            let tangential = search.advance(self)?;
+            let change = normal.max(tangential);
+            let falls = if last.is_finite() { (change / last).min(1.0) } else { 1.0 };
+            let settled = change * falls <= TOLERANCE || change <= ROUNDING && change >= last;
+            last = change;
+            if settled {
+                if search.check(self)? {
+                    self.slope = search.slope(self);
+                    return Ok(());
+                }
+                last = f64::INFINITY;
+            }
+            normal = self.press()?;
+        }
+        Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
+    }
+}
+
+/// The search in one contact problem.
+pub(super) struct Search {
+    /// Half-length of the stretch that sticks over that of the patch; `None`: all slips.
+    share: Option<f64>,
+    /// Share and root of the evaluation before.
+    last: Option<[f64; 2]>,
+    /// Change of the root per change of the share.
+    slope: f64,
+    /// Largest relative change in the iteration before.
+    moving: f64,
+    changes: usize,
+}
+
+impl Search {
+    pub fn new(it: &mut Iterate) -> Self {
+        let (tractions, mu) = (&mut it.tractions, it.friction);
+        let share = (!tractions.slides()).then(|| tractions.stick.half_width / tractions.pressure.half_width);
+        let sign = if tractions.slide < 0.0 { -1.0 } else { 1.0 };
+        tractions.slide = sign * mu;
+        let share = share.filter(|_| mu > 0.0).map(|share| share.clamp(SHORTEST, 1.0));
+        let known = it.before.slope;
+        let slope = Self::quasistatic(it) * if known > 0.0 { known } else { 1.0 };
+        Self { share, last: None, slope, moving: 0.0, changes: 0 }
+    }
+
+    /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
+    fn quasistatic(it: &Iterate) -> f64 {
+        it.tractions.slide * it.tractions.pressure.terms[0]
+    }
+
+    /// The slope over the quasistatic one \[1].
+    pub fn slope(&self, it: &Iterate) -> f64 {
+        let slope = self.slope / Self::quasistatic(it);
+        if slope.is_finite() { slope } else { 0.0 }
+    }
+
+    /// Improves shear and motions; returns the largest relative change.
+    pub fn advance(&mut self, it: &mut Iterate) -> Result<f64, ContactError> {
+        let scale = it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.surfaces.radius;
+        let before = (it.rigid, it.rim_angle);
+        let Some(share) = self.share else {
+            it.glide()?;
+            return Ok(Self::moved(it, before, scale));
+        };
+        let force = it.tractions.stick.total();
+        let upstream = it.upstream();
+        let root = it.stick(share * it.tractions.pressure.half_width, upstream)?;
+        if let Some([other, there]) = self.last
+            && (share - other).abs() > TELLING * self.moving
+        {
+            let slope = (root - there) / (share - other);
+            if slope * self.slope > 0.0 && slope.is_finite() {
+                self.slope = slope;
+            }
+        }
+        self.last = Some([share, root]);
+        let peak = it.friction * it.tractions.pressure.terms[0];
+        let next = share - root / self.slope;
+        if next >= 1.0 && share >= 1.0 {
+            // Sticking everywhere asks for slip in the other direction; the shear stays what it is.
+            let Tractions { pressure, slide, stick } = &mut it.tractions;
+            stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
+            *slide = -*slide;
+            self.turn_over(it, Some(1.0))?;
+            return Ok(1.0);
+        }
+        if next < SHORTEST && share <= SHORTEST {
+            self.turn_over(it, None)?;
+            return Ok(1.0);
+        }
+        let next = next.clamp((0.3 * share).max(SHORTEST), 1.0);
+        self.share = Some(next);
+        let change = (root / peak).abs().max((next - share).abs());
+        let force = (it.tractions.stick.total() - force).abs() / (it.friction * it.load());
+        self.moving = change.max(force).max(Self::moved(it, before, scale));
+        Ok(self.moving)
+    }
+
+    /// Change of motions and turn relative to the slip at which rolling becomes sliding.
+    fn moved(it: &Iterate, (rigid, turn): ([f64; 3], f64), scale: f64) -> f64 {
+        let radius = it.problem.radius();
+        let moved = (it.rigid[0] - rigid[0]).abs() + radius * (it.rigid[2] - rigid[2]).abs();
+        let turned = radius * it.problem.time.a0 * (it.rim_angle - turn).abs();
+        // Velocities are rounded.
+        (moved + turned) / scale.max(1e-3 * it.speed())
+    }
+
+    fn turn_over(&mut self, it: &mut Iterate, share: Option<f64>) -> Result<(), ContactError> {
+        self.changes += 1;
+        if self.changes > CHANGES {
+            return Err(ContactError::Unsuited { reason: "stick and slip change places" });
+        }
+        (self.share, self.last, self.slope) = (share, None, Self::quasistatic(it));
+        Ok(())
+    }
+
+    /// Whether the solution obeys friction: `false` where the search has to go on.
+    pub fn check(&mut self, it: &mut Iterate) -> Result<bool, ContactError> {
+        it.slips = it.slip(&it.slipping().0, &it.surface, true);
+        if it.friction == 0.0 {
+            return Ok(true);
+        }
+        let (slide, peak) = (it.tractions.slide, it.friction * it.tractions.pressure.terms[0]);
+        let stuck = it.stuck.map(|place| place.x);
+        let (shear, pressure) = (it.tractions.shear(&stuck), it.tractions.pressure.density(&stuck));
+        let beyond = |q: usize| shear[q].abs() - it.friction * pressure[q] > OVERSHOOT * peak;
+        let torn = !it.tractions.slides() && (0..stuck.len()).any(beyond);
+        let scale = it.speed() * it.friction * it.tractions.pressure.half_width / it.problem.surfaces.radius;
+        let backward = |slip: &&f64| *slip * slide.signum() > BACKWARD * scale;
+        let looked_at = || it.slips.iter().step_by(3);
+        let wrong = looked_at().filter(backward).count();
+        if it.tractions.slides() && wrong > 0 {
+            if wrong == looked_at().count() {
+                it.tractions.slide = -slide;
+                self.turn_over(it, None)?;
+            } else {
+                self.turn_over(it, Some(0.3))?;
+            }
+            return Ok(false);
+        }
+        if torn {
+            return Err(ContactError::Unsuited { reason: "more than friction where it sticks" });
+        }
+        if wrong > 0 {
+            return Err(ContactError::Unsuited { reason: "slip against friction" });
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,73 @@
+//! Constants of the series: places on a stretch `|t| < 1` and the values of all terms there.
+
+use super::chebyshev::{TERMS, cauchy_terms, logarithm_terms};
+use std::f64::consts::PI;
+
+/// Terms of the pressure.
+pub const PRESSURE: usize = 4;
+/// Terms of the shear where it sticks.
+pub const SHEAR: usize = 10;
+/// Places at which the pressure holds the surfaces together: one more than terms.
+pub const SMOOTH: usize = PRESSURE + 1;
+/// Places at which the surfaces stick: one more than terms.
+pub const STICK: usize = SHEAR + 1;
+/// Places of the rule that integrates tractions.
+pub const QUADRATURE: usize = 12;
+/// Places of the rule that integrates the power of friction.
+pub const POWER: usize = QUADRATURE;
+
+/// Points of the profiles over the part that slips and the part that sticks.
+pub const PROFILE: usize = 20;
+
+/// Places and values of the terms.
+#[derive(Clone, Debug)]
+pub struct Tables {
+    /// Zeros of `T_5`, where the gap is to stay closed.
+    pub closed: [f64; SMOOTH],
+    /// `T_n` there, by n.
+    pub closed_terms: [[f64; SMOOTH]; SMOOTH],
+    /// Zeros of `T_{SHEAR+1}`, where the surfaces stick.
+    pub stick: [f64; STICK],
+    /// `T_{k+1}` and `I_k` there.
+    pub stick_cauchy: [[f64; TERMS]; STICK],
+    /// See [`Self::stick_cauchy`].
+    pub stick_logarithm: [[f64; TERMS]; STICK],
+    /// Places of the rule of Gauss and Chebyshev (second kind).
+    pub places: [f64; QUADRATURE],
+    /// Its weights for whole functions that rise like a root at both ends.
+    pub weights: [f64; QUADRATURE],
+    /// `√(1 − t²) U_k` at the places times their weights, by k.
+    pub moments: [[f64; QUADRATURE]; SHEAR],
+    /// Points of the profiles: shares of a stretch, denser towards its ends.
+    pub profile: [f64; PROFILE],
+}
+
+impl Tables {
+    /// All constants.
+    pub fn new() -> Self {
+        let zeros = |n: usize, i: usize| ((i as f64 + 0.5) * PI / n as f64).cos();
+        let closed: [f64; SMOOTH] = std::array::from_fn(|i| zeros(SMOOTH, i));
+        let stick: [f64; STICK] = std::array::from_fn(|i| zeros(STICK, i));
+        let angle = |q: usize| (q + 1) as f64 * PI / (QUADRATURE + 1) as f64;
+        let weights = std::array::from_fn(|q| PI / (QUADRATURE + 1) as f64 * angle(q).sin());
+        Self {
+            closed,
+            closed_terms: std::array::from_fn(|n| closed.map(|t| (n as f64 * t.acos()).cos())),
+            stick,
+            stick_cauchy: stick.map(|t| cauchy_terms(t, SHEAR)),
+            stick_logarithm: stick.map(|t| logarithm_terms(t, SHEAR)),
+            places: std::array::from_fn(|q| angle(q).cos()),
+            weights,
+            moments: std::array::from_fn(|k| {
+                std::array::from_fn(|q: usize| weights[q] * ((k + 1) as f64 * angle(q)).sin())
+            }),
+            profile: std::array::from_fn(|i| 0.5 - 0.5 * ((i + 1) as f64 * PI / PROFILE as f64).cos()),
+        }
+    }
+}
+
+impl Default for Tables {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,193 @@
+//! From the patch to the grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
+//! tangential displacement at the last two times, goes over as a function of x.
+
+use super::chebyshev::Arch;
+use super::constants::Constants;
+use super::state::{Past, SeriesState, SlipHistory, Tractions};
+use super::tables::{POWER, PRESSURE};
+use crate::contact::line::{ContactGrid, FrictionHistory, LineState, Status};
+use crate::contact::solver::{ContactState, SolverState};
+use crate::contact::traction::Traction;
+use crate::linalg::POINTS;
+use crate::multistep::History;
+use nalgebra::DVector;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Steps on the grid before the patch is tried again.
+const REST: u32 = 32;
+/// Share of the reach of the smooth displacements that a patch may take when it comes from the grid \[1].
+const ROOM: f64 = 0.9;
+
+/// Impulse per force in the last step \[s].
+fn duration(force: &[f64], impulse: &[f64]) -> f64 {
+    let ratio = impulse.iter().sum::<f64>() / force.iter().sum::<f64>();
+    if ratio.is_finite() { ratio } else { 0.0 }
+}
+
+/// Gives the state of a patch the nodes of a grid; `grid_state` is one of the grid.
+pub(super) fn to_grid(
+    constants: &Constants,
+    patch: &SeriesState,
+    traction: &Traction,
+    grid: &ContactGrid,
+    mut target: ContactState,
+) -> ContactState {
+    let ports = target.traction.port_forces.clone();
+    let SolverState::Line(state) = &mut target.solver else { return target };
+    let Tractions { pressure, slide, stick } = &patch.tractions;
+    let ([low, high], [from, to]) = (pressure.ends(), stick.ends());
+    let slipping = if *slide < 0.0 { Status::SlipBackward } else { Status::SlipForward };
+    let status = |x: f64| match x {
+        x if x <= low || x >= high => Status::Open,
+        x if x > from && x < to => Status::Stick,
+        _ => slipping,
+    };
+    state.status = grid.x.iter().map(|&x| status(x)).collect();
+    let past = |k: usize, x: f64| patch.past[k].at(&[x], constants.half_plane.kernel, &constants.points)[0];
+    state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
+    state.rim_angle = patch.rim_angle;
+    state.rest = REST;
+    let closed = |i: usize| status(grid.x[i]).is_active();
+    let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
+    let span = duration(&patch.friction.force, &patch.friction.impulse);
+    let slip = |i: usize| if status(grid.x[i]) == slipping { traction.slip.at(grid.x[i]) } else { 0.0 };
+    state.slip = (0..grid.len()).map(slip).collect();
+    state.friction = FrictionHistory {
+        force: (0..grid.len()).map(force).collect(),
+        impulse: (0..grid.len()).map(|i| span * force(i)).collect(),
+        slip: state.slip.clone(),
+        slope_power: patch.friction.slope_power,
+        slope_work: patch.friction.slope_work,
+    };
+    let mut forces = ports;
+    for i in (0..grid.len()).filter(|&i| closed(i)) {
+        forces[grid.port(i)] = force(i);
+        forces[grid.port(i) + 1] = pressure.density(&[grid.x[i]])[0] * grid.width(i);
+    }
+    let surface = [0, 1].map(|body| surface(constants, &patch.tractions, &traction.surface[body], grid, body));
+    target.traction = Traction { loads: [forces.clone(), -&forces], port_forces: forces, surface, ..traction.clone() };
+    target
+}
+
+/// Displacements of a body at all nodes, but for a constant and the small strains under pressure.
+fn surface(
+    constants: &Constants,
+    tractions: &Tractions,
+    smooth: &DVector<f64>,
+    grid: &ContactGrid,
+    body: usize,
+) -> DVector<f64> {
+    let kernel = if body == 0 { -constants.half_plane.kernel } else { constants.half_plane.kernel };
+    let mut all = DVector::zeros(grid.ports());
+    for (node, &x) in grid.nodes().iter().enumerate() {
+        let values = constants.points.values(x);
+        let rest = |component: usize| (0..POINTS).map(|k| values[k] * smooth[2 * k + component]).sum::<f64>();
+        all[2 * node] = rest(0) + kernel * tractions.shear_logarithm(&[x])[0];
+        all[2 * node + 1] = rest(1) + kernel * tractions.pressure.logarithm(&[x])[0];
+    }
+    all
+}
+
+/// Half-length of the stretch that sticks from the leading edge on, over that of the patch, if the states of a grid are those of
+/// a single patch of which a part at the trailing edge slips in one direction; and this direction.
+fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
+    let closed: Vec<Status> = state.status.iter().copied().filter(|s| s.is_active()).collect();
+    let first = state.status.iter().position(|s| s.is_active())?;
+    let last = state.status.iter().rposition(|s| s.is_active())?;
+    let stuck = closed.iter().filter(|s| **s == Status::Stick).count();
+    let from_edge = |s: &&Status| **s == Status::Stick;
+    let at_edge = match upstream_right {
+        true => closed.iter().rev().take_while(from_edge).count(),
+        false => closed.iter().take_while(from_edge).count(),
+    };
+    let directions: f64 = closed.iter().map(|s| s.friction_direction()).sum();
+    let slips = (closed.len() - stuck) as f64;
+    let single = last + 1 - first == closed.len() && at_edge == stuck && directions.abs() == slips;
+    single.then(|| (stuck as f64 / closed.len() as f64, directions.signum()))
+}
+
+/// Nodes in the middle of a grid that have one spacing; those of a wide grid grow apart outside of them.
+fn even(grid: &ContactGrid) -> Range<usize> {
+    let x = &grid.x;
+    let uneven = |i: &usize| (x[i + 1] - x[*i] - grid.spacing).abs() > 1e-6 * grid.spacing;
+    let middle = x.len() / 2;
+    let first = (0..middle).rev().find(uneven).map_or(0, |i| i + 1);
+    first..(middle..x.len() - 1).find(uneven).map_or(x.len(), |i| i + 1)
+}
+
+/// The state of a grid as that of a patch; `None` where it is none, reaches nodes that lie farther apart, or the grid has not
+/// rested for long.
+pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
+    let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
+    let ([edges], load) = (traction.edges.as_slice(), traction.resultant[1]) else { return None };
+    let reach = ROOM * constants.points.reach;
+    if state.rest > 0 || load <= 0.0 || traction.yielding > 0.0 || edges.low < -reach || edges.high > reach {
+        return None;
+    }
+    let even = even(grid);
+    if edges.low < grid.x[even.start] || edges.high > grid.x[even.end - 1] {
+        return None;
+    }
+    let upstream_right = traction.rigid[0] >= 0.0;
+    let (share, direction) = share(state, upstream_right)?;
+    let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
+    let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
+    pressure.terms[0] = 2.0 * load / (PI * half_width);
+    let mut stick = Arch::default();
+    let side = if upstream_right { 1.0 } else { -1.0 };
+    if share > 0.0 {
+        (stick.half_width, stick.centre) = (share * half_width, centre + side * (1.0 - share) * half_width);
+    }
+    let slide = direction * traction.friction;
+    let history = |before: bool| {
+        let value = |h: &History| if before { h.before } else { h.now };
+        Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
+    };
+    let tractions = Tractions { pressure, slide, stick };
+    let friction = slip_history(constants, &tractions, side, state, traction);
+    let patch = SeriesState {
+        tractions,
+        past: [history(false), history(true)],
+        rim_angle: state.rim_angle,
+        friction,
+        ..SeriesState::default()
+    };
+    let mut moved = ContactState { traction: traction.clone(), solver: SolverState::Series(Box::new(patch)) };
+    let mut forces = DVector::zeros(2 * POINTS);
+    for i in 0..grid.len() {
+        for (k, value) in constants.points.values(grid.x[i]).into_iter().enumerate() {
+            forces[2 * k] += value * traction.port_forces[grid.port(i)];
+            forces[2 * k + 1] += value * traction.port_forces[grid.port(i) + 1];
+        }
+    }
+    moved.traction.surface = [DVector::zeros(2 * POINTS), DVector::zeros(2 * POINTS)];
+    moved.traction.loads = [forces.clone(), -&forces];
+    moved.traction.port_forces = forces;
+    Some(moved)
+}
+
+/// Friction at the places of the slipping part, read off the profiles.
+fn slip_history(
+    constants: &Constants,
+    tractions: &Tractions,
+    side: f64,
+    state: &LineState,
+    traction: &Traction,
+) -> SlipHistory {
+    let Tractions { pressure, slide, stick } = tractions;
+    let half = pressure.half_width - stick.half_width;
+    let centre = pressure.centre - side * stick.half_width;
+    let tables = &constants.tables;
+    let places = tables.places.map(|t| centre + half * t);
+    let densities = pressure.density(&places);
+    let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * slide * densities[q]);
+    let span = duration(&state.friction.force, &state.friction.impulse);
+    SlipHistory {
+        force,
+        impulse: force.map(|f| span * f),
+        slip: places.map(|x| traction.slip.at(x)),
+        slope_power: state.friction.slope_power,
+        slope_work: state.friction.slope_work,
+    }
+}
