@@ -181,6 +181,11 @@ def line(r):
     )
 
 
+def apart(value, finest):
+    """Distance of a value from that of the finest run, over the latter; forces of frictionless presets are zero."""
+    return 0.0 if value == finest else abs(value / finest - 1.0) if finest else float("inf")
+
+
 def spread(runs, names=("p max", "p mean", "T max", "force")):
     """Largest distance of each figure from that of the finest run, over the latter, and that run; of runs that reached
     their end, if there are any."""
@@ -188,7 +193,7 @@ def spread(runs, names=("p max", "p mean", "T max", "force")):
     if not runs:
         return {}, None
     finest = min(runs, key=lambda r: (r["step"], -r["elements"]))
-    return {name: max(abs(r[name] / finest[name] - 1.0) for r in runs) for name in names}, finest
+    return {name: max(apart(r[name], finest[name]) for r in runs) for name in names}, finest
 
 
 def broken(r):
