@@ -4,7 +4,7 @@
 
 mod text;
 
-pub use text::{functions, without_comments, without_strings, without_tests};
+pub use text::{functions, lines_of_tests, types, without_comments, without_strings, without_tests};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -96,19 +96,63 @@ fn closing(code: &str, open: usize) -> usize {
     end.map_or(code.len(), |(at, _)| open + at + 1)
 }
 
+/// Length of the item at the beginning of code without strings that is only compiled for tests, 0 if there is none.
+fn test_item(code: &str) -> usize {
+    if code.starts_with("#[cfg(test)]") { item(code) } else { 0 }
+}
+
+/// Length of an item up to the end of its body or its semicolon.
+fn item(code: &str) -> usize {
+    match code.find(['{', ';']) {
+        Some(at) if code[at..].starts_with('{') => closing(code, at),
+        Some(at) => at + 1,
+        None => code.len(),
+    }
+}
+
 /// Code without strings, with items that are only compiled for tests blanked out.
 pub fn without_tests(code: &str) -> String {
-    const MARK: &str = "#[cfg(test)]";
-    blank(code, |rest, _| {
-        if !rest.starts_with(MARK) {
-            return 0;
+    blank(code, |rest, _| test_item(rest))
+}
+
+/// Number of lines of the items that are only compiled for tests.
+pub fn lines_of_tests(code: &str) -> usize {
+    let (mut lines, mut rest) = (0, code);
+    while let Some(at) = rest.find("#[cfg(test)]") {
+        rest = &rest[at..];
+        let length = test_item(rest);
+        lines += rest[..length].lines().count();
+        rest = &rest[length..];
+    }
+    lines
+}
+
+/// Names of the types that code without strings and comments defines, those within traits and implementations left out.
+pub fn types(code: &str) -> Vec<String> {
+    let (mut found, mut rest, mut before) = (Vec::new(), code, ";");
+    let first_word = |text: &str| text.chars().take_while(|c| is_word(*c)).collect::<String>();
+    while let Some(c) = rest.chars().next() {
+        let word = first_word(rest);
+        let named = matches!(word.as_str(), "struct" | "enum" | "union" | "trait" | "type");
+        let name = first_word(rest[word.len()..].trim_start());
+        let implementation = word == "impl" && ["{", "}", ";", "]", "unsafe"].contains(&before);
+        let length = match word.as_str() {
+            "" => c.len_utf8(),
+            "trait" => item(rest),
+            _ if implementation => item(rest),
+            _ => word.len(),
+        };
+        if named && !name.is_empty() {
+            found.push(name);
         }
-        match rest.find(['{', ';']) {
-            Some(at) if rest[at..].starts_with('{') => closing(rest, at),
-            Some(at) => at + 1,
-            None => rest.len(),
-        }
-    })
+        before = match c {
+            _ if length > word.len().max(c.len_utf8()) => "}",
+            _ if c.is_whitespace() => before,
+            _ => &rest[..length],
+        };
+        rest = &rest[length..];
+    }
+    found
 }
 
 /// Statements that begin with a keyword, from behind it to the semicolon.
