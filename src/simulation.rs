@@ -185,7 +185,7 @@ impl Checkpoint {
         earlier.wheel_angle -= LEAD * earlier.wheel_omega;
         earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
         earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
-        let (before, origin) = (vec![(state.time - LEAD, earlier)], Origin::Stationary(*inputs));
+        let (before, origin) = (vec![(state.clock.time - LEAD, earlier)], Origin::Stationary(*inputs));
         let checkpoint = Self { state, tuning: tuning.clone(), origin, before };
         *lock(&model.start) = Some((*inputs, checkpoint.clone()));
         Ok(checkpoint)
@@ -231,12 +231,12 @@ impl Simulation {
         let Tools { workspace, spare } = tools;
         substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
         std::mem::swap(&mut checkpoint.state, spare);
-        if checkpoint.state.pending > 0.0 {
+        if checkpoint.state.clock.pending > 0.0 {
             return Ok(());
         }
         let present = outputs::observe(&model.rolling, &checkpoint.state);
         let before = std::mem::replace(outputs, present);
-        checkpoint.before.insert(0, (spare.time, before));
+        checkpoint.before.insert(0, (spare.clock.time, before));
         checkpoint.before.truncate(KEPT_POINTS);
         checkpoint.tuning.clone_from(tuning);
         // The state before becomes the origin, and the memory of the origin before that the spare one.
@@ -282,11 +282,12 @@ impl Simulation {
     /// stationary motion precedes.
     pub fn rate(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
         let now = output(&self.outputs);
-        let slope = |(time, before): &(f64, Outputs)| (now - output(before)) / (self.checkpoint.state.time - time);
+        let slope =
+            |(time, before): &(f64, Outputs)| (now - output(before)) / (self.checkpoint.state.clock.time - time);
         let points = &self.checkpoint.before;
         match (points.first(), points.get(1)) {
             (Some(a), Some(b)) => {
-                let (h, total) = (self.checkpoint.state.time - a.0, self.checkpoint.state.time - b.0);
+                let (h, total) = (self.checkpoint.state.clock.time - a.0, self.checkpoint.state.clock.time - b.0);
                 // A much shorter step before would amplify its rounding.
                 slope(a) + (slope(a) - slope(b)) * (h / (total - h)).min(LARGEST_RATIO)
             }
@@ -363,6 +364,6 @@ impl Simulation {
 
     /// Time since the start \[s].
     pub fn time(&self) -> f64 {
-        self.checkpoint.state.time + self.checkpoint.state.pending
+        self.checkpoint.state.clock.time + self.checkpoint.state.clock.pending
     }
 }

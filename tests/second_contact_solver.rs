@@ -310,7 +310,7 @@ fn the_contact_is_solved_where_the_step_ends() {
     let mut next = State::default();
     substeps::advance(&model, &model.config.tuning, &state, &inputs, 1e-3, &mut workspace, &mut next).unwrap();
     let [distance, angle] = *place.lock().unwrap();
-    println!("{distance:.9} m of {:.9} m, {angle:.9} of {:.9}", next.distance, next.angle);
-    assert!(next.distance > 0.02 && (distance / next.distance - 1.0).abs() < 1e-9);
-    assert!((angle / next.angle - 1.0).abs() < 1e-6);
+    println!("{distance:.9} m of {:.9} m, {angle:.9} of {:.9}", next.motion.distance, next.motion.angle);
+    assert!(next.motion.distance > 0.02 && (distance / next.motion.distance - 1.0).abs() < 1e-9);
+    assert!((angle / next.motion.angle - 1.0).abs() < 1e-6);
 }

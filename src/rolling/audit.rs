@@ -27,11 +27,12 @@ pub fn start(model: &Model, state: &State) -> Audit {
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
 pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) -> Audit {
     let before = &state.audit;
-    let impulse: [f64; 3] = std::array::from_fn(|k| td.impulse(next.driving[k], state.driving[k], before.impulse[k]));
+    let impulse: [f64; 3] =
+        std::array::from_fn(|k| td.impulse(next.hub.driving[k], state.hub.driving[k], before.impulse[k]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
     let mut mean = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
-    if !next.prescribed[1] {
-        mean[1] = (next.motion.height.now - state.motion.height.now) / next.last_step;
+    if !next.hub.prescribed[1] {
+        mean[1] = (next.motion.height.now - state.motion.height.now) / next.clock.last_step;
     }
     let work: f64 = (0..3).map(|k| impulse[k] * mean[k]).sum();
     let forces = [state, next].map(|state| state.contact.traction.resultant[1]);
@@ -43,9 +44,10 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
-        gravity: before.gravity + 0.5 * (next.time - state.time) * (state.gravity + next.gravity) * mean[0],
+        gravity: before.gravity
+            + 0.5 * (next.clock.time - state.clock.time) * (state.hub.gravity + next.hub.gravity) * mean[0],
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
-        brake: before.brake - next.brake.impulse * mean[2],
+        brake: before.brake - next.hub.brake.impulse * mean[2],
         thermal_work: before.thermal_work,
         friction: before.friction + next.contact.traction.friction_work,
         plastic: before.plastic,

@@ -96,7 +96,8 @@ impl ContactModel {
         let strength = &state.weakening().strength;
         let within = strength.x.iter().zip(&strength.value).filter(|(x, _)| **x > patch.low && **x < patch.high);
         let share = within.map(|(_, share)| *share).fold(1.0, f64::min);
-        let standing = self.standing([state.motion.velocity.now, state.motion.omega.now], state.last_step, traction);
+        let standing =
+            self.standing([state.motion.velocity.now, state.motion.omega.now], state.clock.last_step, traction);
         let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction);
         [softest, self.least_pressure(traction.resultant[1])]
     }
@@ -185,7 +186,7 @@ impl ContactModel {
         let speeds = state.motion.velocities();
         let force = |k: usize| {
             drives[k].loads().is_some_and(|[load, limit]| {
-                let resisting = state.hub[k] - load;
+                let resisting = state.hub.force[k] - load;
                 // A holding brake gives what is asked for.
                 let able = if speeds[k] == 0.0 { resisting.clamp(-limit, limit) } else { -limit * speeds[k].signum() };
                 (resisting - able).abs() > limits[k]

@@ -64,7 +64,7 @@ pub fn stands(model: &Model, state: &State) -> [bool; 2] {
 /// The same for a patch.
 fn bodies_that_stand(model: &Model, state: &State, patch: Interval) -> [bool; 2] {
     let (velocity, omega) = (state.motion.velocity.now, state.motion.omega.now);
-    let slowest = standing::slowest(patch, state.last_step);
+    let slowest = standing::slowest(patch, state.clock.last_step);
     [omega * model.contact.surfaces.radius, velocity].map(|speed| speed.abs() < slowest)
 }
 

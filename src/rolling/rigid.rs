@@ -136,7 +136,7 @@ impl RigidWheel {
 
     /// Force of the damper on the vehicle, up positive, where the load drives the hub [N/m].
     pub fn damper_force(&self, state: &State) -> f64 {
-        if state.prescribed[1] { 0.0 } else { self.damping * state.motion.hub_velocity.now }
+        if state.hub.prescribed[1] { 0.0 } else { self.damping * state.motion.hub_velocity.now }
     }
 
     /// Kinetic energy of the rigid motion [J/m].

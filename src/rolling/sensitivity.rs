@@ -117,7 +117,7 @@ pub fn difference(
         }
         width *= REDUCTION;
     }
-    one_sided.ok_or(StepError::NoDerivative { time: state.time })
+    one_sided.ok_or(StepError::NoDerivative { time: state.clock.time })
 }
 
 /// Computes a state anew from its origin under other inputs.
@@ -141,7 +141,7 @@ fn repeat(
 /// Whether two states were computed by the same sequence of decisions.
 fn same_branch(a: &State, b: &State) -> bool {
     a.contact.same_branch(&b.contact)
-        && a.brake.locked == b.brake.locked
-        && a.internal_steps == b.internal_steps
-        && a.iterations == b.iterations
+        && a.hub.brake.locked == b.hub.brake.locked
+        && a.clock.internal_steps == b.clock.internal_steps
+        && a.clock.iterations == b.clock.iterations
 }

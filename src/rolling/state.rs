@@ -12,15 +12,9 @@ use serde::{Deserialize, Serialize};
 /// State of a wheel on its rail.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Time since the start \[s].
-    pub time: f64,
-    /// Communication steps too short to be computed on their own since then; the next one makes up for them \[s].
-    pub pending: f64,
-    /// Distance travelled \[m].
-    pub distance: f64,
-    /// Angle of rotation, forward positive \[rad].
-    pub angle: f64,
-    /// Rigid motion of the wheel.
+    /// Time, and how it advances.
+    pub clock: Clock,
+    /// Rigid motion of the wheel, with the way it has made.
     pub motion: Motion,
     /// Deformation of the wheel.
     pub wheel: BodyState,
@@ -32,35 +26,16 @@ pub struct State {
     pub base: BaseMotion,
     /// Contact: result of the last step and start of the next one.
     pub contact: ContactState,
-    /// What wheel and rail have lost to yield and wear.
+    /// Friction coefficient that was available in the last step \[1].
+    pub available_friction: f64,
+    /// Material that wheel and rail have lost to yield and wear.
     pub flattening: [Flattening; 2],
     /// Mass that wear has taken off the wheel since the start [kg/m].
     pub worn: f64,
     /// Temperatures, unless the thermal part is switched off.
     pub thermal: Option<ThermalState>,
-    /// Generalised hub forces (x, y, forward moment) that drive the wheel, prescribed or reactions, with gravity and the
-    /// brake [N/m, N/m, N].
-    pub hub: [f64; 3],
-    /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
-    pub driving: [f64; 3],
-    /// Part of the force in x: gravity along the track [N/m].
-    pub gravity: f64,
-    /// The brake in the last step.
-    pub brake: Brake,
-    /// Which motions (V, U, Ω) were prescribed in the last step.
-    pub prescribed: [bool; 3],
-    /// Friction coefficient that was available in the last step \[1].
-    pub available_friction: f64,
-    /// Length of the last internal step \[s]; 0: the time formula starts afresh.
-    pub last_step: f64,
-    /// Whether the last internal step started the time formula afresh.
-    pub restarted: bool,
-    /// Memory of the control of the step size.
-    pub control: StepControl,
-    /// Internal steps of the last communication step.
-    pub internal_steps: u64,
-    /// Contact iterations of the last communication step.
-    pub iterations: u64,
+    /// Forces on the hub in the last step.
+    pub hub: HubForces,
     /// Mean power of friction over the last communication step; at the start the stationary one [W/m].
     pub friction_power: f64,
     /// Vertical contact force over the last communication step.
@@ -73,7 +48,7 @@ impl State {
     /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre. That of
     /// the wheel goes by the rim, which torsion turns against the hub.
     pub fn place(&self, radius: f64) -> [f64; 2] {
-        [(self.angle - self.contact.rim_angle()) * radius, self.distance]
+        [(self.motion.angle - self.contact.rim_angle()) * radius, self.motion.distance]
     }
 
     /// Thermal deformation that acts on the contact.
@@ -87,6 +62,40 @@ impl State {
         static NONE: Weakening = Weakening::NONE;
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
     }
+}
+
+/// Time since the start, and the steps in which it advances.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Time since the start \[s].
+    pub time: f64,
+    /// Communication steps too short to be computed on their own since then; the next one makes up for them \[s].
+    pub pending: f64,
+    /// Length of the last internal step \[s]; 0: the time formula starts afresh.
+    pub last_step: f64,
+    /// Whether the last internal step started the time formula afresh.
+    pub restarted: bool,
+    /// Memory of the control of the step size.
+    pub control: StepControl,
+    /// Internal steps of the last communication step.
+    pub internal_steps: u64,
+    /// Contact iterations of the last communication step.
+    pub iterations: u64,
+}
+
+/// Forces on the hub in a step: generalised ones, in x, in y and the forward moment [N/m, N/m, N].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HubForces {
+    /// Forces that drive the wheel at the end of the step, prescribed or reactions, with gravity and the brake.
+    pub force: [f64; 3],
+    /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
+    pub driving: [f64; 3],
+    /// Part of the force in x: gravity along the track [N/m].
+    pub gravity: f64,
+    /// The brake.
+    pub brake: Brake,
+    /// Motions (V, U, Ω) that were prescribed.
+    pub prescribed: [bool; 3],
 }
 
 /// Vertical contact force between two communication points, so that what happens between them is not lost.
@@ -139,6 +148,10 @@ pub struct Brake {
 /// Rigid motion of the wheel with the history that the time formula needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
+    /// Distance travelled \[m].
+    pub distance: f64,
+    /// Angle of rotation, forward positive \[rad].
+    pub angle: f64,
     /// Translational velocity V [m/s].
     pub velocity: History,
     /// Angular velocity Ω, forward positive [rad/s].

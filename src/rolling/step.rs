@@ -120,9 +120,9 @@ fn attempt(
     next.audit = audit::advance(model, &plan.td, state, next);
     next.audit.plastic += next.contact.traction.plastic_work;
     zones::narrow(model, next);
-    let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub, [next.audit.energy; 3]];
+    let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub.force, [next.audit.energy; 3]];
     if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
-        return Err(StepError::NotFinite { time: state.time, step: plan.dt });
+        return Err(StepError::NotFinite { time: state.clock.time, step: plan.dt });
     }
     model.wheel.check_state(next)?;
     match (&model.thermal, &state.thermal) {
@@ -146,7 +146,7 @@ impl Plan {
     fn new(model: &Model, state: &State, demand: &Demand, dt: f64) -> Self {
         let [begin, given] = [demand.begin, demand.target].map(|drive| model.wheel.drives(demand.inputs, drive));
         let available = demand.target.friction;
-        let stopped = state.brake.locked && state.motion.omega.before != 0.0;
+        let stopped = state.hub.brake.locked && state.motion.omega.before != 0.0;
         let jumped = stopped || model.contact.jumped(state, &begin, available);
         let before = if jumped { 0.0 } else { demand.last_step };
         let dt = settled(dt, before);
@@ -155,7 +155,7 @@ impl Plan {
             (Some([from, brake_from]), Some([to, brake_to])) => {
                 let [impulse, of_brake] = [from + to, brake_from + brake_to].map(|sum| 0.5 * dt * sum);
                 // The impulse of the brake comes on top, up to its own: what is known of the past counts once.
-                AxisDrive::of(td.force(impulse, state.driving[k], state.audit.impulse[k]), td.a0 * of_brake)
+                AxisDrive::of(td.force(impulse, state.hub.driving[k], state.audit.impulse[k]), td.a0 * of_brake)
             }
             _ => given[k],
         });
@@ -193,8 +193,8 @@ fn solve_and_commit(
     let free = &workspace.free;
     // Where the material lies goes by the rim under the contact.
     let place = [
-        moved_by(state.distance, &state.motion.velocity, speeds[0], *dt),
-        moved_by(state.angle, &state.motion.omega, speeds[1], *dt) - state.contact.rim_angle(),
+        moved_by(state.motion.distance, &state.motion.velocity, speeds[0], *dt),
+        moved_by(state.motion.angle, &state.motion.omega, speeds[1], *dt) - state.contact.rim_angle(),
     ];
     let contact = ContactStep {
         operators: &operators,
@@ -211,29 +211,29 @@ fn solve_and_commit(
         edge_tolerance: EDGE_TOLERANCE,
     };
     let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
-    solved.map_err(|error| model.contact.failure(error, state.time, *dt))?;
+    solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
     next.motion = moved(&state.motion, [td, of_height], next.contact.traction.rigid);
     let accelerations = next.motion.accelerations();
     model.bodies.commit(&operators, free, accelerations, td, state, next);
     let traction = &next.contact.traction;
     let (forces, resultant) = (&traction.loads[0], traction.resultant);
-    next.driving = model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], forces, resultant);
-    next.brake = Brake::applied(plan.given[2], drives[2], &next.motion, next.driving[2], [td.a0, *dt]);
-    next.hub = std::array::from_fn(|k| plan.given[k].loads().map_or(next.driving[k], |[load, _]| load));
-    next.hub[2] += next.brake.moment;
-    next.gravity = model.wheel.gravity(demand.target);
+    next.hub.driving = model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], forces, resultant);
+    next.hub.brake = Brake::applied(plan.given[2], drives[2], &next.motion, next.hub.driving[2], [td.a0, *dt]);
+    next.hub.force = std::array::from_fn(|k| plan.given[k].loads().map_or(next.hub.driving[k], |[load, _]| load));
+    next.hub.force[2] += next.hub.brake.moment;
+    next.hub.gravity = model.wheel.gravity(demand.target);
     next.elevation = demand.target.elevation;
-    next.time = state.time + dt;
-    next.pending = 0.0;
-    next.distance = moved_by(state.distance, &state.motion.velocity, next.motion.velocity.now, *dt);
-    next.angle = moved_by(state.angle, &state.motion.omega, next.motion.omega.now, *dt);
-    next.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
+    next.clock.time = state.clock.time + dt;
+    next.clock.pending = 0.0;
+    next.motion.distance = moved_by(state.motion.distance, &state.motion.velocity, next.motion.velocity.now, *dt);
+    next.motion.angle = moved_by(state.motion.angle, &state.motion.omega, next.motion.omega.now, *dt);
+    next.hub.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     next.available_friction = demand.target.friction;
-    next.last_step = *dt;
+    next.clock.last_step = *dt;
     flattening::press(model, state, place, next);
     wear::wear(model, state, *dt, next);
-    next.restarted = plan.restarted;
+    next.clock.restarted = plan.restarted;
     Ok(())
 }
 

@@ -19,7 +19,7 @@ const SMALLEST: f64 = 1e-6;
 /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and
 /// moments as inputs leave the stiff motion to this model and set no limit (1 s).
 pub fn suggested_step(model: &Model, state: &State) -> f64 {
-    let [x, y, rotation] = state.prescribed;
+    let [x, y, rotation] = state.hub.prescribed;
     let [mass, wheel, moment] = model.wheel.inertia;
     let radius = model.rolling_radius(state);
     let traction = &state.contact.traction;

@@ -62,7 +62,7 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     let mut work = pressure * volume;
     if worn_rail {
         next.flattening[1].wear(&loss(1), spacing);
-        next.flattening[1].forget_beyond(next.distance, model.config.rail.length);
+        next.flattening[1].forget_beyond(next.motion.distance, model.config.rail.length);
         work *= 2.0;
     }
     next.contact.traction.plastic_work += work;

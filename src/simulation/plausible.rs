@@ -7,10 +7,10 @@ use crate::rolling::substeps::{LONGEST_STEP, SHORTEST_STEP};
 /// of the fields only make it fail.
 pub(super) fn plausible(state: &State) -> bool {
     let [velocity, height, omega] = state.motion.values();
-    let motions = [velocity, omega, height, state.distance, state.angle];
-    state.time.is_finite()
-        && (0.0..SHORTEST_STEP).contains(&state.pending)
-        && (0.0..=LONGEST_STEP).contains(&state.last_step)
-        && state.control.step >= SHORTEST_STEP
+    let motions = [velocity, omega, height, state.motion.distance, state.motion.angle];
+    state.clock.time.is_finite()
+        && (0.0..SHORTEST_STEP).contains(&state.clock.pending)
+        && (0.0..=LONGEST_STEP).contains(&state.clock.last_step)
+        && state.clock.control.step >= SHORTEST_STEP
         && motions.iter().all(|value| value.is_finite())
 }

@@ -134,14 +134,14 @@ impl Simulation {
                 (stays_solid * hottest, config.material.solidus)
             }
             Limit::StickSlip => (self.unresolved_phase(), RESOLVED_PHASE),
-            Limit::Chatter => (self.state().last_step, self.indefinite_step()),
+            Limit::Chatter => (self.state().clock.last_step, self.indefinite_step()),
             Limit::Waves => {
                 let element = nominal_half_width(config) / config.mesh.elements_per_half_width as f64;
                 (self.shortest_wave(), FEWEST_PER_WAVE * element)
             }
             Limit::Sampling => {
                 let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
-                (mean.max(speed * self.state().last_step), self.shortest_wave() / FEWEST_PER_WAVE)
+                (mean.max(speed * self.state().clock.last_step), self.shortest_wave() / FEWEST_PER_WAVE)
             }
             Limit::Energy => (outputs.energy_residual.abs(), UNBALANCED),
             Limit::Effort => (outputs.internal_steps as f64, MANY_STEPS),
@@ -194,7 +194,7 @@ impl Simulation {
     fn unresolved_phase(&self) -> f64 {
         let tuning = self.tuning();
         let falls = tuning.falling_ratio < 1.0 && tuning.falling_decay > 0.0;
-        if falls && self.slides() { self.model().rolling.torsion * self.state().last_step } else { 0.0 }
+        if falls && self.slides() { self.model().rolling.torsion * self.state().clock.last_step } else { 0.0 }
     }
 
     /// Whether nothing sticks in a loaded contact.
@@ -217,7 +217,7 @@ impl Simulation {
         let load = outputs.contact_force_y / config.model.nominal_load;
         let shift = TREAD_SHIFT * load * half_width * half_width / config.wheel.radius;
         let length = memory_length(tuning);
-        let memory = if length > 0.0 { 0.5 * state.last_step * slip / length } else { 1.0 };
+        let memory = if length > 0.0 { 0.5 * state.clock.last_step * slip / length } else { 1.0 };
         slope.max(0.0) * shift * memory.min(1.0)
     }
 
@@ -324,14 +324,14 @@ impl Simulation {
                  or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond what the model is made \
                  for; forces are inexact, too; lower solver.tolerance (now {:?}) or solver.max_step (now {:?} s)",
                 1e2 * value,
-                self.state().last_step,
+                self.state().clock.last_step,
                 self.tuning().tolerance,
                 self.tuning().max_step
             ),
             _ => format!(
                 "the last communication step took {value:.0} internal steps, the last one of {:.1e} s, and such steps take long to \
                  compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) ask for them",
-                self.state().last_step,
+                self.state().clock.last_step,
                 self.tuning().tolerance,
                 self.tuning().max_step
             ),

@@ -48,7 +48,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
         let mut temperatures = match model.config.initial.temperature {
             StartTemperature::Uniform => thermal.uniform(&touch)?,
             StartTemperature::Stationary => {
-                thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.brake.power))?
+                thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.hub.brake.power))?
             }
         };
         if let (Some(before), true) = (&state.thermal, averaged > 0) {

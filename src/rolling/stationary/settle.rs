@@ -5,7 +5,7 @@ use super::super::contact_model::{ContactStep, friction_law};
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::model::{Model, Workspace};
-use super::super::state::{Brake, Motion, Pressing, State, ThermalState, Weakening};
+use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State, ThermalState, Weakening};
 use super::super::substeps;
 use super::super::zones;
 use super::goal::{Goal, Trial};
@@ -43,13 +43,14 @@ pub(super) fn settle(
 ) -> Result<State, StepError> {
     let load = goal.drive.pressing() / model.wheel.width;
     let [wheel, rail] = model.bodies.at_rest();
+    let prescribed = goal.given.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     let mut state = State {
+        clock: Clock { restarted: true, ..Clock::default() },
+        hub: HubForces { prescribed, ..HubForces::default() },
         wheel,
         rail,
         contact: model.contact.hertzian_guess(load),
         available_friction: goal.drive.friction,
-        prescribed: goal.given.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
-        restarted: true,
         flattening: flattening::none(model),
         thermal,
         ..State::default()
@@ -161,11 +162,11 @@ impl Pass<'_> {
         let [v, _, omega] = next.contact.traction.rigid;
         trial.speeds = [v, omega];
         trial.accelerations = goal.accelerations(model.wheel.inertia, trial.speeds, resultant);
-        next.hub = std::array::from_fn(|k| match goal.drives[k] {
+        next.hub.force = std::array::from_fn(|k| match goal.drives[k] {
             AxisDrive::Free { load } if k != 1 => load,
             _ => -resultant[k],
         });
-        next.driving = next.hub;
+        next.hub.driving = next.hub.force;
         let unbalanced = |k: usize| (trial.accelerations[k] - accelerations[k]).abs() * model.wheel.inertia[k];
         let (now, before) = (&next.contact.traction.port_forces, &state.contact.traction.port_forces);
         let change = now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -200,13 +201,14 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
         omega: History { rate: accelerations[2], ..History::constant(omega) },
         height: History::constant(traction.rigid[1]),
         hub_velocity: History::default(),
+        ..state.motion
     };
     zones::narrow(model, &mut state);
-    (state.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
-    state.brake = Brake::stationary(goal.given[2], omega, state.hub[2]);
-    state.hub[2] = goal.given[2].loads().map_or(state.hub[2], |[load, _]| load + state.brake.moment);
-    state.driving = state.hub;
-    state.control = substeps::unlimited(model, &state);
+    (state.hub.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
+    state.hub.brake = Brake::stationary(goal.given[2], omega, state.hub.force[2]);
+    state.hub.force[2] = goal.given[2].loads().map_or(state.hub.force[2], |[load, _]| load + state.hub.brake.moment);
+    state.hub.driving = state.hub.force;
+    state.clock.control = substeps::unlimited(model, &state);
     state.friction_power = state.contact.traction.friction_power;
     state.audit = audit::start(model, &state);
     state.pressing = Pressing::constant(state.contact.traction.resultant[1]);

@@ -87,10 +87,10 @@ pub fn advance(
     end.validate()?;
     let [velocity, displacement, omega] = state.motion.values();
     let start = Drive { omega, velocity, displacement, elevation: state.elevation, ..inputs.at(0.0) };
-    let h = h + state.pending;
+    let h = h + state.clock.pending;
     if h < SHORTEST_STEP {
         out.clone_from(state);
-        out.pending = h;
+        out.clock.pending = h;
         return Ok(());
     }
     let [mut now, mut next] = std::mem::take(&mut workspace.states);
@@ -98,7 +98,7 @@ pub fn advance(
     let result = march(model, tuning, state, &ramp, workspace, &mut now, &mut next);
     if result.is_ok() {
         std::mem::swap(out, &mut now);
-        out.time = state.time + h;
+        out.clock.time = state.clock.time + h;
     }
     workspace.states = [now, next];
     result
@@ -146,11 +146,11 @@ fn march(
         return Err(StepError::TooManySteps { step, max_step, pieces: fewest, most: MOST_PIECES });
     }
     let mut place = Place { done: 0, pieces: fewest };
-    let mut control = Control::new(tuning, state.control);
+    let mut control = Control::new(tuning, state.clock.control);
     while !control.allows(ramp.h / place.pieces as f64) {
         place.halve();
     }
-    let (mut last_step, mut failures, mut begun, mut counts) = (state.last_step, 0, false, [0, 0]);
+    let (mut last_step, mut failures, mut begun, mut counts) = (state.clock.last_step, 0, false, [0, 0]);
     let (mut flows, mut pressing) = (HeatFlows::default(), state.pressing.begun());
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
@@ -191,16 +191,16 @@ fn march(
             flows.add(dt / ramp.h, &thermal.flows);
         }
         pressing.add(next, dt);
-        last_step = next.last_step;
+        last_step = next.clock.last_step;
         begun = true;
         std::mem::swap(now, next);
     }
-    (now.control, now.pressing) = (control.memory, pressing);
+    (now.clock.control, now.pressing) = (control.memory, pressing);
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
-    now.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
+    now.hub.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
     if let Some(thermal) = &mut now.thermal {
         thermal.flows = flows;
     }
-    [now.internal_steps, now.iterations] = counts;
+    [now.clock.internal_steps, now.clock.iterations] = counts;
     Ok(())
 }

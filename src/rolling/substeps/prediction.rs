@@ -38,7 +38,7 @@ pub fn controlled(model: &Model, state: &State) -> Controlled {
     let (traction, accelerations) = (&state.contact.traction, state.motion.accelerations());
     Controlled {
         forces: traction.resultant,
-        resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.driving[k]),
+        resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.hub.driving[k]),
         damper: model.wheel.damper_force(state),
         slip: traction.tread_slip,
         temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
@@ -74,13 +74,13 @@ impl Found {
     /// `before` are the quantities at its beginning.
     pub fn compare(model: &Model, from: &State, to: &State, before: &Controlled, last_step: f64, dt: f64) -> Self {
         let (now, found) = (controlled(model, from), controlled(model, to));
-        let first = to.restarted || last_step == 0.0;
+        let first = to.clock.restarted || last_step == 0.0;
         let ratio = if first { 0.0 } else { dt / last_step };
         let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let arms = [1.0, 1.0, radius];
         let flies = !touching(from) && !touching(to);
-        let force = |k: usize| match flies && !to.prescribed[k] {
+        let force = |k: usize| match flies && !to.hub.prescribed[k] {
             true => missed(&|c| c.resisting[k]).abs() / (AIRBORNE * load * arms[k]),
             false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
         };
@@ -90,7 +90,7 @@ impl Found {
         }
         // What slip and temperature of the patch are without a patch is a convention.
         if touching(from) && touching(to) {
-            let [translation, _, rotation] = to.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
+            let [translation, _, rotation] = to.hub.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
             let explained = missed(&|c| translation * c.velocity - rotation * radius * c.omega).abs();
             let half_width = model.contact.nominal_half_width();
             let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());

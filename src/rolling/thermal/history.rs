@@ -56,7 +56,7 @@ impl MaterialHistory {
         let patch = touch.traction.extent();
         let moment = Moment {
             dt,
-            angle: next.angle,
+            angle: next.motion.angle,
             omega: next.motion.omega.now,
             contact_length: patch.map_or(0.0, |patch| patch.high - patch.low),
             contact_reach: patch.map_or(0.0, |patch| patch.high.max(-patch.low)),
