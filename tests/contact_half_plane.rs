@@ -8,7 +8,7 @@ use common::Random;
 use half_planes::{HalfPlanes, NOMINAL, RADIUS, grid_state_mut, modulus};
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::contact::ContactError;
-use wheelrail::contact::line::Status;
+use wheelrail::contact::line::NodeStatus;
 
 #[test]
 fn carter_force_is_smooth_while_the_edges_move_between_nodes() {
@@ -92,7 +92,7 @@ fn every_random_start_converges_to_the_same_contact_state() {
         let mut start = bodies.start();
         for i in 0..bodies.grid.len() {
             grid_state_mut(&mut start).status[i] =
-                [Status::Open, Status::Stick, Status::SlipForward, Status::SlipBackward]
+                [NodeStatus::Open, NodeStatus::Stick, NodeStatus::SlipForward, NodeStatus::SlipBackward]
                     [random.between(0.0, 4.0) as usize];
             start.traction.port_forces[bodies.grid.port(i) + 1] = random.between(0.0, load / 20.0);
         }

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use std::f64::consts::PI;
 use wheelrail::contact::Traction;
 use wheelrail::contact::line::observe::read_off;
-use wheelrail::contact::line::{ContactGrid, LineState, Status};
+use wheelrail::contact::line::{ContactGrid, LineState, NodeStatus};
 
 /// Cells per half-width.
 const CELLS: f64 = 20.0;
@@ -23,7 +23,7 @@ fn grid(shift: f64) -> ContactGrid {
 fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn(f64) -> f64) -> Traction {
     let (n, ports) = (grid.len(), DVector::zeros(grid.ports()));
     let mut state =
-        LineState { status: vec![Status::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
+        LineState { status: vec![NodeStatus::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
     let surface = [ports.clone(), ports.clone()];
     let mut traction = Traction { port_forces: ports, surface, ..Traction::default() };
     for (i, &x) in grid.x.iter().enumerate() {
@@ -32,7 +32,7 @@ fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn
             continue;
         }
         let slips = t.abs() >= FRICTION * n * (1.0 - 1e-9);
-        state.status[i] = if slips { Status::SlipForward } else { Status::Stick };
+        state.status[i] = if slips { NodeStatus::SlipForward } else { NodeStatus::Stick };
         traction.port_forces[grid.port(i)] = t;
         traction.port_forces[grid.port(i) + 1] = n;
     }

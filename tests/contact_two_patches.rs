@@ -11,7 +11,7 @@ use half_planes::{FRICTION, HalfPlanes, NOMINAL, grid_state, grid_state_mut, mod
 use std::f64::consts::PI;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::contact::ContactState;
-use wheelrail::contact::line::Status;
+use wheelrail::contact::line::NodeStatus;
 
 /// The double well of an outer and an inner edge under the nominal load.
 struct DoubleWell {
@@ -55,9 +55,9 @@ fn roll(bodies: &HalfPlanes, load: f64, creepage: f64) -> ContactState {
     let lowest = |nodes: std::ops::Range<usize>| nodes.min_by(|&i, &j| well.gap(x[i]).total_cmp(&well.gap(x[j])));
     let middle = x.len() / 2;
     let status = &mut grid_state_mut(&mut start).status;
-    status.fill(Status::Open);
+    status.fill(NodeStatus::Open);
     for node in [lowest(0..middle), lowest(middle..x.len())].into_iter().flatten() {
-        status[node] = Status::Stick;
+        status[node] = NodeStatus::Stick;
     }
     bodies.roll(load, creepage, &start).unwrap()
 }

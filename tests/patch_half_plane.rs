@@ -4,10 +4,10 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::series::{HalfPlane, SeriesSolver};
+use wheelrail::contact::series::{HalfPlaneKernel, SeriesSolver};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, Limits, Placement,
-    RigidMotion, Scratch, SolverState, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Flattening, Friction,
+    LineProblem, Placement, RigidMotion, SolverState, SteelLimits, SurfaceResponse, Surfaces,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -34,13 +34,12 @@ struct HalfPlanes {
 impl HalfPlanes {
     /// With Poisson's `coupling` between pressure and strain, or without, as Carter has it.
     fn new(coupling: bool) -> Self {
-        let half_plane = HalfPlane {
+        let half_plane = HalfPlaneKernel {
             kernel: 1.0 / (std::f64::consts::PI * modulus()),
             coupling: if coupling { (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG } else { 0.0 },
         };
         let grid = ContactGrid::uniform((-9..=9).map(|i| f64::from(i) * 1e-3).collect(), 1e-3, 3);
-        let unused = DMatrix::from_fn(50, 50, |i, j| if i == j { 1.0 } else { 0.0 });
-        let grid = ActiveSetSolver::new(grid, &unused, &unused, modulus());
+        let grid = ActiveSetSolver::new(grid);
         let none =
             [DMatrix::zeros(PORTS, PORTS), DMatrix::zeros(PORTS, 3), DMatrix::zeros(3, PORTS), DMatrix::zeros(3, 3)];
         Self { solver: SeriesSolver::new(grid, half_plane, 0.02, true), none, still: DVector::zeros(PORTS) }
@@ -58,7 +57,7 @@ impl HalfPlanes {
         let v = speed * (1.0 + 0.5 * creepage);
         let omega = speed * (1.0 - 0.5 * creepage) / RADIUS;
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(RADIUS));
-        let problem = ContactProblem {
+        let line = LineProblem {
             bodies: SurfaceResponse {
                 compliance: [&self.none[0], &self.none[0]],
                 relative: &self.none[0],
@@ -69,7 +68,6 @@ impl HalfPlanes {
                 retarded: [None; 2],
             },
             membrane: [&flat, &flat],
-            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             time,
             duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
             surfaces: &surfaces,
@@ -81,13 +79,17 @@ impl HalfPlanes {
                 swelling: [&flat, &flat],
                 flattening: [&sound, &sound],
             },
-            limits: Limits::none(&flat),
+            limits: SteelLimits::none(&flat),
+        };
+        let problem = ContactProblem {
+            line,
+            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             friction: Friction::constant(friction),
             nominal_load: LOAD,
             edge_tolerance: 1e-5,
         };
         let mut found = ContactState::default();
-        self.solver.solve(&problem, start, &mut found, &mut Scratch::default()).map(|()| found)
+        self.solver.solve(&problem, start, &mut found, &mut ContactScratch::default()).map(|()| found)
     }
 
     fn steady(&self, load: f64, share: f64) -> ContactState {

@@ -10,7 +10,8 @@ use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Scratch, SolverState, Surfaces, Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SolverState, Surfaces,
+    Traction,
 };
 use wheelrail::mechanics::{Basis, Pair, bodies, contact_modulus};
 use wheelrail::piecewise::{Interval, Piecewise};
@@ -49,7 +50,7 @@ impl Hertz {
 
     /// Displacements of both surfaces under forces and known motions.
     fn surfaces(&self, problem: &ContactProblem, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
-        let bodies = &problem.bodies;
+        let bodies = &problem.line.bodies;
         let mut wheel = bodies.free[0] + bodies.compliance[0] * forces;
         for (k, motion) in problem.rigid.iter().enumerate() {
             wheel.axpy(motion.acceleration(rigid[k]), &bodies.inertial.column(k), 1.0);
@@ -60,15 +61,16 @@ impl Hertz {
     /// Distance of the surfaces below the wheel centre [m]; zero in a solution.
     fn gap(&self, problem: &ContactProblem, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
         let port = self.x.len() / 2 * 2 + 1;
-        height + problem.surfaces.gap(0.0, &problem.placement) + surfaces[0][port] - surfaces[1][port]
+        height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port]
     }
 
     /// What is left of the balance of a free axis [N/m, N].
     fn unbalance(&self, problem: &ContactProblem, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
         let motion = &problem.rigid[axis];
-        let mut sum = motion.momentum + (problem.bodies.momentum.row(axis) * forces)[0];
+        let mut sum = motion.momentum + (problem.line.bodies.momentum.row(axis) * forces)[0];
         for (l, other) in problem.rigid.iter().enumerate() {
-            let inertia = problem.bodies.deformation_inertia[(axis, l)] + if l == axis { motion.inertia } else { 0.0 };
+            let inertia =
+                problem.line.bodies.deformation_inertia[(axis, l)] + if l == axis { motion.inertia } else { 0.0 };
             sum += inertia * other.acceleration(rigid[l]);
         }
         sum - self.resultant(forces)[axis]
@@ -89,7 +91,7 @@ impl Hertz {
                 let sought = problem.rigid[axis].gain == 0.0;
                 if let (AxisDrive::Free { load }, false) = (problem.rigid[axis].drive, sought) {
                     let residual = self.unbalance(problem, axis, &forces, &rigid) - load;
-                    let inertia = problem.rigid[axis].inertia + problem.bodies.deformation_inertia[(axis, axis)];
+                    let inertia = problem.rigid[axis].inertia + problem.line.bodies.deformation_inertia[(axis, axis)];
                     rigid[axis] -= residual / (inertia * problem.rigid[axis].gain);
                 }
             }
@@ -112,7 +114,7 @@ impl ContactSolver for Hertz {
         let ports = DVector::zeros(2 * self.x.len());
         let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
         let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };
-        ContactState { traction, solver: SolverState::Stateless }
+        ContactState { traction, ..ContactState::default() }
     }
 
     fn solve(
@@ -120,10 +122,10 @@ impl ContactSolver for Hertz {
         problem: &ContactProblem,
         _start: &ContactState,
         found: &mut ContactState,
-        _scratch: &mut Scratch,
+        _scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let radius = problem.radius();
-        *self.place.lock().unwrap() = [problem.placement.distance, problem.placement.angle];
+        let radius = problem.line.radius();
+        *self.place.lock().unwrap() = [problem.line.placement.distance, problem.line.placement.angle];
         // The load at which what presses the wheel down is what holds it up; a secant of an almost linear function.
         let missing = |load: f64| {
             let rigid = self.motion(problem, load, radius);
@@ -212,7 +214,7 @@ fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
     let place = Arc::default();
     let toy = Hertz { x: toys.surface_x.clone(), modulus: contact_modulus(&config), place: Arc::clone(&place) };
     let smooth = || Surfaces::smooth(config.wheel.radius);
-    let toys = Model::with_solver(config.clone(), toys, smooth(), Box::new(toy)).unwrap();
+    let toys = Model::with_solver(config.clone(), toys, smooth(), Box::new(toy), None).unwrap();
     let models = [toys, Model::new(config.clone(), grids, smooth()).unwrap()];
     (models, place)
 }
@@ -298,7 +300,11 @@ fn states_do_not_pass_from_one_solver_to_the_other() {
     let (ours, theirs) = (start(&model, &inputs).0, start(&on_grid, &inputs).0);
     assert!(model.fits(&ours) && on_grid.fits(&theirs));
     assert!(!model.fits(&theirs) && !on_grid.fits(&ours));
-    assert!(!ours.contact.same_branch(&theirs.contact));
+    for model in [&model, &on_grid] {
+        assert!(!model.contact.solver.same_branch(&ours.contact, &theirs.contact));
+    }
+    assert!(model.contact.solver.same_branch(&ours.contact, &ours.contact));
+    assert!(on_grid.contact.solver.same_branch(&theirs.contact, &theirs.contact));
 }
 
 #[test]

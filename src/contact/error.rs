@@ -1,6 +1,6 @@
-//! Why contact has no answer.
+//! Reasons for which a contact problem has no solution.
 
-/// Why no contact state could be found.
+/// Reason for which no contact state was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// The states of the contact did not settle.
@@ -26,7 +26,7 @@ pub enum ContactError {
     /// The solver on a single patch does not describe this contact.
     #[error("the contact is no single smooth patch: {reason}")]
     Unsuited {
-        /// What it cannot describe.
+        /// Property of the contact that it cannot describe.
         reason: &'static str,
     },
     /// The start state belongs to another solver or another mesh.

@@ -1,13 +1,13 @@
-//! Where the heat of friction arises under a molten film that is finer than the elements of the contact.
+//! Division of the heat of friction under a molten film that is finer than the elements of the contact.
 
 use crate::piecewise::{Piecewise, interpolate};
 
 /// Mean share within the reach of a place below which there is nothing to divide by \[1].
 const VANISHES: f64 = 1e-6;
 
-/// Divides `density`, linear between its places, within the reach of every place as `share` \[1] has it, and replaces `out` by it; the
-/// integral of every place's part stays. A place within whose reach the share vanishes keeps its part as it was. `share` is
-/// given at its own places and constant beyond them.
+/// Divides `density`, linear between its places, within the reach of every place as `share` \[1] has it, and replaces
+/// `out` by it; the integral of every place's part stays. A place within whose reach the share vanishes keeps its part
+/// as it was. `share` is given at its own places and constant beyond them.
 pub fn divided(density: &Piecewise, share: &Piecewise, out: &mut Piecewise) {
     let (x, q) = (&density.x, &density.value);
     let share_at = |at: f64| interpolate(&share.x, &share.value, at);

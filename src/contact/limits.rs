@@ -1,35 +1,37 @@
-//! What steel bears in the contact: a largest pressure, and less friction where its surface melts.
+//! Limits of the steel in the contact: a largest pressure, and less friction where its surface melts.
 
 use crate::piecewise::{Piecewise, interpolate};
 use std::f64::consts::PI;
 
-/// Pressure above the limit per depth by which the surface gives way in a step [Pa/m]: so small that 100 µm take 1 MPa, but enough to
-/// hold the wheel up where the whole contact yields. It belongs to the depth and not to the time: steel that rolls through gives
-/// way by the whole depth in every step, however short that is.
+/// Pressure above the limit per depth by which the surface gives way in a step [Pa/m]: so small that 100 µm take 1 MPa,
+/// but enough to hold the wheel up where the whole contact yields. It belongs to the depth and not to the time: steel
+/// that rolls through gives way by the whole depth in every step, however short that is.
 pub const RESISTANCE: f64 = 1e10;
 
-/// Pressure under which a rigid-plastic half-plane flows that bears no shear, over its yield strength in shear \[1]: Prandtl's.
+/// Pressure under which a rigid-plastic half-plane flows that bears no shear, over its yield strength in shear \[1]:
+/// Prandtl's.
 const PRANDTL: f64 = 2.0 + PI;
-/// Shear traction over pressure from which on the surface of flowing steel slides over its inside: the strength in shear over the
-/// pressure that steel bears under it \[1].
+/// Shear traction over pressure from which on the surface of flowing steel slides over its inside: the strength in
+/// shear over the pressure that steel bears under it \[1].
 pub const SLIDES: f64 = 2.0 / (2.0 + PI);
 /// Shear over strength that ends the search for it \[1].
 const PRECISION: f64 = 1e-14;
 /// Steps of this search at most: it converges quadratically from above.
 const MOST_STEPS: usize = 20;
 
-/// Pressure under which a rigid-plastic half-plane flows that bears the shear traction `shear`, both over its yield strength in
-/// shear \[1].
+/// Pressure under which a rigid-plastic half-plane flows that bears the shear traction `shear`, both over its yield
+/// strength in shear \[1].
 ///
-/// Slip lines: under the punch the largest principal stress is turned from the normal by half of `φ = asin(shear)`, beside it it
-/// lies along the surface, and along the fan between them, which turns by `π/2 − φ/2`, the mean stress falls by twice the turn to 1 at
-/// the free surface. Derivation: `docs/theory/limits-of-steel.md`.
+/// Slip lines: under the punch the largest principal stress is turned from the normal by half of `φ = asin(shear)`,
+/// beside it it lies along the surface, and along the fan between them, which turns by `π/2 − φ/2`, the mean stress
+/// falls by twice the turn to 1 at the free surface. Derivation: `docs/theory/limits-of-steel.md`.
 pub fn bearing(shear: f64) -> f64 {
     let shear = shear.abs().min(1.0);
     1.0 + PI - shear.asin() + (1.0 - shear * shear).sqrt()
 }
 
-/// The same for a shear traction that is the share `ratio` of the pressure; from [`SLIDES`] on it is what the steel bears.
+/// Pressure of [`bearing`] under a shear traction that is the share `ratio` of the pressure; from [`SLIDES`] on the
+/// shear is the strength of the steel.
 pub fn bearing_in_sliding(ratio: f64) -> f64 {
     let ratio = ratio.abs().min(SLIDES);
     let mut angle = (ratio * PRANDTL).min(1.0).asin();
@@ -44,23 +46,23 @@ pub fn bearing_in_sliding(ratio: f64) -> f64 {
     1.0 + PI - angle + angle.cos()
 }
 
-/// Share of the largest pressure that is left under a shear traction that is the share `ratio` of it and counts with the share
-/// `sheared` \[1].
+/// Share of the largest pressure that is left under a shear traction that is the share `ratio` of it and counts with
+/// the share `sheared` \[1].
 pub fn borne_in_sliding(sheared: f64, ratio: f64) -> f64 {
     bearing_in_sliding(sheared * ratio.min(SLIDES)) / PRANDTL
 }
 
 /// Limits of the contact forces. In the plane, the pressure under which steel flows sideways is that of a rigid-plastic
-/// half-plane under a punch (see [`crate::material::INDENTATION`]); it falls with the temperature of what lies below, and under
-/// shear ([`bearing`]).
+/// half-plane under a punch (see [`crate::material::INDENTATION`]); it falls with the temperature of what lies below,
+/// and under shear ([`bearing`]).
 #[derive(Clone, Copy, Debug)]
-pub struct Limits<'a> {
+pub struct SteelLimits<'a> {
     /// Largest pressure of cold steel \[Pa]; infinite: it does not yield.
     pub pressure: f64,
     /// Smallest largest pressure \[Pa]: steel that bears less would spread beyond the contact zone.
     pub least: f64,
-    /// Share in which the shear of friction counts \[1]: whole where steel stands under the contact, not at all where it rolls
-    /// through.
+    /// Share in which the shear of friction counts \[1]: whole where steel stands under the contact, not at all where
+    /// it rolls through.
     pub sheared: f64,
     /// Share of the largest pressure that remains, over x \[1]; empty: all of it.
     pub softened: &'a Piecewise,
@@ -68,13 +70,13 @@ pub struct Limits<'a> {
     pub film: &'a Piecewise,
 }
 
-impl<'a> Limits<'a> {
+impl<'a> SteelLimits<'a> {
     /// No limit at all; `all` is an empty function.
     pub fn none(all: &'a Piecewise) -> Self {
         Self { pressure: f64::INFINITY, least: 0.0, sheared: 0.0, softened: all, film: all }
     }
 
-    /// Whether the pressure is limited at all.
+    /// True if the pressure is limited at all.
     pub fn is_limited(&self) -> bool {
         self.pressure.is_finite()
     }
@@ -124,14 +126,15 @@ mod tests {
         }
     }
 
-    /// The upper bound theorem needs nothing of the stresses: blocks that slide over each other along the fan dissipate what punch
-    /// and shear put in. The best of all fans lies on the limit.
+    /// The upper bound theorem needs nothing of the stresses: blocks that slide over each other along the fan dissipate
+    /// what punch and shear put in. The best of all fans lies on the limit.
     #[test]
     fn no_mechanism_of_fan_and_blocks_flows_below_the_limit() {
         for shear in [0.0, 0.3, 0.7, 0.954, 1.0] {
             let work = |base: f64| {
-                // A right-angled triangle under a punch of length 1 slides with the speed 1 along its side at the angle `base` from the
-                // surface, of the length `cos`; its other side, `sin`, is that of the fan, which leads to a wedge at 45°.
+                // A right-angled triangle under a punch of length 1 slides with the speed 1 along its side at the angle
+                // `base` from the surface, of the length `cos`; its other side, `sin`, is that of the fan, which leads
+                // to a wedge at 45°.
                 let (sin, cos) = base.sin_cos();
                 let fan = 0.75 * PI - (0.5 * PI - base);
                 let dissipated = cos + sin * (2.0 * fan + 1.0);

@@ -1,10 +1,10 @@
 //! Frictional contact of two deformable bodies: unilateral contact and exact Coulomb friction.
 //!
 //! The bodies enter only through the answer of their surfaces ([`ContactProblem`]), so this room knows neither finite
-//! elements nor how the rolling motion is advanced. What anyone else learns of a solved contact is its [`Traction`]; how it
-//! was found is the business of a [`ContactSolver`], today the one on the paired surface nodes of a [`line`]. Everything is
-//! per metre of width. Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure) lifts it; the
-//! rail receives the opposite.
+//! elements nor how the rolling motion is advanced. What anyone else learns of a solved contact is its [`Traction`];
+//! how it was found is the business of a [`ContactSolver`], today the one on the paired surface nodes of a [`line`].
+//! Everything is per metre of width. Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure)
+//! lifts it; the rail receives the opposite.
 
 pub mod active_set;
 pub mod error;
@@ -23,9 +23,9 @@ pub mod worn;
 pub use error::ContactError;
 pub use flattening::Flattening;
 pub use friction::{Friction, FrictionLaw, Heating};
-pub use limits::Limits;
-pub use problem::{AxisDrive, ContactProblem, RetardedLayer, RigidMotion, SurfaceResponse};
-pub use solver::{ContactSolver, ContactState, Scratch, SolverState};
+pub use limits::SteelLimits;
+pub use problem::{AxisDrive, ContactProblem, LineProblem, RetardedSurface, RigidMotion, SurfaceResponse};
+pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 pub use surface::{Placement, Relief, Surfaces};
 pub use traction::Traction;
 pub use worn::{Loss, Worn};

@@ -1,7 +1,7 @@
-//! The condensed contact problem of one step: what the contact needs to know of bodies, wheel and surfaces.
+//! Condensed contact problem of one step: bodies, wheel and surfaces as the contact knows them.
 
 use super::friction::Friction;
-use super::limits::Limits;
+use super::limits::SteelLimits;
 use super::surface::{Placement, Surfaces};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
@@ -22,14 +22,14 @@ pub struct SurfaceResponse<'a> {
     pub momentum: &'a DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, 3 × 3.
     pub deformation_inertia: &'a DMatrix<f64>,
-    /// Layers of wheel and rail that answer late; `None`: all flexibility answers at once.
-    pub retarded: [Option<RetardedLayer<'a>>; 2],
+    /// Retarded layers of wheel and rail; `None`: all flexibility answers at once.
+    pub retarded: [Option<RetardedSurface<'a>>; 2],
 }
 
-/// A layer at the surface of a body that answers with the elastic part `share · force + known` of the nodal forces, from which
-/// these run ahead.
+/// Retarded layer at the surface of a body: its displacement belongs to the elastic part `share · force + known` of the
+/// nodal forces, ahead of which the forces themselves run.
 #[derive(Clone, Copy)]
-pub struct RetardedLayer<'a> {
+pub struct RetardedSurface<'a> {
     /// Displacement per unit elastic nodal force [m/(N/m)].
     pub flexibility: &'a DMatrix<f64>,
     /// Part of a new force that counts at once \[1].
@@ -38,7 +38,7 @@ pub struct RetardedLayer<'a> {
     pub known: &'a DVector<f64>,
 }
 
-/// What drives a rigid motion of the wheel.
+/// Drive of a rigid motion of the wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AxisDrive {
     /// A force or moment acts, the motion follows.
@@ -51,8 +51,8 @@ pub enum AxisDrive {
         /// V [m/s], U \[m] or Ω [rad/s] at the end of the step.
         target: f64,
     },
-    /// A force or moment acts, and dry friction besides: it opposes the motion with its `limit`, or holds the axis at rest
-    /// with what that takes, up to the limit.
+    /// A force or moment acts, and dry friction besides: it opposes the motion with its `limit`, or holds the axis at
+    /// rest with what that takes, up to the limit.
     Braked {
         /// External force [N/m] or moment \[N].
         load: f64,
@@ -80,12 +80,12 @@ impl AxisDrive {
 /// One rigid motion of the wheel and its balance `m a + ṗ = f + Σ contact`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidMotion {
-    /// What drives it.
+    /// Its drive.
     pub drive: AxisDrive,
     /// Where the search for a free motion starts: V [m/s], U \[m], Ω [rad/s].
     pub guess: f64,
-    /// The acceleration is `gain · value + offset`. Without gain it is known, and a free motion has the value at which the
-    /// contact forces hold its balance.
+    /// The acceleration is `gain · value + offset`. Without gain it is known, and a free motion has the value at which
+    /// the contact forces hold its balance.
     pub gain: f64,
     /// See [`Self::gain`].
     pub offset: f64,
@@ -129,14 +129,13 @@ impl RigidMotion {
     }
 }
 
-/// Gap and slip as functions of contact forces and rigid motions, for one step or a stationary state.
-pub struct ContactProblem<'a> {
+/// Gap and slip of one contact line as functions of contact forces and rigid motions, for one step or a stationary
+/// state.
+pub struct LineProblem<'a> {
     /// Linear answer of the bodies.
     pub bodies: SurfaceResponse<'a>,
     /// Membrane forces `N(x)` of the hot layers of wheel and rail [N/m]; their gradients pull at the surfaces.
     pub membrane: [&'a Piecewise; 2],
-    /// Translation V, hub height U, rotation Ω.
-    pub rigid: [RigidMotion; 3],
     /// Formula for `d_t`; all zero: stationary.
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.
@@ -145,19 +144,27 @@ pub struct ContactProblem<'a> {
     pub surfaces: &'a Surfaces,
     /// Where on them the wheel stands, and how heat has changed them.
     pub placement: Placement<'a>,
-    /// Friction coefficient as a function of the slip at the end of the step.
-    pub friction: Friction,
-    /// What the steel bears.
-    pub limits: Limits<'a>,
-    /// Line load that scales tolerances [N/m].
-    pub nominal_load: f64,
-    /// Largest change of the weights at the contact edges that counts as converged \[1].
-    pub edge_tolerance: f64,
+    /// Limits of pressure and friction.
+    pub limits: SteelLimits<'a>,
 }
 
-impl ContactProblem<'_> {
+impl LineProblem<'_> {
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
     }
+}
+
+/// A contact line under a wheel whose rigid motions are sought or prescribed.
+pub struct ContactProblem<'a> {
+    /// The contact line.
+    pub line: LineProblem<'a>,
+    /// Translation V, hub height U, rotation Ω.
+    pub rigid: [RigidMotion; 3],
+    /// Friction coefficient as a function of the slip at the end of the step.
+    pub friction: Friction,
+    /// Line load that scales tolerances [N/m].
+    pub nominal_load: f64,
+    /// Largest change of the weights at the contact edges that counts as converged \[1].
+    pub edge_tolerance: f64,
 }

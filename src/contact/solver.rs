@@ -1,26 +1,17 @@
-//! The seam behind which contact is solved.
+//! Seam behind which contact is solved.
 
-use super::active_set::iterate::ActiveSetScratch;
+use super::active_set::ActiveSetScratch;
 use super::error::ContactError;
+use super::line::LineHistory;
 use super::line::state::LineState;
 use super::problem::ContactProblem;
-use super::series::state::{SeriesState, SlipHistory};
+use super::series::state::SeriesState;
 use super::traction::Traction;
 use crate::piecewise::Piecewise;
-use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// Finds the contact forces of one step, or of a stationary state.
 pub trait ContactSolver: Send + Sync {
-    /// Corrects the surface compliances of wheel and rail [m/(N/m)] for the way in which this solver discretises the
-    /// surface; called once for every new step size, before any [`Self::solve`] with them.
-    fn correct(&self, _wheel: &mut DMatrix<f64>, _rail: &mut DMatrix<f64>) {}
-
-    /// Elastic energy that the correction stores, or what else of the bodies only the solver knows [J/m].
-    fn correction_energy(&self, _state: &ContactState) -> f64 {
-        0.0
-    }
-
     /// A start for [`Self::solve`]: bodies that touch and stick within `half_width` \[m] of the contact point, without
     /// forces yet.
     fn touching(&self, half_width: f64) -> ContactState;
@@ -32,43 +23,67 @@ pub trait ContactSolver: Send + Sync {
         problem: &ContactProblem,
         start: &ContactState,
         found: &mut ContactState,
-        scratch: &mut Scratch,
+        scratch: &mut ContactScratch,
     ) -> Result<(), ContactError>;
 
-    /// The same state with room for wider patches or for more than one, where [`Self::solve`] found them to exceed the zone or
-    /// what it can describe; its `port_forces` are those of another surface. `None` if there is no more room.
+    /// True if a state has the dimensions of this solver.
+    fn fits(&self, state: &ContactState) -> bool;
+
+    /// True if two states were found with the same decisions between open, stick and slip everywhere: along such states
+    /// the solution is a smooth function of the data.
+    fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
+        a.solver == b.solver
+    }
+
+    /// The state on ports with room for wider patches or for more than one, where [`Self::solve`] found them to exceed
+    /// the zone or its own reach. `None` if there is no more room.
     fn widened(&self, _state: &ContactState) -> Option<ContactState> {
         None
     }
 
-    /// The same state without that room, if it has it and the patches under about the load `nominal_load` [N/m] no longer
+    /// The state without that room, if it has it and the patches under about the load `nominal_load` [N/m] no longer
     /// need it.
     fn narrowed(&self, _state: &ContactState, _nominal_load: f64) -> Option<ContactState> {
         None
     }
 
     /// Tangential strains `∂u_x/∂x` of the surfaces of wheel and rail \[1]; empty where the solver does not know them.
-    fn surface_strain(&self, _traction: &Traction) -> [Piecewise; 2] {
+    fn surface_strain(&self, _state: &ContactState) -> [Piecewise; 2] {
         Default::default()
     }
+}
 
-    /// Whether a state has the dimensions of this solver.
-    fn fits(&self, state: &ContactState) -> bool;
+/// Surface points through which the bodies and the contact of a state see each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Ports {
+    /// Nodes of the zone of ordinary patches.
+    #[default]
+    Narrow,
+    /// Nodes of a zone for wide patches about the same middle.
+    Wide,
+    /// Points of polynomials on bodies that lack a half-plane each.
+    Smooth,
 }
 
 /// Result of a contact solution and start of the next one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
-    /// What the contact is for everyone else.
+    /// Ports to which the vectors of the traction belong.
+    pub ports: Ports,
+    /// Forces, motions and profiles.
     pub traction: Traction,
-    /// What its solver remembers.
+    /// History that the next step refers to.
+    pub history: LineHistory,
+    /// Elastic energy of the contact that neither the bodies nor their corrections count [J/m].
+    pub energy: f64,
+    /// Memory of the solver.
     pub solver: SolverState,
 }
 
-/// Memory of a contact solver from step to step.
+/// Memory of a contact solver from step to step. States are stored, so that this is the one list of solvers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum SolverState {
-    /// Nothing but the traction.
+    /// No memory.
     #[default]
     Stateless,
     /// Of the active set on paired nodes.
@@ -78,46 +93,22 @@ pub enum SolverState {
 }
 
 impl ContactState {
-    /// Takes away all slip, and what it dissipates: the state of a wheel at rest.
+    /// Takes away all slip and its dissipation: the state of a wheel at rest.
     pub fn rest(&mut self) {
         self.traction.rest();
-        match &mut self.solver {
-            SolverState::Line(grid) => {
-                grid.slip.fill(0.0);
-                grid.friction.slip.fill(0.0);
-                grid.friction.slope_power = 0.0;
-            }
-            SolverState::Series(patch) => {
-                patch.friction = SlipHistory { slip: Default::default(), slope_power: 0.0, ..patch.friction };
-            }
-            SolverState::Stateless => {}
-        }
+        self.history.friction.rest();
     }
 
-    /// Angle by which the rim under the contact has turned against the hub, positive where the tread moves towards `+x` \[rad].
+    /// Angle by which the rim under the contact has turned against the hub, positive where the tread moves towards `+x`
+    /// \[rad].
     pub fn rim_angle(&self) -> f64 {
-        match &self.solver {
-            SolverState::Line(line) => line.rim_angle.now,
-            SolverState::Series(series) => series.rim_angle.now,
-            SolverState::Stateless => 0.0,
-        }
-    }
-
-    /// Whether both were found with the same decisions between open, stick and slip everywhere: along such states the
-    /// solution is a smooth function of the data.
-    pub fn same_branch(&self, other: &Self) -> bool {
-        match (&self.solver, &other.solver) {
-            (SolverState::Line(a), SolverState::Line(b)) => a.status == b.status && a.yielded == b.yielded,
-            (SolverState::Series(a), SolverState::Series(b)) => a.tractions.same_branch(&b.tractions),
-            (SolverState::Stateless, SolverState::Stateless) => true,
-            _ => false,
-        }
+        self.history.rim_angle.now
     }
 }
 
 /// Buffers of the contact solvers; nothing in them outlives a solution.
 #[derive(Default)]
-pub struct Scratch {
+pub struct ContactScratch {
     /// Of the active set on paired nodes.
     pub active_set: ActiveSetScratch,
 }

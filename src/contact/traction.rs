@@ -1,4 +1,4 @@
-//! What a solved contact is for everyone else: forces, patches and profiles, whatever solver found them.
+//! Result of a solved contact for everyone else: forces, patches and profiles, whatever solver found them.
 
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
@@ -7,16 +7,16 @@ use serde::{Deserialize, Serialize};
 /// Friction power at the end of a step over its mean below which friction counts as ending in the step [1].
 const ENDING: f64 = 0.2;
 
-/// Forces between wheel and rail and what follows from them, per metre of width.
+/// Forces between wheel and rail, patches, profiles and powers that follow from them, per metre of width.
 ///
-/// Positions are relative to the point below the wheel centre, positive in travel direction. Profiles are zero outside the
-/// patches.
+/// Positions are relative to the point below the wheel centre, positive in travel direction. Profiles are zero outside
+/// the patches.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Traction {
-    /// Forces on the ports of the wheel (the surface displacements of its body, x and y of every node) [N/m]; the ports of
-    /// the rail receive the opposite.
+    /// Forces on the ports of the wheel (the surface displacements of its body, x and y of every node) [N/m]; the ports
+    /// of the rail receive the opposite.
     pub port_forces: DVector<f64>,
-    /// All that acts on the ports of wheel and rail: contact forces, and the pull of hot layers [N/m].
+    /// All forces on the ports of wheel and rail: contact forces, and the pull of hot layers [N/m].
     pub loads: [DVector<f64>; 2],
     /// Displacements of the ports of wheel and rail \[m].
     pub surface: [DVector<f64>; 2],
@@ -24,8 +24,8 @@ pub struct Traction {
     pub rigid: [f64; 3],
     /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N].
     pub resultant: [f64; 3],
-    /// Power that friction turns from mechanical energy into heat, net of what hot material gives back by expanding as it
-    /// passes the contact [W/m].
+    /// Power that friction turns from mechanical energy into heat, net of what hot material gives back by expanding as
+    /// it passes the contact [W/m].
     pub friction_power: f64,
     /// Friction coefficient with which they were found \[1].
     pub friction: f64,
@@ -34,11 +34,11 @@ pub struct Traction {
     pub tread_slip: f64,
     /// Energy that friction has turned into heat in the step [J/m].
     pub friction_work: f64,
-    /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the pressures
-    /// beside them.
+    /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the
+    /// pressures beside them.
     pub edges: Vec<Interval>,
-    /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero, and heat conducts.
-    /// Each holds everything on which forces act, so that it may reach a little beyond its edges.
+    /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero, and heat
+    /// conducts. Each holds everything on which forces act, so that it may reach a little beyond its edges.
     pub patches: Vec<Interval>,
     /// Share of the contact length that sticks \[1].
     pub stick_fraction: f64,
@@ -48,15 +48,16 @@ pub struct Traction {
     pub pressure: Piecewise,
     /// Friction traction on the wheel, forward positive \[Pa].
     pub shear: Piecewise,
-    /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the friction
-    /// power, but for the thousandths that pressure on the inclined surface and expanding material add to it.
+    /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the
+    /// friction power, but for the thousandths that pressure on the inclined surface and expanding material add to it.
     pub slip: Piecewise,
     /// Where friction dissipates at the end of the step [W/m²].
     pub dissipation: Piecewise,
     /// By how much the mean dissipation of the step exceeds that at its end, relative to the latter \[1]: with it,
     /// [`Self::dissipation`] integrates to the energy of the step.
     pub dissipation_excess: f64,
-    /// Depth by which yielding steel lies in the way of the other surface \[m], with zeros at its ends; empty where nothing yields.
+    /// Depth by which yielding steel lies in the way of the other surface \[m], with zeros at its ends; empty where
+    /// nothing yields.
     pub overlap: Piecewise,
     /// Work of that part of it which has become permanent in the step [J/m].
     pub plastic_work: f64,
@@ -64,8 +65,8 @@ pub struct Traction {
     pub springing_work: f64,
     /// Share of the contact length that yields \[1].
     pub yielding: f64,
-    /// Iterations until all decisions between open, stick and slip were made, without those of the search for the friction
-    /// coefficient.
+    /// Iterations until all decisions between open, stick and slip were made, without those of the search for the
+    /// friction coefficient.
     pub iterations: usize,
 }
 
@@ -90,9 +91,9 @@ impl Traction {
         self.edges.iter().map(|edges| edges.high - edges.low).sum()
     }
 
-    /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns the power
-    /// for which the profile of dissipation stands. Friction never cools: where it is less than the errors of what hot material
-    /// gives back, it heats nothing. Nor does it where its coefficient is zero.
+    /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns
+    /// the power for which the profile of dissipation stands. Friction never cools: where it is less than the errors of
+    /// what hot material gives back, it heats nothing. Nor does it where its coefficient is zero.
     pub(super) fn dissipate(&mut self, friction: f64, work: f64, duration: f64) -> f64 {
         (self.friction_power, self.friction_work) = (friction, work);
         if self.friction == 0.0 {
@@ -106,9 +107,9 @@ impl Traction {
         power
     }
 
-    /// Work of the pressure where the surfaces have become `deeper` \[m] at the nodes of the overlap, the first and the last of
-    /// which bear nothing [J/m]. Where nodes lie between the lattice points of a dent it keeps a little less than the whole
-    /// overlap, the more the wider the nodes: the rest springs back.
+    /// Work of the pressure where the surfaces have become `deeper` \[m] at the nodes of the overlap, the first and the
+    /// last of which bear nothing [J/m]. Where nodes lie between the lattice points of a dent it keeps a little less
+    /// than the whole overlap, the more the wider the nodes: the rest springs back.
     pub fn work_of(&self, deeper: impl Fn(f64) -> f64) -> f64 {
         let x = &self.overlap.x;
         let width = |i: usize| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);

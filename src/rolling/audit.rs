@@ -14,7 +14,7 @@ pub fn energy(model: &Model, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
-        + model.bodies.correction_energy(&*model.contact.solver, &state.contact)
+        + model.bodies.correction_energy(&state.contact)
         + state.contact.traction.springing_work
 }
 

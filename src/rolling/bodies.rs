@@ -2,9 +2,9 @@
 
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
-use crate::contact::{ContactSolver, ContactState};
+use crate::contact::line::kernel::KernelCorrection;
+use crate::contact::{ContactState, Ports};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
-use crate::mechanics::smooth::POINTS;
 use crate::mechanics::{MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
 use nalgebra::DMatrix;
@@ -15,24 +15,28 @@ const KEPT: usize = 3;
 
 /// Wheel and rail, and what carries the rail.
 ///
-/// Their coordinates do not depend on how much of the surface the contact sees: how many ports a state has tells it.
+/// Their coordinates do not depend on the [`Ports`] through which the contact of a state sees them.
 pub struct Bodies {
     /// Annulus on its hub, plate on its base; of their surfaces only the ports of ordinary patches.
     narrow: [Box<dyn BodyResponse>; 2],
-    /// The same with the ports of wide ones, and their number.
-    wide: Option<([Box<dyn BodyResponse>; 2], usize)>,
-    /// The same less half-planes, for a solver that knows those, and the number of their ports.
-    smooth: Option<([Box<dyn BodyResponse>; 2], usize)>,
+    /// Both with the ports of wide ones.
+    wide: Option<[Box<dyn BodyResponse>; 2]>,
+    /// Both less half-planes, for a solver that knows those.
+    smooth: Option<[Box<dyn BodyResponse>; 2]>,
     /// What its base stands on; `None`: it is fixed.
     pub support: Option<TrackSupport>,
-    /// Whether the correction of the contact solver is part of them, because it is damped as they are.
+    /// Correction of their compliance at grid scale, if there is any.
+    correction: Option<KernelCorrection>,
+    /// Whether this correction is part of them, because it is damped as they are.
     hold_correction: bool,
 }
 
-/// Answers of both bodies for one step size, corrected for the contact solver.
+/// Answers of both bodies for one step size, corrected at grid scale.
 pub struct Operators {
     /// Weight of the new value in the time formula [1/s].
     pub a0: f64,
+    /// Ports to which they belong.
+    pub ports: Ports,
     /// Of the wheel.
     pub wheel: StepOperator,
     /// Of the rail on its support.
@@ -50,37 +54,32 @@ pub struct OperatorCache {
 }
 
 impl Bodies {
-    /// Wheel and rail as `solver` sees them, the rail on its `support`.
-    pub fn new(pair: Pair, support: Option<TrackSupport>, solver: &dyn ContactSolver) -> Self {
+    /// Wheel and rail, the rail on its `support`, with a `correction` of their compliance at grid scale.
+    pub fn new(pair: Pair, support: Option<TrackSupport>, correction: Option<KernelCorrection>) -> Self {
         let (wide, mut hold_correction) = (pair.wide, false);
         let mut corrected = |wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, ports: usize| {
             let mut bodies = [wheel, rail];
             let mut layers = [DMatrix::zeros(ports, ports), DMatrix::zeros(ports, ports)];
-            let [of_wheel, of_rail] = &mut layers;
-            solver.correct(of_wheel, of_rail);
+            correct(correction.as_ref(), layers.each_mut());
             let taken = bodies.iter_mut().zip(&layers).map(|(body, layer)| body.take_layer(layer));
             hold_correction = taken.fold(true, |all, one| all & one);
             bodies
         };
         let narrow = corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len());
-        let wide = wide.map(|pair| {
-            let ports = 2 * pair.surface_x.len();
-            (corrected(pair.wheel, pair.rail, ports), ports)
-        });
-        let smooth = pair.smooth.map(|pair| ([pair.wheel, pair.rail], 2 * POINTS));
-        Self { narrow, wide, smooth, support, hold_correction }
+        let wide = wide.map(|pair| corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len()));
+        let smooth = pair.smooth.map(|pair| [pair.wheel, pair.rail]);
+        Self { narrow, wide, smooth, support, correction, hold_correction }
     }
 
-    /// Wheel and rail with so many ports.
-    fn with_ports(&self, ports: usize) -> [&dyn BodyResponse; 2] {
-        let other = self.wide.iter().chain(&self.smooth).find(|(_, count)| *count == ports);
-        let [wheel, rail] = other.map_or(&self.narrow, |(bodies, _)| bodies);
-        [&**wheel, &**rail]
-    }
-
-    /// Wheel and rail with the ports of a state.
+    /// Wheel and rail as the contact of a state sees them.
     fn of(&self, state: &State) -> [&dyn BodyResponse; 2] {
-        self.with_ports(ports(state))
+        let other = match state.contact.ports {
+            Ports::Narrow => None,
+            Ports::Wide => self.wide.as_ref(),
+            Ports::Smooth => self.smooth.as_ref(),
+        };
+        let [wheel, rail] = other.unwrap_or(&self.narrow);
+        [&**wheel, &**rail]
     }
 
     /// Both bodies at rest, undeformed.
@@ -88,9 +87,13 @@ impl Bodies {
         [0, 1].map(|body| BodyState::zeros(self.narrow[body].state_len()))
     }
 
-    /// Elastic energy of the contact solver's correction, unless the bodies count it [J/m].
-    pub fn correction_energy(&self, solver: &dyn ContactSolver, contact: &ContactState) -> f64 {
-        if self.hold_correction { 0.0 } else { solver.correction_energy(contact) }
+    /// Elastic energy of the contact that the bodies do not count [J/m].
+    pub fn correction_energy(&self, contact: &ContactState) -> f64 {
+        match (contact.ports, &self.correction) {
+            _ if self.hold_correction => 0.0,
+            (Ports::Narrow | Ports::Wide, Some(correction)) => correction.energy(&contact.traction.port_forces),
+            (Ports::Narrow | Ports::Wide, None) | (Ports::Smooth, _) => contact.energy,
+        }
     }
 
     /// Operators for `a0` on the ports of `state`, from the cache if they are there.
@@ -98,11 +101,10 @@ impl Bodies {
         &self,
         a0: f64,
         state: &State,
-        solver: &dyn ContactSolver,
         cache: &mut OperatorCache,
     ) -> Result<Arc<Operators>, MechanicsError> {
-        let recent = &mut cache.recent;
-        if let Some(at) = recent.iter().position(|o| o.a0 == a0 && o.relative.nrows() == ports(state)) {
+        let (recent, ports) = (&mut cache.recent, state.contact.ports);
+        if let Some(at) = recent.iter().position(|o| o.a0 == a0 && o.ports == ports) {
             recent[at..].rotate_left(1);
         } else {
             if recent.len() >= KEPT {
@@ -111,11 +113,14 @@ impl Bodies {
             let [wheel, rail] = self.of(state);
             let (mut wheel, mut rail) = (wheel.operator(a0)?, rail.operator(a0)?);
             let base = self.support.as_ref().map(|support| support.condense(&mut rail));
-            if !self.hold_correction {
-                solver.correct(&mut wheel.surface, &mut rail.surface);
+            match ports {
+                Ports::Narrow | Ports::Wide if !self.hold_correction => {
+                    correct(self.correction.as_ref(), [&mut wheel.surface, &mut rail.surface]);
+                }
+                Ports::Narrow | Ports::Wide | Ports::Smooth => {}
             }
             let relative = &wheel.surface + &rail.surface;
-            recent.push(Arc::new(Operators { a0, wheel, rail, base, relative }));
+            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative }));
         }
         Ok(recent[recent.len() - 1].clone())
     }
@@ -192,6 +197,12 @@ impl Bodies {
         let [wheel, rail] = self.of(state);
         fits(&state.wheel, wheel) && fits(&state.rail, rail)
     }
+}
+
+/// Adds half of a correction to the surface compliance of each body.
+fn correct(correction: Option<&KernelCorrection>, compliances: [&mut DMatrix<f64>; 2]) {
+    let Some(correction) = correction else { return };
+    compliances.into_iter().for_each(|compliance| correction.add_to(compliance, 0.5));
 }
 
 /// Number of surface components that the contact of a state sees.

@@ -7,8 +7,9 @@ use super::state::{State, ThermalDeformation, Weakening};
 use crate::config::{Config, Tuning};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, FrictionLaw, Limits,
-    Placement, RetardedLayer, RigidMotion, Scratch, SurfaceResponse, Surfaces, Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Flattening, Friction,
+    FrictionLaw, LineProblem, Placement, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Surfaces,
+    Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -123,7 +124,7 @@ impl ContactModel {
         step: &ContactStep,
         start: &ContactState,
         found: &mut ContactState,
-        scratch: &mut Scratch,
+        scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         let ThermalDeformation { radius_growth, swelling, membrane_force } = step.deformation;
         let (operators, [wheel, rail]) = (step.operators, step.free);
@@ -137,14 +138,13 @@ impl ContactModel {
             retarded: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
                 let layer = operator.layer.as_ref()?;
                 let share = layer.share(operator.a0);
-                Some(RetardedLayer { flexibility: &layer.flexibility, share, known: &free.retarded })
+                Some(RetardedSurface { flexibility: &layer.flexibility, share, known: &free.retarded })
             }),
         };
         let [distance, angle] = step.place;
-        let problem = ContactProblem {
+        let line = LineProblem {
             bodies,
             membrane: [&membrane_force[0], &membrane_force[1]],
-            rigid: step.rigid,
             time: step.time,
             duration: step.duration,
             surfaces: &self.surfaces,
@@ -156,13 +156,17 @@ impl ContactModel {
                 swelling: [&swelling[0], &swelling[1]],
                 flattening: [&step.flattening[0], &step.flattening[1]],
             },
-            limits: Limits {
+            limits: SteelLimits {
                 pressure: self.yield_pressure,
                 least: self.least_pressure(start.traction.resultant[1]),
                 sheared: self.standing([step.rigid[0].start(), step.rigid[2].start()], step.duration, &start.traction),
                 softened: &step.weakening.strength,
                 film: &step.weakening.film,
             },
+        };
+        let problem = ContactProblem {
+            line,
+            rigid: step.rigid,
             friction: step.friction,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,

@@ -11,7 +11,8 @@ use crate::analytic;
 use crate::config::{Config, ContactMethod, TimeScheme};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
-use crate::contact::series::{HalfPlane, SeriesSolver};
+use crate::contact::line::kernel::KernelCorrection;
+use crate::contact::series::{HalfPlaneKernel, SeriesSolver};
 use crate::contact::{self, ContactSolver, Surfaces};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
@@ -45,7 +46,7 @@ pub struct Workspace {
     /// Answers of wheel and rail without contact forces.
     pub free: [FreeResponse; 2],
     /// Of the contact solver.
-    pub contact: contact::Scratch,
+    pub contact: contact::ContactScratch,
     /// Of the heat step.
     pub heat: thermal::Scratch,
     /// State before and after an internal step.
@@ -67,7 +68,8 @@ impl Model {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
         let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
         let modulus = Isotropic::from(&config.material).contact_modulus();
-        let mut solver = ActiveSetSolver::new(grid(&bodies), &wheel.surface, &rail.surface, modulus);
+        let correction = KernelCorrection::new(&(&wheel.surface + &rail.surface), modulus);
+        let mut solver = ActiveSetSolver::new(grid(&bodies));
         if let Some(wide) = &bodies.wide {
             solver = solver.with_wider(grid(wide));
         }
@@ -78,12 +80,12 @@ impl Model {
             }
             None => Box::new(solver),
         };
-        Self::with_solver(config, bodies, surfaces, solver)
+        Self::with_solver(config, bodies, surfaces, solver, Some(correction))
     }
 
     /// What the solver on a single patch needs to know of the bodies, where it is asked for and no parameter rules it out: the
     /// half-plane that they lack, and how far they are known \[m].
-    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlane, f64)> {
+    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlaneKernel, f64)> {
         // Reversible heating needs the strains of the surfaces.
         let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
         let rates = config.solver.time_scheme == TimeScheme::Theta;
@@ -94,15 +96,17 @@ impl Model {
         };
         let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
         let mechanics::HalfPlane { kernel, coupling } = smooth.half_plane;
-        (!reversible && !rates).then_some((HalfPlane { kernel, coupling }, smooth.reach))
+        (!reversible && !rates).then_some((HalfPlaneKernel { kernel, coupling }, smooth.reach))
     }
 
-    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
+    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports; `correction`: that of
+    /// their compliance at grid scale, if the solver needs it.
     pub fn with_solver(
         config: Config,
         bodies: Pair,
         surfaces: Surfaces,
         solver: Box<dyn ContactSolver>,
+        correction: Option<KernelCorrection>,
     ) -> Result<Self, ModelError> {
         let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
         let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
@@ -113,7 +117,7 @@ impl Model {
         };
         Ok(Self {
             wheel: RigidWheel::new(&config),
-            bodies: Bodies::new(bodies, TrackSupport::new(&config), &*solver),
+            bodies: Bodies::new(bodies, TrackSupport::new(&config), correction),
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach)),
             reach: zone.max(reach),
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,

@@ -104,7 +104,7 @@ pub fn difference(
             let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
             let end = repeat(model, tuning, origin, &inputs, workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
-            end.ok().filter(|end| same_branch(end, state)).map(|end| observe(model, &end))
+            end.ok().filter(|end| same_branch(model, end, state)).map(|end| observe(model, &end))
         });
         match (ends[0].take(), ends[1].take()) {
             (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),
@@ -139,8 +139,8 @@ fn repeat(
 }
 
 /// Whether two states were computed by the same sequence of decisions.
-fn same_branch(a: &State, b: &State) -> bool {
-    a.contact.same_branch(&b.contact)
+fn same_branch(model: &Model, a: &State, b: &State) -> bool {
+    model.contact.solver.same_branch(&a.contact, &b.contact)
         && a.hub.brake.locked == b.hub.brake.locked
         && a.clock.internal_steps == b.clock.internal_steps
         && a.clock.iterations == b.clock.iterations

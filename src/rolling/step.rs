@@ -132,7 +132,7 @@ fn attempt(
             let brake_power = (next.audit.brake - state.audit.brake) / plan.dt;
             let tread_heat = brake::tread_heat(model, demand.target, brake_power);
             let step = HeatStep { dt: plan.dt, tread_heat, criteria };
-            let touch = thermal.touch(&model.contact, &next.contact.traction, demand.target.temperature);
+            let touch = thermal.touch(&model.contact, &next.contact, demand.target.temperature);
             let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
             next.thermal = Some(temperatures);
             audit::grow(next, &before.deformation);
@@ -184,7 +184,7 @@ fn solve_and_commit(
     next: &mut State,
 ) -> Result<(), StepError> {
     let Plan { dt, td, of_height, drives, speeds, .. } = plan;
-    let operators = model.bodies.operators(td.a0, state, &*model.contact.solver, &mut workspace.operators)?;
+    let operators = model.bodies.operators(td.a0, state, &mut workspace.operators)?;
     let streams = [
         Convection { speed: speeds[1], acceleration: state.motion.omega.rate },
         Convection { speed: speeds[0], acceleration: state.motion.velocity.rate },

@@ -17,11 +17,11 @@ fn solved(profile: &str, moment: f64) -> [u64; 2] {
     for step in 0..220 {
         // The first steps follow the change of the moment.
         if step == 20 {
-            before = tools.workspace.contact.active_set.solved;
+            before = tools.workspace.contact.active_set.solved();
         }
         simulation.advance_with(&inputs, 1e-4, &mut tools).unwrap();
     }
-    let after = tools.workspace.contact.active_set.solved;
+    let after = tools.workspace.contact.active_set.solved();
     [after[0] - before[0], after[1] - before[1]]
 }
 

@@ -9,8 +9,8 @@ use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::{ContactGrid, LineState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactSolver, ContactState, Flattening, Friction, Limits, Placement,
-    RigidMotion, Scratch, SolverState, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Flattening, Friction,
+    LineProblem, Placement, RigidMotion, SolverState, SteelLimits, SurfaceResponse, Surfaces,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -52,8 +52,7 @@ impl HalfPlanes {
         }
         let half =
             DMatrix::from_fn(n, n, |i, j| if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 });
-        // The compliance is that of half-planes already, so that the correction vanishes.
-        let solver = ActiveSetSolver::new(grid.clone(), &half, &half, modulus());
+        let solver = ActiveSetSolver::new(grid.clone());
         let none = [DMatrix::zeros(n, 3), DMatrix::zeros(3, n), DMatrix::zeros(3, 3)];
         let (relative, free) = (2.0 * &half, [DVector::zeros(n), DVector::zeros(n)]);
         Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none }
@@ -84,7 +83,7 @@ impl HalfPlanes {
         let v = 10.0 * (1.0 + 0.5 * creepage);
         let omega = 10.0 * (1.0 - 0.5 * creepage) / RADIUS;
         let (flat, sound) = (Piecewise::default(), Flattening::none(0.0));
-        let problem = ContactProblem {
+        let line = LineProblem {
             bodies: SurfaceResponse {
                 compliance: [&self.half, &self.half],
                 relative: &self.relative,
@@ -95,7 +94,6 @@ impl HalfPlanes {
                 retarded: [None; 2],
             },
             membrane: [&flat, &flat],
-            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             time: TimeDerivative::default(),
             duration: 0.0,
             surfaces: &self.surfaces,
@@ -107,13 +105,17 @@ impl HalfPlanes {
                 swelling: [&flat, &flat],
                 flattening: [&sound, &sound],
             },
-            limits: Limits::none(&flat),
+            limits: SteelLimits::none(&flat),
+        };
+        let problem = ContactProblem {
+            line,
+            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             friction: Friction::constant(FRICTION),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
         };
         let mut found = ContactState::default();
-        self.solver.solve(&problem, start, &mut found, &mut Scratch::default()).map(|()| found)
+        self.solver.solve(&problem, start, &mut found, &mut ContactScratch::default()).map(|()| found)
     }
 
     /// The node in the middle touches.

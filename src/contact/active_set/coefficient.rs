@@ -1,25 +1,27 @@
 //! Search for the friction coefficient that the law gives to the very slip that it causes.
 //!
 //! The slip depends on the coefficient, the coefficient on the slip: `μ = law(s(μ))`. Whatever the slip, the law stays
-//! within its bounds, so that `μ − law(s(μ))` is not positive at the lower and not negative at the upper one: between them
-//! lies a solution. Secants find it within a few evaluations; where they leave the bracket, or shrink it too slowly, it is
-//! halved, so that steep laws, jumps from slip to stick and long steps converge as well. Friction that falls faster than
-//! inertia and elasticity allow within one step has several solutions; the search ends at one near its start.
+//! within its bounds, so that `μ − law(s(μ))` is not positive at the lower and not negative at the upper one: between
+//! them lies a solution. Secants find it within a few evaluations; where they leave the bracket, or shrink it too
+//! slowly, it is halved, so that steep laws, jumps from slip to stick and long steps converge as well. Friction that
+//! falls faster than inertia and elasticity allow within one step has several solutions; the search ends at one near
+//! its start.
 
 /// Relative change of the coefficient that ends the search.
 const TOLERANCE: f64 = 1e-10;
-/// Relative width of the bracket at which the slip jumps rather than varies. Either it jumps between slip and stick; or the
-/// states found meanwhile shift the solution by a trifle, beyond an end that was evaluated with others. So the search starts
-/// once more from there, and ends where the bracket closes again.
+/// Relative width of the bracket at which the slip jumps rather than varies. Either it jumps between slip and stick; or
+/// the states found meanwhile shift the solution by a trifle, beyond an end that was evaluated with others. So the
+/// search starts once more from there, and ends where the bracket closes again.
 const NARROW: f64 = 1e-13;
 /// Evaluations in which secants must halve the bracket.
 const PATIENCE: usize = 4;
 
 /// The search in one contact problem.
 pub(super) struct CoefficientSearch {
-    /// Between which the solution lies [1].
+    /// Bracket of the solution \[1].
     bracket: [f64; 2],
-    /// Whether its ends were evaluated. The bounds of the law are solutions themselves where the contact sticks.
+    /// True for the ends of it that were evaluated. The bounds of the law are solutions themselves where the contact
+    /// sticks.
     tried: [bool; 2],
     /// The evaluation before: coefficient and what it exceeds that of the law by [1].
     before: Option<[f64; 2]>,

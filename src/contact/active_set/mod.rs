@@ -1,24 +1,20 @@
 //! Contact on a grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
-//! [`search`] finds the states of the nodes, [`linear`] the forces that belong to them, [`rows`] writes gap, slip and balance as
-//! rows of that linear problem, [`brake`] has the states of brakes, [`coefficient`] the search for a friction coefficient that
-//! depends on the slip, [`strength`] limits the forces to what steel bears, [`retarded`] has the force of retarded layers,
-//! [`zone`] watches the ends of the grid, [`finish`] reads off the result. What only saves time is in [`fast`].
+//! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
+//! close, stick and slip, [`unknowns`] the unknowns of given states and [`linear`] their equations, [`axes`] the
+//! balances of the rigid motions, [`brake`] the states of their brakes, [`coefficient`] the search for a friction
+//! coefficient that depends on the slip, and [`fast`] the shortcuts. [`solver`] is the contact solver that uses it.
 //! Theory: `docs/theory/contact.md`.
 
+mod axes;
 mod brake;
 mod coefficient;
 mod fast;
-mod finish;
-pub(super) mod iterate;
 mod linear;
-mod retarded;
-mod rows;
 mod search;
 mod solver;
-mod strength;
-mod zone;
+mod states;
+mod unknowns;
 
-pub use iterate::ActiveSetScratch;
-pub use search::MAX_ITERATIONS;
+pub use search::{ActiveSetScratch, MAX_ITERATIONS};
 pub use solver::ActiveSetSolver;

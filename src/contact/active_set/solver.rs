@@ -1,85 +1,83 @@
-//! The contact solver on a grid, behind the seam that all contact solvers share.
+//! Contact solver that finds the states of a line by an active set.
 
-use super::brake::founding_brakes;
-use super::iterate::{Iterate, copy};
+use super::search::ActiveSet;
 use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
-use crate::contact::line::kernel::KernelCorrection;
+use crate::contact::line::history::LineHistory;
 use crate::contact::line::regrid;
-use crate::contact::line::rim::{RimFrame, sagitta};
-use crate::contact::line::state::{FrictionHistory, LineState, Status};
+use crate::contact::line::state::{LineState, NodeStatus};
+use crate::contact::line::vectors::copy;
 use crate::contact::problem::ContactProblem;
-use crate::contact::solver::{ContactSolver, ContactState, Scratch, SolverState};
+use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::multistep::History;
 use crate::piecewise::Piecewise;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-/// The contact solver on a grid.
+/// Contact solver on the paired nodes of a line.
 #[derive(Clone, Debug)]
 pub struct ActiveSetSolver {
-    /// The grid for ordinary patches, and a wider one about the same middle for wide ones, if there is any.
-    grids: Vec<ContactGrid>,
-    kernel: KernelCorrection,
+    /// Grid for ordinary patches.
+    narrow: ContactGrid,
+    /// Grid about the same middle for wide ones.
+    wide: Option<ContactGrid>,
 }
 
 impl ActiveSetSolver {
-    /// From the static compliances of wheel and rail [m/(N/m)] and their contact modulus `E*` \[Pa].
-    pub fn new(grid: ContactGrid, wheel: &DMatrix<f64>, rail: &DMatrix<f64>, contact_modulus: f64) -> Self {
-        let kernel = KernelCorrection::new(&(wheel + rail), contact_modulus);
-        Self { grids: vec![grid], kernel }
+    /// A solver whose patches stay within one grid.
+    pub fn new(grid: ContactGrid) -> Self {
+        Self { narrow: grid, wide: None }
     }
 
     /// With a wider grid for patches that reach the end of the first one; its innermost nodes are those of the first.
     pub fn with_wider(mut self, wider: ContactGrid) -> Self {
-        self.grids.push(wider);
+        self.wide = Some(wider);
         self
     }
 
-    /// The grid to which so many ports belong.
-    pub(in crate::contact) fn grid(&self, ports: usize) -> Option<&ContactGrid> {
-        self.grids.iter().find(|grid| grid.ports() == ports)
+    /// Grid of the nodes that are ports.
+    pub(in crate::contact) fn grid(&self, ports: Ports) -> Option<&ContactGrid> {
+        match ports {
+            Ports::Narrow => Some(&self.narrow),
+            Ports::Wide => self.wide.as_ref(),
+            Ports::Smooth => None,
+        }
     }
-}
 
-/// A state on the nodes of another grid.
-fn moved(state: &ContactState, grid: &ContactGrid) -> Option<ContactState> {
-    let mut moved = state.clone();
-    let ContactState { traction, solver } = &mut moved;
-    let SolverState::Line(own) = solver else { return None };
-    regrid::move_to(grid, own, traction);
-    Some(moved)
+    /// A state on the nodes of another grid.
+    fn moved(&self, state: &ContactState, ports: Ports) -> Option<ContactState> {
+        let grid = self.grid(ports)?;
+        let mut moved = state.clone();
+        let ContactState { traction, history, solver, .. } = &mut moved;
+        let SolverState::Line(own) = solver else { return None };
+        regrid::move_to(grid, own, &mut history.friction, traction);
+        moved.ports = ports;
+        Some(moved)
+    }
 }
 
 impl ContactSolver for ActiveSetSolver {
-    fn correct(&self, wheel: &mut DMatrix<f64>, rail: &mut DMatrix<f64>) {
-        self.kernel.add_to(wheel, 0.5);
-        self.kernel.add_to(rail, 0.5);
-    }
-
-    fn correction_energy(&self, state: &ContactState) -> f64 {
-        self.kernel.energy(&state.traction.port_forces)
-    }
-
     fn touching(&self, half_width: f64) -> ContactState {
-        let holds = |grid: &&ContactGrid| grid.x.last().is_some_and(|end| half_width < *end);
-        let Some(grid) = self.grids.iter().find(holds).or(self.grids.last()) else { return ContactState::default() };
+        let holds = self.narrow.x.last().is_some_and(|end| half_width < *end);
+        let (ports, grid) = match &self.wide {
+            Some(wide) if !holds => (Ports::Wide, wide),
+            Some(_) | None => (Ports::Narrow, &self.narrow),
+        };
         let reach = half_width.max(0.5 * grid.spacing);
-        let touches = |x: &f64| if x.abs() < reach { Status::Stick } else { Status::Open };
-        let (n, ports) = (grid.len(), DVector::zeros(grid.ports()));
+        let touches = |x: &f64| if x.abs() < reach { NodeStatus::Stick } else { NodeStatus::Open };
+        let (n, zeros) = (grid.len(), DVector::zeros(grid.ports()));
         let state = LineState {
             status: grid.x.iter().map(touches).collect(),
             yielded: vec![false; n],
             slip: vec![0.0; n],
             gap: vec![0.0; n],
             tangential_gap: vec![History::default(); n],
-            friction: FrictionHistory::none(n),
-            rim_angle: History::default(),
             rest: 0,
         };
-        let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
-        let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };
-        ContactState { traction, solver: SolverState::Line(Box::new(state)) }
+        let [loads, surface] = [(); 2].map(|()| [zeros.clone(), zeros.clone()]);
+        let traction = Traction { port_forces: zeros, loads, surface, ..Traction::default() };
+        let solver = SolverState::Line(Box::new(state));
+        ContactState { ports, traction, history: LineHistory::none(n), energy: 0.0, solver }
     }
 
     fn solve(
@@ -87,66 +85,68 @@ impl ContactSolver for ActiveSetSolver {
         problem: &ContactProblem,
         start: &ContactState,
         found: &mut ContactState,
-        scratch: &mut Scratch,
+        scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         let SolverState::Line(before) = &start.solver else { return Err(ContactError::ForeignState) };
-        let ContactState { traction, solver } = found;
+        let grid = self.grid(start.ports).filter(|grid| grid.ports() == problem.line.bodies.relative.nrows());
+        let grid = grid.ok_or(ContactError::ForeignState)?;
+        let ContactState { ports, traction, history, energy, solver } = found;
         if !matches!(solver, SolverState::Line(_)) {
             *solver = SolverState::Line(Box::default());
         }
         let SolverState::Line(state) = solver else { return Err(ContactError::ForeignState) };
         state.copy_from(before);
+        history.copy_from(&start.history);
+        (*ports, *energy) = (start.ports, 0.0);
         copy(&mut traction.port_forces, &start.traction.port_forces);
         traction.tread_slip = start.traction.tread_slip;
         for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
             copy(ours, theirs);
         }
-        let scratch = &mut scratch.active_set;
-        let grid = self.grid(problem.bodies.relative.nrows()).ok_or(ContactError::ForeignState)?;
-        let radius = problem.surfaces.radius;
-        let mut heights = std::mem::take(&mut scratch.sagitta);
-        sagitta(grid, radius, &mut heights);
-        let frame = RimFrame { grid, radius, sagitta: &heights, rim_angle: 0.0 };
-        let brakes = founding_brakes(problem);
-        let solved = Iterate { grid, problem, state, traction, scratch, frame, surface_angle: 0.0, brakes }.run();
-        scratch.sagitta = heights;
-        solved
+        ActiveSet::new(grid, problem, (state, history, traction), &mut scratch.active_set).run()
+    }
+
+    fn fits(&self, state: &ContactState) -> bool {
+        let (SolverState::Line(line), Some(grid)) = (&state.solver, self.grid(state.ports)) else { return false };
+        let (n, traction) = (grid.len(), &state.traction);
+        let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
+        [line.status.len(), line.slip.len(), line.gap.len(), line.tangential_gap.len(), line.yielded.len()] == [n; 5]
+            && state.history.friction.fits(n)
+            && vectors.into_iter().all(|values| values.len() == grid.ports())
+            && traction.port_forces.iter().all(|f| f.is_finite())
+    }
+
+    fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
+        match (&a.solver, &b.solver) {
+            (SolverState::Line(a), SolverState::Line(b)) => a.status == b.status && a.yielded == b.yielded,
+            (SolverState::Line(_) | SolverState::Series(_) | SolverState::Stateless, _) => false,
+        }
     }
 
     fn widened(&self, state: &ContactState) -> Option<ContactState> {
-        let own = self.grid(state.traction.port_forces.len())?;
-        let wider = self.grids.iter().find(|grid| grid.ports() > own.ports())?;
-        moved(state, wider)
+        match state.ports {
+            Ports::Narrow => self.moved(state, Ports::Wide),
+            Ports::Wide | Ports::Smooth => None,
+        }
     }
 
     fn narrowed(&self, state: &ContactState, nominal_load: f64) -> Option<ContactState> {
-        let (own, narrow) = (self.grid(state.traction.port_forces.len())?, self.grids.first()?);
-        let SolverState::Line(grid) = &state.solver else { return None };
-        let may = own.ports() > narrow.ports() && regrid::fits_into(narrow, own, grid, &state.traction, nominal_load);
-        if may { moved(state, narrow) } else { None }
+        let (Ports::Wide, Some(wide), SolverState::Line(line)) = (state.ports, &self.wide, &state.solver) else {
+            return None;
+        };
+        let may = regrid::fits_into(&self.narrow, wide, line, &state.traction, nominal_load);
+        if may { self.moved(state, Ports::Narrow) } else { None }
     }
 
-    fn surface_strain(&self, traction: &Traction) -> [Piecewise; 2] {
-        let Some(grid) = self.grid(traction.port_forces.len()) else { return Default::default() };
+    fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {
+        let Some(grid) = self.grid(state.ports) else { return Default::default() };
         [0, 1].map(|body| {
-            let u = &traction.surface[body];
+            let u = &state.traction.surface[body];
             let strain = |i: usize| {
                 let port = grid.port(i);
                 (u[port + 2] - u[port - 2]) / grid.span(i)
             };
             Piecewise { x: grid.x.clone(), value: (0..grid.len()).map(strain).collect() }
         })
-    }
-
-    fn fits(&self, state: &ContactState) -> bool {
-        let (SolverState::Line(grid), Some(own)) = (&state.solver, self.grid(state.traction.port_forces.len())) else {
-            return false;
-        };
-        let (n, ports, traction) = (own.len(), own.ports(), &state.traction);
-        let FrictionHistory { force, impulse, slip, .. } = &grid.friction;
-        [grid.status.len(), grid.slip.len(), grid.gap.len(), grid.tangential_gap.len()] == [n; 4]
-            && [force.len(), impulse.len(), slip.len(), grid.yielded.len()] == [n; 4]
-            && traction.loads.iter().chain(&traction.surface).all(|values| values.len() == ports)
-            && traction.port_forces.iter().all(|f| f.is_finite())
     }
 }

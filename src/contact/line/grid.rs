@@ -1,4 +1,4 @@
-//! The surface nodes at which contact is looked for.
+//! Surface nodes at which contact is looked for.
 
 /// Relative deviation within which a cell counts as one of the uniform ones: round-off of the positions.
 const ROUND_OFF: f64 = 1e-9;
@@ -22,8 +22,8 @@ pub struct ContactGrid {
 }
 
 impl ContactGrid {
-    /// A grid of all `nodes` \[m], x ascending, the outermost `guard` of which on each side are guards; `spacing` is that in
-    /// the middle \[m].
+    /// A grid of all `nodes` \[m], x ascending, the outermost `guard` of which on each side are guards; `spacing` is
+    /// that in the middle \[m].
     pub fn new(nodes: Vec<f64>, spacing: f64, guard: usize) -> Self {
         let length = |pair: &[f64]| match pair[1] - pair[0] {
             cell if (cell - spacing).abs() < ROUND_OFF * spacing => spacing,
@@ -47,7 +47,7 @@ impl ContactGrid {
         self.x.len()
     }
 
-    /// Whether there is no candidate.
+    /// True if there is no candidate.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }

@@ -1,19 +1,35 @@
-//! One contact line on a grid of paired surface nodes: what is closed, what sticks, and what forces do to gap and slip.
+//! One contact line on a grid of paired surface nodes: states, history, gap, slip and read-off.
 //!
-//! A line knows no solver, no rigid axis and no brake. [`ContactGrid`] has the nodes, [`LineState`] their states and history,
-//! [`streamline`] the upwind differences of the slip, [`kernel`] the correction of the compliance at grid scale, [`slopes`] the
-//! slopes against which pressure pushes, [`rim`] the frame that turns with the rim, [`regrid`] the change to a wider or narrower
-//! grid, [`observe`] the traction and [`power`] the power of a solution. Theory: `docs/theory/contact.md`.
+//! A line knows no solver, no rigid axis and no brake: rigid motions are numbers to it. [`ContactGrid`] has the nodes,
+//! [`LineState`] their states, [`LineHistory`] what any discretisation of the line shares, [`given`] the known part of
+//! a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the present
+//! iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`streamline`] the
+//! upwind differences of the slip, [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes
+//! against which pressure pushes, [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded
+//! layers, [`zone`] the ends of the grid, [`regrid`] the change to a wider or narrower grid. Of a solution [`power`]
+//! takes the power, [`observe`] the traction, and [`mod@finish`] both. Theory: `docs/theory/contact.md`.
 
+pub(super) mod contact_line;
+pub(super) mod finish;
+pub(super) mod given;
 pub mod grid;
+pub(super) mod history;
+pub(super) mod hot_layers;
 pub mod kernel;
+pub(super) mod kinematics;
 pub mod observe;
 pub(super) mod power;
 pub(super) mod regrid;
+pub(super) mod retarded;
 pub(super) mod rim;
+pub(super) mod rows;
 pub(super) mod slopes;
 pub(super) mod state;
 pub mod streamline;
+pub(super) mod strength;
+pub(super) mod vectors;
+pub(super) mod zone;
 
 pub use grid::ContactGrid;
-pub use state::{FrictionHistory, LineState, Status, for_each_patch};
+pub use history::{FrictionHistory, LineHistory};
+pub use state::{LineState, NodeStatus, for_each_patch};

@@ -1,10 +1,9 @@
-//! Reads the traction off a solution on the grid. What it reports varies smoothly while the contact edges move between
-//! nodes.
+//! Traction read off a solution on the grid. It varies smoothly while the contact edges move between nodes.
 
 use super::grid::ContactGrid;
 use super::rim::RimFrame;
 use super::slopes::Slopes;
-use super::state::{LineState, Status, for_each_patch};
+use super::state::{LineState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
@@ -18,8 +17,8 @@ const FADING: f64 = 0.2;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
-/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m]; `wheel`: rolling radius,
-/// turn of the rim and surface displacement.
+/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m]; `wheel`: rolling
+/// radius, rim frame and surface displacement.
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
 /// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
@@ -32,9 +31,9 @@ pub(in crate::contact) fn lever_arms(
     [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) + radius * slopes.arm(i)]
 }
 
-/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power` of
-/// friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that the
-/// steel bears anywhere \[Pa].
+/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power`
+/// of friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that
+/// the steel bears anywhere \[Pa].
 pub fn read_off(
     grid: &ContactGrid,
     (power, limit): (f64, f64),
@@ -64,11 +63,11 @@ pub fn read_off(
     over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
     over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
     over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
-    // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at stuck
-    // nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
+    // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at
+    // stuck nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
     let density = |i: usize| match status[i] {
-        Status::SlipForward | Status::SlipBackward => (-tangential(i) * state.slip[i] / grid.width(i)).max(0.0),
-        Status::Stick | Status::Open => 0.0,
+        NodeStatus::SlipForward | NodeStatus::SlipBackward => (-tangential(i) * state.slip[i] / grid.width(i)).max(0.0),
+        NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
     over_patches(grid, status, patches, density, &mut traction.dissipation);
     scale_to(&mut traction.dissipation, power, &traction.pressure);
@@ -88,8 +87,8 @@ pub(in crate::contact) fn overlap(grid: &ContactGrid, state: &LineState, overlap
     }
 }
 
-/// Work [J/m] that yielding candidates would give back if none of their depth `overlap` \[m] stayed. Their force rises with the
-/// depth from the `limit` on [N/m] and falls with it again, so that the work is that of the mean of both.
+/// Work [J/m] that yielding candidates would give back if none of their depth `overlap` \[m] stayed. Their force rises
+/// with the depth from the `limit` on [N/m] and falls with it again, so that the work is that of the mean of both.
 pub(in crate::contact) fn springing_work(
     grid: &ContactGrid,
     overlap: &[f64],
@@ -101,8 +100,8 @@ pub(in crate::contact) fn springing_work(
     overlap.iter().zip(limit).enumerate().map(of_node).sum()
 }
 
-/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the rolling
-/// radius [m].
+/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the
+/// rolling radius [m].
 pub(in crate::contact) fn resultant(radius: f64, frame: &RimFrame, slopes: Slopes, traction: &Traction) -> [f64; 3] {
     let grid = slopes.grid;
     let wheel = (radius, frame, &traction.surface[0]);
@@ -118,8 +117,8 @@ pub(in crate::contact) fn resultant(radius: f64, frame: &RimFrame, slopes: Slope
     sum
 }
 
-/// Scales a profile to the given integral; where it is zero itself, or too small to be scaled, it takes the shape of the
-/// `fallback`.
+/// Scales a profile to the given integral; where it is zero itself, or too small to be scaled, it takes the shape of
+/// the `fallback`.
 fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
     let factor = total / profile.integral();
     if factor.is_finite() {
@@ -144,8 +143,8 @@ fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) 
     }
 }
 
-/// Distance of the contact edge beyond the outermost of three nodes [cells]. As the pressure of that node vanishes, the edge
-/// tends to where it is without it, whatever the shape of the pressure; for a Hertzian one it does so by itself.
+/// Distance of the contact edge beyond the outermost of three nodes [cells]. As the pressure of that node vanishes, the
+/// edge tends to where it is without it, whatever the shape of the pressure; for a Hertzian one it does so by itself.
 fn continuous_offset(edge: f64, inner: f64, next: f64) -> f64 {
     let own = edge_offset(edge, inner);
     let ratio = if inner > 0.0 { (edge / inner).max(0.0) } else { 1.0 };
@@ -156,8 +155,8 @@ fn continuous_offset(edge: f64, inner: f64, next: f64) -> f64 {
     own + (1.0 - ratio / FADING) * jump
 }
 
-/// The patch of a run of closed nodes with these edges. An edge up to a quarter of a cell inside the outermost node is moved
-/// just beyond it, so that the force of that node acts, heats and conducts within the patch.
+/// The patch of a run of closed nodes with these edges. An edge up to a quarter of a cell inside the outermost node is
+/// moved just beyond it, so that the force of that node acts, heats and conducts within the patch.
 fn stretch(grid: &ContactGrid, edges: Interval, run: &Range<usize>) -> Interval {
     let margin = MARGIN * grid.spacing;
     Interval { low: edges.low.min(grid.x[run.start] - margin), high: edges.high.max(grid.x[run.end - 1] + margin) }
@@ -166,7 +165,7 @@ fn stretch(grid: &ContactGrid, edges: Interval, run: &Range<usize>) -> Interval 
 /// Writes a nodal quantity as a profile over all patches that falls to zero at their ends.
 fn over_patches(
     grid: &ContactGrid,
-    status: &[Status],
+    status: &[NodeStatus],
     patches: &[Interval],
     value: impl Fn(usize) -> f64,
     profile: &mut Piecewise,
@@ -181,9 +180,10 @@ fn over_patches(
     });
 }
 
-/// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one, at most the `limit`: for
-/// the elliptic pressure of a Hertzian patch it is exact. Where the largest pressure is a node's, it is that: where steel `yields`
-/// pressures follow its strength from node to node, and a parabola through a skewed peak passes below it.
+/// Largest pressure [Pa] from the parabola through the squared nodal pressures around the largest one, at most the
+/// `limit`: for the elliptic pressure of a Hertzian patch it is exact. Where the largest pressure is a node's, it is
+/// that: where steel `yields` pressures follow its strength from node to node, and a parabola through a skewed peak
+/// passes below it.
 fn pressure_peak(grid: &ContactGrid, yields: &[bool], normal: impl Fn(usize) -> f64, limit: f64) -> f64 {
     let pressure = |i: usize| normal(i) / grid.width(i);
     let Some(top) = (0..grid.len()).max_by(|&a, &b| pressure(a).total_cmp(&pressure(b))) else { return 0.0 };
@@ -220,8 +220,8 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
 
 /// Length of the stick zone of one run [m]; its boundary between stick and slip is found below grid scale from
 /// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
-fn stick_length(grid: &ContactGrid, status: &[Status], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
-    let mut stuck = run.clone().filter(|&i| status[i] == Status::Stick);
+fn stick_length(grid: &ContactGrid, status: &[NodeStatus], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
+    let mut stuck = run.clone().filter(|&i| status[i] == NodeStatus::Stick);
     let Some(low) = stuck.next() else { return 0.0 };
     let high = stuck.next_back().unwrap_or(low);
     let beyond = |edge: usize, inward: isize| {

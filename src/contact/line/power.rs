@@ -1,11 +1,12 @@
-//! Where the power of the contact forces goes: into friction, and out of thermal expansion.
+//! Power of the contact forces: it goes into friction, and comes from thermal expansion.
 //!
 //! Slopes are central differences: for these, not for upwind ones, the forces do no work on the derivative of their own
 //! displacement, so that the power of hub, friction and expansion balances. Derivation: `docs/theory/lever-arms.md`.
 
 use super::grid::ContactGrid;
+use super::history::FrictionHistory;
+use super::hot_layers::HotLayers;
 use super::rim::RimFrame;
-use super::state::FrictionHistory;
 use crate::contact::traction::Traction;
 use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
@@ -14,42 +15,24 @@ use nalgebra::DVector;
 pub(in crate::contact) struct Power<'a> {
     pub grid: &'a ContactGrid,
     pub traction: &'a Traction,
-    /// Turn of the rim.
+    /// Frame that turns with the rim.
     pub frame: &'a RimFrame<'a>,
     /// Velocity with which the rim passes the contact [m/s].
     pub rim_velocity: f64,
     /// Slip velocity at the candidates with central differences [m/s].
     pub slip: &'a [f64],
-    /// Swelling of the hot layers of wheel and rail at the candidates [m]; empty without any.
-    pub swelling: &'a [Vec<f64>; 2],
-    /// Displacement of wheel and rail by the membrane forces of their hot layers [m]; empty without any.
-    pub membrane: &'a [DVector<f64>; 2],
-    /// Force with which the late layer of the rail spares the hub [N/m].
-    pub late: f64,
+    /// Hot layers of wheel and rail.
+    pub layers: &'a HotLayers,
+    /// Force by which the retarded layer of the rail relieves the hub [N/m].
+    pub retarded: f64,
 }
 
 impl Power<'_> {
-    /// Power [W/m] that friction turns from mechanical energy into heat, contact forces times relative velocity less what
-    /// hot material gives back by expanding, and its energy in a step with the time formula `time` [J/m]: the impulse of every
-    /// force times the mean velocity.
+    /// Power [W/m] that friction turns from mechanical energy into heat, contact forces times relative velocity less
+    /// what hot material gives back by expanding, and its energy in a step with the time formula `time` [J/m]: the
+    /// impulse of every force times the mean velocity.
     pub fn friction(&self, time: &TimeDerivative, history: &mut FrictionHistory) -> [f64; 2] {
-        let slope_power = self.slope_power() - self.expansion();
-        let (mut power, mut work) = (slope_power, 0.0);
-        for i in 0..self.grid.len() {
-            let ([force, _], slip) = (self.forces(i), self.slip[i]);
-            power -= force * slip;
-            if !time.is_stationary() {
-                history.impulse[i] = time.impulse(force, history.force[i], history.impulse[i]);
-                work -= history.impulse[i] * 0.5 * (history.slip[i] + slip);
-            }
-            (history.force[i], history.slip[i]) = (force, slip);
-        }
-        if !time.is_stationary() {
-            history.slope_work = time.impulse(slope_power, history.slope_power, history.slope_work);
-            work += history.slope_work;
-        }
-        history.slope_power = slope_power;
-        [power, work]
+        history.advance(time, self.slope_power() - self.expansion(), |i| [self.forces(i)[0], self.slip[i]])
     }
 
     /// Power [W/m] of pressure on the slope of the deformed rail where the surfaces slide over each other.
@@ -57,11 +40,12 @@ impl Power<'_> {
         let rail = &self.traction.surface[1];
         let slope = |i: usize| self.slope(rail, i, self.grid.port(i) + 1) + self.swelling_slope(1, i);
         let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
-        (self.rim_velocity - self.traction.rigid[0]) * (load + self.late)
+        (self.rim_velocity - self.traction.rigid[0]) * (load + self.retarded)
     }
 
-    /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the change of
-    /// the expansion in time adds, force times expansion, is not counted: hundredths of a joule in a whole run.
+    /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the
+    /// change of the expansion in time adds, force times expansion, is not counted: hundredths of a joule in a whole
+    /// run.
     fn expansion(&self) -> f64 {
         let velocity = [self.rim_velocity, self.traction.rigid[0]];
         let of_node = |i: usize| {
@@ -71,7 +55,7 @@ impl Power<'_> {
         let swelling: f64 = (0..self.grid.len()).map(of_node).sum();
         let turning = self.rim_velocity / self.frame.radius;
         let membrane = |body: usize| -> f64 {
-            let u = &self.membrane[body];
+            let u = &self.layers.membrane[body];
             let of_node = |i: usize| {
                 let ([tangential, normal], port) = (self.forces(i), self.grid.port(i));
                 let straight = tangential * self.slope(u, i, port) + normal * self.slope(u, i, port + 1);
@@ -94,8 +78,7 @@ impl Power<'_> {
     }
 
     fn swelling_slope(&self, body: usize, i: usize) -> f64 {
-        let layer = &self.swelling[body];
-        let at = |k: Option<usize>| k.and_then(|k| layer.get(k)).copied().unwrap_or(0.0);
+        let at = |k: Option<usize>| k.map_or(0.0, |k| self.layers.swelling_at(body, k));
         (at(Some(i + 1)) - at(i.checked_sub(1))) / self.grid.span(i)
     }
 }

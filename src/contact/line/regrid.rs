@@ -1,21 +1,23 @@
 //! Changes between a grid and a wider one about the same middle, whose innermost nodes are those of the first.
 //!
-//! Both see the same bodies, so that a contact within the smaller grid is the same on both: to widen a state is to add open
-//! nodes without forces. Gaps and displacements of new nodes start as those of the outermost old one: nodes that close in
-//! the very step of the change lie next to it, and after it all are known.
+//! Both see the same bodies, so that a contact within the smaller grid is the same on both: to widen a state is to add
+//! open nodes without forces. Gaps and displacements of new nodes start as those of the outermost old one: nodes that
+//! close in the very step of the change lie next to it, and after it all are known.
 
 use super::grid::ContactGrid;
-use super::state::{FrictionHistory, LineState, Status};
+use super::history::FrictionHistory;
+use super::state::{LineState, NodeStatus};
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
 
-/// Share of a grid within which all patches must lie before a wider one is left for it \[1]: a patch that breathes about
-/// the end of the grid does not change it from step to step.
+/// Share of a grid within which all patches must lie before a wider one is left for it \[1]: a patch that breathes
+/// about the end of the grid does not change it from step to step.
 const LEAVING: f64 = 0.8;
-/// Pull of hot layers on what would be cut off, in nominal loads, below which the bodies hardly notice that it ends \[1].
+/// Pull of hot layers on the nodes that would be cut off, in nominal loads, below which the bodies hardly notice the
+/// cut \[1].
 const SLIGHT_PULL: f64 = 0.01;
 
-/// Where values about a middle are found in a longer or shorter list about the same middle; beyond its ends `Err` with the
+/// Index of a value about a middle in a longer or shorter list about the same middle; beyond its ends `Err` with the
 /// nearer end.
 fn place(i: usize, len: usize, source: usize) -> Result<usize, usize> {
     match (i + source / 2).checked_sub(len / 2) {
@@ -25,12 +27,12 @@ fn place(i: usize, len: usize, source: usize) -> Result<usize, usize> {
     }
 }
 
-/// The values of the common nodes, and outside of them those of the nearest.
+/// Values of the common nodes, and outside of them those of the nearest.
 fn nearest<T: Copy>(values: &[T], len: usize) -> Vec<T> {
     (0..len).map(|i| values[place(i, len, values.len()).unwrap_or_else(|end| end)]).collect()
 }
 
-/// The values of the common nodes, and `outside` of them another.
+/// Values of the common nodes, and another one `outside` of them.
 fn padded<T: Copy>(values: &[T], len: usize, outside: T) -> Vec<T> {
     (0..len).map(|i| place(i, len, values.len()).map_or(outside, |k| values[k])).collect()
 }
@@ -46,13 +48,18 @@ fn components(values: &DVector<f64>, ports: usize, outside: Option<[f64; 2]>) ->
 }
 
 /// Gives a state the nodes of `grid`.
-pub(in crate::contact) fn move_to(grid: &ContactGrid, state: &mut LineState, traction: &mut Traction) {
+pub(in crate::contact) fn move_to(
+    grid: &ContactGrid,
+    state: &mut LineState,
+    friction: &mut FrictionHistory,
+    traction: &mut Traction,
+) {
     let (n, ports) = (grid.len(), grid.ports());
     if state.status.is_empty() {
         return;
     }
-    let LineState { status, yielded, slip, gap, tangential_gap, friction, rim_angle: _, rest: _ } = state;
-    *status = padded(status, n, Status::Open);
+    let LineState { status, yielded, slip, gap, tangential_gap, rest: _ } = state;
+    *status = padded(status, n, NodeStatus::Open);
     *yielded = padded(yielded, n, false);
     *slip = padded(slip, n, 0.0);
     *gap = nearest(gap, n);
@@ -68,7 +75,7 @@ pub(in crate::contact) fn move_to(grid: &ContactGrid, state: &mut LineState, tra
     surface.iter_mut().for_each(|u| *u = components(u, ports, None));
 }
 
-/// Whether a state of the grid `wide` may as well live on the smaller grid `narrow`.
+/// True if a state of the grid `wide` may as well live on the smaller grid `narrow`.
 pub(in crate::contact) fn fits_into(
     narrow: &ContactGrid,
     wide: &ContactGrid,
@@ -77,7 +84,7 @@ pub(in crate::contact) fn fits_into(
     nominal_load: f64,
 ) -> bool {
     let end = LEAVING * narrow.x.last().copied().unwrap_or(0.0);
-    let beyond = |(x, status): (&f64, &Status)| status.is_active() && x.abs() > end;
+    let beyond = |(x, status): (&f64, &NodeStatus)| status.is_active() && x.abs() > end;
     if wide.x.iter().zip(&state.status).any(beyond) {
         return false;
     }
@@ -100,37 +107,37 @@ mod tests {
         let values = |n: usize, from: f64| (0..n).map(|i| from + i as f64).collect::<Vec<_>>();
         let vector = |from| DVector::from_vec(values(narrow.ports(), from));
         let mut state = LineState {
-            status: vec![Status::Open; 9],
+            status: vec![NodeStatus::Open; 9],
             yielded: vec![false; 9],
             slip: values(9, 1.0),
             gap: values(9, 2.0),
             tangential_gap: values(9, 3.0).into_iter().map(crate::multistep::History::constant).collect(),
-            friction: FrictionHistory {
-                force: values(9, 4.0),
-                impulse: values(9, 5.0),
-                slip: values(9, 6.0),
-                ..FrictionHistory::default()
-            },
             ..LineState::default()
         };
-        state.status[4] = Status::Stick;
+        state.status[4] = NodeStatus::Stick;
+        let mut friction = FrictionHistory {
+            force: values(9, 4.0),
+            impulse: values(9, 5.0),
+            slip: values(9, 6.0),
+            ..FrictionHistory::default()
+        };
         let mut traction = Traction {
             port_forces: vector(7.0),
             loads: [vector(8.0), vector(9.0)],
             surface: [vector(10.0), vector(11.0)],
             ..Traction::default()
         };
-        let before = (state.clone(), traction.clone());
-        move_to(&wide, &mut state, &mut traction);
-        assert_eq!((state.status.len(), state.status[9], traction.port_forces.len()), (19, Status::Stick, 46));
+        let before = (state.clone(), friction.clone(), traction.clone());
+        move_to(&wide, &mut state, &mut friction, &mut traction);
+        assert_eq!((state.status.len(), state.status[9], traction.port_forces.len()), (19, NodeStatus::Stick, 46));
         assert_eq!((traction.loads[0][0], traction.surface[0][1], state.slip[18]), (0.0, 11.0, 0.0));
         assert!(fits_into(&narrow, &wide, &state, &traction, 1.0));
-        state.status[5] = Status::Stick;
+        state.status[5] = NodeStatus::Stick;
         assert!(!fits_into(&narrow, &wide, &state, &traction, 1.0));
-        state.status[5] = Status::Open;
+        state.status[5] = NodeStatus::Open;
         traction.loads[1][2] = 0.02;
         assert!(!fits_into(&narrow, &wide, &state, &traction, 1.0));
-        move_to(&narrow, &mut state, &mut traction);
-        assert_eq!((state, traction), before);
+        move_to(&narrow, &mut state, &mut friction, &mut traction);
+        assert_eq!((state, friction, traction), before);
     }
 }

@@ -1,12 +1,14 @@
-//! The frame that turns with the rim.
+//! Frame that turns with the rim, and the rim angle as a function of the forces.
 //!
-//! The torsion of the wheel between hub and rim turns the rim as a whole. For a round rim that is no change of geometry,
-//! but in linear kinematics a turn `θ` moves the surface by `θ (√(r² − x²), x)`: it tilts the gap and moves the patch to
-//! `−θr`. Gap, strains and lever arms are therefore those of the displacement *relative to the turned rim*,
-//! `û = u − θ (√(r² − x²), x)`, where `θ` makes the pressure-weighted mean of `û_x` vanish. The material passes the contact
-//! with the velocity of the rim, `r (Ω − θ̇)`. Derivation: `docs/theory/lever-arms.md`.
+//! The torsion of the wheel between hub and rim turns the rim as a whole. For a round rim that is no change of
+//! geometry, but in linear kinematics a turn `θ` moves the surface by `θ (√(r² − x²), x)`: it tilts the gap and moves
+//! the patch to `−θr`. Gap, strains and lever arms are therefore those of the displacement *relative to the turned
+//! rim*, `û = u − θ (√(r² − x²), x)`, where `θ` makes the pressure-weighted mean of `û_x` vanish. The material passes
+//! the contact with the velocity of the rim, `r (Ω − θ̇)`. Derivation: `docs/theory/lever-arms.md`.
 
 use super::grid::ContactGrid;
+use crate::contact::problem::SurfaceResponse;
+use crate::linalg::vectorised::add_columns;
 use nalgebra::DVector;
 
 /// Displacements of the wheel surface as seen from the turned rim.
@@ -32,13 +34,13 @@ impl RimFrame<'_> {
         u[self.grid.port(i) + 1] - self.rim_angle * self.grid.x[i]
     }
 
-    /// Angle [rad] at which the mean of `û_x`, weighted with the nodal normal `forces`, vanishes; without any, that at which it
-    /// vanishes at the middle of the zone.
+    /// Angle [rad] at which the mean of `û_x`, weighted with the nodal normal `forces`, vanishes; without any, that at
+    /// which it vanishes at the middle of the zone.
     pub fn angle_of(&self, u: &DVector<f64>, forces: &DVector<f64>) -> f64 {
         self.weights(forces).map(|(port, weight)| weight * u[port]).sum()
     }
 
-    /// What the displacements at the x ports contribute to this angle [1/m].
+    /// Weights of the displacements at the x ports in this angle [1/m].
     pub fn weights(&self, forces: &DVector<f64>) -> impl Iterator<Item = (usize, f64)> {
         let grid = self.grid;
         let normal = move |i: usize| forces[grid.port(i) + 1].max(0.0);
@@ -54,4 +56,45 @@ impl RimFrame<'_> {
 pub(in crate::contact) fn sagitta(grid: &ContactGrid, radius: f64, heights: &mut Vec<f64>) {
     heights.clear();
     heights.extend(grid.nodes().iter().map(|x| x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())));
+}
+
+/// Rim angle as an affine function of port forces and rigid accelerations.
+#[derive(Default)]
+pub struct RimAngleRow {
+    /// Coefficients of all port forces [rad/(N/m)].
+    pub forces: Vec<f64>,
+    /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
+    pub accelerations: [f64; 3],
+    /// Constant \[rad].
+    pub constant: f64,
+    /// Its value in the present solution, with the weights of the one before \[rad].
+    pub value: f64,
+    /// Weights of the displacements at the tangential ports from the first loaded one on [1/m].
+    weights: Vec<f64>,
+}
+
+impl RimAngleRow {
+    /// Takes the mean of [`RimFrame::angle_of`] with the weights of the present port `forces`; `known`: displacement of
+    /// the wheel without contact forces and without accelerations that are sought \[m].
+    pub fn update(&mut self, frame: &RimFrame, bodies: &SurfaceResponse, known: &DVector<f64>, forces: &DVector<f64>) {
+        let ports = frame.grid.ports();
+        self.forces.clear();
+        self.forces.resize(ports, 0.0);
+        (self.accelerations, self.constant) = ([0.0; 3], 0.0);
+        self.weights.clear();
+        let mut first = 0;
+        for (port, weight) in frame.weights(forces) {
+            if self.weights.is_empty() {
+                first = port;
+            }
+            // Nodes without force weigh nothing.
+            self.weights.resize((port - first) / 2, 0.0);
+            self.weights.push(weight);
+            self.accelerations.iter_mut().enumerate().for_each(|(k, t)| *t += weight * bodies.inertial[(port, k)]);
+            self.constant += weight * known[port];
+        }
+        // Every other column belongs to a normal force.
+        let columns = &bodies.compliance[0].as_slice()[first * ports..];
+        add_columns(1.0, columns, 2 * ports, &self.weights, &mut self.forces);
+    }
 }

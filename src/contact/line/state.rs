@@ -1,11 +1,11 @@
-//! What the solver on the grid remembers: the states of the pairs of nodes and their history.
+//! States of the pairs of nodes of a line and the history of their displacements.
 
 use crate::multistep::History;
 use serde::{Deserialize, Serialize};
 
 /// State of one pair of contact nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Status {
+pub enum NodeStatus {
     /// No contact.
     Open,
     /// Closed, no slip.
@@ -16,24 +16,24 @@ pub enum Status {
     SlipBackward,
 }
 
-impl Status {
-    /// Whether the pair is closed.
+impl NodeStatus {
+    /// True if the pair is closed.
     pub fn is_active(self) -> bool {
-        self != Status::Open
+        self != NodeStatus::Open
     }
 
     /// Direction of the friction force on the wheel: ±1 in slip, 0 otherwise.
     pub fn friction_direction(self) -> f64 {
         match self {
-            Status::SlipForward => 1.0,
-            Status::SlipBackward => -1.0,
-            Status::Open | Status::Stick => 0.0,
+            NodeStatus::SlipForward => 1.0,
+            NodeStatus::SlipBackward => -1.0,
+            NodeStatus::Open | NodeStatus::Stick => 0.0,
         }
     }
 }
 
-/// Calls `f` with every maximal run of closed nodes as an index range, x ascending: the contact patches.
-pub fn for_each_patch(status: &[Status], mut f: impl FnMut(std::ops::Range<usize>)) {
+/// Contact patches: calls `f` with every maximal run of closed nodes as an index range, x ascending.
+pub fn for_each_patch(status: &[NodeStatus], mut f: impl FnMut(std::ops::Range<usize>)) {
     let mut start = None;
     for (i, s) in status.iter().enumerate() {
         match (s.is_active(), start) {
@@ -50,43 +50,12 @@ pub fn for_each_patch(status: &[Status], mut f: impl FnMut(std::ops::Range<usize
     }
 }
 
-/// Friction at the end of the last step, and what the time formula attributes to that step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FrictionHistory {
-    /// Friction forces on the wheel at the candidates [N/m].
-    pub force: Vec<f64>,
-    /// Their impulses in the last step [N s/m].
-    pub impulse: Vec<f64>,
-    /// Slip velocities there with central differences [m/s].
-    pub slip: Vec<f64>,
-    /// The rest of the power: of pressure on the sliding slope of the rail, less that of expanding material [W/m].
-    pub slope_power: f64,
-    /// Its work in the last step [J/m].
-    pub slope_work: f64,
-}
-
-impl FrictionHistory {
-    /// Nothing has acted yet at `n` candidates.
-    pub fn none(n: usize) -> Self {
-        let zeros = || vec![0.0; n];
-        Self { force: zeros(), impulse: zeros(), slip: zeros(), slope_power: 0.0, slope_work: 0.0 }
-    }
-
-    /// Becomes equal to another one and keeps its memory.
-    fn copy_from(&mut self, other: &Self) {
-        self.force.clone_from(&other.force);
-        self.impulse.clone_from(&other.impulse);
-        self.slip.clone_from(&other.slip);
-        (self.slope_power, self.slope_work) = (other.slope_power, other.slope_work);
-    }
-}
-
-/// What the solver on the grid remembers from step to step.
+/// States of the candidates of a line, with gaps and slips, and the history of their displacements.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LineState {
     /// States of the candidates.
-    pub status: Vec<Status>,
-    /// Whether the pressure of a closed pair is at its limit: the steel yields.
+    pub status: Vec<NodeStatus>,
+    /// Yielding of the candidates: true where the pressure of a closed pair is at its limit.
     pub yielded: Vec<bool>,
     /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
     /// differences; zero elsewhere [m/s].
@@ -95,11 +64,6 @@ pub struct LineState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
-    /// What the work of friction in the coming step depends on.
-    pub friction: FrictionHistory,
-    /// Angle by which the rim under the contact has turned against the hub, and its history, positive where the tread
-    /// moves towards `+x` \[rad].
-    pub rim_angle: History,
     /// Steps before another solver is tried again.
     pub rest: u32,
 }
@@ -112,7 +76,6 @@ impl LineState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
-        self.friction.copy_from(&other.friction);
-        (self.rim_angle, self.rest) = (other.rim_angle, other.rest);
+        self.rest = other.rest;
     }
 }

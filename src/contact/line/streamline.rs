@@ -6,7 +6,7 @@
 //! the weights are chosen so that the slip is consistent with that position. A fixed weight makes the force jump by
 //! about 0.01 μP whenever the edge passes a node.
 
-use super::state::{Status, for_each_patch};
+use super::state::{NodeStatus, for_each_patch};
 
 /// Ratio of edge to inner nodal pressure, limited to the range of the discrete edge solution.
 fn edge_ratio(edge: f64, inner: f64) -> f64 {
@@ -21,20 +21,25 @@ pub fn edge_offset(edge: f64, inner: f64) -> f64 {
 
 /// Weights of the two cells upstream of a node: `∂u ≈ w0·m0 + w1·m1`, `w0 + w1 = 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Upwind {
+pub struct UpwindWeights {
     /// Of the nearer cell \[1].
     pub w0: f64,
     /// Of the one behind it \[1].
     pub w1: f64,
 }
 
-const SMOOTH: Upwind = Upwind { w0: 1.5, w1: -0.5 };
-const FIRST_CELL: Upwind = Upwind { w0: 1.0, w1: 0.0 };
+const SMOOTH: UpwindWeights = UpwindWeights { w0: 1.5, w1: -0.5 };
+const FIRST_CELL: UpwindWeights = UpwindWeights { w0: 1.0, w1: 0.0 };
 
 /// Writes the weights of every node to `rows`; `to_right` tells that upstream is towards `+x` (forward motion).
 ///
 /// `pressure` gives nodal normal forces. Only the closed set and the edge ratios matter, never stick or slip.
-pub fn upwind_rows(status: &[Status], pressure: impl Fn(usize) -> f64, to_right: bool, rows: &mut Vec<Upwind>) {
+pub fn upwind_rows(
+    status: &[NodeStatus],
+    pressure: impl Fn(usize) -> f64,
+    to_right: bool,
+    rows: &mut Vec<UpwindWeights>,
+) {
     rows.clear();
     rows.resize(status.len(), SMOOTH);
     for_each_patch(status, |run| {
@@ -46,18 +51,45 @@ pub fn upwind_rows(status: &[Status], pressure: impl Fn(usize) -> f64, to_right:
         }
         let r = edge_ratio(pressure(edge), pressure(inner));
         let beta = (2.0 - 3.0 * r) / (1.0 + 0.5 * r);
-        rows[edge] = Upwind { w0: 1.0 + beta, w1: -beta };
+        rows[edge] = UpwindWeights { w0: 1.0 + beta, w1: -beta };
         rows[inner] = FIRST_CELL;
     });
 }
 
-impl Upwind {
-    /// Coefficients of `∂u/∂x` on the node and its first and second upstream neighbour [1/m]; `cells` are the lengths of
-    /// the cells between them \[m].
+impl UpwindWeights {
+    /// Coefficients of `∂u/∂x` on the node and its first and second upstream neighbour [1/m]; `cells` are the lengths
+    /// of the cells between them \[m].
     pub fn stencil(&self, to_right: bool, cells: [f64; 2]) -> [f64; 3] {
         let sign = if to_right { 1.0 } else { -1.0 };
         let (near, far) = (sign * self.w0 / cells[0], sign * self.w1 / cells[1]);
         [-near, near - far, far]
+    }
+}
+
+/// UpwindWeights differences of a line, and those of the iterate before.
+#[derive(Default)]
+pub struct UpwindRows {
+    rows: Vec<UpwindWeights>,
+    before: Vec<UpwindWeights>,
+}
+
+impl UpwindRows {
+    /// That of one candidate.
+    pub fn row(&self, i: usize) -> UpwindWeights {
+        self.rows[i]
+    }
+
+    /// Takes those of the present states and pressures, see [`upwind_rows`]; returns the largest change of a weight.
+    pub fn update(&mut self, status: &[NodeStatus], pressure: impl Fn(usize) -> f64, to_right: bool) -> f64 {
+        std::mem::swap(&mut self.rows, &mut self.before);
+        upwind_rows(status, pressure, to_right, &mut self.rows);
+        let pairs = self.rows.iter().zip(&self.before);
+        pairs.map(|(now, before)| (now.w1 - before.w1).abs()).fold(0.0, f64::max)
+    }
+
+    /// Returns to those of before the last update.
+    pub fn restore(&mut self) {
+        std::mem::swap(&mut self.rows, &mut self.before);
     }
 }
 
@@ -67,7 +99,7 @@ mod tests {
 
     #[test]
     fn stencil_differentiates_linear_fields_exactly_in_both_directions() {
-        for row in [SMOOTH, FIRST_CELL, Upwind { w0: 2.3, w1: -1.3 }] {
+        for row in [SMOOTH, FIRST_CELL, UpwindWeights { w0: 2.3, w1: -1.3 }] {
             for (to_right, step) in [(true, 1.0), (false, -1.0)] {
                 let s = row.stencil(to_right, [0.5, 0.8]);
                 let x = [0.0, 0.5, 1.3];

@@ -1,4 +1,4 @@
-//! Tractions as series of Chebyshev polynomials under a square root, and what they do to a half-plane.
+//! Tractions as series of Chebyshev polynomials under a square root, and their effect on a half-plane.
 //!
 //! On the stretch `x = c + b t`, `|t| < 1`, let `f = √(1 − t²) Σ f_k U_k(t)`. With `Z_n = T_n(t)` on the stretch and
 //! `Z_n = (t − sgn(t) √(t² − 1))^n` beyond it (F. W. King, *Hilbert Transforms*, Cambridge 2009, ch. 11)
@@ -18,7 +18,7 @@ pub const TERMS: usize = 12;
 
 /// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfPlane {
+pub struct HalfPlaneKernel {
     /// A line force displaces the surface along itself by this times `−ln|x|` [m/(N/m)].
     pub kernel: f64,
     /// A pressure shortens the surface by this share per pascal [1/Pa].
@@ -54,7 +54,7 @@ fn powers(t: f64, z: &mut [f64]) {
     }
 }
 
-/// What stands for `−Z_0/0`.
+/// Stand-in for `−Z_0/0`.
 fn zeroth(t: f64) -> f64 {
     let t = t.abs();
     if t <= 1.0 { -LN_2 } else { (0.5 * (t + (t * t - 1.0).sqrt())).ln() }
@@ -128,7 +128,7 @@ impl Arch {
         std::array::from_fn(|i| FRAC_PI_2 * self.half_width * (own[i] + (zeroth[i] + size) * f[0]))
     }
 
-    /// Whether numbers are finite and in range.
+    /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         self.count <= TERMS
             && self.half_width >= 0.0
@@ -142,8 +142,8 @@ impl Arch {
         FRAC_PI_2 * self.half_width * self.terms[0]
     }
 
-    /// Largest traction \[Pa], by Newton's method from the middle on `Σ f_k sin (k + 1)θ`; that in the middle where it bends
-    /// upwards there.
+    /// Largest traction \[Pa], by Newton's method from the middle on `Σ f_k sin (k + 1)θ`; that in the middle where it
+    /// bends upwards there.
     pub fn peak(&self) -> f64 {
         let (mut value, mut angle) = (0.0, FRAC_PI_2);
         for _ in 0..4 {
@@ -167,8 +167,8 @@ impl Arch {
 
 /// How the `Z_n` of several places follow from each other.
 struct Powers<const N: usize> {
-    /// Factors of Clenshaw's recursion on the stretch and of Horner's beyond it: of the last sum, of the one before, and of the
-    /// last one in the result.
+    /// Factors of Clenshaw's recursion on the stretch and of Horner's beyond it: of the last sum, of the one before,
+    /// and of the last one in the result.
     now: [f64; N],
     next: [f64; N],
     end: [f64; N],
@@ -187,7 +187,7 @@ impl<const N: usize> Powers<N> {
         Self { now, next, end }
     }
 
-    /// What stands for `−Z_0/0`.
+    /// Stand-in for `−Z_0/0`.
     fn zeroth(&self) -> [f64; N] {
         std::array::from_fn(|i| if self.next[i] == 1.0 { -LN_2 } else { -(2.0 * self.end[i].abs()).ln() })
     }

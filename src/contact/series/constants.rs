@@ -1,20 +1,20 @@
-//! What does not change from problem to problem.
+//! Constants of all problems on a patch.
 
-use super::chebyshev::{HalfPlane, TERMS};
+use super::chebyshev::{HalfPlaneKernel, TERMS};
 use super::tables::{SMOOTH, Tables};
 use crate::linalg::Lagrange;
 use std::f64::consts::PI;
 
 /// Parts into which θ is divided; there are three quarters as many sines.
 pub const PARTS: usize = 16;
-/// What layers hold at the ends of the parts.
-pub type Samples = [f64; PARTS + 1];
+/// Values of a layer at the ends of the parts.
+pub type LayerSamples = [f64; PARTS + 1];
 
-/// What is the same for all layers.
+/// Places and weights of the series of hot layers.
 #[derive(Clone, Debug)]
 pub struct LayerTables {
     /// `cos θ` at the ends of the parts.
-    pub places: Samples,
+    pub places: LayerSamples,
     /// Weights of the inner samples in the sines, by sine.
     pub sines: [[f64; PARTS - 1]; TERMS],
     /// Zeros of `T_16`.
@@ -45,11 +45,11 @@ impl Default for LayerTables {
     }
 }
 
-/// What does not change from problem to problem.
+/// Constants of all problems on a patch.
 #[derive(Clone, Debug)]
 pub struct Constants {
-    /// What the bodies lack.
-    pub half_plane: HalfPlane,
+    /// Half-planes that the bodies lack.
+    pub half_plane: HalfPlaneKernel,
     /// Points between which their smooth displacements are polynomials.
     pub points: Lagrange,
     /// Constants of the series.

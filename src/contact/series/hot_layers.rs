@@ -1,12 +1,13 @@
 //! Hot layers of the surfaces under a patch: they swell, and their membrane forces pull along the bodies.
 //!
-//! Bodies exchange heat under the patch only, so that what a layer holds is constant ahead of it and behind it. On the patch of
-//! the last step, `x = c + b cos θ`, it is `base + turn θ + Σ n_k sin kθ`: heat that flows on contact rises like a root at the
-//! edges, as these functions do. The membrane force N pulls with `−N′` at a half-plane, which it displaces by
-//! `κ [∫ n/(x − s) ds − π turn ln(b/2)]` with the part n of the sines. The layers move with the edges of the patch.
+//! Bodies exchange heat under the patch only, so that what a layer holds is constant ahead of it and behind it. On the
+//! patch of the last step, `x = c + b cos θ`, it is `base + turn θ + Σ n_k sin kθ`: heat that flows on contact rises
+//! like a root at the edges, as these functions do. The membrane force N pulls with `−N′` at a half-plane, which it
+//! displaces by `κ [∫ n/(x − s) ds − π turn ln(b/2)]` with the part n of the sines. The layers move with the edges of
+//! the patch.
 
-use super::chebyshev::{Arch, HalfPlane, TERMS};
-use super::constants::{Constants, LayerTables, PARTS, Samples};
+use super::chebyshev::{Arch, HalfPlaneKernel, TERMS};
+use super::constants::{Constants, LayerSamples, LayerTables, PARTS};
 use super::surface::AtPoints;
 use super::tables::{QUADRATURE, SMOOTH};
 use crate::contact::problem::ContactProblem;
@@ -15,19 +16,21 @@ use crate::piecewise::Piecewise;
 use nalgebra::Complex;
 use std::f64::consts::PI;
 
-/// How far from the middle what a layer holds ahead of the patch and behind it is taken, in half-widths \[1]: elements and the
-/// depth of the heat round off the root at the edges themselves.
+/// How far from the middle what a layer holds ahead of the patch and behind it is taken, in half-widths \[1]: elements
+/// and the depth of the heat round off the root at the edges themselves.
 const BESIDE: f64 = 1.1;
-/// Depth of the heat, in half-widths \[1]. It smooths what the pulls do, as a Poisson kernel does. Without any, the strain would have
-/// a root at the leading edge whose other side, ahead of the patch, the sticking surfaces never meet; with any, however thin, they
-/// meet it. Its size hardly matters: this one is what a series of the shear still resolves.
+/// Depth of the heat, in half-widths \[1]. It smooths what the pulls do, as a Poisson kernel does. Without any, the
+/// strain would have a root at the leading edge whose other side, ahead of the patch, the sticking surfaces never meet;
+/// with any, however thin, they meet it. Its size hardly matters: this one is what a series of the shear still
+/// resolves.
 const DEPTH: f64 = 0.03;
-/// Smallest `sin θ` that slopes are taken at: nearer to the edges they grow without bound, and there is next to no traction.
+/// Smallest `sin θ` that slopes are taken at: nearer to the edges they grow without bound, and there is next to no
+/// traction.
 const EDGE: f64 = 1e-3;
 
 /// A function on the patch.
 #[derive(Clone, Copy, Debug)]
-pub struct Profile {
+pub struct LayerProfile {
     /// Value at the end in `+x`.
     base: f64,
     /// Change from there to the other end over π.
@@ -38,8 +41,8 @@ pub struct Profile {
     rates: Arch,
 }
 
-impl Profile {
-    fn new(tables: &LayerTables, patch: &Arch, samples: &Samples) -> Self {
+impl LayerProfile {
+    fn new(tables: &LayerTables, patch: &Arch, samples: &LayerSamples) -> Self {
         let base = samples[0];
         let turn = (samples[PARTS] - base) / PI;
         let inner: [f64; PARTS - 1] =
@@ -80,25 +83,25 @@ impl Profile {
     }
 }
 
-/// What the layer of one body does.
+/// Hot layer of one body and its effects.
 #[derive(Clone, Copy, Debug)]
-pub struct Layer {
+pub struct SeriesLayer {
     /// Membrane force [N/m].
-    force: Profile,
+    force: LayerProfile,
     /// Swelling \[m].
-    pub swelling: Profile,
+    pub swelling: LayerProfile,
     /// Normal displacement of the half-plane \[m].
-    pub lift: Profile,
-    /// Displacement of a half-plane by a unit force, see [`HalfPlane::kernel`].
+    pub lift: LayerProfile,
+    /// Displacement of a half-plane by a unit force, see [`HalfPlaneKernel::kernel`].
     kernel: f64,
     /// Moments of the pull with the polynomials of the points [N/m].
     pub pull: AtPoints,
 }
 
-impl Layer {
+impl SeriesLayer {
     /// Tangential displacement of the half-plane \[m].
     fn along<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        let Profile { turn, sines, .. } = &self.force;
+        let LayerProfile { turn, sines, .. } = &self.force;
         let (base, _) = depth(sines, x);
         let sums = powers(&sines.terms, &base);
         std::array::from_fn(|i| {
@@ -137,25 +140,26 @@ fn powers<const N: usize>(f: &[f64; TERMS], z: &[Complex<f64>; N]) -> [Complex<f
 
 /// Both layers.
 #[derive(Clone, Copy, Debug)]
-pub struct Warmth {
+pub struct SeriesLayers {
     /// Of the wheel.
-    pub wheel: Layer,
+    pub wheel: SeriesLayer,
     /// Of the rail.
-    pub rail: Layer,
-    /// What the layers add to the gap \[m].
-    pub gap: Profile,
+    pub rail: SeriesLayer,
+    /// Part of the gap that the layers add \[m].
+    pub gap: LayerProfile,
     /// Its slope as a series in `T_n`, times the half-width \[m].
     pub slope: [f64; SMOOTH],
-    /// Tangential displacement of the half-plane of the wheel less that of the rail, at the points of the polynomials \[m].
+    /// Tangential displacement of the half-plane of the wheel less that of the rail, at the points of the polynomials
+    /// \[m].
     pub relative: AtPoints,
     /// Tangential displacements of both half-planes at the places of the pressure \[m].
     pub along: [[f64; QUADRATURE]; 2],
 }
 
-impl Warmth {
-    /// That of a problem whose layers come from contact on `patch`; `None` where nothing is warm.
+impl SeriesLayers {
+    /// Layers of a problem that come from contact on `patch`; `None` where nothing is warm.
     pub fn new(constants: &Constants, problem: &ContactProblem, patch: &Arch) -> Option<Self> {
-        let (force, swelling) = (problem.membrane, problem.placement.swelling);
+        let (force, swelling) = (problem.line.membrane, problem.line.placement.swelling);
         if force.iter().chain(&swelling).all(|layer| layer.is_empty()) {
             return None;
         }
@@ -165,9 +169,9 @@ impl Warmth {
             tables.places.map(at)
         };
         let (force, swelling) = (force.map(samples), swelling.map(samples));
-        let profile = |samples: &Samples| Profile::new(tables, patch, samples);
+        let profile = |samples: &LayerSamples| LayerProfile::new(tables, patch, samples);
         let lift = |body: usize| lift(half_plane, &force[body], 1.0 - 2.0 * body as f64);
-        let layer = |body: usize| Layer {
+        let layer = |body: usize| SeriesLayer {
             force: profile(&force[body]),
             swelling: profile(&swelling[body]),
             lift: profile(&lift(body)),
@@ -209,17 +213,17 @@ impl Warmth {
 }
 
 /// The moments of both pulls; none where nothing is warm.
-pub fn pulls(warmth: &Option<Warmth>) -> [AtPoints; 2] {
-    warmth.as_ref().map_or([[0.0; POINTS]; 2], |warmth| [warmth.wheel.pull, warmth.rail.pull])
+pub fn pulls(layers: &Option<SeriesLayers>) -> [AtPoints; 2] {
+    layers.as_ref().map_or([[0.0; POINTS]; 2], |layers| [layers.wheel.pull, layers.rail.pull])
 }
 
 /// Normal displacement of a half-plane above its surface (`side` 1) or below it (−1) by the pull of a membrane force.
-fn lift(half_plane: &HalfPlane, force: &Samples, side: f64) -> Samples {
+fn lift(half_plane: &HalfPlaneKernel, force: &LayerSamples, side: f64) -> LayerSamples {
     force.map(|n| 0.5 * side * half_plane.coupling * (force[0] + force[PARTS] - 2.0 * n))
 }
 
 /// Moments of the pull of a membrane force with the polynomials.
-fn pull(constants: &Constants, patch: &Arch, force: &Samples) -> AtPoints {
+fn pull(constants: &Constants, patch: &Arch, force: &LayerSamples) -> AtPoints {
     let mut moments = AtPoints::default();
     for (force, places) in force.windows(2).zip(constants.layers.places.windows(2)) {
         let values = constants.points.values(patch.centre + 0.5 * patch.half_width * (places[0] + places[1]));
@@ -237,15 +241,15 @@ mod tests {
     const PATCH: Arch = Arch { centre: 1e-3, half_width: 6e-3, count: 0, terms: [0.0; TERMS] };
 
     /// Layers in which the wheel is chilled and the rail warmed with the root of the way through the patch.
-    fn layer() -> Layer {
+    fn layer() -> SeriesLayer {
         let (points, tables, layers) = (Lagrange::new(0.012), Tables::new(), LayerTables::new());
-        let half_plane = HalfPlane { kernel: 2.8e-12, coupling: 2.5e-12 };
+        let half_plane = HalfPlaneKernel { kernel: 2.8e-12, coupling: 2.5e-12 };
         let constants = Constants { half_plane, points, tables, layers };
         let force = constants.layers.places.map(|t| -4e4 * (1.0 - t).sqrt());
-        let [profile, swelling] = [force, force].map(|samples| Profile::new(&constants.layers, &PATCH, &samples));
-        let lift = Profile::new(&constants.layers, &PATCH, &lift(&half_plane, &force, 1.0));
+        let [profile, swelling] = [force, force].map(|samples| LayerProfile::new(&constants.layers, &PATCH, &samples));
+        let lift = LayerProfile::new(&constants.layers, &PATCH, &lift(&half_plane, &force, 1.0));
         let pull = pull(&constants, &PATCH, &force);
-        Layer { force: profile, swelling, lift, kernel: half_plane.kernel, pull }
+        SeriesLayer { force: profile, swelling, lift, kernel: half_plane.kernel, pull }
     }
 
     /// `∫ −N′ f(s) ds` with `N = −4e4 √(1 − t)`, over `r = √(1 − t)`.
@@ -266,7 +270,7 @@ mod tests {
             println!("{x:.4}: {along:.5e}, integral {expected:.5e}");
             assert!((along - expected).abs() < 5e-4 * scale);
         }
-        let warmth = Warmth {
+        let layers = SeriesLayers {
             wheel: layer,
             rail: layer,
             gap: layer.lift,
@@ -274,7 +278,7 @@ mod tests {
             relative: [0.0; POINTS],
             along: [[0.0; QUADRATURE]; 2],
         };
-        for (x, stretch) in x.into_iter().zip(warmth.stretch(&x, [1.0, 0.0])) {
+        for (x, stretch) in x.into_iter().zip(layers.stretch(&x, [1.0, 0.0])) {
             let expected = -layer.kernel * pulled(|s| (x - s) / ((x - s).powi(2) + depth * depth));
             println!("{x:.4}: {stretch:.5e}, integral {expected:.5e}");
             assert!((stretch - expected).abs() < 5e-3 * scale / PATCH.half_width);

@@ -1,16 +1,16 @@
 //! Contact on a single smooth patch: tractions as series that fit the patch and the part of it that sticks.
 //!
-//! [`chebyshev`] has the series and what they do to a half-plane, [`tables`] and [`constants`] their constants, [`surface`] what
-//! the bodies add, [`hot_layers`] what hot layers do, [`normal`] solves the normal problem, [`slip`] a given stretch of stick,
-//! [`stick`] finds where slip begins, [`finish`] takes traction and power, [`transfer`] leads to the grid and back, and
-//! [`solver`] decides between the two. Theory: `docs/theory/patch-contact.md`.
+//! [`chebyshev`] has the series and their effect on a half-plane, [`tables`] and [`constants`] their constants,
+//! [`surface`] what the bodies add, [`hot_layers`] what hot layers do, [`normal`] solves the normal problem, [`slip`] a
+//! given stretch of stick, [`stick`] finds where slip begins, [`finish`] takes traction and power, [`transfer`] leads
+//! to the grid and back, and [`solver`] decides between the two. Theory: `docs/theory/patch-contact.md`.
 
 pub mod chebyshev;
 mod constants;
 mod finish;
 mod hot_layers;
-mod iterate;
 mod normal;
+mod series_line;
 mod slip;
 mod solver;
 pub(super) mod state;
@@ -19,6 +19,6 @@ mod surface;
 mod tables;
 mod transfer;
 
-pub use chebyshev::{Arch, HalfPlane};
+pub use chebyshev::{Arch, HalfPlaneKernel};
 pub use solver::SeriesSolver;
-pub use state::{Past, SeriesState, SlipHistory, Tractions};
+pub use state::{Past, SeriesState, Tractions};

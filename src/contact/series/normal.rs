@@ -1,7 +1,7 @@
 //! The normal problem: pressure, edges and height of the hub under the present shear.
 
 use super::constants::Constants;
-use super::iterate::Iterate;
+use super::series_line::SeriesLine;
 use super::surface::{answer, dot};
 use super::tables::{PRESSURE, SMOOTH};
 use crate::contact::error::ContactError;
@@ -11,15 +11,16 @@ use std::f64::consts::PI;
 /// Largest factor by which an iteration changes the load.
 const LARGEST_FACTOR: f64 = 4.0;
 
-impl Iterate<'_> {
+impl SeriesLine<'_> {
     /// Improves edges, pressure and height of the hub; returns the largest relative change.
     ///
-    /// The gap stays closed where its slope vanishes. As a series in `T_n(t)` the slope without pressure gives the terms of
-    /// the pressure one by one, `p_k = A_{k+1}/(2πκ)`; `A_0 = 0` is the condition for the middle of the patch. Its width belongs
-    /// to the load, and load and height to each other by the gap in the middle and the balance of the hub.
+    /// The gap stays closed where its slope vanishes. As a series in `T_n(t)` the slope without pressure gives the
+    /// terms of the pressure one by one, `p_k = A_{k+1}/(2πκ)`; `A_0 = 0` is the condition for the middle of the patch.
+    /// Its width belongs to the load, and load and height to each other by the gap in the middle and the balance of the
+    /// hub.
     pub fn press(&mut self) -> Result<f64, ContactError> {
         let Constants { tables, points, half_plane, .. } = self.constants;
-        let radius = self.problem.surfaces.radius;
+        let radius = self.problem.line.surfaces.radius;
         let gap = points.polynomial(&self.surface.gap());
         let pressure = self.tractions.pressure;
         let (centre, half_width) = (pressure.centre, pressure.half_width);
@@ -30,7 +31,7 @@ impl Iterate<'_> {
         let slope = |x: f64| x / (radius * radius - x * x).sqrt() + gap.slope(x) - self.rim_angle;
         let places = tables.closed.map(|t| centre + half_width * t);
         let slopes = places.map(slope);
-        let warm = self.warmth.as_ref().map_or([0.0; SMOOTH], |warmth| warmth.slope);
+        let warm = self.layers.as_ref().map_or([0.0; SMOOTH], |layers| layers.slope);
         let series: [f64; SMOOTH] = std::array::from_fn(|n| {
             let sum: f64 = slopes.iter().zip(&tables.closed_terms[n]).map(|(s, t)| s * t).sum();
             sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64 + warm[n] / half_width
@@ -63,23 +64,24 @@ impl Iterate<'_> {
         let (problem, pressure) = (self.problem, &self.tractions.pressure);
         let (load, at, motion) = (pressure.total(), pressure.centre, &problem.rigid[1]);
         let values = points.values(at);
-        let round =
-            problem.surfaces.round_gap(at, &problem.placement) + self.warm(&[at], |warmth, x| warmth.gap.at(x))[0];
+        let round = problem.line.surfaces.round_gap(at, &problem.line.placement)
+            + self.warm(&[at], |layers, x| layers.gap.at(x))[0];
         let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(&[at])[0];
         let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid[1] + half_planes;
-        let compliances = problem.bodies.compliance;
+        let compliances = problem.line.bodies.compliance;
         let smooth: f64 = compliances.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
         let by_load = smooth - 2.0 * half_plane.kernel * (0.5 * pressure.half_width).ln();
-        let lifted: f64 = (0..POINTS).map(|k| values[k] * problem.bodies.inertial[(2 * k + 1, 1)]).sum();
+        let lifted: f64 = (0..POINTS).map(|k| values[k] * problem.line.bodies.inertial[(2 * k + 1, 1)]).sum();
         let by_height = 1.0 + motion.gain * lifted;
         let change = if let Some(target) = motion.target() {
             let rise = target - self.rigid[1];
             self.rigid[1] = target;
             -(gap + rise) / by_load
         } else {
-            let momentum: f64 = (0..POINTS).map(|k| values[k] * problem.bodies.momentum[(1, 2 * k + 1)]).sum();
+            let momentum: f64 = (0..POINTS).map(|k| values[k] * problem.line.bodies.momentum[(1, 2 * k + 1)]).sum();
             let left = self.unbalance(1, [0.0, load, 0.0]);
-            let (balance_load, inertia) = (momentum - 1.0, motion.inertia + problem.bodies.deformation_inertia[(1, 1)]);
+            let (balance_load, inertia) =
+                (momentum - 1.0, motion.inertia + problem.line.bodies.deformation_inertia[(1, 1)]);
             let balance_height = motion.gain * inertia;
             // Two linear equations in the changes of load and height.
             let determinant = by_load * balance_height - by_height * balance_load;

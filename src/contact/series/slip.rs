@@ -2,9 +2,9 @@
 
 use super::chebyshev::{Arch, TERMS};
 use super::constants::Constants;
-use super::iterate::Iterate;
+use super::series_line::SeriesLine;
 use super::state::Tractions;
-use super::surface::{AtPoints, Moments, Surface, dot};
+use super::surface::{AtPoints, Moments, SmoothSurfaces, dot};
 use super::tables::{QUADRATURE, SHEAR, STICK};
 use crate::contact::error::ContactError;
 use crate::linalg::POINTS;
@@ -14,12 +14,12 @@ use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 const UNKNOWNS: usize = STICK + 2;
 
 /// Equations as rows; the last column is the right-hand side.
-pub(super) struct Rows {
+pub(super) struct StickEquations {
     pub rows: [[f64; UNKNOWNS + 1]; UNKNOWNS],
     pub count: usize,
 }
 
-impl Rows {
+impl StickEquations {
     fn new(count: usize) -> Self {
         Self { rows: [[0.0; UNKNOWNS + 1]; UNKNOWNS], count }
     }
@@ -53,21 +53,21 @@ impl Rows {
     }
 }
 
-impl Iterate<'_> {
-    /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`, under the
-    /// pressure, the friction of slip and, if `sticks`, what sticking takes away from it.
-    pub fn slip<const N: usize>(&self, x: &[f64; N], surface: &Surface, sticks: bool) -> [f64; N] {
+impl SeriesLine<'_> {
+    /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`,
+    /// under the pressure, the friction of slip and, if `sticks`, what sticking takes away from it.
+    pub fn slip<const N: usize>(&self, x: &[f64; N], surface: &SmoothSurfaces, sticks: bool) -> [f64; N] {
         let Constants { points, half_plane, .. } = self.constants;
-        let ([v, _, omega], rim, radius) = (self.rigid, self.rim_velocity(), self.problem.surfaces.radius);
-        let time = &self.problem.time;
+        let ([v, _, omega], rim, radius) = (self.rigid, self.rim_velocity(), self.problem.line.surfaces.radius);
+        let time = &self.problem.line.time;
         let stick = if sticks { self.tractions.stick } else { Arch::default() };
         let tractions = Tractions { stick, ..self.tractions };
         let (cauchy, pressure) = (tractions.shear_cauchy(x), tractions.pressure.density(x));
-        let Surface { wheel, rail } = surface;
+        let SmoothSurfaces { wheel, rail } = surface;
         let carried: AtPoints = std::array::from_fn(|k| v * rail.tangential[k] - rim * wheel.tangential[k]);
         let carried = points.polynomial(&carried);
-        let rigid = v - self.problem.radius() * omega;
-        let warm = self.warm(x, |warmth, x| warmth.stretch(x, [-rim, v]));
+        let rigid = v - self.problem.line.radius() * omega;
+        let warm = self.warm(x, |layers, x| layers.stretch(x, [-rim, v]));
         let mut slip: [f64; N] = std::array::from_fn(|i| {
             let tilt = self.rim_angle * x[i] / (radius * radius - x[i] * x[i]).sqrt();
             let strains = (v + rim) * half_plane.kernel * cauchy[i] + (rim - v) * half_plane.coupling * pressure[i];
@@ -84,9 +84,9 @@ impl Iterate<'_> {
         slip
     }
 
-    /// Solves for the shear of a stretch of half-length `half` \[m] that sticks from the leading edge on, and for the motions
-    /// that are not prescribed. Returns the strength of the traction `√((1 − t)/(1 + t))` that holds the other end \[Pa]: no
-    /// friction can, so that it vanishes in a solution.
+    /// Solves for the shear of a stretch of half-length `half` \[m] that sticks from the leading edge on, and for the
+    /// motions that are not prescribed. Returns the strength of the traction `√((1 − t)/(1 + t))` that holds the other
+    /// end \[Pa]: no friction can, so that it vanishes in a solution.
     pub(super) fn stick(&mut self, half: f64, upstream: f64) -> Result<f64, ContactError> {
         let tables = &self.constants.tables;
         let pressure = self.tractions.pressure;
@@ -95,8 +95,8 @@ impl Iterate<'_> {
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
         let moments = self.terms();
         let base = Moments { tangential: self.moments.normal.map(|m| self.tractions.slide * m), ..self.moments };
-        let surface = Surface::new(self.problem, &base, &self.pulls, self.accelerations());
-        let mut rows = Rows::new(STICK + axes.len());
+        let surface = SmoothSurfaces::new(self.problem, &base, &self.pulls, self.accelerations());
+        let mut rows = StickEquations::new(STICK + axes.len());
         let kernels = self.convected();
         let places = tables.stick.map(|t| centre + half * t);
         let slips = self.slip(&places, &surface, false);
@@ -110,9 +110,9 @@ impl Iterate<'_> {
         }
         let all = std::mem::replace(&mut self.moments, base);
         let slide = self.tractions.slide * pressure.total();
-        let lifted = self.resultant()[2] + self.problem.radius() * (slide + self.tractions.stick.total());
+        let lifted = self.resultant()[2] + self.problem.line.radius() * (slide + self.tractions.stick.total());
         for (number, &axis) in axes.iter().enumerate() {
-            let resultant = [slide, 0.0, lifted - self.problem.radius() * slide];
+            let resultant = [slide, 0.0, lifted - self.problem.line.radius() * slide];
             let row = &mut rows.rows[STICK + number];
             self.balance_row(axis, half, &moments, &axes, row);
             row[UNKNOWNS] = -self.unbalance(axis, resultant);
@@ -142,10 +142,10 @@ impl Iterate<'_> {
         })
     }
 
-    /// What tangential forces do to the slip by the smooth displacements: by its value and by its slope.
+    /// Effect of tangential forces on the slip by the smooth displacements: by their values and by their slopes.
     fn convected(&self) -> [[AtPoints; POINTS]; 2] {
-        let ([wheel, rail], v, rim) = (self.problem.bodies.compliance, self.rigid[0], self.rim_velocity());
-        let a0 = self.problem.time.a0;
+        let ([wheel, rail], v, rim) = (self.problem.line.bodies.compliance, self.rigid[0], self.rim_velocity());
+        let a0 = self.problem.line.time.a0;
         let entry = |matrix: &nalgebra::DMatrix<f64>, k: usize, l: usize| matrix[(2 * k, 2 * l)];
         let value = |k, l| a0 * (entry(wheel, k, l) + entry(rail, k, l));
         let slope = |k, l| -rim * entry(wheel, k, l) - v * entry(rail, k, l);
@@ -175,7 +175,7 @@ impl Iterate<'_> {
             }
         }
         let convection = (self.rigid[0] + self.rim_velocity()) * half_plane.kernel * PI;
-        let rate = -2.0 * half_plane.kernel * self.problem.time.a0 * half;
+        let rate = -2.0 * half_plane.kernel * self.problem.line.time.a0 * half;
         for k in 0..SHEAR {
             row[k] = convection * tables.stick_cauchy[i][k] + rate * tables.stick_logarithm[i][k];
             row[k] += dot(&by_force, &moments[k]);
@@ -189,17 +189,17 @@ impl Iterate<'_> {
     fn motion_term(&self, axis: usize, x: f64) -> f64 {
         let points = &self.constants.points;
         let (values, slopes, rim) = (points.values(x), points.slopes(x), self.rim_velocity());
-        let inertial = &self.problem.bodies.inertial;
+        let inertial = &self.problem.line.bodies.inertial;
         let shape = |at: &AtPoints| (0..POINTS).map(|k| at[k] * inertial[(2 * k, axis)]).sum::<f64>();
-        let by_acceleration = self.problem.time.a0 * shape(&values) - rim * shape(&slopes);
-        let own = if axis == 0 { 1.0 } else { -self.problem.radius() };
+        let by_acceleration = self.problem.line.time.a0 * shape(&values) - rim * shape(&slopes);
+        let own = if axis == 0 { 1.0 } else { -self.problem.line.radius() };
         own + self.problem.rigid[axis].gain * by_acceleration
     }
 
     /// Coefficients of the shear and of the free motions in the balance of one of them.
     fn balance_row(&self, axis: usize, half: f64, moments: &[AtPoints; SHEAR], axes: &[usize], row: &mut [f64]) {
-        let (bodies, problem) = (&self.problem.bodies, self.problem);
-        let arm = if axis == 0 { 1.0 } else { -problem.radius() };
+        let (bodies, problem) = (&self.problem.line.bodies, self.problem);
+        let arm = if axis == 0 { 1.0 } else { -problem.line.radius() };
         let total = FRAC_PI_2 * half;
         for (k, moment) in moments.iter().enumerate() {
             row[k] = (0..POINTS).map(|l| bodies.momentum[(axis, 2 * l)] * moment[l]).sum();
@@ -214,7 +214,7 @@ impl Iterate<'_> {
     /// Inertia of an axis against the acceleration of another [kg/m, kg, kg m].
     fn inertia(&self, axis: usize, other: usize) -> f64 {
         let own = if axis == other { self.problem.rigid[axis].inertia } else { 0.0 };
-        own + self.problem.bodies.deformation_inertia[(axis, other)]
+        own + self.problem.line.bodies.deformation_inertia[(axis, other)]
     }
 
     /// Free motions of a patch that slips everywhere; returns the largest change [m/s].
@@ -224,7 +224,7 @@ impl Iterate<'_> {
         self.displace();
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
         let resultant = self.resultant();
-        let mut rows = Rows::new(axes.len());
+        let mut rows = StickEquations::new(axes.len());
         for (row, &axis) in rows.rows.iter_mut().zip(&axes) {
             for (column, &other) in axes.iter().enumerate() {
                 row[column] = self.inertia(axis, other) * self.problem.rigid[other].gain;
@@ -238,7 +238,7 @@ impl Iterate<'_> {
         let mut largest = 0.0_f64;
         for (column, &axis) in axes.iter().enumerate() {
             self.rigid[axis] += x[column];
-            largest = largest.max(x[column].abs() * if axis == 0 { 1.0 } else { self.problem.radius() });
+            largest = largest.max(x[column].abs() * if axis == 0 { 1.0 } else { self.problem.line.radius() });
         }
         self.displace();
         Ok(largest)

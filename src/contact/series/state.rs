@@ -1,12 +1,10 @@
-//! What the solver on the patch remembers: its tractions, and the displacements that the slip of the next step refers to.
+//! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::Arch;
-use super::tables::POWER;
 use crate::linalg::{Lagrange, POINTS};
-use crate::multistep::History;
 use serde::{Deserialize, Serialize};
 
-/// Tractions of a single patch: pressure on all of it, friction in slip, and what sticking takes away from that.
+/// Tractions of a single patch: pressure on all of it, friction in slip, and the part of it that sticking takes away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tractions {
     /// Pressure p \[Pa].
@@ -22,43 +20,23 @@ pub struct Tractions {
 /// Tangential displacement of the wheel less that of the rail, as a function of x.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Past {
-    /// Found on a patch: by the half-planes under these tractions, and the smooth rest at the points of the polynomial \[m].
+    /// Found on a patch: by the half-planes under these tractions, and the smooth rest at the points of the polynomial
+    /// \[m].
     Patch(Tractions, [f64; POINTS]),
     /// Found on a grid: the first node \[m], the spacing \[m] and the values \[m].
     Grid(f64, f64, Vec<f64>),
 }
 
-/// Friction at places that divide the slipping part of the patch, at the end of the last step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SlipHistory {
-    /// Friction forces on the wheel [N/m].
-    pub force: [f64; POWER],
-    /// Their impulses in the last step [N s/m].
-    pub impulse: [f64; POWER],
-    /// Slip velocities there [m/s].
-    pub slip: [f64; POWER],
-    /// Power of pressure on the sliding slope of the rail [W/m].
-    pub slope_power: f64,
-    /// Its work in the last step [J/m].
-    pub slope_work: f64,
-}
-
-/// What the solver on the patch remembers from step to step.
+/// State of a line as series, from step to step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SeriesState {
     /// Tractions of the last solution.
     pub tractions: Tractions,
     /// Tangential displacement at its end, and one step earlier.
     pub past: [Past; 2],
-    /// Turn of the rim against the hub, positive where the tread moves towards `+x` \[rad].
-    pub rim_angle: History,
-    /// What the work of friction in the coming step depends on.
-    pub friction: SlipHistory,
-    /// How the root at the place where slip begins depends on this place: change of its strength over the friction at the peak
-    /// of the pressure, per share of the patch \[1]; where the search of the next step starts.
+    /// How the root at the place where slip begins depends on this place: change of its strength over the friction at
+    /// the peak of the pressure, per share of the patch \[1]; where the search of the next step starts.
     pub slope: f64,
-    /// Elastic energy of the half-planes that the bodies lack [J/m].
-    pub energy: f64,
 }
 
 impl Default for Past {
@@ -83,24 +61,24 @@ impl Tractions {
         self.together(self.pressure.logarithm(x), self.stick.logarithm(x))
     }
 
-    /// What the shear does, from what pressure and stick do.
+    /// Effect of the shear from the effects of pressure and stick.
     fn together<const N: usize>(&self, pressure: [f64; N], stick: [f64; N]) -> [f64; N] {
         std::array::from_fn(|i| self.slide * pressure[i] + stick[i])
     }
 
-    /// Whether slip and stick are the same but for their lengths.
+    /// True if slip and stick are the same but for their lengths.
     pub fn same_branch(&self, other: &Self) -> bool {
         self.slides() == other.slides() && (self.slide < 0.0) == (other.slide < 0.0)
     }
 
-    /// Whether all of the patch slips.
+    /// True if all of the patch slips.
     pub fn slides(&self) -> bool {
         self.stick.half_width == 0.0
     }
 }
 
 impl Past {
-    /// Whether numbers are finite and in range.
+    /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         match self {
             Past::Patch(tractions, smooth) => {

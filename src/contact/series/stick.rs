@@ -1,6 +1,6 @@
 //! The search for the place where slip begins.
 
-use super::iterate::Iterate;
+use super::series_line::SeriesLine;
 use super::state::Tractions;
 use crate::contact::error::ContactError;
 
@@ -12,13 +12,13 @@ const OVERSHOOT: f64 = 5e-3;
 const BACKWARD: f64 = 5e-3;
 /// Times that slip and stick, or the directions of slip, change.
 const CHANGES: usize = 4;
-/// Change of the length of stick that says something about how the root depends on it, over all changes of the iteration
-/// before: beside larger ones the root changes for other reasons \[1].
+/// Change of the length of stick that says something about how the root depends on it, over all changes of the
+/// iteration before: beside larger ones the root changes for other reasons \[1].
 const TELLING: f64 = 0.2;
 
 /// Largest relative change expected of a further iteration that ends them; changes fall about as they fell last.
 const TOLERANCE: f64 = 1e-10;
-/// The same where rounding allows no more.
+/// Largest relative change that ends them where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
 const WARM: usize = 3;
@@ -26,42 +26,40 @@ const CLOSE: f64 = 1e-3;
 /// Iterations of normal and tangential problem.
 const MOST: usize = 30;
 
-impl Iterate<'_> {
-    /// Finds tractions and motions.
-    pub fn run(&mut self) -> Result<(), ContactError> {
-        self.place_pressure();
-        self.place_shear();
-        self.displace();
-        let mut normal = self.press()?;
-        for _ in 1..WARM {
-            if normal < CLOSE {
-                break;
-            }
-            normal = self.press()?;
+/// Finds tractions and motions.
+pub fn solve(line: &mut SeriesLine) -> Result<(), ContactError> {
+    line.place_pressure();
+    line.place_shear();
+    line.displace();
+    let mut normal = line.press()?;
+    for _ in 1..WARM {
+        if normal < CLOSE {
+            break;
         }
-        let mut search = Search::new(self);
-        let mut last = f64::INFINITY;
-        for _ in 0..MOST {
-            let tangential = search.advance(self)?;
-            let change = normal.max(tangential);
-            let falls = if last.is_finite() { (change / last).min(1.0) } else { 1.0 };
-            let settled = change * falls <= TOLERANCE || change <= ROUNDING && change >= last;
-            last = change;
-            if settled {
-                if search.check(self)? {
-                    self.slope = search.slope(self);
-                    return Ok(());
-                }
-                last = f64::INFINITY;
-            }
-            normal = self.press()?;
-        }
-        Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
+        normal = line.press()?;
     }
+    let mut search = StickSearch::new(line);
+    let mut last = f64::INFINITY;
+    for _ in 0..MOST {
+        let tangential = search.advance(line)?;
+        let change = normal.max(tangential);
+        let falls = if last.is_finite() { (change / last).min(1.0) } else { 1.0 };
+        let settled = change * falls <= TOLERANCE || change <= ROUNDING && change >= last;
+        last = change;
+        if settled {
+            if search.check(line)? {
+                line.slope = search.slope(line);
+                return Ok(());
+            }
+            last = f64::INFINITY;
+        }
+        normal = line.press()?;
+    }
+    Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
 }
 
 /// The search in one contact problem.
-pub(super) struct Search {
+pub(super) struct StickSearch {
     /// Half-length of the stretch that sticks over that of the patch; `None`: all slips.
     share: Option<f64>,
     /// Share and root of the evaluation before.
@@ -73,8 +71,8 @@ pub(super) struct Search {
     changes: usize,
 }
 
-impl Search {
-    pub fn new(it: &mut Iterate) -> Self {
+impl StickSearch {
+    pub fn new(it: &mut SeriesLine) -> Self {
         let (tractions, mu) = (&mut it.tractions, it.friction);
         let share = (!tractions.slides()).then(|| tractions.stick.half_width / tractions.pressure.half_width);
         let sign = if tractions.slide < 0.0 { -1.0 } else { 1.0 };
@@ -86,19 +84,20 @@ impl Search {
     }
 
     /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
-    fn quasistatic(it: &Iterate) -> f64 {
+    fn quasistatic(it: &SeriesLine) -> f64 {
         it.tractions.slide * it.tractions.pressure.terms[0]
     }
 
     /// The slope over the quasistatic one \[1].
-    pub fn slope(&self, it: &Iterate) -> f64 {
+    pub fn slope(&self, it: &SeriesLine) -> f64 {
         let slope = self.slope / Self::quasistatic(it);
         if slope.is_finite() { slope } else { 0.0 }
     }
 
     /// Improves shear and motions; returns the largest relative change.
-    pub fn advance(&mut self, it: &mut Iterate) -> Result<f64, ContactError> {
-        let scale = it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.surfaces.radius;
+    pub fn advance(&mut self, it: &mut SeriesLine) -> Result<f64, ContactError> {
+        let scale =
+            it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
         let before = (it.rigid, it.rim_angle);
         let Some(share) = self.share else {
             it.glide()?;
@@ -139,15 +138,15 @@ impl Search {
     }
 
     /// Change of motions and turn relative to the slip at which rolling becomes sliding.
-    fn moved(it: &Iterate, (rigid, turn): ([f64; 3], f64), scale: f64) -> f64 {
-        let radius = it.problem.radius();
+    fn moved(it: &SeriesLine, (rigid, turn): ([f64; 3], f64), scale: f64) -> f64 {
+        let radius = it.problem.line.radius();
         let moved = (it.rigid[0] - rigid[0]).abs() + radius * (it.rigid[2] - rigid[2]).abs();
-        let turned = radius * it.problem.time.a0 * (it.rim_angle - turn).abs();
+        let turned = radius * it.problem.line.time.a0 * (it.rim_angle - turn).abs();
         // Velocities are rounded.
         (moved + turned) / scale.max(1e-3 * it.speed())
     }
 
-    fn turn_over(&mut self, it: &mut Iterate, share: Option<f64>) -> Result<(), ContactError> {
+    fn turn_over(&mut self, it: &mut SeriesLine, share: Option<f64>) -> Result<(), ContactError> {
         self.changes += 1;
         if self.changes > CHANGES {
             return Err(ContactError::Unsuited { reason: "stick and slip change places" });
@@ -156,8 +155,8 @@ impl Search {
         Ok(())
     }
 
-    /// Whether the solution obeys friction: `false` where the search has to go on.
-    pub fn check(&mut self, it: &mut Iterate) -> Result<bool, ContactError> {
+    /// True if the solution obeys friction; `false`: the search has to go on.
+    pub fn check(&mut self, it: &mut SeriesLine) -> Result<bool, ContactError> {
         it.slips = it.slip(&it.slipping().0, &it.surface, true);
         if it.friction == 0.0 {
             return Ok(true);
@@ -167,7 +166,7 @@ impl Search {
         let (shear, pressure) = (it.tractions.shear(&stuck), it.tractions.pressure.density(&stuck));
         let beyond = |q: usize| shear[q].abs() - it.friction * pressure[q] > OVERSHOOT * peak;
         let torn = !it.tractions.slides() && (0..stuck.len()).any(beyond);
-        let scale = it.speed() * it.friction * it.tractions.pressure.half_width / it.problem.surfaces.radius;
+        let scale = it.speed() * it.friction * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
         let backward = |slip: &&f64| *slip * slide.signum() > BACKWARD * scale;
         let looked_at = || it.slips.iter().step_by(3);
         let wrong = looked_at().filter(backward).count();

@@ -1,4 +1,4 @@
-//! The smooth part of the surface displacements: what forces, accelerations and the past do beyond the half-planes.
+//! Smooth part of the surface displacements: by forces, accelerations and the past, half-planes apart.
 
 use crate::contact::problem::ContactProblem;
 use crate::linalg::POINTS;
@@ -14,18 +14,18 @@ pub struct Moments {
     pub normal: AtPoints,
 }
 
-/// Smooth displacements \[m] of one body.
+/// Smooth displacements \[m] of one body at the points of the polynomials.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Smooth {
+pub struct PolynomialValues {
     pub tangential: AtPoints,
     pub normal: AtPoints,
 }
 
 /// Of wheel and rail.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Surface {
-    pub wheel: Smooth,
-    pub rail: Smooth,
+pub struct SmoothSurfaces {
+    pub wheel: PolynomialValues,
+    pub rail: PolynomialValues,
 }
 
 pub fn dot(a: &AtPoints, b: &AtPoints) -> f64 {
@@ -42,14 +42,14 @@ pub fn plus<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-impl Surface {
-    /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on wheel and rail;
-    /// `accelerations` are the rigid ones.
+impl SmoothSurfaces {
+    /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on
+    /// wheel and rail; `accelerations` are the rigid ones.
     pub fn new(problem: &ContactProblem, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
-        let bodies = &problem.bodies;
+        let bodies = &problem.line.bodies;
         let body = |index: usize, sign: f64| {
             let (free, compliance) = (bodies.free[index], bodies.compliance[index]);
-            let mut own = Smooth::default();
+            let mut own = PolynomialValues::default();
             for k in 0..POINTS {
                 let (mut t, mut n) = (free[2 * k], free[2 * k + 1]);
                 for l in 0..POINTS {

@@ -1,12 +1,12 @@
-//! From the patch to the grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
-//! tangential displacement at the last two times, goes over as a function of x.
+//! From the patch to the grid and back: both describe the same surfaces, and what the slip of the next step refers to,
+//! the tangential displacement at the last two times, goes over as a function of x.
 
 use super::chebyshev::Arch;
 use super::constants::Constants;
-use super::state::{Past, SeriesState, SlipHistory, Tractions};
+use super::state::{Past, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE};
-use crate::contact::line::{ContactGrid, FrictionHistory, LineState, Status};
-use crate::contact::solver::{ContactState, SolverState};
+use crate::contact::line::{ContactGrid, FrictionHistory, LineHistory, LineState, NodeStatus};
+use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 use crate::multistep::History;
@@ -28,39 +28,39 @@ fn duration(force: &[f64], impulse: &[f64]) -> f64 {
 /// Gives the state of a patch the nodes of a grid; `grid_state` is one of the grid.
 pub(super) fn to_grid(
     constants: &Constants,
+    from: &ContactState,
     patch: &SeriesState,
-    traction: &Traction,
     grid: &ContactGrid,
     mut target: ContactState,
 ) -> ContactState {
-    let ports = target.traction.port_forces.clone();
+    let (traction, mut forces) = (&from.traction, target.traction.port_forces.clone());
     let SolverState::Line(state) = &mut target.solver else { return target };
     let Tractions { pressure, slide, stick } = &patch.tractions;
-    let ([low, high], [from, to]) = (pressure.ends(), stick.ends());
-    let slipping = if *slide < 0.0 { Status::SlipBackward } else { Status::SlipForward };
+    let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
+    let slipping = if *slide < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
     let status = |x: f64| match x {
-        x if x <= low || x >= high => Status::Open,
-        x if x > from && x < to => Status::Stick,
+        x if x <= low || x >= high => NodeStatus::Open,
+        x if x > stick_low && x < stick_high => NodeStatus::Stick,
         _ => slipping,
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
     let past = |k: usize, x: f64| patch.past[k].at(&[x], constants.half_plane.kernel, &constants.points)[0];
     state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
-    state.rim_angle = patch.rim_angle;
     state.rest = REST;
     let closed = |i: usize| status(grid.x[i]).is_active();
     let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
-    let span = duration(&patch.friction.force, &patch.friction.impulse);
+    let friction = &from.history.friction;
+    let span = duration(&friction.force, &friction.impulse);
     let slip = |i: usize| if status(grid.x[i]) == slipping { traction.slip.at(grid.x[i]) } else { 0.0 };
     state.slip = (0..grid.len()).map(slip).collect();
-    state.friction = FrictionHistory {
+    target.history.rim_angle = from.history.rim_angle;
+    target.history.friction = FrictionHistory {
         force: (0..grid.len()).map(force).collect(),
         impulse: (0..grid.len()).map(|i| span * force(i)).collect(),
         slip: state.slip.clone(),
-        slope_power: patch.friction.slope_power,
-        slope_work: patch.friction.slope_work,
+        slope_power: friction.slope_power,
+        slope_work: friction.slope_work,
     };
-    let mut forces = ports;
     for i in (0..grid.len()).filter(|&i| closed(i)) {
         forces[grid.port(i)] = force(i);
         forces[grid.port(i) + 1] = pressure.density(&[grid.x[i]])[0] * grid.width(i);
@@ -89,14 +89,14 @@ fn surface(
     all
 }
 
-/// Half-length of the stretch that sticks from the leading edge on, over that of the patch, if the states of a grid are those of
-/// a single patch of which a part at the trailing edge slips in one direction; and this direction.
+/// Half-length of the stretch that sticks from the leading edge on, over that of the patch, if the states of a grid are
+/// those of a single patch of which a part at the trailing edge slips in one direction; and this direction.
 fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
-    let closed: Vec<Status> = state.status.iter().copied().filter(|s| s.is_active()).collect();
+    let closed: Vec<NodeStatus> = state.status.iter().copied().filter(|s| s.is_active()).collect();
     let first = state.status.iter().position(|s| s.is_active())?;
     let last = state.status.iter().rposition(|s| s.is_active())?;
-    let stuck = closed.iter().filter(|s| **s == Status::Stick).count();
-    let from_edge = |s: &&Status| **s == Status::Stick;
+    let stuck = closed.iter().filter(|s| **s == NodeStatus::Stick).count();
+    let from_edge = |s: &&NodeStatus| **s == NodeStatus::Stick;
     let at_edge = match upstream_right {
         true => closed.iter().rev().take_while(from_edge).count(),
         false => closed.iter().take_while(from_edge).count(),
@@ -116,8 +116,8 @@ fn even(grid: &ContactGrid) -> Range<usize> {
     first..(middle..x.len() - 1).find(uneven).map_or(x.len(), |i| i + 1)
 }
 
-/// The state of a grid as that of a patch; `None` where it is none, reaches nodes that lie farther apart, or the grid has not
-/// rested for long.
+/// The state of a grid as that of a patch; `None` where it is none, reaches nodes that lie farther apart, or the grid
+/// has not rested for long.
 pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant[1]) else { return None };
@@ -145,15 +145,15 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
     let tractions = Tractions { pressure, slide, stick };
-    let friction = slip_history(constants, &tractions, side, state, traction);
-    let patch = SeriesState {
-        tractions,
-        past: [history(false), history(true)],
-        rim_angle: state.rim_angle,
-        friction,
-        ..SeriesState::default()
+    let friction = friction_history(constants, &tractions, side, from);
+    let patch = SeriesState { tractions, past: [history(false), history(true)], slope: 0.0 };
+    let mut moved = ContactState {
+        ports: Ports::Smooth,
+        traction: traction.clone(),
+        history: LineHistory { rim_angle: from.history.rim_angle, friction },
+        energy: 0.0,
+        solver: SolverState::Series(Box::new(patch)),
     };
-    let mut moved = ContactState { traction: traction.clone(), solver: SolverState::Series(Box::new(patch)) };
     let mut forces = DVector::zeros(2 * POINTS);
     for i in 0..grid.len() {
         for (k, value) in constants.points.values(grid.x[i]).into_iter().enumerate() {
@@ -168,13 +168,8 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
 }
 
 /// Friction at the places of the slipping part, read off the profiles.
-fn slip_history(
-    constants: &Constants,
-    tractions: &Tractions,
-    side: f64,
-    state: &LineState,
-    traction: &Traction,
-) -> SlipHistory {
+fn friction_history(constants: &Constants, tractions: &Tractions, side: f64, from: &ContactState) -> FrictionHistory {
+    let before = &from.history.friction;
     let Tractions { pressure, slide, stick } = tractions;
     let half = pressure.half_width - stick.half_width;
     let centre = pressure.centre - side * stick.half_width;
@@ -182,12 +177,12 @@ fn slip_history(
     let places = tables.places.map(|t| centre + half * t);
     let densities = pressure.density(&places);
     let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * slide * densities[q]);
-    let span = duration(&state.friction.force, &state.friction.impulse);
-    SlipHistory {
-        force,
-        impulse: force.map(|f| span * f),
-        slip: places.map(|x| traction.slip.at(x)),
-        slope_power: state.friction.slope_power,
-        slope_work: state.friction.slope_work,
+    let span = duration(&before.force, &before.impulse);
+    FrictionHistory {
+        force: force.to_vec(),
+        impulse: force.map(|f| span * f).to_vec(),
+        slip: places.map(|x| from.traction.slip.at(x)).to_vec(),
+        slope_power: before.slope_power,
+        slope_work: before.slope_work,
     }
 }

@@ -44,7 +44,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
-        let touch = thermal.touch(&model.contact, &state.contact.traction, goal.drive.temperature);
+        let touch = thermal.touch(&model.contact, &state.contact, goal.drive.temperature);
         let mut temperatures = match model.config.initial.temperature {
             StartTemperature::Uniform => thermal.uniform(&touch)?,
             StartTemperature::Stationary => {

@@ -117,7 +117,7 @@ impl Pass<'_> {
         let (model, goal) = (self.model, self.goal);
         self.check_adhesion(state, trial, 1.0)?;
         let td = TimeDerivative::default();
-        let operators = model.bodies.operators(td.a0, state, &*model.contact.solver, &mut workspace.operators)?;
+        let operators = model.bodies.operators(td.a0, state, &mut workspace.operators)?;
         let [velocity, omega] = goal.actual(trial.speeds);
         let streams = [
             Convection { speed: omega, acceleration: trial.accelerations[2] },

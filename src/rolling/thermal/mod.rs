@@ -16,7 +16,7 @@ use super::error::StepError;
 use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::{State, ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
-use crate::contact::{Heating, Traction};
+use crate::contact::{ContactState, Heating};
 use crate::damage::Criteria;
 use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
 use crate::material::{FILM_GROWS, SOFTENS};
@@ -148,10 +148,11 @@ impl ThermalModel {
     }
 
     /// What temperatures see of a contact with a rail that arrives with the absolute temperature `rail` \[K].
-    pub fn touch<'a>(&self, contact: &ContactModel, traction: &'a Traction, rail: f64) -> Touch<'a> {
+    pub fn touch<'a>(&self, model: &ContactModel, contact: &'a ContactState, rail: f64) -> Touch<'a> {
+        let traction = &contact.traction;
         let reversible = match &self.thermoelastic {
             Some(thermoelastic) => {
-                contact.solver.surface_strain(traction).map(|strain| thermoelastic.temperatures(strain, traction))
+                model.solver.surface_strain(contact).map(|strain| thermoelastic.temperatures(strain, traction))
             }
             None => Default::default(),
         };

@@ -1,82 +1,81 @@
-//! The linear problem on a single patch, solved by turns.
+//! Linear problem of a single patch, solved by alternation of pressure and shear. Measured: 0.68 of the time of a step
+//! without heat at 20 elements per half-width, 0.46 at 50.
 //!
-//! For bodies of equal material pressure hardly shears the contact and shear hardly opens it: the dents of wheel and rail cancel.
-//! So the pressures, with the height of the hub, are found for given shear, then the shear of the stuck nodes, with the velocities
-//! of the hub, for these pressures, and so on until nothing changes any more ([`PressureShear`]). The matrix of the pressures is a part of
-//! the compliance, whose inverse belongs to the place of the patch alone and is kept (see [`KeptInverses`](super::patch_inverse::KeptInverses)).
-//! What is written and factorised in a step are the equations of the stuck nodes and free motions alone.
+//! For bodies of equal material pressure hardly shears the contact and shear hardly opens it: the dents of wheel and
+//! rail cancel. So the pressures, with the height of the hub, are found for given shear, then the shear of the stuck
+//! nodes, with the velocities of the hub, for these pressures, and so on until nothing changes any more
+//! ([`PressureShear`]). The matrix of the pressures is a part of the compliance, whose inverse belongs to the place of
+//! the patch alone and is kept ([`KeptInverses`]). Only the equations of the stuck nodes and of the motions are written
+//! and factorised in a step.
 
+use super::patch_inverse::KeptInverses;
 use super::pressure_shear::PressureShear;
-use crate::contact::active_set::iterate::{ActiveSetScratch, Iterate};
+use crate::contact::active_set::axes::Axes;
+use crate::contact::active_set::unknowns::Unknowns;
+use crate::contact::line::contact_line::ContactLine;
 use std::ops::Range;
 
-impl Iterate<'_> {
-    /// Solves the linear problem of a single patch; `false`: this is none, or the turns do not converge.
-    pub(in crate::contact::active_set) fn solve_alternating(&mut self) -> bool {
-        let Some(patch) = self.single_patch() else { return false };
-        let (mut kept, mut turns) =
-            (std::mem::take(&mut self.scratch.kept), std::mem::take(&mut self.scratch.pressure_shear));
-        let solved = match kept.of(self.problem, self.grid, &patch) {
-            Some(inverse) => {
-                self.write_gaps(patch, &mut turns);
-                self.write_shear(&mut turns);
-                turns.solve(inverse)
-            }
-            None => false,
-        };
-        if solved {
-            self.accept(&turns.unknowns);
-        }
-        (self.scratch.kept, self.scratch.pressure_shear) = (kept, turns);
-        solved
+/// Solves the linear problem of a single patch and gives the line its forces and motions; `false`: the closed nodes are
+/// none, or the alternation does not converge. `row` is memory for the coefficients of all ports.
+pub fn solve(
+    line: &mut ContactLine,
+    axes: &Axes,
+    unknowns: &Unknowns,
+    row: &mut [f64],
+    (inverses, equations): (&mut KeptInverses, &mut PressureShear),
+) -> bool {
+    let Some(patch) = unknowns.single_patch(line) else { return false };
+    let Some(inverse) = inverses.of(line.problem, line.grid, &patch) else { return false };
+    write_gaps(line, axes, unknowns, patch, equations);
+    write_shear(line, axes, unknowns, row, equations);
+    let solved = equations.solve(inverse);
+    if solved {
+        unknowns.accept(&equations.unknowns, line, axes);
     }
+    solved
+}
 
-    /// The closed nodes, if they are neighbours and none of them yields. Stationary problems are solved directly.
-    pub(in crate::contact::active_set) fn single_patch(&self) -> Option<Range<usize>> {
-        let closed = &self.scratch.closed;
-        let (&first, &last) = (closed.first()?, closed.last()?);
-        let single = last + 1 - first == closed.len() && !self.problem.time.is_stationary();
-        (single && !self.state.yielded[first..=last].contains(&true)).then_some(first..last + 1)
+/// Writes the gaps, and the present unknowns as a guess.
+fn write_gaps(
+    line: &ContactLine,
+    axes: &Axes,
+    unknowns: &Unknowns,
+    patch: Range<usize>,
+    equations: &mut PressureShear,
+) {
+    let Unknowns { closed, stuck, axes: sought, friction } = unknowns;
+    equations.place.clear();
+    equations.place.extend_from_slice(&line.grid.x[patch.clone()]);
+    equations.friction.clone_from(friction);
+    equations.stuck.clear();
+    equations.stuck.extend(stuck.iter().map(|i| i - patch.start));
+    equations.gap.clear();
+    equations.motions.iter_mut().for_each(Vec::clear);
+    for &i in closed {
+        let gap = axes.equation(line.gap_terms(i));
+        equations.gap.push(axes.constant(&gap));
+        equations.motions.iter_mut().zip(sought).for_each(|(motion, &axis)| motion.push(gap.motions[axis]));
     }
-
-    /// Writes the gaps, and the present unknowns as a guess.
-    fn write_gaps(&self, patch: Range<usize>, turns: &mut PressureShear) {
-        let ActiveSetScratch { closed, friction, stuck, axes, rim_angle: turn, .. } = &*self.scratch;
-        turns.place.clear();
-        turns.place.extend_from_slice(&self.grid.x[patch.clone()]);
-        turns.friction.clone_from(friction);
-        turns.stuck.clear();
-        turns.stuck.extend(stuck.iter().map(|i| i - patch.start));
-        turns.gap.clear();
-        turns.motions.iter_mut().for_each(Vec::clear);
-        for &i in closed {
-            let row = self.gap_terms(i);
-            turns.gap.push(self.constant(&row));
-            turns.motions.iter_mut().zip(axes).for_each(|(motion, &axis)| motion.push(row.rigid[axis]));
-        }
-        for (of, offset) in turns.turn.iter_mut().zip([1, 0]) {
-            of.clear();
-            of.extend(closed.iter().map(|&i| turn.forces[self.grid.port(i) + offset]));
-        }
-        let height = axes.last() == Some(&1);
-        turns.reset(stuck.len() + axes.len() - usize::from(height), height);
-        let guess = closed.iter().map(|&i| self.normal(i)).chain(stuck.iter().map(|&i| self.tangential(i)));
-        let motions = axes.iter().map(|&axis| self.traction.rigid[axis]);
-        turns.unknowns.iter_mut().zip(guess.chain(motions)).for_each(|(value, guess)| *value = guess);
+    for (of, offset) in equations.rim_angle.iter_mut().zip([1, 0]) {
+        of.clear();
+        of.extend(closed.iter().map(|&i| line.rim.forces[line.grid.port(i) + offset]));
     }
+    let height = sought.last() == Some(&1);
+    equations.reset(stuck.len() + sought.len() - usize::from(height), height);
+    let guess = closed.iter().map(|&i| line.normal(i)).chain(stuck.iter().map(|&i| line.tangential(i)));
+    let motions = sought.iter().map(|&axis| line.traction.rigid[axis]);
+    equations.unknowns.iter_mut().zip(guess.chain(motions)).for_each(|(value, guess)| *value = guess);
+}
 
-    /// Writes the equations of the stuck nodes and the balances of the free motions.
-    fn write_shear(&mut self, turns: &mut PressureShear) {
-        let (stuck, axes) = (self.scratch.stuck.len(), self.scratch.axes.len());
-        let (mut forces, window) = (std::mem::take(&mut self.scratch.row), self.window());
-        for r in 0..stuck {
-            let row = self.slip_row(self.scratch.stuck[r], window.clone(), &mut forces);
-            self.write(turns.row(r), &row, &forces);
-        }
-        for r in 0..axes {
-            let row = self.axis_row(self.scratch.axes[r], &mut forces);
-            self.write(turns.row(stuck + r), &row, &forces);
-        }
-        self.scratch.row = forces;
+/// Writes the equations of the stuck nodes and of the motions.
+fn write_shear(line: &ContactLine, axes: &Axes, unknowns: &Unknowns, row: &mut [f64], equations: &mut PressureShear) {
+    let window = unknowns.window(line.grid);
+    for (r, &i) in unknowns.stuck.iter().enumerate() {
+        let slip = axes.equation(line.slip_row(i, window.clone(), row));
+        unknowns.write(equations.row(r), (&slip, row), line.grid, axes);
+    }
+    for (r, &axis) in unknowns.axes.iter().enumerate() {
+        let balance = axes.row(axis, line, row);
+        unknowns.write(equations.row(unknowns.stuck.len() + r), (&balance, row), line.grid, axes);
     }
 }

@@ -1,198 +1,245 @@
-//! Where uneven surfaces will press in the step: a guess from which the active set starts.
+//! Guess of the closed nodes on uneven surfaces, from which the active set starts.
 //!
 //! New material comes under the contact in every step, so that the edges of the patches move, and the search for all
-//! states takes two or three iterations where on smooth surfaces it takes one. Pressures hardly depend on the shear. So closed
-//! nodes and normal forces are first found by themselves, with the shear forces and velocities of before and the inverses that
-//! the [turns](super::alternating) keep. The guess decides nothing; where it fails the search starts from the states of before.
+//! states takes two or three iterations where on smooth surfaces it takes one. Pressures hardly depend on the shear. So
+//! closed nodes and normal forces are first found by themselves, with the shear forces and velocities of before and the
+//! [kept factors](KeptInverses). The guess decides nothing; where it fails the search starts from the states of before.
 
-use super::patch_inverse::compliance;
-use crate::contact::active_set::iterate::{InitialGuess, Iterate};
-use crate::contact::active_set::search::FORCE_TOLERANCE;
-use crate::contact::line::state::Status;
+use super::patch_inverse::{KeptInverses, compliance};
+use crate::contact::active_set::axes::Axes;
+use crate::contact::active_set::states::closing_state;
+use crate::contact::active_set::unknowns::Unknowns;
+use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::state::NodeStatus;
 use crate::linalg::InverseFactor;
 use crate::linalg::vectorised::add_columns;
+use nalgebra::DVector;
 
 /// Guesses of the closed nodes at most.
 const MAX_GUESSES: usize = 6;
 
-/// Balance of the height of the hub.
+/// Comparison of gaps and forces by which nodes open and close.
+#[derive(Clone, Copy)]
+pub struct Comparison {
+    /// Stiffness that compares gaps with forces [N/m per m].
+    pub penalty: f64,
+    /// Tolerance of nodal forces [N/m].
+    pub tolerance: f64,
+}
+
+/// Balance of the height of the hub without its coefficients of the port forces.
 struct HeightBalance {
-    /// Coefficient of the height, and what is known.
+    /// Coefficient of the height.
     by_height: f64,
+    /// Known side.
     known: f64,
 }
 
-impl Iterate<'_> {
-    /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and velocities at
-    /// hand, where the surfaces are uneven. `penalty`: see [`Self::run`].
-    pub(in crate::contact::active_set) fn guess_closed(&mut self, penalty: f64) {
-        if self.scratch.dents.is_empty() || self.problem.time.is_stationary() {
+/// Memory of the guess.
+#[derive(Default)]
+pub struct InitialGuess {
+    /// Gap at the candidates without normal forces and height of the hub \[m].
+    base: Vec<f64>,
+    /// Its change with the height of the hub \[1]; zero if that is prescribed.
+    by_height: Vec<f64>,
+    /// Normal forces at the closed nodes without height and rim angle [N/m], and their change with either.
+    normal: [Vec<f64>; 3],
+    /// Displacement of all ports by forces at the candidates \[m].
+    displaced: Vec<f64>,
+    /// Forces at the candidates [N/m].
+    forces: Vec<f64>,
+    /// Inverse where the closed nodes are no single patch or some of them yield.
+    factor: InverseFactor,
+    product: Vec<f64>,
+    /// Start of the guess.
+    status: Vec<NodeStatus>,
+    port_forces: DVector<f64>,
+}
+
+/// Memory that the search lends: unknowns, coefficients of all ports, states before, kept inverses.
+type Lent<'a> = (&'a mut Unknowns, &'a mut [f64], &'a mut Vec<NodeStatus>, &'a mut KeptInverses);
+
+impl InitialGuess {
+    /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
+    /// velocities at hand, where the surfaces are uneven.
+    pub fn find(&mut self, line: &mut ContactLine, axes: &Axes, comparison: Comparison, lent: Lent) {
+        if line.given.rail_slope.is_empty() || line.problem.time.is_stationary() {
             return;
         }
-        let mut memory = std::mem::take(&mut self.scratch.initial_guess);
-        memory.status.clone_from(&self.state.status);
-        memory.port_forces.clone_from(&self.traction.port_forces);
-        let height = self.traction.rigid[1];
-        if self.guess(penalty, &mut memory).is_none() {
-            self.state.status.clone_from(&memory.status);
-            self.traction.port_forces.clone_from(&memory.port_forces);
-            self.traction.rigid[1] = height;
+        self.status.clone_from(&line.state.status);
+        self.port_forces.clone_from(&line.traction.port_forces);
+        let height = line.traction.rigid[1];
+        if !self.settle(line, axes, comparison, lent) {
+            line.state.status.clone_from(&self.status);
+            line.traction.port_forces.clone_from(&self.port_forces);
+            line.traction.rigid[1] = height;
         }
-        self.scratch.initial_guess = memory;
     }
 
-    /// Guesses until the closed nodes stay; `None` if nothing is closed or they do not.
-    fn guess(&mut self, penalty: f64, memory: &mut InitialGuess) -> Option<()> {
-        self.write_rim_angle();
-        let mut row = std::mem::take(&mut self.scratch.row);
-        let balance = self.write_base(memory, &mut row);
-        let mut settled = false;
+    /// Guesses until the closed nodes stay; `false` if nothing is closed or they do not.
+    fn settle(
+        &mut self,
+        line: &mut ContactLine,
+        axes: &Axes,
+        comparison: Comparison,
+        (unknowns, row, before, inverses): Lent,
+    ) -> bool {
+        line.update_rim();
+        let balance = self.write_base(line, axes, row);
         for _ in 0..MAX_GUESSES {
-            settled = self.press(memory, &row, &balance).is_some() && !self.close(penalty, memory);
-            if settled || self.scratch.closed.is_empty() {
+            unknowns.list_closed(line);
+            let pressed = self.press(line, unknowns, inverses, (row, &balance));
+            if pressed && !self.close(line, comparison, before) {
+                return true;
+            }
+            if unknowns.closed.is_empty() {
                 break;
             }
         }
-        self.scratch.row = row;
-        settled.then_some(())
+        false
     }
 
-    /// Writes the gap without normal forces and height, and the balance of the height, whose force coefficients go to `row`;
-    /// `None` if the height is prescribed.
-    fn write_base(&self, memory: &mut InitialGuess, row: &mut [f64]) -> Option<HeightBalance> {
-        let (free, [v, height, omega]) = (self.problem.rigid[1].target().is_none(), self.traction.rigid);
+    /// Writes the gap without normal forces and height, and the balance of the height, whose force coefficients go to
+    /// `row`; `None` if the height is prescribed.
+    fn write_base(&mut self, line: &ContactLine, axes: &Axes, row: &mut [f64]) -> Option<HeightBalance> {
+        let (free, [v, height, omega]) = (axes.seeks(1), line.traction.rigid);
         let motions = [v, if free { 0.0 } else { height }, omega];
-        let of_motions = |rigid: [f64; 3]| rigid.iter().zip(motions).map(|(by, value)| by * value).sum::<f64>();
-        let InitialGuess { base, by_height, displaced, forces, .. } = memory;
+        let of_motions = |by: [f64; 3]| by.iter().zip(motions).map(|(by, value)| by * value).sum::<f64>();
+        let Self { base, by_height, displaced, forces, .. } = self;
         forces.clear();
-        forces.extend((0..self.grid.len()).map(|i| self.tangential(i)));
-        self.displace(0, forces, displaced);
-        let turned: f64 =
-            (0..self.grid.len()).map(|i| self.scratch.rim_angle.forces[self.grid.port(i)] * forces[i]).sum();
+        forces.extend((0..line.grid.len()).map(|i| line.tangential(i)));
+        displace(line, 0, forces, displaced);
+        let turned: f64 = (0..line.grid.len()).map(|i| line.rim.forces[line.grid.port(i)] * forces[i]).sum();
         base.clear();
         by_height.clear();
-        for i in 0..self.grid.len() {
-            let terms = self.gap_terms(i);
-            let of_forces = displaced[self.grid.port(i) + 1] - self.grid.x[i] * turned;
-            base.push(terms.constant + of_motions(terms.rigid) + of_forces);
-            by_height.push(if free { terms.rigid[1] } else { 0.0 });
+        for i in 0..line.grid.len() {
+            let row = line.gap_terms(i);
+            let by_motions = axes.equation(row).motions;
+            let of_forces = displaced[line.grid.port(i) + 1] - line.grid.x[i] * turned;
+            base.push(row.constant + of_motions(by_motions) + of_forces);
+            by_height.push(if free { by_motions[1] } else { 0.0 });
         }
         free.then(|| {
-            let terms = self.axis_row(1, row);
-            let of_shear: f64 = forces.iter().enumerate().map(|(i, force)| row[self.grid.port(i)] * force).sum();
-            HeightBalance { by_height: terms.rigid[1], known: -terms.constant - of_motions(terms.rigid) - of_shear }
+            let balance = axes.row(1, line, row);
+            let of_shear: f64 = forces.iter().enumerate().map(|(i, force)| row[line.grid.port(i)] * force).sum();
+            let known = -balance.constant - of_motions(balance.motions) - of_shear;
+            HeightBalance { by_height: balance.motions[1], known }
         })
     }
 
-    /// Displacements of all ports by normal (`offset` 1) or tangential (0) forces at the candidates.
-    fn displace(&self, offset: usize, forces: &[f64], displaced: &mut Vec<f64>) {
-        let relative = self.problem.bodies.relative;
-        displaced.clear();
-        displaced.resize(relative.nrows(), 0.0);
-        let columns = &relative.as_slice()[(self.grid.port(0) + offset) * relative.nrows()..];
-        add_columns(1.0, columns, 2 * relative.nrows(), forces, displaced);
-    }
-
-    /// Solves for the normal forces of the closed nodes, and for the height of the hub if that is free; `row`: force coefficients
-    /// of its balance.
-    fn press(&mut self, memory: &mut InitialGuess, row: &[f64], balance: &Option<HeightBalance>) -> Option<()> {
-        let mut closed = std::mem::take(&mut self.scratch.closed);
-        closed.clear();
-        closed.extend((0..self.grid.len()).filter(|&i| self.state.status[i].is_active()));
-        self.scratch.closed = closed;
-        let closed = &self.scratch.closed;
-        let InitialGuess { base, by_height, normal: [known, raised, tilted], .. } = memory;
+    /// Solves for the normal forces of the closed nodes, and for the height of the hub if that is sought, with its
+    /// balance and the force coefficients of that; `false` without a solution.
+    fn press(
+        &mut self,
+        line: &mut ContactLine,
+        unknowns: &Unknowns,
+        inverses: &mut KeptInverses,
+        (row, balance): (&[f64], &Option<HeightBalance>),
+    ) -> bool {
+        let (grid, closed) = (line.grid, &unknowns.closed);
+        let [known, raised, tilted] = &mut self.normal;
         [&mut *known, &mut *raised, &mut *tilted].into_iter().for_each(Vec::clear);
         known.extend(closed.iter().map(|&i| {
-            let yields = if self.state.yielded[i] { self.creep(i) * self.scratch.limit[i] } else { 0.0 };
-            yields - base[i]
+            let yields = if line.state.yielded[i] { line.creep(i) * line.given.strength.limit[i] } else { 0.0 };
+            yields - self.base[i]
         }));
-        raised.extend(closed.iter().map(|&i| -by_height[i]));
-        tilted.extend(closed.iter().map(|&i| self.grid.x[i]));
-        self.solve_pressures(memory)?;
-        let InitialGuess { normal: [known, raised, tilted], .. } = memory;
-        let sum = |coefficients: &[f64], forces: &[f64]| -> f64 {
-            let closed = self.scratch.closed.iter();
-            closed.zip(forces).map(|(&i, force)| coefficients[self.grid.port(i) + 1] * force).sum()
+        raised.extend(closed.iter().map(|&i| -self.by_height[i]));
+        tilted.extend(closed.iter().map(|&i| grid.x[i]));
+        if self.solve_pressures(line, unknowns, inverses).is_none() {
+            return false;
+        }
+        let normal = &self.normal;
+        let sums = |coefficients: &[f64]| {
+            let sum = |forces: &Vec<f64>| -> f64 {
+                closed.iter().zip(forces).map(|(&i, force)| coefficients[grid.port(i) + 1] * force).sum()
+            };
+            normal.each_ref().map(sum)
         };
-        // Height and turn of the rim by these forces: two equations.
-        let turned = [&*known, raised, tilted].map(|forces| sum(&self.scratch.rim_angle.forces, forces));
-        let (height, turn) = match balance {
+        // Height and rim angle by these forces: two equations.
+        let turned = sums(&line.rim.forces);
+        let (height, angle) = match balance {
             Some(balance) => {
-                let of = [&*known, raised, tilted].map(|forces| sum(row, forces));
+                let of = sums(row);
                 let (side, by_height) = (balance.known - of[0], balance.by_height + of[1]);
-                let turn =
+                let angle =
                     (turned[0] * by_height + turned[1] * side) / ((1.0 - turned[2]) * by_height + turned[1] * of[2]);
-                ((side - of[2] * turn) / by_height, turn)
+                let height = (side - of[2] * angle) / by_height;
+                line.traction.rigid[1] = height;
+                (height, angle)
             }
             None => (0.0, turned[0] / (1.0 - turned[2])),
         };
-        if balance.is_some() {
-            self.traction.rigid[1] = height;
-        }
-        for i in 0..self.grid.len() {
-            let port = self.grid.port(i);
-            self.traction.port_forces[port + 1] = 0.0;
-            if !self.state.status[i].is_active() {
-                self.traction.port_forces[port] = 0.0;
+        for i in 0..grid.len() {
+            let port = grid.port(i);
+            line.traction.port_forces[port + 1] = 0.0;
+            if !line.state.status[i].is_active() {
+                line.traction.port_forces[port] = 0.0;
             }
         }
-        for (n, &i) in self.scratch.closed.iter().enumerate() {
-            self.traction.port_forces[self.grid.port(i) + 1] = known[n] + height * raised[n] + turn * tilted[n];
+        let [known, raised, tilted] = normal;
+        for (n, &i) in closed.iter().enumerate() {
+            line.traction.port_forces[grid.port(i) + 1] = known[n] + height * raised[n] + angle * tilted[n];
         }
-        (height + turn).is_finite().then_some(())
+        (height + angle).is_finite()
     }
 
     /// Replaces gaps to be closed by the forces that close them.
-    fn solve_pressures(&mut self, memory: &mut InitialGuess) -> Option<()> {
-        let InitialGuess { normal, factor, product, .. } = memory;
-        let patch = self.single_patch();
-        let mut kept = std::mem::take(&mut self.scratch.kept);
-        let known = patch.and_then(|patch| kept.factor(self.problem, self.grid, &patch));
-        let factor = match known {
-            Some(factor) => Some(factor),
-            None => self.factorise(factor).map(|()| &*factor),
+    fn solve_pressures(&mut self, line: &ContactLine, unknowns: &Unknowns, inverses: &mut KeptInverses) -> Option<()> {
+        let Self { normal, factor, product, .. } = self;
+        let patch = unknowns.single_patch(line);
+        let factor = match patch.and_then(|patch| inverses.factor(line.problem, line.grid, &patch)) {
+            Some(factor) => factor,
+            None => {
+                factorise(line, unknowns, factor)?;
+                factor
+            }
         };
-        let solved = factor.map(|factor| normal.iter_mut().for_each(|forces| factor.solve(forces, product)));
-        self.scratch.kept = kept;
-        solved
-    }
-
-    /// Factorises the compliance of the closed nodes, of which some may yield.
-    fn factorise(&self, factor: &mut InverseFactor) -> Option<()> {
-        let closed = &self.scratch.closed;
-        factor.truncate(0);
-        for (n, &i) in closed.iter().enumerate() {
-            let creep = if self.state.yielded[i] { self.creep(i) } else { 0.0 };
-            let beside = closed[..n].iter().map(|&j| compliance(self.problem, self.grid, i, j));
-            factor.append(beside, compliance(self.problem, self.grid, i, i) + creep)?;
-        }
+        normal.iter_mut().for_each(|forces| factor.solve(forces, product));
         Some(())
     }
 
     /// Opens closed nodes that pull and closes open ones that overlap; returns whether there were any.
-    fn close(&mut self, penalty: f64, memory: &mut InitialGuess) -> bool {
-        let tolerance = FORCE_TOLERANCE[0] * self.problem.nominal_load / self.grid.len() as f64;
-        let InitialGuess { base, by_height, displaced, forces, .. } = memory;
+    fn close(&mut self, line: &mut ContactLine, comparison: Comparison, before: &mut Vec<NodeStatus>) -> bool {
+        let Self { base, by_height, displaced, forces, .. } = self;
+        let grid = line.grid;
         forces.clear();
-        forces.extend((0..self.grid.len()).map(|i| self.normal(i)));
-        self.displace(1, forces, displaced);
-        let turned: f64 =
-            (0..self.grid.len()).map(|i| self.scratch.rim_angle.forces[self.grid.port(i) + 1] * forces[i]).sum();
-        self.scratch.status_before.clone_from(&self.state.status);
+        forces.extend((0..grid.len()).map(|i| line.normal(i)));
+        displace(line, 1, forces, displaced);
+        let turned: f64 = (0..grid.len()).map(|i| line.rim.forces[grid.port(i) + 1] * forces[i]).sum();
+        before.clone_from(&line.state.status);
         let mut changed = false;
-        for i in 0..self.grid.len() {
-            let old = self.scratch.status_before[i];
-            let gap = base[i] + by_height[i] * self.traction.rigid[1] + displaced[self.grid.port(i) + 1]
-                - self.grid.x[i] * turned;
-            self.state.gap[i] = if old.is_active() { 0.0 } else { gap };
-            let indicator = if old.is_active() { self.normal(i) } else { -penalty * gap };
-            if indicator.abs() <= tolerance || (indicator > 0.0) == old.is_active() {
+        for i in 0..grid.len() {
+            let old = before[i];
+            let gap =
+                base[i] + by_height[i] * line.traction.rigid[1] + displaced[grid.port(i) + 1] - grid.x[i] * turned;
+            line.state.gap[i] = if old.is_active() { 0.0 } else { gap };
+            let indicator = if old.is_active() { line.normal(i) } else { -comparison.penalty * gap };
+            if indicator.abs() <= comparison.tolerance || (indicator > 0.0) == old.is_active() {
                 continue;
             }
-            self.state.status[i] = if old.is_active() { Status::Open } else { self.closing_state(i, 1) };
+            line.state.status[i] = if old.is_active() { NodeStatus::Open } else { closing_state(line, i, before) };
             changed = true;
         }
         changed
     }
+}
+
+/// Displacements of all ports by normal (`offset` 1) or tangential (0) forces at the candidates.
+fn displace(line: &ContactLine, offset: usize, forces: &[f64], displaced: &mut Vec<f64>) {
+    let relative = line.problem.bodies.relative;
+    displaced.clear();
+    displaced.resize(relative.nrows(), 0.0);
+    let columns = &relative.as_slice()[(line.grid.port(0) + offset) * relative.nrows()..];
+    add_columns(1.0, columns, 2 * relative.nrows(), forces, displaced);
+}
+
+/// Factorises the compliance of the closed nodes, of which some may yield.
+fn factorise(line: &ContactLine, unknowns: &Unknowns, factor: &mut InverseFactor) -> Option<()> {
+    let (closed, compliance) = (&unknowns.closed, |i, j| compliance(line.problem, line.grid, i, j));
+    factor.truncate(0);
+    for (n, &i) in closed.iter().enumerate() {
+        let creep = if line.state.yielded[i] { line.creep(i) } else { 0.0 };
+        factor.append(closed[..n].iter().map(|&j| compliance(i, j)), compliance(i, i) + creep)?;
+    }
+    Some(())
 }

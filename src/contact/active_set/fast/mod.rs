@@ -1,6 +1,9 @@
-//! Shortcuts of the active set: code without which every result is the same and only takes longer.
+//! Shortcuts of the active set: without them every result is the same but for round-off, and takes longer.
+//!
+//! [`initial_guess`] can go alone; [`alternating`] with its equations [`pressure_shear`]; [`patch_inverse`], which both
+//! use, last.
 
-mod alternating;
-mod initial_guess;
-pub(super) mod patch_inverse;
-pub(super) mod pressure_shear;
+pub mod alternating;
+pub mod initial_guess;
+pub mod patch_inverse;
+pub mod pressure_shear;

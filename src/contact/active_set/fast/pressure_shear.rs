@@ -1,28 +1,28 @@
-//! Equations of a single patch, solved by turns: pressures for given shear, shear for given pressures.
+//! Equations of a single patch, solved by alternation: pressures for given shear, shear for given pressures.
 //!
-//! Unknowns are the normal forces of the closed nodes, the *sheared* unknowns (tangential forces of the stuck nodes, velocities
-//! of the hub that are free), and the height of the hub where it is free, in this order.
+//! Unknowns are the normal forces of the closed nodes, the *sheared* unknowns (tangential forces of the stuck nodes,
+//! velocities of the hub that are free), and the height of the hub where it is free, in this order.
 
 use super::patch_inverse::PatchInverse;
 use crate::linalg::DenseSystem;
 use crate::linalg::vectorised::{add_columns, dot};
 
-/// PressureShear allowed: ordinary steps take three or four.
+/// Alternations allowed: ordinary steps take three or four.
 const MOST_ALTERNATIONS: usize = 10;
 /// Error that counts as none, over the largest nodal force \[1].
 const PRECISION: f64 = 1e-13;
 
 /// Equations and unknowns of one patch, and the memory to solve them.
 #[derive(Default)]
-pub(in crate::contact::active_set) struct PressureShear {
+pub struct PressureShear {
     /// Gap at the closed nodes without contact forces and free motions [m].
     pub gap: Vec<f64>,
     /// Its change with each of the free motions, in their order.
     pub motions: [Vec<f64>; 3],
-    /// Place of the closed nodes \[m]: a turn of the rim tilts the gap about the contact point.
+    /// Place of the closed nodes \[m]: the rim angle tilts the gap about the contact point.
     pub place: Vec<f64>,
-    /// Turn of the rim by the normal and by the tangential force at each closed node [rad/(N/m)].
-    pub turn: [Vec<f64>; 2],
+    /// Rim angle by the normal and by the tangential force at each closed node [rad/(N/m)].
+    pub rim_angle: [Vec<f64>; 2],
     /// Tangential over normal force at the closed nodes that slip, zero at the stuck ones [1].
     pub friction: Vec<f64>,
     /// Stuck nodes, counted among the closed ones.
@@ -63,7 +63,7 @@ impl PressureShear {
         (&mut self.rows[r * width..(r + 1) * width], &mut self.constants[r])
     }
 
-    /// Solves by turns; `false`: they do not converge.
+    /// Solves by alternation; `false`: it does not converge.
     pub fn solve(&mut self, patch: PatchInverse) -> bool {
         if !self.factorise() {
             return false;
@@ -71,9 +71,9 @@ impl PressureShear {
         self.raise(patch);
         let mut before = None;
         for _ in 0..MOST_ALTERNATIONS {
-            // A sum, so that what is no number is not lost.
+            // A sum, so that a NaN is not lost.
             let change = self.find_pressure(patch) + self.find_shear();
-            // What the next turn will change, if they go on converging so.
+            // Change of the next alternation, if they go on converging so.
             let next = before.map_or(change, |before| change * f64::min(change / before, 1.0));
             if next <= PRECISION {
                 return true;
@@ -93,7 +93,7 @@ impl PressureShear {
         self.system.factorise()
     }
 
-    /// What the height of the hub does to the normal forces.
+    /// Effect of the height of the hub on the normal forces.
     fn raise(&mut self, patch: PatchInverse) {
         let height = self.constants.len() > self.sheared;
         self.raised.clear();
@@ -103,14 +103,15 @@ impl PressureShear {
         }
     }
 
-    /// Finds normal forces and height for the present shear; returns the largest change of the forces over the largest force.
+    /// Finds normal forces and height for the present shear; returns the largest change of the forces over the largest
+    /// force.
     fn find_pressure(&mut self, patch: PatchInverse) -> f64 {
         let (closed, width) = (self.gap.len(), self.unknowns.len());
         let (normal, others) = self.unknowns.split_at_mut(closed);
         self.shear.clear();
         self.shear.extend(normal.iter().zip(&self.friction).map(|(normal, friction)| friction * normal));
         self.stuck.iter().zip(&*others).for_each(|(&i, force)| self.shear[i] = *force);
-        let turned = dot(&self.turn[0], normal) + dot(&self.turn[1], &self.shear);
+        let turned = dot(&self.rim_angle[0], normal) + dot(&self.rim_angle[1], &self.shear);
         self.open.clear();
         self.open.extend(self.gap.iter().zip(&self.place).map(|(gap, x)| gap - x * turned));
         add_columns(1.0, patch.coupling, patch.apart, &self.shear, &mut self.open);
@@ -134,8 +135,8 @@ impl PressureShear {
         take(normal, &self.normal, &self.normal)
     }
 
-    /// Finds the sheared unknowns for the present normal forces and height; returns the largest change of the tangential forces
-    /// over the largest normal force.
+    /// Finds the sheared unknowns for the present normal forces and height; returns the largest change of the
+    /// tangential forces over the largest normal force.
     fn find_shear(&mut self) -> f64 {
         let (closed, width, sheared) = (self.gap.len(), self.unknowns.len(), self.sheared);
         let (normal, others) = self.unknowns.split_at_mut(closed);
@@ -153,12 +154,13 @@ impl PressureShear {
     }
 }
 
-/// Takes new `forces`; returns their largest change over the largest of the forces `scale`, NaN where they are not finite.
+/// Takes new `forces`; returns their largest change over the largest of the forces `scale`, NaN where they are not
+/// finite.
 fn take(forces: &mut [f64], new: &[f64], scale: &[f64]) -> f64 {
     let most = scale.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     let change = forces.iter().zip(new).fold(0.0, |most: f64, (force, new)| {
         let change = (new - force).abs();
-        // A change that is no number must not be lost.
+        // A NaN must not be lost.
         if change > most || change.is_nan() { change } else { most }
     });
     forces.copy_from_slice(new);
@@ -173,27 +175,27 @@ mod tests {
     const CLOSED: usize = 12;
     const STUCK: usize = 7;
 
-    /// A made-up patch whose shear opens the gap by `share` of what pressure does: a free velocity, a free height. Beside its
-    /// equations those of all unknowns together.
+    /// A made-up patch whose shear opens the gap by `share` of what pressure does: a free velocity, a free height.
+    /// Beside its equations those of all unknowns together.
     fn patch(share: f64) -> (PressureShear, [DMatrix<f64>; 2], DMatrix<f64>, Vec<f64>) {
         let wave = |i: usize, j: usize| ((3 * i + 5 * j) as f64).sin();
         let near = |i: usize, j: usize| (-0.7 * (i as f64 - j as f64).abs()).exp();
         let compliance = DMatrix::from_fn(CLOSED, CLOSED, near);
         let coupling = DMatrix::from_fn(CLOSED, CLOSED, |i, j| share * wave(i, j));
-        let mut turns = PressureShear {
+        let mut equations = PressureShear {
             gap: (0..CLOSED).map(|i| 0.1 * (i as f64 - 5.5).powi(2) - 3.0).collect(),
             place: (0..CLOSED).map(|i| i as f64 - 5.5).collect(),
-            turn: [0.001, 0.002].map(|by| (0..CLOSED).map(|i| by * wave(i, 1)).collect()),
+            rim_angle: [0.001, 0.002].map(|by| (0..CLOSED).map(|i| by * wave(i, 1)).collect()),
             friction: (0..CLOSED).map(|i| if i < STUCK { 0.0 } else { 0.3 }).collect(),
             stuck: (0..STUCK).collect(),
             motions: [vec![0.01; CLOSED], vec![1.0; CLOSED], vec![]],
             ..PressureShear::default()
         };
-        turns.reset(STUCK + 1, true);
-        let count = turns.unknowns.len();
+        equations.reset(STUCK + 1, true);
+        let count = equations.unknowns.len();
         for r in 0..STUCK + 2 {
             let own = CLOSED + r;
-            let (row, side) = turns.row(r);
+            let (row, side) = equations.row(r);
             row.iter_mut().enumerate().for_each(|(c, value)| *value = 0.05 * wave(r, c));
             row[own] += if own + 1 == count { -0.2 } else { 2.0 };
             // The balance of the height is that of the normal forces.
@@ -205,8 +207,9 @@ mod tests {
         let mut all = DMatrix::zeros(count, count);
         for i in 0..CLOSED {
             for j in 0..CLOSED {
-                let by_shear = coupling[(i, j)] - turns.place[i] * turns.turn[1][j];
-                all[(i, j)] = compliance[(i, j)] - turns.place[i] * turns.turn[0][j] + turns.friction[j] * by_shear;
+                let by_shear = coupling[(i, j)] - equations.place[i] * equations.rim_angle[1][j];
+                all[(i, j)] = compliance[(i, j)] - equations.place[i] * equations.rim_angle[0][j]
+                    + equations.friction[j] * by_shear;
                 if j < STUCK {
                     all[(i, CLOSED + j)] = by_shear;
                 }
@@ -214,38 +217,38 @@ mod tests {
             (all[(i, count - 2)], all[(i, count - 1)]) = (0.01, 1.0);
         }
         for r in 0..STUCK + 2 {
-            all.row_mut(CLOSED + r).iter_mut().zip(turns.row(r).0).for_each(|(a, value)| *a = *value);
+            all.row_mut(CLOSED + r).iter_mut().zip(equations.row(r).0).for_each(|(a, value)| *a = *value);
         }
-        let sides = turns.gap.iter().map(|gap| -gap).chain(turns.constants.iter().copied()).collect();
-        (turns, [compliance, coupling], all, sides)
+        let sides = equations.gap.iter().map(|gap| -gap).chain(equations.constants.iter().copied()).collect();
+        (equations, [compliance, coupling], all, sides)
     }
 
-    fn solve(turns: &mut PressureShear, [compliance, coupling]: &[DMatrix<f64>; 2]) -> bool {
+    fn solve(equations: &mut PressureShear, [compliance, coupling]: &[DMatrix<f64>; 2]) -> bool {
         let inverse = compliance.clone().try_inverse().unwrap();
-        turns.solve(PatchInverse { inverse: inverse.as_slice(), coupling: coupling.as_slice(), apart: CLOSED })
+        equations.solve(PatchInverse { inverse: inverse.as_slice(), coupling: coupling.as_slice(), apart: CLOSED })
     }
 
     #[test]
-    fn turns_end_at_the_solution_of_all_equations_together() {
+    fn alternation_ends_at_the_solution_of_all_equations_together() {
         for share in [0.0, 1e-3, 0.01] {
-            let (mut turns, matrices, all, sides) = patch(share);
-            assert!(solve(&mut turns, &matrices), "{share}");
+            let (mut equations, matrices, all, sides) = patch(share);
+            assert!(solve(&mut equations, &matrices), "{share}");
             let exact = all.lu().solve(&nalgebra::DVector::from_vec(sides)).unwrap();
-            let error = (nalgebra::DVector::from_vec(turns.unknowns.clone()) - &exact).amax() / exact.amax();
+            let error = (nalgebra::DVector::from_vec(equations.unknowns.clone()) - &exact).amax() / exact.amax();
             assert!(error < 1e-12, "{share}: {error:e}");
-            // From the solution itself hardly a turn is needed, and nothing moves.
-            let found = turns.unknowns.clone();
-            assert!(solve(&mut turns, &matrices));
-            assert!(turns.unknowns.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-12 * exact.amax()));
+            // From the solution itself hardly an alternation is needed, and nothing moves.
+            let found = equations.unknowns.clone();
+            assert!(solve(&mut equations, &matrices));
+            assert!(equations.unknowns.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-12 * exact.amax()));
         }
     }
 
     #[test]
-    fn turns_that_do_not_settle_are_given_up() {
-        let (mut turns, matrices, ..) = patch(10.0);
-        assert!(!solve(&mut turns, &matrices));
-        let (mut turns, matrices, ..) = patch(1e-3);
-        turns.gap[3] = f64::NAN;
-        assert!(!solve(&mut turns, &matrices));
+    fn an_alternation_that_does_not_settle_is_given_up() {
+        let (mut equations, matrices, ..) = patch(10.0);
+        assert!(!solve(&mut equations, &matrices));
+        let (mut equations, matrices, ..) = patch(1e-3);
+        equations.gap[3] = f64::NAN;
+        assert!(!solve(&mut equations, &matrices));
     }
 }

@@ -1,15 +1,16 @@
 //! One contact problem on its way to the solution on a single patch.
 
 use super::constants::Constants;
-use super::hot_layers::{self, Warmth};
+use super::hot_layers::{self, SeriesLayers};
 use super::state::{SeriesState, Tractions};
-use super::surface::{AtPoints, Moments, Surface, dot};
+use super::surface::{AtPoints, Moments, SmoothSurfaces, dot};
 use super::tables::{POWER, QUADRATURE};
+use crate::contact::line::LineHistory;
 use crate::contact::problem::{AxisDrive, ContactProblem};
 
 /// A place of integration with everything that does not depend on shear.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Place {
+pub struct QuadraturePlace {
     /// Position \[m].
     pub x: f64,
     /// Polynomials of the points there.
@@ -21,12 +22,13 @@ pub struct Place {
 }
 
 /// Contact on a single patch in the present iterate.
-pub struct Iterate<'a> {
+pub struct SeriesLine<'a> {
     pub constants: &'a Constants,
     pub problem: &'a ContactProblem<'a>,
     pub before: &'a SeriesState,
-    /// What hot layers do; none: they are cold.
-    pub warmth: Option<Warmth>,
+    pub history: &'a LineHistory,
+    /// Hot layers; `None`: the surfaces are cold.
+    pub layers: Option<SeriesLayers>,
     /// Moments of their pulls on wheel and rail.
     pub pulls: [AtPoints; 2],
     pub tractions: Tractions,
@@ -34,56 +36,57 @@ pub struct Iterate<'a> {
     pub rigid: [f64; 3],
     /// See [`SeriesState::slope`].
     pub slope: f64,
-    /// Turn of the rim \[rad].
+    /// Rim angle \[rad].
     pub rim_angle: f64,
     /// Friction coefficient \[1].
     pub friction: f64,
     /// Places of the pressure.
-    pub pressed: [Place; QUADRATURE],
+    pub pressed: [QuadraturePlace; QUADRATURE],
     /// Places of the shear of [`Tractions::stick`].
-    pub stuck: [Place; QUADRATURE],
+    pub stuck: [QuadraturePlace; QUADRATURE],
     /// Moments of all tractions.
     pub moments: Moments,
     /// Smooth displacements under them.
-    pub surface: Surface,
+    pub surface: SmoothSurfaces,
     /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],
 }
 
-impl<'a> Iterate<'a> {
+impl<'a> SeriesLine<'a> {
     pub fn new(
         constants: &'a Constants,
         problem: &'a ContactProblem<'a>,
-        before: &'a SeriesState,
+        (before, history): (&'a SeriesState, &'a LineHistory),
         height: f64,
     ) -> Self {
         let start = |k: usize| problem.rigid[k].start();
         let hub = problem.rigid[1].target().unwrap_or(height);
-        let none = [Place::default(); QUADRATURE];
-        let warmth = Warmth::new(constants, problem, &before.tractions.pressure);
+        let none = [QuadraturePlace::default(); QUADRATURE];
+        let layers = SeriesLayers::new(constants, problem, &before.tractions.pressure);
         Self {
             constants,
             problem,
             before,
-            pulls: hot_layers::pulls(&warmth),
-            warmth,
+            history,
+            pulls: hot_layers::pulls(&layers),
+            layers,
             tractions: before.tractions,
             rigid: [start(0), hub, start(2)],
             slope: before.slope,
-            rim_angle: before.rim_angle.now,
+            rim_angle: history.rim_angle.now,
             friction: problem.friction.coefficient(0.0),
             pressed: none,
             stuck: none,
             moments: Moments::default(),
-            surface: Surface::default(),
+            surface: SmoothSurfaces::default(),
             slips: [0.0; POWER],
         }
     }
 
     /// Velocity with which the rim passes the contact [m/s].
     pub fn rim_velocity(&self) -> f64 {
-        let time = &self.problem.time;
-        self.problem.radius() * (self.rigid[2] - time.a0 * self.rim_angle - self.before.rim_angle.offset(time))
+        let time = &self.problem.line.time;
+        self.problem.line.radius() * (self.rigid[2] - time.a0 * self.rim_angle - self.history.rim_angle.offset(time))
     }
 
     /// Side from which the material arrives: 1 from `+x`.
@@ -106,19 +109,19 @@ impl<'a> Iterate<'a> {
         std::array::from_fn(|k| self.problem.rigid[k].acceleration(self.rigid[k]))
     }
 
-    /// What hot layers do at x.
-    pub fn warm<const N: usize>(&self, x: &[f64; N], of: impl Fn(&Warmth, &[f64; N]) -> [f64; N]) -> [f64; N] {
-        self.warmth.as_ref().map_or([0.0; N], |warmth| of(warmth, x))
+    /// Effect of hot layers at x; zero where the surfaces are cold.
+    pub fn warm<const N: usize>(&self, x: &[f64; N], of: impl Fn(&SeriesLayers, &[f64; N]) -> [f64; N]) -> [f64; N] {
+        self.layers.as_ref().map_or([0.0; N], |layers| of(layers, x))
     }
 
     /// `∫ p f dx` for something that hot layers do.
-    pub fn over_pressure(&self, f: impl Fn(&Warmth, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
+    pub fn over_pressure(&self, f: impl Fn(&SeriesLayers, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
         let values = self.warm(&self.pressed.map(|place| place.x), f);
         self.pressed.iter().zip(values).map(|(place, value)| place.force * value).sum()
     }
 
     /// `∫ q f dx`.
-    pub fn over_shear(&self, f: impl Fn(&Warmth, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
+    pub fn over_shear(&self, f: impl Fn(&SeriesLayers, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
         let slipping = self.tractions.slide * self.over_pressure(&f);
         if self.tractions.slides() {
             return slipping;
@@ -127,10 +130,11 @@ impl<'a> Iterate<'a> {
         slipping + self.stuck.iter().zip(values).map(|(place, value)| place.force * value).sum::<f64>()
     }
 
-    /// Tangential displacement of the wheel less that of the rail at the points, without half-planes under the contact forces.
-    pub fn relative(&self, surface: &Surface) -> AtPoints {
+    /// Tangential displacement of the wheel less that of the rail at the points, without half-planes under the contact
+    /// forces.
+    pub fn relative(&self, surface: &SmoothSurfaces) -> AtPoints {
         let smooth = surface.relative();
-        self.warmth.as_ref().map_or(smooth, |warmth| std::array::from_fn(|k| smooth[k] + warmth.relative[k]))
+        self.layers.as_ref().map_or(smooth, |layers| std::array::from_fn(|k| smooth[k] + layers.relative[k]))
     }
 
     /// Places and moments of the pressure.
@@ -138,8 +142,8 @@ impl<'a> Iterate<'a> {
         let Constants { tables, points, .. } = self.constants;
         let pressure = &self.tractions.pressure;
         self.moments.normal = AtPoints::default();
-        if let Some(warmth) = &mut self.warmth {
-            warmth.fit(pressure);
+        if let Some(layers) = &mut self.layers {
+            layers.fit(pressure);
         }
         let places = tables.places.map(|t| pressure.centre + pressure.half_width * t);
         let logarithms = pressure.logarithm(&places);
@@ -147,7 +151,7 @@ impl<'a> Iterate<'a> {
             let x = places[q];
             let terms = pressure.terms.iter().zip(&tables.moments);
             let force = pressure.half_width * terms.take(pressure.count).map(|(p, m)| p * m[q]).sum::<f64>();
-            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
+            *place = QuadraturePlace { x, values: points.values(x), force, logarithm: logarithms[q] };
             self.moments.normal.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
         }
         self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
@@ -159,7 +163,7 @@ impl<'a> Iterate<'a> {
         let Tractions { pressure, slide, stick } = &self.tractions;
         self.moments.tangential = self.moments.normal.map(|m| slide * m);
         if stick.half_width == 0.0 {
-            self.stuck = [Place::default(); QUADRATURE];
+            self.stuck = [QuadraturePlace::default(); QUADRATURE];
             return;
         }
         let places = tables.places.map(|t| stick.centre + stick.half_width * t);
@@ -168,47 +172,47 @@ impl<'a> Iterate<'a> {
             let x = places[q];
             let terms = stick.terms.iter().zip(&tables.moments);
             let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
-            *place = Place { x, values: points.values(x), force, logarithm: logarithms[q] };
+            *place = QuadraturePlace { x, values: points.values(x), force, logarithm: logarithms[q] };
             self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
         }
     }
 
-    /// Smooth displacements under the present tractions, and the turn of the rim: the mean of `û_x` over the pressure
+    /// Smooth displacements under the present tractions, and the rim angle: the mean of `û_x` over the pressure
     /// vanishes.
     pub fn displace(&mut self) {
-        self.surface = Surface::new(self.problem, &self.moments, &self.pulls, self.accelerations());
+        self.surface = SmoothSurfaces::new(self.problem, &self.moments, &self.pulls, self.accelerations());
         let (radius, kernel, slide) =
-            (self.problem.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
+            (self.problem.line.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
         let (mut sum, mut arm) = (0.0, 0.0);
         for place in &self.pressed {
             let smooth = dot(&place.values, &self.surface.wheel.tangential);
             sum += place.force * (smooth - kernel * slide * place.logarithm);
             arm += place.force * (radius * radius - place.x * place.x).sqrt();
         }
-        sum += self.over_pressure(|warmth, _| warmth.along[0]);
+        sum += self.over_pressure(|layers, _| layers.along[0]);
         // The work of the pressure on what the shear does is that of the shear on what the pressure does.
         sum -= kernel * self.stuck.iter().map(|place| place.force * place.logarithm).sum::<f64>();
         self.rim_angle = sum / arm;
     }
 
-    /// Forces of the contact on the wheel: x, y [N/m], forward moment \[N]. Lever arms are those of the deformed wheel about the
-    /// turned rim; the mean of `û_x` over the pressure vanishes.
+    /// Forces of the contact on the wheel: x, y [N/m], forward moment \[N]. Lever arms are those of the deformed wheel
+    /// about the turned rim; the mean of `û_x` over the pressure vanishes.
     pub fn resultant(&self) -> [f64; 3] {
         let kernel = self.constants.half_plane.kernel;
         let Tractions { pressure, slide, stick } = &self.tractions;
         let tangential = slide * pressure.total() + stick.total();
-        let lift = |place: &Place| {
+        let lift = |place: &QuadraturePlace| {
             let smooth = dot(&place.values, &self.surface.wheel.normal);
             place.force * (smooth - self.rim_angle * place.x - kernel * place.logarithm)
         };
         let lifted = slide * self.pressed.iter().map(lift).sum::<f64>() + self.stuck.iter().map(lift).sum::<f64>();
         let middle: f64 = self.pressed.iter().map(|place| place.force * place.x).sum();
-        [tangential, pressure.total(), lifted - self.problem.radius() * tangential - middle]
+        [tangential, pressure.total(), lifted - self.problem.line.radius() * tangential - middle]
     }
 
-    /// What is left of the balance of a rigid motion under the present tractions [N/m, N].
+    /// Residual of the balance of a rigid motion under the present tractions [N/m, N].
     pub fn unbalance(&self, axis: usize, resultant: [f64; 3]) -> f64 {
-        let (bodies, motion) = (&self.problem.bodies, &self.problem.rigid[axis]);
+        let (bodies, motion) = (&self.problem.line.bodies, &self.problem.rigid[axis]);
         let AxisDrive::Free { load } = motion.drive else { return 0.0 };
         let mut sum = motion.momentum - load - resultant[axis];
         for (k, (t, n)) in self.moments.tangential.iter().zip(&self.moments.normal).enumerate() {
@@ -219,5 +223,25 @@ impl<'a> Iterate<'a> {
             sum += (bodies.deformation_inertia[(axis, l)] + own) * acceleration;
         }
         sum
+    }
+
+    /// Ends of the slipping part \[m]; `None` where all sticks.
+    pub fn slipping_ends(&self) -> [f64; 2] {
+        let (patch, stick) = (self.tractions.pressure.ends(), self.tractions.stick.ends());
+        match (self.tractions.slides(), self.upstream() > 0.0) {
+            (true, _) => patch,
+            (false, true) => [patch[0], stick[0]],
+            (false, false) => [stick[1], patch[1]],
+        }
+    }
+
+    /// Places of the slipping part \[m], and the friction forces that belong to them [N/m].
+    pub fn slipping(&self) -> ([f64; POWER], [f64; POWER]) {
+        let (tables, [low, high]) = (&self.constants.tables, self.slipping_ends());
+        let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let places = tables.places.map(|t| centre + half * t);
+        let densities = self.tractions.pressure.density(&places);
+        let force = |q: usize| half * tables.weights[q] * self.tractions.slide * densities[q];
+        (places, std::array::from_fn(force))
     }
 }

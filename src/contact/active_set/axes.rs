@@ -1,0 +1,113 @@
+//! Rigid axes of the wheel: their balances, and the motions that are sought.
+
+use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::rows::AffineRow;
+use crate::contact::line::state::NodeStatus;
+use crate::contact::problem::RigidMotion;
+
+/// The three rigid motions, and the states of their brakes.
+pub(super) struct Axes<'a> {
+    pub rigid: &'a [RigidMotion; 3],
+    /// States of the brakes: stuck ones hold; without meaning where there is none.
+    pub brakes: [NodeStatus; 3],
+}
+
+/// A linear equation without its coefficients of the port forces, which stand beside it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Equation {
+    /// Coefficients of the rigid motions V, U, Ω.
+    pub motions: [f64; 3],
+    /// Constant, prescribed motions apart.
+    pub constant: f64,
+}
+
+impl Axes<'_> {
+    /// True if the motion of an axis is sought.
+    pub fn seeks(&self, axis: usize) -> bool {
+        self.rigid[axis].target().is_none()
+    }
+
+    /// Axes whose motions are sought; the height of the hub comes last.
+    pub fn sought(&self) -> impl Iterator<Item = usize> {
+        [0, 2, 1].into_iter().filter(|&axis| self.seeks(axis))
+    }
+
+    /// Accelerations that belong to `motions`, of the axes whose motions are sought.
+    pub fn sought_accelerations(&self, motions: [f64; 3]) -> [Option<f64>; 3] {
+        std::array::from_fn(|k| self.seeks(k).then(|| self.rigid[k].gain * motions[k]))
+    }
+
+    /// A row of the line, set to zero, as an equation: accelerations that are sought follow from the motions.
+    pub fn equation(&self, row: AffineRow) -> Equation {
+        let mut motions = row.motions;
+        for (k, motion) in self.rigid.iter().enumerate() {
+            if motion.target().is_none() {
+                motions[k] += motion.gain * row.accelerations[k];
+            }
+        }
+        Equation { motions, constant: row.constant }
+    }
+
+    /// Constant of an equation with the prescribed motions.
+    pub fn constant(&self, equation: &Equation) -> f64 {
+        let prescribed =
+            self.rigid.iter().zip(equation.motions).map(|(motion, by)| by * motion.target().unwrap_or(0.0));
+        equation.constant + prescribed.sum::<f64>()
+    }
+
+    /// Equation of a motion that is sought: its balance, or rest where a brake holds it. Writes the coefficients of all
+    /// port forces to `forces`.
+    pub fn row(&self, axis: usize, line: &ContactLine, forces: &mut [f64]) -> Equation {
+        if self.holds(axis) {
+            forces.fill(0.0);
+            return Equation { motions: std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 }), constant: 0.0 };
+        }
+        let [load, limit] = self.rigid[axis].drive.loads().unwrap_or_default();
+        self.balance(axis, load + self.brakes[axis].friction_direction() * limit, line, forces)
+    }
+
+    /// Balance of momentum of an axis under an external `load`; lever arms are those of the present iterate. Writes the
+    /// coefficients of all port forces to `forces`.
+    pub fn balance(&self, axis: usize, load: f64, line: &ContactLine, forces: &mut [f64]) -> Equation {
+        let (grid, bodies) = (line.grid, &line.problem.bodies);
+        forces.iter_mut().zip(bodies.momentum.row(axis).iter()).for_each(|(f, m)| *f = *m);
+        for i in 0..grid.len() {
+            let port = grid.port(i);
+            match axis {
+                0 => {
+                    forces[port] -= 1.0;
+                    forces[port + 1] -= line.slopes().rail(i);
+                }
+                1 => forces[port + 1] -= 1.0,
+                _ => {
+                    let [arm_t, arm_n] = line.lever_arms(i);
+                    forces[port] += arm_t;
+                    forces[port + 1] += arm_n;
+                }
+            }
+        }
+        let own = &self.rigid[axis];
+        let relief = if axis == 2 { line.problem.radius() * line.retarded.force.iter().sum::<f64>() } else { 0.0 };
+        let mut equation = Equation { motions: [0.0; 3], constant: own.momentum - load + relief };
+        for (i, pull) in line.given.layers.pull[0].iter().enumerate() {
+            equation.constant += bodies.momentum[(axis, grid.port(i))] * pull;
+        }
+        for (l, motion) in self.rigid.iter().enumerate() {
+            let inertia = bodies.deformation_inertia[(axis, l)] + if l == axis { own.inertia } else { 0.0 };
+            equation.constant += inertia * motion.known_acceleration();
+            if motion.target().is_none() {
+                equation.motions[l] = inertia * motion.gain;
+            }
+        }
+        equation
+    }
+
+    /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate; `forces` is memory for all
+    /// ports.
+    pub fn reaction(&self, axis: usize, line: &ContactLine, forces: &mut [f64]) -> f64 {
+        let balance = self.balance(axis, 0.0, line, forces);
+        let of_contact: f64 = forces.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum();
+        let of_motion: f64 = balance.motions.iter().zip(line.traction.rigid).map(|(c, v)| c * v).sum();
+        of_contact + of_motion + balance.constant
+    }
+}

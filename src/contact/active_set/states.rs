@@ -1,0 +1,179 @@
+//! New states of the nodes from forces, gaps and slips.
+//!
+//! - A node is closed if `λ_n − c g > 0`.
+//! - A stuck node slips when `|λ_t| > μ λ_n`, and so does a [brake](super::brake) beyond its strength; a slipping node
+//!   whose friction force no longer opposes the slip sticks, so that a reversal of slip always passes through stick; a
+//!   node that closes takes the state of its nearest closed neighbour and sticks where it has none, unless the surfaces
+//!   run against each other. Without these rules the iteration cycles.
+
+use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::state::NodeStatus;
+
+/// Tolerance of nodal forces in mean nodal loads, at first and at most.
+pub(super) const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
+/// Tolerance of slip velocities in rolling speeds, at first and at most.
+const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
+/// Slip velocity of stuck nodes that is round-off: in rolling speeds \[1], in displacements over the step \[1], and in
+/// any case [m/s]. Measured with steps of 1 to 10 µs at 2 mm/s: 1e-12 of the displacements over the step.
+const SLIP_ROUND_OFF: [f64; 3] = [1e-9, 1e-11, 1e-13];
+/// Stuck nodes that carry more than this multiple of the friction they can bear say nothing about pressures and gaps
+/// yet.
+const OVERLOAD: f64 = 3.0;
+
+/// Rules by which one update of the states goes.
+pub(super) struct Rules {
+    /// Stiffness that compares gaps with forces [N/m per m].
+    pub penalty: f64,
+    /// Tolerance of nodal forces [N/m].
+    pub force: f64,
+    /// Tolerance of slip velocities [m/s].
+    slip: f64,
+    /// True if nodes that close found patches of their own.
+    founding: bool,
+}
+
+impl Rules {
+    /// Rules whose tolerances have grown by `growth` from their smallest; `load`: nominal line load [N/m].
+    pub fn new(line: &ContactLine, penalty: f64, load: f64, growth: f64, founding: bool) -> Self {
+        let share = load / line.grid.len() as f64;
+        let force = (FORCE_TOLERANCE[0] * growth).min(FORCE_TOLERANCE[1]) * share;
+        let slip = (SLIP_TOLERANCE[0] * growth).min(SLIP_TOLERANCE[1]) * line.speed();
+        Self { penalty, force, slip, founding }
+    }
+}
+
+/// Mean stiffness of the nodes [N/m per m].
+pub(super) fn penalty(line: &ContactLine) -> f64 {
+    let stiffness = |i: usize| {
+        let port = line.grid.port(i) + 1;
+        line.problem.bodies.relative[(port, port)]
+    };
+    line.grid.len() as f64 / (0..line.grid.len()).map(stiffness).sum::<f64>()
+}
+
+/// Takes new states of all nodes; returns whether any changed. `before` is memory for the states before.
+pub(super) fn update(line: &mut ContactLine, rules: &Rules, before: &mut Vec<NodeStatus>) -> bool {
+    before.clone_from(&line.state.status);
+    let overloaded = is_overloaded(line);
+    let mut changed = false;
+    for i in 0..line.grid.len() {
+        let old = before[i];
+        let indicator = line.normal(i) - rules.penalty * line.state.gap[i];
+        let closed = if overloaded || indicator.abs() <= rules.force { old.is_active() } else { indicator > 0.0 };
+        let new = match (closed, old) {
+            (false, _) => NodeStatus::Open,
+            (true, NodeStatus::Open) if rules.founding => founding_state(line),
+            (true, NodeStatus::Open) => closing_state(line, i, before),
+            (true, NodeStatus::Stick) => stuck_state(line, i, rules.force),
+            (true, slipping @ (NodeStatus::SlipForward | NodeStatus::SlipBackward)) => {
+                slipping_state(line, i, slipping, rules.slip)
+            }
+        };
+        let yields = new.is_active() && yields(line, i, rules.force);
+        changed |= new != old || yields != line.state.yielded[i];
+        line.state.status[i] = new;
+        line.state.yielded[i] = yields;
+    }
+    changed
+}
+
+/// True if the steel at a node yields: it bears more than its limit.
+fn yields(line: &ContactLine, i: usize, tolerance: f64) -> bool {
+    let Some(excess) = line.given.strength.excess(i, line.normal(i)) else { return false };
+    if excess.abs() <= tolerance { line.state.yielded[i] } else { excess > 0.0 }
+}
+
+/// State of a node that has stuck: it slips where friction cannot hold it.
+fn stuck_state(line: &ContactLine, i: usize, tolerance: f64) -> NodeStatus {
+    let (t, n, friction) = (line.tangential(i), line.normal(i), line.friction(i));
+    if t.abs() <= friction * n + tolerance * friction.min(1.0) && friction > 0.0 {
+        NodeStatus::Stick
+    } else if t >= 0.0 {
+        NodeStatus::SlipForward
+    } else {
+        NodeStatus::SlipBackward
+    }
+}
+
+/// State of a node that has slipped: it sticks where friction no longer opposes the slip.
+fn slipping_state(line: &ContactLine, i: usize, slipping: NodeStatus, tolerance: f64) -> NodeStatus {
+    let opposes = slipping.friction_direction() * line.state.slip[i] <= tolerance;
+    if opposes || line.friction(i) == 0.0 { slipping } else { NodeStatus::Stick }
+}
+
+/// State of a node that has just closed: that of the nearest node that was closed `before`, or its own where it founds
+/// a patch.
+pub(super) fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus]) -> NodeStatus {
+    let left = before[..i].iter().rev().position(|s| s.is_active());
+    let right = before[i + 1..].iter().position(|s| s.is_active());
+    match (left, right) {
+        (Some(l), Some(r)) if r < l => before[i + 1 + r],
+        (Some(l), _) => before[i - 1 - l],
+        (None, Some(r)) => before[i + 1 + r],
+        (None, None) => founding_state(line),
+    }
+}
+
+/// State of a node without a past or a neighbour: it sticks, unless the surfaces run against each other, and that by
+/// more than a cell in the step. There sticking needs strains of order one; where both velocities are about opposite
+/// (`rΩ = −V`) its equation even loses its force coefficients, and their sign is no direction of friction.
+pub(super) fn founding_state(line: &ContactLine) -> NodeStatus {
+    let (v, rim) = (line.traction.rigid[0], line.rim_velocity());
+    if v * rim >= 0.0 || (v - rim).abs() <= line.problem.time.a0 * line.grid.spacing {
+        NodeStatus::Stick
+    } else if v < rim {
+        NodeStatus::SlipForward
+    } else {
+        NodeStatus::SlipBackward
+    }
+}
+
+/// Gives all stuck nodes the state of founding ones.
+pub(super) fn found_anew(line: &mut ContactLine) {
+    let founding = founding_state(line);
+    line.state.status.iter_mut().filter(|s| **s == NodeStatus::Stick).for_each(|s| *s = founding);
+}
+
+/// Closes the nearest node of a line without any; returns whether it did.
+pub(super) fn support(line: &mut ContactLine) -> bool {
+    if line.state.status.iter().any(|s| s.is_active()) {
+        return false;
+    }
+    let gap = &line.state.gap;
+    let nearest = (0..line.grid.len()).min_by(|&a, &b| gap[a].total_cmp(&gap[b]));
+    if let Some(i) = nearest {
+        line.state.status[i] = founding_state(line);
+    }
+    nearest.is_some()
+}
+
+/// True if the stuck nodes carry far more than friction allows, as happens when sliding starts from stick: normal
+/// forces and gaps then mean nothing yet.
+fn is_overloaded(line: &ContactLine) -> bool {
+    let nodes = 0..line.grid.len();
+    let limit: f64 = nodes.clone().map(|i| line.normal(i).max(0.0)).sum::<f64>() * line.traction.friction;
+    let stuck = nodes.filter(|&i| line.state.status[i] == NodeStatus::Stick).map(|i| line.tangential(i).abs());
+    stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction > 0.0
+}
+
+/// True if the stuck nodes do not slip, round-off apart: their rows are linearised in V and Ω. In short steps of slow
+/// wheels the rate of the displacements, new less known ones over the step, has the larger round-off.
+pub(super) fn sticks(line: &ContactLine) -> bool {
+    let rate = line.problem.time.a0 * line.traction.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
+    let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[1] * rate + SLIP_ROUND_OFF[2];
+    let stuck = line.state.status.iter().zip(&line.state.slip).filter(|(status, _)| **status == NodeStatus::Stick);
+    stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= round_off
+}
+
+/// Mean slip velocity of the closed nodes [m/s], weighted with their normal forces. It is that of the friction law,
+/// with upwind differences, which vanishes where nodes stick.
+pub(super) fn mean_slip(line: &ContactLine) -> f64 {
+    let (mut sum, mut load) = (0.0, 0.0);
+    for (i, status) in line.state.status.iter().enumerate() {
+        let weight = line.normal(i).max(0.0);
+        load += weight;
+        // The rest of the slip at stuck nodes is round-off.
+        sum += if *status == NodeStatus::Stick { 0.0 } else { weight * line.state.slip[i] };
+    }
+    if load > 0.0 { sum / load } else { 0.0 }
+}

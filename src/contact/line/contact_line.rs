@@ -1,0 +1,164 @@
+//! One contact line on its way to a solution, and the memory it needs.
+
+use super::given::KnownPart;
+use super::grid::ContactGrid;
+use super::history::LineHistory;
+use super::retarded::Retarded;
+use super::rim::{RimAngleRow, RimFrame};
+use super::slopes::Slopes;
+use super::state::LineState;
+use super::streamline::UpwindRows;
+use crate::contact::limits::RESISTANCE;
+use crate::contact::problem::LineProblem;
+use crate::contact::traction::Traction;
+
+/// Buffers of a line; nothing in them outlives a solution.
+#[derive(Default)]
+pub struct LineScratch {
+    /// Known part of the problem.
+    pub given: KnownPart,
+    rim: RimAngleRow,
+    upwind: UpwindRows,
+    retarded: Retarded,
+    overlap: Vec<f64>,
+    centred_slip: Vec<f64>,
+}
+
+/// Compliance of a yielding node over that of its surroundings in a stationary start \[1]: large, but so small that the
+/// search for the start does not leap from patch to patch. The first steps of the run give the steel time to yield in
+/// full.
+const SOFTER: f64 = 100.0;
+
+/// A line in the present iterate: `state`, and of `traction` port forces, surface displacements, rigid motions and
+/// friction coefficient.
+pub struct ContactLine<'a> {
+    pub grid: &'a ContactGrid,
+    pub problem: &'a LineProblem<'a>,
+    /// Known part of the problem.
+    pub given: &'a KnownPart,
+    pub state: &'a mut LineState,
+    pub history: &'a mut LineHistory,
+    pub traction: &'a mut Traction,
+    /// Frame that turns with the rim, at the angle of the present iterate.
+    pub frame: RimFrame<'a>,
+    /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
+    /// while that of [`Self::frame`] is predicted.
+    pub surface_angle: f64,
+    /// Rim angle as an affine function of the forces.
+    pub rim: &'a mut RimAngleRow,
+    /// UpwindWeights differences of the slip.
+    pub upwind: &'a mut UpwindRows,
+    /// Forces of retarded layers.
+    pub retarded: &'a mut Retarded,
+    /// Depth by which yielding candidates have given way in the step; zero elsewhere \[m].
+    pub overlap: &'a mut Vec<f64>,
+    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
+    /// numerical dissipation.
+    pub centred_slip: &'a mut Vec<f64>,
+}
+
+/// State, history and traction from which a line starts, and which it changes.
+pub type LineStart<'a> = (&'a mut LineState, &'a mut LineHistory, &'a mut Traction);
+
+impl<'a> ContactLine<'a> {
+    /// A line that starts from the given states, under rigid `accelerations` of the wheel that are known.
+    pub fn new(
+        grid: &'a ContactGrid,
+        problem: &'a LineProblem<'a>,
+        accelerations: [f64; 3],
+        (state, history, traction): LineStart<'a>,
+        scratch: &'a mut LineScratch,
+    ) -> Self {
+        let LineScratch { given, rim, upwind, retarded, overlap, centred_slip } = scratch;
+        given.find(grid, problem, state, &traction.port_forces, accelerations);
+        if !problem.limits.is_limited() {
+            state.yielded.fill(false);
+        }
+        overlap.clear();
+        overlap.resize(grid.len(), 0.0);
+        centred_slip.resize(grid.len(), 0.0);
+        let given = &*given;
+        let frame = RimFrame { grid, radius: problem.surfaces.radius, sagitta: &given.sagitta, rim_angle: 0.0 };
+        Self {
+            grid,
+            problem,
+            given,
+            state,
+            history,
+            traction,
+            frame,
+            surface_angle: 0.0,
+            rim,
+            upwind,
+            retarded,
+            overlap,
+            centred_slip,
+        }
+    }
+
+    /// Nodal normal force at candidate `i` [N/m].
+    pub fn normal(&self, i: usize) -> f64 {
+        self.traction.port_forces[self.grid.port(i) + 1]
+    }
+
+    /// Nodal tangential force on the wheel at candidate `i` [N/m].
+    pub fn tangential(&self, i: usize) -> f64 {
+        self.traction.port_forces[self.grid.port(i)]
+    }
+
+    /// Friction force that candidate `i` can bear over its normal force \[1].
+    pub fn friction(&self, i: usize) -> f64 {
+        self.given.strength.friction(i, self.traction.friction)
+    }
+
+    /// Depth \[m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
+    pub fn creep(&self, i: usize) -> f64 {
+        let port = self.grid.port(i) + 1;
+        if self.problem.duration > 0.0 {
+            1.0 / (RESISTANCE * self.grid.width(i))
+        } else {
+            SOFTER * self.problem.bodies.relative[(port, port)]
+        }
+    }
+
+    /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the rim against it.
+    pub fn rim_velocity(&self) -> f64 {
+        let time = &self.problem.time;
+        let turning = time.a0 * self.frame.rim_angle + self.history.rim_angle.offset(time);
+        self.problem.radius() * (self.traction.rigid[2] - turning)
+    }
+
+    /// Rim angle \[rad] if the rim goes on turning as it does.
+    pub fn predicted_angle(&self) -> f64 {
+        let (angle, time) = (&self.history.rim_angle, &self.problem.time);
+        if time.is_stationary() { angle.now } else { (angle.rate - angle.offset(time)) / time.a0 }
+    }
+
+    /// Sum of the speeds of both surfaces [m/s].
+    pub fn speed(&self) -> f64 {
+        self.traction.rigid[0].abs() + self.rim_velocity().abs()
+    }
+
+    /// True if the material arrives from `+x`.
+    pub fn upstream_right(&self) -> bool {
+        self.traction.rigid[0] + self.rim_velocity() >= 0.0
+    }
+
+    /// Takes the upwind differences of the present states and pressures; returns the largest change of their weights.
+    pub fn update_upwind(&mut self) -> f64 {
+        let (grid, forces, to_right) = (self.grid, &self.traction.port_forces, self.upstream_right());
+        let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
+        self.upwind.update(&self.state.status, pressure, to_right)
+    }
+
+    /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
+    pub fn update_retarded(&mut self) -> f64 {
+        self.retarded.update(self.grid, self.problem, &self.traction.port_forces, &self.given.layers.pull)
+    }
+
+    /// Slopes of gap and surfaces in the present iterate.
+    pub fn slopes(&self) -> Slopes<'_> {
+        let KnownPart { rail_slope, depth, .. } = self.given;
+        Slopes { grid: self.grid, gap: &self.state.gap, overlap: self.overlap, rail_slope, depth }
+    }
+}

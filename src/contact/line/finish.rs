@@ -1,0 +1,62 @@
+//! End of a solution: histories move on, loads and power are taken, the traction is read off.
+
+use super::contact_line::ContactLine;
+use super::observe;
+use super::power::Power;
+use super::slopes::Slopes;
+use super::vectors::copy;
+use crate::multistep::History;
+
+/// Moves the histories of a line on and reads off its traction.
+pub fn finish(line: ContactLine) {
+    let rim_velocity = line.rim_velocity();
+    let ContactLine {
+        grid,
+        problem,
+        given,
+        state,
+        history,
+        traction,
+        frame,
+        retarded,
+        overlap,
+        centred_slip: slip,
+        ..
+    } = line;
+    let [wheel, rail] = &traction.surface;
+    let push = |values: &mut History, value: f64| match problem.time.is_stationary() {
+        true => *values = History::constant(value),
+        false => values.push(&problem.time, value),
+    };
+    for (i, gap) in state.tangential_gap.iter_mut().enumerate() {
+        let port = grid.port(i);
+        push(gap, wheel[port] - rail[port]);
+    }
+    push(&mut history.rim_angle, frame.rim_angle);
+    for (body, sign) in [(0, 1.0), (1, -1.0)] {
+        let loads = &mut traction.loads[body];
+        copy(loads, &traction.port_forces);
+        *loads *= sign;
+        given.layers.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
+    }
+    let power = Power {
+        grid,
+        traction: &*traction,
+        frame: &frame,
+        rim_velocity,
+        slip: slip.as_slice(),
+        layers: &given.layers,
+        retarded: retarded.force[1],
+    };
+    let [friction, work] = power.friction(&problem.time, &mut history.friction);
+    let power = traction.dissipate(friction, work, problem.duration);
+    let slopes = Slopes { grid, gap: &state.gap, overlap, rail_slope: &given.rail_slope, depth: &given.depth };
+    traction.resultant = observe::resultant(problem.radius(), &frame, slopes, traction);
+    traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();
+    observe::overlap(grid, state, overlap, traction);
+    let (moving, limits) = (if problem.time.is_stationary() { 0.0 } else { 1.0 }, &given.strength.limit);
+    traction.springing_work = moving * observe::springing_work(grid, overlap, limits, traction);
+    let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
+    let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
+    observe::read_off(grid, (power, limit), state, slip, traction);
+}

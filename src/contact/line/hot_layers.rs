@@ -1,0 +1,54 @@
+//! Hot layers under the surfaces of a line: they swell, and their membrane forces pull along the bodies.
+
+use super::grid::ContactGrid;
+use super::vectors::copy;
+use crate::contact::problem::LineProblem;
+use crate::linalg::vectorised::add_columns;
+use nalgebra::DVector;
+
+/// Swelling, pull and displacement of the hot layers of wheel and rail.
+#[derive(Default)]
+pub struct HotLayers {
+    /// Swelling at the candidates \[m]; empty without any.
+    pub swelling: [Vec<f64>; 2],
+    /// Pull at the candidates [N/m]; empty without any.
+    pub pull: [Vec<f64>; 2],
+    /// Displacement of all ports by the membrane forces \[m]; empty without any.
+    pub membrane: [DVector<f64>; 2],
+    /// Membrane force of the body at hand at the candidates [N/m].
+    force: Vec<f64>,
+}
+
+impl HotLayers {
+    /// Finds those of one body, and adds their displacement to `known` \[m].
+    pub fn find(&mut self, grid: &ContactGrid, problem: &LineProblem, body: usize, known: &mut DVector<f64>) {
+        let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
+        let (swelling, membrane) = (&mut self.swelling[body], &mut self.membrane[body]);
+        let (pull, at_candidates) = (&mut self.pull[body], &mut self.force);
+        pull.clear();
+        swelling.clear();
+        if !layer.is_empty() {
+            layer.sample(&grid.x, swelling);
+        }
+        if force.is_empty() {
+            *membrane = DVector::zeros(0);
+            return;
+        }
+        copy(membrane, known);
+        membrane.fill(0.0);
+        force.sample(&grid.x, at_candidates);
+        let last = grid.len().saturating_sub(1);
+        for i in 0..=last {
+            pull.push(-0.5 * (at_candidates[(i + 1).min(last)] - at_candidates[i.saturating_sub(1)]));
+        }
+        // Every other column belongs to a normal force.
+        let columns = &problem.bodies.compliance[body].as_slice()[grid.port(0) * membrane.len()..];
+        add_columns(1.0, columns, 2 * membrane.len(), pull, membrane.as_mut_slice());
+        *known += &*membrane;
+    }
+
+    /// Swelling of one body at candidate `i` \[m].
+    pub fn swelling_at(&self, body: usize, i: usize) -> f64 {
+        self.swelling[body].get(i).copied().unwrap_or(0.0)
+    }
+}

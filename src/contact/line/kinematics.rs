@@ -1,0 +1,102 @@
+//! Displacements, gaps and slips of a line under given forces and rigid motions.
+
+use super::contact_line::ContactLine;
+use super::observe;
+use super::rim::RimFrame;
+use super::streamline::UpwindWeights;
+use super::vectors::copy;
+use crate::linalg::vectorised::add_columns;
+
+impl ContactLine<'_> {
+    /// Ports of the candidate nodes that an upwind difference at node `i` touches, with the weights of `∂u/∂x` [1/m].
+    pub fn stencil(&self, i: usize, row: UpwindWeights, to_right: bool) -> [(usize, f64); 3] {
+        let (port, step) = (self.grid.port(i) as isize, if to_right { 2 } else { -2 });
+        let weights = row.stencil(to_right, self.grid.cells_beside(i, to_right));
+        std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k]))
+    }
+
+    /// UpwindWeights derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
+    pub fn stretches(&self, i: usize, row: UpwindWeights, to_right: bool) -> [f64; 2] {
+        let [wheel, rail] = &self.traction.surface;
+        let stencil = self.stencil(i, row, to_right);
+        [
+            stencil.iter().map(|(port, weight)| weight * self.frame.tangential(wheel, *port)).sum(),
+            stencil.iter().map(|(port, weight)| weight * rail[*port]).sum(),
+        ]
+    }
+
+    /// Centred derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
+    fn centred_stretches(&self, i: usize) -> [f64; 2] {
+        let (port, length) = (self.grid.port(i), self.grid.span(i));
+        let [wheel, rail] = &self.traction.surface;
+        let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
+        [turned / length, (rail[port + 2] - rail[port - 2]) / length]
+    }
+
+    /// Takes the rim angle that belongs to the surface displacements at hand.
+    pub fn take_surface_angle(&mut self) {
+        self.surface_angle = self.frame.angle_of(&self.traction.surface[0], &self.traction.port_forces);
+    }
+
+    /// Takes the rim angle as a function of the forces, about the present iterate.
+    pub fn update_rim(&mut self) {
+        let Self { frame, problem, given, traction, rim, .. } = self;
+        rim.update(frame, &problem.bodies, &given.displacement[0], &traction.port_forces);
+    }
+
+    /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
+    /// those rigid ones that were not known before, `None` the others.
+    pub fn evaluate(&mut self, accelerations: [Option<f64>; 3]) {
+        self.displace(accelerations);
+        self.take_surface_angle();
+        self.frame.rim_angle = self.surface_angle;
+        let (grid, problem) = (self.grid, self.problem);
+        let [v, height, omega] = self.traction.rigid;
+        let (v_c, rim, to_right) = (problem.radius() * omega, self.rim_velocity(), self.upstream_right());
+        for i in 0..grid.len() {
+            let port = grid.port(i);
+            let [u_c, u_p] = &self.traction.surface;
+            let excess = || self.traction.port_forces[port + 1] - self.given.strength.limit[i];
+            self.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
+            if self.state.status[i].is_active() {
+                let dynamic = problem.time.a0 * (u_c[port] - u_p[port]) + self.given.slip_offset[i];
+                let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
+                let upwind = self.stretches(i, self.upwind.row(i), to_right);
+                self.centred_slip[i] = slip(self.centred_stretches(i));
+                (self.state.slip[i], self.state.gap[i]) = (slip(upwind), 0.0);
+            } else {
+                (self.state.slip[i], self.centred_slip[i]) = (0.0, 0.0);
+                self.state.gap[i] = self.given.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
+            }
+        }
+    }
+
+    /// Displacements of both surfaces, and the value of the affine rim angle.
+    fn displace(&mut self, accelerations: [Option<f64>; 3]) {
+        let Self { problem, given, traction, rim, .. } = self;
+        let bodies = &problem.bodies;
+        let forces = traction.port_forces.as_slice();
+        let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
+        let loaded = first..forces.iter().rposition(|force| *force != 0.0).map_or(first, |last| last + 1);
+        for (body, sign) in [(0, 1.0), (1, -1.0)] {
+            let surface = &mut traction.surface[body];
+            copy(surface, &given.displacement[body]);
+            let columns = &bodies.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
+            add_columns(sign, columns, surface.len(), &forces[loaded.clone()], surface.as_mut_slice());
+        }
+        rim.value = rim.constant;
+        rim.value += rim.forces.iter().zip(traction.port_forces.iter()).map(|(t, f)| t * f).sum::<f64>();
+        for (k, acceleration) in accelerations.into_iter().enumerate() {
+            let Some(acceleration) = acceleration else { continue };
+            traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);
+            rim.value += acceleration * rim.accelerations[k];
+        }
+    }
+
+    /// Lever arms of the forces at candidate `i` about the hub centre \[m], see [`observe::lever_arms`].
+    pub fn lever_arms(&self, i: usize) -> [f64; 2] {
+        let frame = RimFrame { rim_angle: self.surface_angle, ..self.frame };
+        let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
+        observe::lever_arms(wheel, self.slopes(), i)
+    }
+}

@@ -1,0 +1,116 @@
+//! Gap and slip of a line as affine functions of contact forces, rigid motions and their accelerations.
+
+use super::contact_line::ContactLine;
+use crate::linalg::vectorised::vectorised;
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// An affine function without its coefficients of the port forces, which stand beside it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AffineRow {
+    /// Coefficients of the rigid motions V, U, Ω.
+    pub motions: [f64; 3],
+    /// Coefficients of their accelerations.
+    pub accelerations: [f64; 3],
+    /// Constant; it contains the accelerations that are known.
+    pub constant: f64,
+}
+
+impl ContactLine<'_> {
+    /// `g` at a closed candidate, `g + c (λ_n − Λ)` at one that yields above the force `Λ` \[m]. Writes the force
+    /// coefficients of the ports `window` to `forces`.
+    pub fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        let (rim, x, port) = (&self.rim, self.grid.x[i], self.grid.port(i) + 1);
+        let compliance =
+            column(self.problem.bodies.relative, port)[window.clone()].iter().zip(&rim.forces[window.clone()]);
+        forces[window].iter_mut().zip(compliance).for_each(|(f, (c, t))| *f = c - x * t);
+        let mut row = self.gap_terms(i);
+        if self.state.yielded[i] {
+            let creep = self.creep(i);
+            forces[port] += creep;
+            row.constant -= creep * self.given.strength.limit[i];
+        }
+        row
+    }
+
+    /// The gap at a candidate without that by contact forces and by the rim angle with them \[m].
+    pub fn gap_terms(&self, i: usize) -> AffineRow {
+        let (bodies, rim, x) = (&self.problem.bodies, &self.rim, self.grid.x[i]);
+        let port = self.grid.port(i) + 1;
+        let accelerations = std::array::from_fn(|k| bodies.inertial[(port, k)] - x * rim.accelerations[k]);
+        let [wheel, rail] = &self.given.displacement;
+        let constant = self.given.gap[i] + wheel[port] - x * rim.constant - rail[port];
+        AffineRow { motions: [0.0, 1.0, 0.0], accelerations, constant }
+    }
+
+    /// Slip at a candidate [m/s], linearised in V, Ω and the rim angle about the present iterate. Writes the force
+    /// coefficients of the ports `window` to `forces`.
+    pub fn slip_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        let problem = self.problem;
+        let bodies = &problem.bodies;
+        let to_right = self.upstream_right();
+        let port = self.grid.port(i);
+        let (v, velocity) = (self.traction.rigid[0], self.rim_velocity());
+        let gain = problem.time.a0;
+        let [wheel, rail] = &self.given.displacement;
+        let mut accelerations: [f64; 3] = std::array::from_fn(|k| gain * bodies.inertial[(port, k)]);
+        let mut constant = gain * (wheel[port] - rail[port]) + self.given.slip_offset[i];
+        let row = self.upwind.row(i);
+        let stencil = self.stencil(i, row, to_right);
+        for (at, weight) in stencil {
+            for (k, load) in accelerations.iter_mut().enumerate() {
+                *load -= velocity * weight * bodies.inertial[(at, k)];
+            }
+            constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
+        }
+        let [stretch_wheel, stretch_rail] = self.stretches(i, row, to_right);
+        // A turn of the rim tilts the surface and slows the rim.
+        let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
+        let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
+        let by_angle = velocity * tilt + problem.radius() * gain * stretch_wheel;
+        let rim = &self.rim;
+        let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
+        let upstream = stencil.map(|(at, weight)| {
+            let [wheel, rail] = bodies.compliance.map(|matrix| of_node(matrix, at));
+            [(rail, -v * weight), (wheel, -velocity * weight)]
+        });
+        let [[a, b], [c, d], [e, f]] = upstream;
+        let own = (of_node(bodies.relative, port), gain);
+        combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, (&rim.forces[window.clone()], by_angle)]);
+        accelerations.iter_mut().zip(rim.accelerations).for_each(|(load, t)| *load += by_angle * t);
+        constant += by_angle * (rim.constant - self.frame.rim_angle);
+        let motions = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
+        constant += -v * stretch_rail + problem.radius() * self.traction.rigid[2] * stretch_wheel;
+        AffineRow { motions, accelerations, constant }
+    }
+}
+
+/// A column of a matrix; both are contiguous.
+fn column(matrix: &DMatrix<f64>, j: usize) -> &[f64] {
+    let n = matrix.nrows();
+    &matrix.as_slice()[j * n..(j + 1) * n]
+}
+
+/// A multiple of values.
+type Term<'a> = (&'a [f64], f64);
+
+vectorised! {
+    /// Writes the sum of all terms. All at once: passes over the memory, one for each, are what the contact on uneven
+    /// surfaces waits for.
+    fn combine<'a, S>(simd, sum: &'a mut [f64], terms: [Term<'a>; TERMS]) {
+        let count = sum.len();
+        let terms = terms.map(|(values, factor)| (S::as_simd_f64s(&values[..count]), factor));
+        let (sum, sum_rest) = S::as_mut_simd_f64s(sum);
+        let many = terms.map(|((values, _), factor)| (&values[..sum.len()], simd.splat_f64s(factor)));
+        for (k, sum) in sum.iter_mut().enumerate() {
+            let zero = simd.splat_f64s(0.0);
+            *sum = many.iter().fold(zero, |sum, (values, factor)| simd.mul_add_e_f64s(*factor, values[k], sum));
+        }
+        for (k, sum) in sum_rest.iter_mut().enumerate() {
+            *sum = terms.iter().map(|((_, rest), factor)| factor * rest[k]).sum();
+        }
+    }
+}
+
+/// Terms of the row of a stuck node.
+const TERMS: usize = 8;
