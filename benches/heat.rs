@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use wheelrail::config::{ConductanceLaw, Config, Hub};
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatState, Scratch};
+use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatScratch, HeatState};
 use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
 
@@ -54,7 +54,7 @@ fn heat(c: &mut Criterion) {
         ("heat: step, locked wheel", 1e-4, 0.0),
     ] {
         let (mut state, mut next) = (heat.initial(0.0, 0.0), HeatState::default());
-        let mut scratch = Scratch::default();
+        let mut scratch = HeatScratch::default();
         let mut k = 0_u32;
         c.bench_function(name, |b| {
             b.iter(|| {

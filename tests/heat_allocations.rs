@@ -12,7 +12,7 @@ fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
     let rolling = Exchange { tread: brake_blocks(60.0), ..carter(1e5, v, -8e-4) };
     let mut exchange = rolling.clone();
     let (mut state, mut next) = (heat.initial(20.0, 0.0), HeatState::default());
-    let (mut seen, mut scratch) = (Observation::default(), Scratch::default());
+    let (mut seen, mut scratch) = (Observation::default(), HeatScratch::default());
     // Nothing changes; speeds and step change; the wheel is locked and conduction around it corrected.
     for (name, vary, turning, dt, largest) in
         [("held", 0.0, 1.0, 1e-3, 0), ("changing", 1e-3, 1.0, 1e-3, 2), ("locked", 1e-3, 0.0, 2e-2, 2)]

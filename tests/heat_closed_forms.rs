@@ -43,7 +43,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
 fn a_warm_insulated_wheel_without_contact_keeps_its_temperature() {
     let heat = heat(&with(config(1e5, 50.0), |c| c.thermal.hub = Hub::Insulated));
     let mut state = heat.initial(100.0, 0.0);
-    let mut scratch = Scratch::default();
+    let mut scratch = HeatScratch::default();
     let content = heat.heat_content(&state).unwrap()[0];
     for (k, dt) in [1e-6, 1e-3, 1.0, 500.0].into_iter().cycle().take(40).enumerate() {
         let omega = [0.0, 30.0, -100.0][k % 3];
@@ -80,7 +80,7 @@ fn reversal_of_both_speeds_mirrors_the_temperatures() {
     };
     let omega = omega(v, creepage);
     let (mut one, mut two) = (heat.initial(5.0, 0.0), heat.initial(5.0, 0.0));
-    let mut scratch = Scratch::default();
+    let mut scratch = HeatScratch::default();
     for dt in [1e-4, 1e-2, 1.0] {
         let f = heat.advance(&mut one, dt, v, omega, &forward, &mut scratch);
         let b = heat.advance(&mut two, dt, -v, -omega, &backward, &mut scratch);

@@ -14,7 +14,7 @@ fn manoeuvre(heat: &Heat, steps: usize) -> [f64; 4] {
         ..carter(1e5, v(t), -8e-4)
     };
     let (mut state, _) = heat.stationary(v(0.0), omega(v(0.0), -8e-4), &exchange(0.0)).unwrap();
-    let mut scratch = Scratch::default();
+    let mut scratch = HeatScratch::default();
     for k in 1..=steps {
         let t = k as f64 / steps as f64;
         heat.advance(&mut state, 1.0 / steps as f64, v(t), omega(v(t), -8e-4), &exchange(t), &mut scratch);
@@ -36,7 +36,7 @@ fn under_constant_exchange_the_field_converges_with_order_two() {
     let heat = heat(&config(1e5, v));
     let exchange = carter(1e5, v, 2.0);
     let run = |steps: u32| {
-        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
         for _ in 0..steps {
             heat.advance(&mut state, 1.0 / f64::from(steps), v, 0.0, &exchange, &mut scratch);
         }
@@ -75,7 +75,7 @@ fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
         let load = if config.half_width < 5e-4 { 1e4 } else { 1e5 };
         let heat = heat(&config);
         let mut state = heat.initial(50.0, 0.0);
-        let mut scratch = Scratch::default();
+        let mut scratch = HeatScratch::default();
         let mut worst = 0.0_f64;
         let mut highest = 0.0_f64;
         let rolling = [(14.0, -8e-4), (14.0, 2.0), (0.0, 0.0), (-5.0, 1e-3), (0.3, 0.05), (40.0, -0.5)];
@@ -115,7 +115,7 @@ fn peak_temperature_of_a_sudden_lock_does_not_depend_on_the_step() {
     let peak = |dt: f64| {
         let rolling = carter(1e5, v, -4e-4);
         let (mut state, _) = heat.stationary(v, omega(v, -4e-4), &rolling).unwrap();
-        let mut scratch = Scratch::default();
+        let mut scratch = HeatScratch::default();
         let mut peak = 0.0_f64;
         for _ in 0..(0.02 / dt).round() as usize {
             heat.advance(&mut state, dt, v, 0.0, &exchange, &mut scratch);
@@ -131,7 +131,7 @@ fn peak_temperature_of_a_sudden_lock_does_not_depend_on_the_step() {
 #[test]
 fn resampled_friction_heat_keeps_its_total() {
     let heat = heat(&config(1e5, 20.0));
-    let mut scratch = Scratch::default();
+    let mut scratch = HeatScratch::default();
     let mut seed = 12345_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -170,7 +170,7 @@ fn conductance_follows_the_pressure_to_the_power_of_0_95() {
             pressure: Piecewise { x: vec![-2.0 * a, 2.0 * a], value: vec![p, p] },
             ..Exchange::default()
         };
-        heat.advance(&mut heat.initial(1.0, 0.0), 1e-9, 0.0, 0.0, &exchange, &mut Scratch::default()).conduction
+        heat.advance(&mut heat.initial(1.0, 0.0), 1e-9, 0.0, 0.0, &exchange, &mut HeatScratch::default()).conduction
     };
     let reference = flow(&constant, 0.0);
     assert!(deviation(reference, 2.0 * a * 1e3).abs() < 1e-4, "{reference}");
@@ -186,8 +186,8 @@ fn conductance_follows_the_pressure_to_the_power_of_0_95() {
 fn a_restored_state_continues_bit_for_bit() {
     let heat = heat(&config(1e5, 20.0));
     let mut state = heat.initial(20.0, 0.0);
-    let mut scratch = Scratch::default();
-    let advance = |state: &mut HeatState, scratch: &mut Scratch, k: u32| {
+    let mut scratch = HeatScratch::default();
+    let advance = |state: &mut HeatState, scratch: &mut HeatScratch, k: u32| {
         let v = 14.0 - 0.3 * f64::from(k);
         heat.advance(state, 1e-3 * f64::from(1 + k % 3), v, omega(v, -6e-4), &carter(1e5, v, -6e-4), scratch)
     };
@@ -195,7 +195,7 @@ fn a_restored_state_continues_bit_for_bit() {
     let bytes = postcard::to_stdvec(&state).unwrap();
     let mut restored: HeatState = postcard::from_bytes(&bytes).unwrap();
     println!("state of {} kB", bytes.len() / 1024);
-    let mut fresh = Scratch::default();
+    let mut fresh = HeatScratch::default();
     for k in 10..20 {
         assert_eq!(advance(&mut state, &mut scratch, k), advance(&mut restored, &mut fresh, k));
     }
@@ -207,7 +207,7 @@ fn bad_input_is_refused_by_name_with_its_value() {
     let heat = heat(&config(1e5, 20.0));
     let good = carter(1e5, 14.0, -4e-4);
     let state = heat.initial(3.0, 0.0);
-    let (mut next, mut scratch) = (HeatState::default(), Scratch::default());
+    let (mut next, mut scratch) = (HeatState::default(), HeatScratch::default());
     let mut refuse = |dt: f64, v: f64, omega: f64, exchange: &Exchange, words: &str| {
         let message = heat.step(&state, &mut next, dt, v, omega, exchange, &mut scratch).unwrap_err().to_string();
         println!("{message}");
@@ -271,7 +271,7 @@ fn rail_ahead_of_the_contact_is_not_undercooled_wherever_the_edge_lies() {
         let patches = vec![Interval { low: -a * (1.0 - shift), high: a * (1.0 + shift) }];
         let exchange = Exchange { patches, ..Exchange::default() };
         let mut state = heat.initial(100.0, 0.0);
-        let mut scratch = Scratch::default();
+        let mut scratch = HeatScratch::default();
         for _ in 0..20 {
             heat.advance(&mut state, 1e-3, speed, omega(speed, 0.0), &exchange, &mut scratch);
         }

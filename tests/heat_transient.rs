@@ -12,7 +12,7 @@ fn locked_wheel_after_a_tenth_of_a_second() {
     let heat = heat(&config(1e5, v));
     for steps in [20, 40] {
         let mut state = heat.initial(0.0, 0.0);
-        let mut scratch = Scratch::default();
+        let mut scratch = HeatScratch::default();
         let (mut worst, mut last, mut iterations) = (0.0_f64, HeatFlows::default(), 0);
         // Steps that grow with time resolve the start; their sum is 0.1 s.
         let growth = 1.3_f64.powf(20.0 / f64::from(steps));
@@ -46,7 +46,7 @@ fn locked_wheel_after_a_tenth_of_a_second() {
 /// Braking from 50 km/h at 4 km/h per second with creepage −8e-4, temperatures at 5 s and 10 s.
 fn brake(heat: &Heat, dt: f64) -> [Temperatures; 2] {
     let mut state = heat.initial(0.0, 0.0);
-    let mut scratch = Scratch::default();
+    let mut scratch = HeatScratch::default();
     let mut out = [Temperatures::default(); 2];
     let steps = (10.0 / dt).round() as usize;
     for k in 1..=steps {
@@ -89,7 +89,7 @@ fn a_front_of_warmer_rail_travels_with_the_stream_between_both_temperatures() {
     let (a, zone) = (config.half_width, config.zone);
     for (velocity, warm) in [(10.0, 30.0), (-10.0, 30.0), (10.0, -30.0)] {
         let heat = heat(&config);
-        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
         let exchange = Exchange { arriving: warm, ..Exchange::default() };
         let steps = 200;
         let dt = (zone + 0.5 * a) / 10.0 / f64::from(steps);

@@ -4,7 +4,7 @@ mod heat_common;
 
 use heat_common::{KMH, Run, config, with};
 use std::f64::consts::PI;
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatState, Scratch, TreadHeat};
+use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatScratch, HeatState, TreadHeat};
 
 const FLUX: f64 = 2e8;
 
@@ -59,7 +59,7 @@ fn enthalpy_solution(c: &HeatConfig, times: &[f64]) -> Vec<[f64; 2]> {
 
 /// Surface temperature, molten thickness, and error of the heat balance at `times`, in `steps` steps up to each of them.
 fn heat_model(heat: &Heat, times: &[f64], steps: usize) -> (Vec<[f64; 2]>, f64) {
-    let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+    let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
     let exchange = even_heat(heat.config());
     let (mut before, mut out, mut error) = (0.0, Vec::new(), 0.0_f64);
     for time in times {
@@ -123,7 +123,7 @@ fn molten_steel_that_cools_freezes_and_gives_its_latent_heat_back() {
     let config = molten_steel();
     let heat = Heat::new(&config).unwrap();
     let start = start_of_melting(&config);
-    let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+    let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
     for (exchange, count) in [(even_heat(&config), 60), (Exchange::default(), 200)] {
         for _ in 0..count {
             heat.advance(&mut state, 0.05 * start, 0.0, 0.0, &exchange, &mut scratch);
@@ -141,7 +141,7 @@ fn a_restored_molten_state_continues_bit_for_bit_and_balances_its_heat() {
     let config = with(molten_steel(), |c| c.thermal.heat_ratio = 1.0);
     let heat = Heat::new(&config).unwrap();
     let exchange = heat_common::carter(1e6, 60.0 * KMH, 2.0);
-    let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+    let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
     let mut worst = 0.0_f64;
     for _ in 0..40 {
         let flows = heat.advance(&mut state, 1e-3, 60.0 * KMH, 0.0, &exchange, &mut scratch);
@@ -152,6 +152,6 @@ fn a_restored_molten_state_continues_bit_for_bit_and_balances_its_heat() {
     assert!(seen.melted[0] > 0.0 && worst < 1e-9);
     let mut restored: HeatState = postcard::from_bytes(&postcard::to_allocvec(&state).unwrap()).unwrap();
     heat.advance(&mut state, 1e-3, 60.0 * KMH, 0.0, &exchange, &mut scratch);
-    heat.advance(&mut restored, 1e-3, 60.0 * KMH, 0.0, &exchange, &mut Scratch::default());
+    heat.advance(&mut restored, 1e-3, 60.0 * KMH, 0.0, &exchange, &mut HeatScratch::default());
     assert_eq!(state, restored);
 }

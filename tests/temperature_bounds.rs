@@ -227,7 +227,7 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
         };
         let Ok(heat) = Heat::new(&config) else { continue };
         let bulk = config.thermal.wheel_excess;
-        let (mut state, mut scratch, mut speed) = (heat.initial(bulk, 0.0), Scratch::default(), 30.0);
+        let (mut state, mut scratch, mut speed) = (heat.initial(bulk, 0.0), HeatScratch::default(), 30.0);
         let mut acting = exchange(&config, &mut random);
         let mut omega = speed / config.wheel.radius;
         for step in 0..STEPS {

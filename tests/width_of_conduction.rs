@@ -7,7 +7,7 @@ use heat_common::{Run, deviation, heat};
 use std::f64::consts::PI;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::config::{CrossSection, Hub};
-use wheelrail::heat::{Exchange, HeatConfig, HeatModel, Scratch, TreadHeat};
+use wheelrail::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, TreadHeat};
 use wheelrail::piecewise::Piecewise;
 use wheelrail::simulation::{Inputs, Simulation};
 
@@ -72,7 +72,7 @@ fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_6
             (c.thermal.rim_width, c.thermal.rim_depth, c.thermal.block_width) = (10.0, 2.0, width);
         });
         let heat = heat(&config);
-        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), Scratch::default());
+        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
         // 1 W/m² all around.
         let tread = vec![TreadHeat { angle: 0.0, width: 2.0 * PI, heat: 2.0 * PI * config.wheel.radius }];
         let exchange = Exchange { tread, ..Exchange::default() };
@@ -131,7 +131,7 @@ fn a_warm_wheel_loses_heat_to_the_air_from_tread_rim_and_web() {
     let config = heat_common::with(config(0.014), |c| c.thermal.convection = 20.0);
     let heat = heat(&config);
     let mut state = heat.initial(100.0, 0.0);
-    let flows = heat.advance(&mut state, 1e-3, 10.0, 20.0, &Exchange::default(), &mut Scratch::default());
+    let flows = heat.advance(&mut state, 1e-3, 10.0, 20.0, &Exchange::default(), &mut HeatScratch::default());
     let (r, t) = (config.wheel.radius, &config.thermal);
     let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
     let area = 2.0 * PI * r * t.rim_width + 2.0 * ring(r, t.boss_radius);
@@ -194,7 +194,7 @@ fn a_hot_wheel_radiates_and_cools_alike_in_short_and_long_steps() {
     let start = heat.initial(500.0, 0.0);
     let capacity = heat.heat_content(&heat.initial(1.0, 0.0)).unwrap()[0] * config.contact_width;
     let cooled = |h: f64| {
-        let (mut state, mut scratch) = (start.clone(), Scratch::default());
+        let (mut state, mut scratch) = (start.clone(), HeatScratch::default());
         for step in 0..(2000.0 / h) as usize {
             let flows = heat.advance(&mut state, h, 10.0, 20.0, &Exchange::default(), &mut scratch);
             assert!(flows.relative_imbalance() < 1e-9, "{flows:?}");

@@ -1,9 +1,9 @@
-//! Why a heat computation has no answer.
+//! Errors of heat computations.
 
 use crate::config::ConfigError;
 use crate::piecewise::PiecewiseError;
 
-/// A heat computation that has no answer.
+/// Reason why a heat computation has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HeatError {
     /// A parameter out of its range.
@@ -12,7 +12,7 @@ pub enum HeatError {
     /// An infinite or undefined input.
     #[error("{name} is {value}: not a usable number")]
     Input {
-        /// What it is.
+        /// Its name.
         name: &'static str,
         /// Its value, in the unit of the input.
         value: f64,
@@ -20,9 +20,9 @@ pub enum HeatError {
     /// A profile that is no function of x.
     #[error("{name}: {why}")]
     Profile {
-        /// What it is a profile of.
+        /// Quantity that it gives over x.
         name: &'static str,
-        /// What is wrong with it.
+        /// Its fault.
         why: PiecewiseError,
     },
     /// An interval of the surface without meaning.
@@ -33,12 +33,12 @@ pub enum HeatError {
         /// Second end \[m].
         high: f64,
     },
-    /// Something that acts beyond the finely meshed surface.
+    /// Load that acts beyond the finely meshed surface.
     #[error("{name} reaches x = {x} m, outside the contact zone of ±{zone} m")]
     OutsideZone {
-        /// What acts there.
+        /// Its name.
         name: &'static str,
-        /// Where it ends \[m].
+        /// Position where it ends \[m].
         x: f64,
         /// Half-length of the zone \[m].
         zone: f64,
@@ -103,27 +103,19 @@ pub enum HeatError {
         /// Steps below this one need no correction \[s].
         direct_below: f64,
     },
-    /// Temperatures below those of the surroundings that no heat of the body can make up for.
+    /// Temperatures beyond those of everything that acts, without the heat or the room for it in the body that would bring them
+    /// back.
     #[error(
-        "temperatures fall to {lowest} K over thermal.reference where {coldest} K is the coldest that acts; a smaller \
+        "temperatures reach {found} K over thermal.reference where {datum} K is the {extreme} that acts; a smaller \
          solver.max_step or thermal.conductance resolves the step"
     )]
-    Undershoot {
-        /// Lowest excess temperature \[K].
-        lowest: f64,
-        /// Lowest one that is possible \[K].
-        coldest: f64,
-    },
-    /// Temperatures above those of everything that acts, without heat and without room for it in the body.
-    #[error(
-        "temperatures rise to {highest} K over thermal.reference where {hottest} K is the hottest that acts; a smaller \
-         solver.max_step or thermal.conductance resolves the step"
-    )]
-    Overshoot {
-        /// Highest excess temperature \[K].
-        highest: f64,
-        /// Highest one that is possible \[K].
-        hottest: f64,
+    OutOfBounds {
+        /// Lowest or highest excess temperature \[K].
+        found: f64,
+        /// Lowest or highest one that is possible \[K].
+        datum: f64,
+        /// Which of both: `coldest` or `hottest`.
+        extreme: &'static str,
     },
     /// Melting whose extent was not found.
     #[error(

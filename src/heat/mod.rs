@@ -23,15 +23,23 @@
 
 mod error;
 mod exchange;
+mod flows;
+mod limits;
 mod melting;
 mod model;
+mod observation;
 mod parameters;
+mod state;
 mod tensor;
 
 pub use crate::piecewise::Interval;
 pub use error::HeatError;
 pub use exchange::{Exchange, TreadHeat};
+pub use flows::HeatFlows;
+pub use limits::{LARGEST_STEP, SMALLEST_STEP};
 pub use melting::Melting;
-pub use model::{HeatFlows, HeatModel, LARGEST_STEP, Observation, SMALLEST_STEP, Temperatures};
+pub use model::HeatModel;
+pub use observation::{Observation, TemperatureField, Temperatures};
 pub use parameters::HeatConfig;
-pub use tensor::{Heat, HeatState, Scratch, TemperatureField};
+pub use state::HeatState;
+pub use tensor::{Heat, HeatScratch};

@@ -4,7 +4,7 @@
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{ConductanceLaw, Config, Hub};
 use wheelrail::heat::{
-    Exchange, Heat, HeatConfig, HeatFlows, HeatModel, HeatState, Observation, Scratch, Temperatures, TreadHeat,
+    Exchange, Heat, HeatConfig, HeatFlows, HeatModel, HeatScratch, HeatState, Observation, Temperatures, TreadHeat,
 };
 pub use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
@@ -63,7 +63,7 @@ pub trait Run {
         velocity: f64,
         omega: f64,
         exchange: &Exchange,
-        scratch: &mut Scratch,
+        scratch: &mut HeatScratch,
     ) -> HeatFlows;
 
     fn observed(&self, state: &HeatState) -> Observation;
@@ -81,7 +81,7 @@ impl Run for Heat {
         velocity: f64,
         omega: f64,
         exchange: &Exchange,
-        scratch: &mut Scratch,
+        scratch: &mut HeatScratch,
     ) -> HeatFlows {
         let mut next = HeatState::default();
         let flows = self.step(state, &mut next, dt, velocity, omega, exchange, scratch).unwrap();

@@ -1,19 +1,20 @@
 //! Closed forms that need volume sources or prescribed boundary temperatures, and the parts of the solver.
 
-use super::depth_modes::DepthModes;
-use super::layout::Heat;
-use super::loads::SurfaceLoads;
-use super::modal::{HeatBody, StageCoefficients};
-use super::response::SurfaceResponse;
-use super::section::Section;
-use super::stage::{Stage, StageKey};
-use super::state::HeatState;
-use super::step::Scratch;
-use super::streamline::{Streamline, Transport};
-use super::tridiagonal::TridiagonalFactor;
+use super::heat::Heat;
+use super::mesh::body::HeatBody;
+use super::mesh::depth_modes::DepthModes;
+use super::mesh::section::Section;
+use super::mesh::streamline::Streamline;
+use super::solve::coefficients::StageCoefficients;
+use super::solve::conductance::conducting;
+use super::solve::response::SurfaceInfluence;
+use super::solve::stage::{Stage, StageKey};
+use super::solve::transport::Transport;
+use super::solve::tridiagonal::TridiagonalFactor;
+use super::step::loads::SurfaceLoads;
 use crate::config::{ConductanceLaw, Config, Hub};
 use crate::fem::grading::graded;
-use crate::heat::{Exchange, HeatConfig, HeatModel, Interval, Observation};
+use crate::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, HeatState, Interval, Observation};
 use crate::linalg::Update;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use crate::piecewise::Piecewise;
@@ -26,9 +27,9 @@ const HEAT_CAPACITY: f64 = 460.0 * 8000.0;
 const STATIONARY: StageCoefficients = StageCoefficients { storage: 0.0, flow: 1.0 };
 
 /// Annulus with fixed hub whose rim is held at the temperature of the air by a very large film coefficient.
-fn annulus(line: Streamline, layers: &[f64], film: f64) -> HeatBody {
-    let modes = DepthModes::new(&Section::even(layers.to_vec()), 1.0 / R, true, film / CONDUCTIVITY).unwrap();
-    HeatBody { line, modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film }
+fn annulus(line: Streamline, layers: &[f64], convection: f64) -> HeatBody {
+    let modes = DepthModes::new(&Section::even(layers.to_vec()), 1.0 / R, true, convection / CONDUCTIVITY).unwrap();
+    HeatBody::new(line, modes, HEAT_CAPACITY, CONDUCTIVITY, convection).unwrap()
 }
 
 fn even(n: usize) -> Streamline {
@@ -66,12 +67,12 @@ fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
     assert!((middle[0] / 0.6117486980545853 - 1.0).abs() < 2e-3);
 }
 
-struct Exact<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
+struct AnnulusSystem<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
 
-impl LinearSystem for Exact<'_> {
+impl LinearSystem for AnnulusSystem<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
-        self.0.multiply(self.1, STATIONARY, x, out, Update::Replace);
-        self.0.add_curvature(STATIONARY, x, out, &mut Vec::new());
+        STATIONARY.multiply(self.0, self.1, x, out, Update::Replace);
+        STATIONARY.add_curvature(self.0, x, out, &mut Vec::new());
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
@@ -91,11 +92,12 @@ fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
         .map(|i| {
             transport.mass_lower[i] * rim(i + n - 1) + transport.mass[i] * rim(i) + transport.mass_upper[i] * rim(i + 1)
         })
-        .map(|w| body.film * w)
+        .map(|w| body.convection * w)
         .collect();
     let mut field = vec![0.0; body.size()];
     body.add_surface_load(0, &load, &mut field);
-    let iterations = Gmres::default().solve(&mut Exact(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
+    let iterations =
+        Gmres::default().solve(&mut AnnulusSystem(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
     let across = body.modes.at(R - 0.45);
     let mut c = [0.0; 2];
     for (row, s) in field.chunks(across.len()).zip(&body.line.nodes) {
@@ -164,7 +166,7 @@ fn both(a: f64, v: f64, k_c: f64) -> Heat {
 fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat() {
     let (a, v) = (0.761e-3, 50.0 / 3.6);
     let heat = both(a, v, 1e7);
-    let run = |shared: bool, scratch: &mut dyn FnMut(usize) -> Scratch| {
+    let run = |shared: bool, scratch: &mut dyn FnMut(usize) -> HeatScratch| {
         let (mut state, mut next, mut seen) = (heat.initial(0.0, 0.0), HeatState::default(), Observation::default());
         let mut maxima = Vec::new();
         for k in 0..400 {
@@ -189,14 +191,14 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
         }
         (maxima, state)
     };
-    let (shared, state) = run(true, &mut |_| Scratch::default());
-    let (own, other) = run(false, &mut |_| Scratch::default());
+    let (shared, state) = run(true, &mut |_| HeatScratch::default());
+    let (own, other) = run(false, &mut |_| HeatScratch::default());
     let differences = shared.iter().flatten().zip(own.iter().flatten()).map(|(a, b)| (a / b - 1.0).abs());
     let largest = differences.fold(0.0, f64::max);
     println!("largest relative difference of a temperature rise {largest:.1e}");
-    assert!(largest < 1e-4 && state.field != other.field, "{largest:e}");
+    assert!(largest < 1e-4 && state.values != other.values, "{largest:e}");
     // Neither does it matter what was computed before in the same memory.
-    let mut kept = Some(Scratch::default());
+    let mut kept = Some(HeatScratch::default());
     let mut advance = |state: &HeatState, speed: f64| {
         let (mut next, mut scratch) = (HeatState::default(), kept.take().unwrap());
         heat.step(state, &mut next, 1e-3, speed, speed / R, &Exchange::default(), &mut scratch).unwrap();
@@ -205,7 +207,7 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
     };
     let speeds = [13.0, 13.001, 12.9, 13.0];
     let [first, .., again] = speeds.map(|speed| advance(&state, speed));
-    assert_eq!(first.field, again.field);
+    assert_eq!(first.values, again.values);
 }
 
 #[test]
@@ -221,14 +223,19 @@ fn kept_factors_of_a_full_contact_and_its_two_ends_are_the_factors_of_the_contac
         };
         let exchange = Exchange { patches: vec![Interval { low: end(-1.0), high: end(1.0) }], ..Exchange::default() };
         let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
-        heat.set_loads(&exchange, &mut loads).unwrap();
+        loads.set(&heat.layout, &exchange, 0.0).unwrap();
         let coefficients = StageCoefficients { storage: 1.0, flow: 0.3e-3 };
         let (speeds, inverted) = ([v, 0.98 * v / R], [1.003 * v, 0.978 * v / R]);
         stage
-            .set(&heat, &loads, StageKey { speeds, inverted, coefficients, rate: 1.0 / 0.3e-3, curved: false })
+            .set(
+                &heat.layout,
+                &loads.conductance,
+                StageKey { speeds, inverted, coefficients, rate: 1.0 / 0.3e-3, curved: false },
+            )
             .unwrap();
-        let jump: Vec<f64> = (0..loads.contact().len() + 1).map(|i| 100.0 + (7.0 * i as f64).sin()).collect();
-        let [kept, direct] = [Some(k_c), None].map(|even| stage.left_of(&heat, even, &jump));
+        let jump: Vec<f64> =
+            (0..conducting(&loads.conductance).len() + 1).map(|i| 100.0 + (7.0 * i as f64).sin()).collect();
+        let [kept, direct] = [Some(k_c), None].map(|even| stage.left_of(&heat.layout, even, &jump));
         let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let apart: Vec<f64> = kept.iter().zip(&direct).map(|(a, b)| a - b).collect();
         println!("k_c {k_c:e}: {:.1e} of {:.1e} K", largest(&apart), largest(&direct));
@@ -242,10 +249,10 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
     let heat = both(a, v, k_c);
     let exchange = Exchange { patches: vec![Interval { low: -a, high: a }], ..Exchange::default() };
     let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
-    heat.set_loads(&exchange, &mut loads).unwrap();
+    loads.set(&heat.layout, &exchange, 0.0).unwrap();
     let speeds = [v, v / R];
     let key = StageKey { speeds, inverted: speeds, coefficients: STATIONARY, rate: 0.0, curved: false };
-    stage.set(&heat, &loads, key).unwrap();
+    stage.set(&heat.layout, &loads.conductance, key).unwrap();
     let (nodes, temperatures) = stage.rail_under_uniform_wheel(1.0);
     let surface: Vec<[f64; 2]> = heat.zone_x()[nodes].iter().zip(temperatures).map(|(&x, t)| [x, t]).collect();
     let effusivity = (CONDUCTIVITY * HEAT_CAPACITY).sqrt();
@@ -275,13 +282,12 @@ fn surface_response_equals_solutions_for_unit_loads() {
         [0.0, 0.01, 30.0, -30.0].into_iter().flat_map(|omega| [1, 5, 9, 38].map(|nodes| (omega, nodes)))
     {
         let modes = DepthModes::new(&Section::even(graded(1e-4, 1.8, 0.1, R - HUB)), 1.0 / R, true, 0.0).unwrap();
-        let body =
-            HeatBody { line: line.clone(), modes, heat_capacity: HEAT_CAPACITY, conductivity: CONDUCTIVITY, film: 0.0 };
+        let body = HeatBody::new(line.clone(), modes, HEAT_CAPACITY, CONDUCTIVITY, 0.0).unwrap();
         let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
         transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
         let range = body.line.zone + 1..body.line.zone + 1 + nodes;
         factor.set(&body, &transport, STATIONARY, &range).unwrap();
-        let mut response = SurfaceResponse::default();
+        let mut response = SurfaceInfluence::default();
         response.set(&factor, &body, range.clone());
         let entries = (0..nodes).flat_map(|i| response.row(i));
         let scale = entries.fold(0.0_f64, |largest, r| largest.max(r.abs()));
@@ -295,7 +301,7 @@ fn surface_response_equals_solutions_for_unit_loads() {
             let error = trace.iter().enumerate().map(|(i, t)| (t - response.row(i)[k]).abs());
             assert!(error.fold(0.0, f64::max) < 1e-12 * scale);
             let mut product = vec![0.0; body.size()];
-            body.multiply(&transport, STATIONARY, &field, &mut product, Update::Replace);
+            STATIONARY.multiply(&body, &transport, &field, &mut product, Update::Replace);
             let residual = product.iter().zip(&load).fold(0.0_f64, |m, (p, l)| m.max((p - l).abs()));
             assert!(residual < 1e-8 * load.iter().fold(0.0, |m: f64, l| m.max(l.abs())), "residual {residual:.1e}");
         }

@@ -3,7 +3,7 @@
 use super::exchange::Touch;
 use crate::config::{Config, Tuning};
 use crate::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
-use crate::heat::{Heat, HeatState, Observation};
+use crate::heat::{HeatModel, HeatState, Observation};
 use crate::piecewise::interpolate;
 use crate::rolling::state::State;
 
@@ -18,7 +18,7 @@ pub struct MaterialHistory {
 /// A step, for the history: what the heat model found at its end.
 pub struct Seen<'a> {
     /// The heat model with its state.
-    pub field: (&'a Heat, &'a HeatState),
+    pub field: (&'a dyn HeatModel, &'a HeatState),
     /// What it shows.
     pub observation: &'a Observation,
     /// Where the surface is known [m].
@@ -27,7 +27,7 @@ pub struct Seen<'a> {
 
 impl MaterialHistory {
     /// For contact within `zone` \[m] of the contact point, at the half-width `half_width` \[m] under the nominal load.
-    pub fn new(config: &Config, heat: &Heat, half_width: f64, zone: f64) -> Self {
+    pub fn new(config: &Config, heat: &dyn HeatModel, half_width: f64, zone: f64) -> Self {
         let (wheel, material, thermal) = (&config.wheel, &config.material, &config.thermal);
         let spots = HotSpots::new(&SpotLayout {
             radius: wheel.radius,
@@ -40,7 +40,7 @@ impl MaterialHistory {
             reference: thermal.reference,
             resolution: config.damage.resolution,
         });
-        let weights = heat.wheel_depths(&spots.mesh().depth);
+        let weights = heat.depth_weights(&spots.mesh().depth);
         Self { spots, weights }
     }
 

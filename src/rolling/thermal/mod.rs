@@ -18,7 +18,9 @@ use super::state::{State, ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{ContactState, Heating};
 use crate::damage::Criteria;
-use crate::heat::{self, Exchange, Heat, HeatError, HeatFlows, HeatModel, Observation, TemperatureField};
+use crate::heat::{
+    Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatModel, HeatScratch, Observation, TemperatureField,
+};
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
 use crate::piecewise;
@@ -31,8 +33,6 @@ use smoothing::Smoothing;
 use thermoelastic::Thermoelastic;
 use weakening::WeakSteel;
 
-/// Speed of a surface below which nothing carries heat away and no stationary temperatures exist [m/s].
-const AT_REST: f64 = 1e-3;
 /// How far above the liquidus a molten contact may get \[K]: a step that gets there from below was too long.
 const OVERHEATING: f64 = 50.0;
 
@@ -48,12 +48,11 @@ const SMOOTHED: f64 = 10.0;
 
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
-    heat: Heat,
+    heat: Box<dyn HeatModel>,
     /// Temperature of hub, air and arriving rail [K].
     reference: f64,
     /// Excess temperature of the wheel at the start [K].
     wheel_excess: f64,
-    radius: f64,
     blocks: BrakeBlocks,
     /// Coefficient of thermal expansion [1/K].
     thermal_expansion: f64,
@@ -83,7 +82,7 @@ pub struct HeatStep {
 /// Memory that heat steps reuse.
 #[derive(Default)]
 pub struct Scratch {
-    heat: heat::Scratch,
+    heat: HeatScratch,
     exchange: Exchange,
     sight: Sight,
 }
@@ -104,17 +103,27 @@ pub fn check_size(config: &Config) -> Result<(), HeatError> {
 }
 
 impl ThermalModel {
-    /// For contact within `zone` \[m] of the contact point; the temperature is resolved up to `margin` \[m] beyond. Wide
-    /// patches stay within `reach` \[m].
+    /// Temperatures on tensor meshes for contact within `zone` \[m] of the contact point; the temperature is resolved up to
+    /// `margin` \[m] beyond. Wide patches stay within `reach` \[m].
     pub fn new(config: &Config, zone: f64, margin: f64, reach: f64) -> Result<Self, HeatError> {
+        Self::with_heat(config, zone, margin, reach, |parameters| Ok(Box::new(Heat::new(parameters)?)))
+    }
+
+    /// Temperatures by the heat model that `heat` makes for the given parameters.
+    pub fn with_heat(
+        config: &Config,
+        zone: f64,
+        margin: f64,
+        reach: f64,
+        heat: impl FnOnce(&HeatConfig) -> Result<Box<dyn HeatModel>, HeatError>,
+    ) -> Result<Self, HeatError> {
         let half_width = mechanics::nominal_half_width(config);
-        let heat = Heat::new(&exchange::heat_config(config, half_width, zone + margin, reach.max(zone + margin)))?;
+        let heat = heat(&exchange::heat_config(config, half_width, zone + margin, reach.max(zone + margin)))?;
         Ok(Self {
-            history: MaterialHistory::new(config, &heat, half_width, zone),
+            history: MaterialHistory::new(config, &*heat, half_width, zone),
             heat,
             reference: config.thermal.reference,
             wheel_excess: config.thermal.wheel_excess,
-            radius: config.wheel.radius,
             blocks: BrakeBlocks::new(config),
             thermal_expansion: config.material.expansion,
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
@@ -169,30 +178,10 @@ impl ThermalModel {
     /// arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only the excess temperature.
     pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
         let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
-        let mut thermal = ThermalState::default();
-        let mut parts = vec![self.heat.initial(self.wheel_excess, touch.arriving)];
-        let mut heated = None;
-        let moving = [v, omega * self.radius].map(|speed| speed.abs() > AT_REST);
-        if moving != [false; 2] {
-            let mut exchange = Exchange::default();
-            touch.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
-            // With which temperature the rail arrives belongs to what passes, not to what lasts.
-            exchange.arriving = 0.0;
-            let (stationary, flows) = self.heat.settle([v, omega], &exchange)?;
-            heated = Some(stationary);
-            thermal.flows = flows;
-            // Where one of both surfaces stays, it warms or cools for ever.
-            let excess = self.wheel_excess - touch.arriving;
-            if moving == [true; 2] && excess != 0.0 && !exchange.patches.is_empty() {
-                parts.push(self.heat.passing([v, omega], &exchange, excess)?);
-            }
-        }
-        // What passes between the bodies keeps their bounds by itself; heat comes on top.
-        thermal.fields = self.heat.superposed(&parts)?;
-        if let Some(heated) = heated {
-            thermal.fields = self.heat.superposed(&[thermal.fields, heated])?;
-        }
-        self.begun(touch, thermal)
+        let mut exchange = Exchange::default();
+        touch.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
+        let (fields, flows) = self.heat.after_long_rolling(v, omega, &exchange, self.wheel_excess)?;
+        self.begun(touch, ThermalState { fields, flows, ..ThermalState::default() })
     }
 
     /// All of a start that follows from its temperature fields.
@@ -225,7 +214,7 @@ impl ThermalModel {
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
-        let seen = Seen { field: (&self.heat, &thermal.fields), observation: &sight.seen, zone: self.heat.zone_x() };
+        let seen = Seen { field: (&*self.heat, &thermal.fields), observation: &sight.seen, zone: self.heat.zone_x() };
         self.history.advance(&mut thermal.damage, next, dt, criteria, touch, &seen);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
@@ -279,7 +268,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&self.heat, touch.traction, dt, thermal, seen)?;
+        self.weakening.find(&*self.heat, touch.traction, dt, thermal, seen)?;
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use crate::config::{Config, Material};
 use crate::contact::Traction;
-use crate::heat::{Heat, HeatModel, Observation};
+use crate::heat::{HeatModel, Observation};
 use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
 use crate::piecewise::{Piecewise, interpolate, smear};
 use crate::rolling::error::StepError;
@@ -51,7 +51,7 @@ impl WeakSteel {
     /// film is still that of the step before.
     pub fn find(
         &self,
-        heat: &Heat,
+        heat: &dyn HeatModel,
         traction: &Traction,
         dt: f64,
         thermal: &mut ThermalState,

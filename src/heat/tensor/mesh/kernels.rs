@@ -1,0 +1,97 @@
+//! Loops over the rows of fields, where a row holds the modes at one node along the surface.
+//!
+//! They take much of the time of a step, and are written for the vector registers of the machine that runs them. Results of
+//! different machines differ by round-off: by the order of sums, and where a product and a sum are rounded at once.
+
+use crate::linalg::vectorised::vectorised;
+
+vectorised! {
+    /// `x ← x + factor · y`.
+    fn add<'a, S>(simd, factor: f64, y: &'a [f64], x: &'a mut [f64]) {
+        let ((y, y_rest), (x, x_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(x));
+        let many = simd.splat_f64s(factor);
+        for (x, &y) in x.iter_mut().zip(y) {
+            *x = simd.mul_add_e_f64s(many, y, *x);
+        }
+        x_rest.iter_mut().zip(y_rest).for_each(|(x, y)| *x += factor * y);
+    }
+}
+
+vectorised! {
+    /// `out ← x + factor · y`.
+    fn sum<'a, S>(simd, x: &'a [f64], factor: f64, y: &'a [f64], out: &'a mut [f64]) {
+        let (x, x_rest) = S::as_simd_f64s(x);
+        let ((y, y_rest), (out, out_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(out));
+        let many = simd.splat_f64s(factor);
+        for ((out, &x), &y) in out.iter_mut().zip(x).zip(y) {
+            *out = simd.mul_add_e_f64s(many, y, x);
+        }
+        out_rest.iter_mut().zip(x_rest.iter().zip(y_rest)).for_each(|(out, (x, y))| *out = x + factor * y);
+    }
+}
+
+vectorised! {
+    /// Adds all rows of `x`, each times its weight, to `sums`.
+    fn add_weighted<'a, S>(simd, weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]) {
+        let (x, sums) = (S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sums).0);
+        for (x, &weight) in x.chunks_exact(sums.len()).zip(weights) {
+            let weight = simd.splat_f64s(weight);
+            for (sum, &x) in sums.iter_mut().zip(x) {
+                *sum = simd.mul_add_e_f64s(weight, x, *sum);
+            }
+        }
+    }
+}
+
+vectorised! {
+    /// Scalar products of all rows of `x` with `shape`.
+    fn products<'a, S>(simd, x: &'a [f64], shape: &'a [f64], out: &'a mut [f64]) {
+        let (x, shape) = (S::as_simd_f64s(x).0, S::as_simd_f64s(shape).0);
+        for (x, out) in x.chunks_exact(shape.len()).zip(out) {
+            let mut sums = simd.splat_f64s(0.0);
+            for (&x, &shape) in x.iter().zip(shape) {
+                sums = simd.mul_add_e_f64s(x, shape, sums);
+            }
+            *out = simd.reduce_sum_f64s(sums);
+        }
+    }
+}
+
+vectorised! {
+    /// Scalar products of all rows of `x` with three shapes.
+    fn products_of_three<'a, S>(simd, x: &'a [f64], shapes: [&'a [f64]; 3], out: [&'a mut [f64]; 3]) {
+        let ([a, b, c], x) = (shapes.map(|shape| S::as_simd_f64s(shape).0), S::as_simd_f64s(x).0);
+        for (i, x) in x.chunks_exact(a.len()).enumerate() {
+            let mut sums = [simd.splat_f64s(0.0); 3];
+            for (&x, ((&a, &b), &c)) in x.iter().zip(a.iter().zip(b).zip(c)) {
+                sums[0] = simd.mul_add_e_f64s(x, a, sums[0]);
+                sums[1] = simd.mul_add_e_f64s(x, b, sums[1]);
+                sums[2] = simd.mul_add_e_f64s(x, c, sums[2]);
+            }
+            (0..3).for_each(|k| out[k][i] = simd.reduce_sum_f64s(sums[k]));
+        }
+    }
+}
+
+vectorised! {
+    /// `Σ |bₘ − aₘ| weightₘ`.
+    fn weighted_change<'a, S>(simd, a: &'a [f64], b: &'a [f64], weights: &'a [f64]) -> f64 {
+        let (a, b, weights) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0, S::as_simd_f64s(weights).0);
+        let sum = a.iter().zip(b).zip(weights).fold(simd.splat_f64s(0.0), |sum, ((&a, &b), &weight)| {
+            simd.mul_add_e_f64s(simd.abs_f64s(simd.sub_f64s(b, a)), weight, sum)
+        });
+        simd.reduce_sum_f64s(sum)
+    }
+}
+
+/// Scalar product of vectors whose length is a multiple of four.
+#[inline(always)]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
+        for l in 0..4 {
+            sums[l] += a[l] * b[l];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}

@@ -1,0 +1,111 @@
+//! Temperatures at points of a body, and at all nodes of its mesh.
+
+use super::heat::Heat;
+use super::mesh::body::HeatBody;
+use super::mesh::kernels::dot;
+use crate::fem::Mesh;
+use crate::heat::error::HeatError;
+use crate::heat::observation::TemperatureField;
+use crate::heat::state::HeatState;
+
+impl Heat {
+    /// Surface temperatures of wheel and rail at x \[m] within the contact zone, linear between nodes \[K].
+    pub fn surface_temperatures(&self, state: &HeatState, x: f64) -> Result<[f64; 2], HeatError> {
+        Ok([self.wheel_temperature(state, x, 0.0)?, self.rail_temperature(state, x, 0.0)?])
+    }
+
+    /// Temperature of the wheel at the distance `s` along the tread from the contact point and the depth `z` below it,
+    /// both in \[m], over the reference \[K].
+    pub fn wheel_temperature(&self, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
+        self.check_state(state)?;
+        Ok(self.temperature(0, state, s, z))
+    }
+
+    /// Temperature of the rail at `x` and the depth `z`, both in \[m], over the reference \[K].
+    pub fn rail_temperature(&self, state: &HeatState, x: f64, z: f64) -> Result<f64, HeatError> {
+        self.check_state(state)?;
+        Ok(self.temperature(1, state, x, z))
+    }
+
+    /// Temperature of a body (0: wheel, 1: rail) at one point.
+    fn temperature(&self, body: usize, state: &HeatState, s: f64, z: f64) -> f64 {
+        let across = self.layout.bodies()[body].modes.at(z);
+        let (rows, xi) = self.columns_at(body, state, s);
+        let (from, to) = rows.split_at(across.len());
+        (1.0 - xi) * dot(from, &across) + xi * dot(to, &across)
+    }
+
+    /// Temperatures below the two surface nodes of a body (0: wheel, 1: rail) beside the distance `s` along the surface, mode
+    /// by mode, and its place between them from 0 to 1.
+    fn columns_at(&self, body: usize, state: &HeatState, s: f64) -> (Vec<f64>, f64) {
+        let (field, body_at) = (self.layout.split(&state.values)[body], self.layout.bodies()[body]);
+        let nm = body_at.modes.len();
+        let (nodes, xi) = element(body_at, s);
+        let mut rows: Vec<f64> = nodes.iter().flat_map(|node| &field[node * nm..(node + 1) * nm]).copied().collect();
+        if let Some(latent) = self.melting_within(state.range) {
+            latent.cool(body, &body_at.nodal, &mut rows);
+        }
+        (rows, xi)
+    }
+
+    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread, at the depths whose values of
+    /// the modes are `weights`.
+    pub(super) fn fill_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
+        let nm = self.layout.wheel.modes.len();
+        let (rows, xi) = self.columns_at(0, state, s);
+        let (from, to) = rows.split_at(nm);
+        for (value, weights) in column.iter_mut().zip(weights.chunks_exact(nm)) {
+            *value = (1.0 - xi) * dot(from, weights) + xi * dot(to, weights);
+        }
+    }
+
+    /// Temperature fields of wheel and rail.
+    pub(super) fn temperature_fields(&self, state: &HeatState) -> [TemperatureField; 2] {
+        let radius = self.layout.config.wheel.radius;
+        let polar = |s: f64, z: f64| [(radius - z) * (s / radius).sin(), -(radius - z) * (s / radius).cos()];
+        let [mut wheel, mut rail] = self.layout.split(&state.values).map(|field| field.to_vec());
+        if let Some(latent) = self.melting_within(state.range) {
+            latent.cool(0, &self.layout.wheel.nodal, &mut wheel);
+            latent.cool(1, &self.layout.rail.nodal, &mut rail);
+        }
+        [field(&self.layout.wheel, &wheel, polar), field(&self.layout.rail, &rail, |s, z| [s, -z])]
+    }
+}
+
+/// Nodal temperatures, where `place` puts the distance along the surface and the depth into the plane.
+fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> TemperatureField {
+    let HeatBody { line, modes: across, .. } = body;
+    let (along, depths) = (line.len(), across.depths.len());
+    let mut mesh = Mesh::default();
+    let mut temperature = Vec::with_capacity(along * depths);
+    for (&s, values) in line.nodes.iter().zip(modes.chunks_exact(across.len())) {
+        for (i, &z) in across.depths.iter().enumerate() {
+            mesh.nodes.push(place(s, z));
+            // A fixed last node has no row.
+            let free = i < across.shapes.nrows();
+            let shape: Vec<f64> = if free { across.shapes.row(i).iter().copied().collect() } else { Vec::new() };
+            temperature.push(dot(values, &shape));
+        }
+    }
+    for element in 0..line.lengths.len() {
+        let (from, to) = (element * depths, line.after(element) * depths);
+        // Counter-clockwise: below the contact point depth points down in the rail, up in the wheel.
+        let wheel = line.closed > 0.0;
+        let cell = |(upper, lower): (usize, usize)| [from + lower, to + lower, to + upper, from + upper];
+        mesh.cells.extend((1..depths).map(|i| cell(if wheel { (i, i - 1) } else { (i - 1, i) })));
+    }
+    TemperatureField { mesh, temperature }
+}
+
+/// Nodes of the element at a distance along the surface, and the place within it from 0 to 1; outside an open streamline
+/// that of its end.
+fn element(body: &HeatBody, s: f64) -> ([usize; 2], f64) {
+    let line = &body.line;
+    let mut s = s;
+    if line.closed > 0.0 {
+        s = line.nodes[0] + (s - line.nodes[0]).rem_euclid(line.closed);
+    }
+    let element = line.nodes.partition_point(|&x| x <= s).saturating_sub(1).min(line.lengths.len() - 1);
+    let xi = ((s - line.nodes[element]) / line.lengths[element]).clamp(0.0, 1.0);
+    ([element, line.after(element)], xi)
+}

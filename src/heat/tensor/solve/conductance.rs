@@ -1,0 +1,71 @@
+//! Conductance of the contact on its nodes.
+
+use super::rows;
+use super::transport::upwind_within;
+use crate::config::{ConductanceLaw, Thermal};
+use std::ops::Range;
+
+/// Conductance of all places in contact [W/(m² K)]; `None`: it depends on the pressure.
+pub fn even_conductance(thermal: &Thermal) -> Option<f64> {
+    match thermal.conductance_law {
+        ConductanceLaw::Constant => Some(thermal.conductance),
+        ConductanceLaw::Pressure => None,
+    }
+}
+
+/// First and one past the last element of the zone that conducts, from the moments `∫ k_c (1, ξ, ξ²) ds` on all of them.
+pub fn conducting(moments: &[[f64; 3]]) -> Range<usize> {
+    let conducts = |c: &[f64; 3]| c[0] > 0.0;
+    match moments.iter().position(conducts) {
+        Some(first) => first..moments.iter().rposition(conducts).map_or(first, |last| last + 1),
+        None => 0..0,
+    }
+}
+
+/// `∫ k_c Nⱼ w̃ᵢ ds` of one element from the moments `∫ k_c (1, ξ, ξ²) ds`; `sigma` is the upwinding of the test functions [1].
+pub fn of_element([whole, first, second]: [f64; 3], sigma: f64) -> [[f64; 2]; 2] {
+    let (left, right) = (whole - first, first);
+    [
+        [left - right + second - sigma * left, right - second - sigma * right],
+        [right - second + sigma * left, second + sigma * right],
+    ]
+}
+
+/// Rows of `∫ k_c Nⱼ w̃ᵢ ds` on the contact nodes.
+#[derive(Clone, Debug, Default)]
+pub struct ContactBands {
+    lower: Vec<f64>,
+    diagonal: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl ContactBands {
+    /// From the moments of the conductance and the upwinding `τ v / h` on the elements between the nodes.
+    pub fn set(&mut self, moments: &[[f64; 3]], upwind: &[f64]) {
+        for band in [&mut self.lower, &mut self.diagonal, &mut self.upper] {
+            band.clear();
+            band.resize(moments.len() + 1, 0.0);
+        }
+        for (i, (c, &sigma)) in moments.iter().zip(upwind).enumerate() {
+            let [[first, up], [low, second]] = of_element(*c, upwind_within(sigma, *c));
+            self.diagonal[i] += first;
+            self.upper[i] += up;
+            self.lower[i + 1] += low;
+            self.diagonal[i + 1] += second;
+        }
+    }
+
+    /// Replaces `load` by `factor · ∫ k_c d w̃ ds`, `d` given at the contact nodes.
+    pub fn set_load(&self, factor: f64, d: &[f64], load: &mut Vec<f64>) {
+        let Self { lower, diagonal, upper } = self;
+        load.clear();
+        load.extend(diagonal.iter().zip(d).map(|(c, d)| factor * c * d));
+        load.iter_mut().zip(upper.iter().zip(&d[1..])).for_each(|(load, (c, d))| *load += factor * c * d);
+        load[1..].iter_mut().zip(lower[1..].iter().zip(d)).for_each(|(load, (c, d))| *load += factor * c * d);
+    }
+
+    /// Adds `flow` times the product of a row `g` of the response of a body with this matrix to a row of `A`.
+    pub fn add_coupling(&self, flow: f64, g: &[f64], row: &mut [f64]) {
+        rows::add_banded(flow, g, [&self.lower, &self.diagonal, &self.upper], row);
+    }
+}

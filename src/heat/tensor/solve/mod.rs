@@ -1,0 +1,15 @@
+//! Linear solution of one implicit stage: a tridiagonal system per mode and body, coupled through the contact.
+
+pub mod coefficients;
+pub mod conductance;
+pub mod coupling;
+mod decay;
+pub mod inverse;
+mod lru;
+pub mod response;
+mod ring;
+mod rows;
+pub mod solver;
+pub mod stage;
+pub mod transport;
+pub mod tridiagonal;

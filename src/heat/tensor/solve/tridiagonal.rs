@@ -1,0 +1,149 @@
+//! Factors of the tridiagonal systems of one implicit step, one system per mode across the streamlines.
+
+use super::coefficients::StageCoefficients;
+use super::ring::{Carried, Ring, factorise, factorise_filled};
+use super::rows;
+use super::transport::Transport;
+use crate::heat::error::HeatError;
+use crate::heat::tensor::mesh::body::HeatBody;
+use std::ops::Range;
+
+/// Factors of the tridiagonal systems of all modes.
+///
+/// Nodes are eliminated around the ring of the streamline: the first one after the contact comes first, the last one of the
+/// contact comes last. An open streamline is a ring with an empty link. So the surface under the contact is known before
+/// anything else is substituted back, and a load there is eliminated within the contact alone. What the last node shares with
+/// the first one fills a column and a row of the factors, `S = (1 + w + row)(1/inverse)(1 + r) + column`; both fade within
+/// some nodes where the stream is faster than conduction.
+#[derive(Clone, Debug, Default)]
+pub struct TridiagonalFactor {
+    /// How a node acts on the next one in the order of elimination, how that acts on it, and the inverse pivots; by nodes.
+    pub w: Vec<f64>,
+    pub r: Vec<f64>,
+    pub inverse: Vec<f64>,
+    /// Entries in the column and the row of the last node, by steps of the elimination, as far as they reach.
+    pub column: Vec<f64>,
+    pub row: Vec<f64>,
+    /// The node that is eliminated last.
+    last: usize,
+    alpha: Vec<f64>,
+    carried: Carried,
+    /// Two rows that recurrences carry along.
+    moving: Vec<f64>,
+}
+
+/// Steps of the elimination that are taken at a time while the row and the column of the last node are filled.
+const STRIDE: usize = 8;
+
+impl TridiagonalFactor {
+    /// Factorises `S` for all modes; the nodes `contact` are eliminated last.
+    pub fn set(
+        &mut self,
+        body: &HeatBody,
+        transport: &Transport,
+        coefficients: StageCoefficients,
+        contact: &Range<usize>,
+    ) -> Result<(), HeatError> {
+        let (nm, n) = (body.modes.len(), body.line.len());
+        let [storage, flow] = coefficients.mass_weight(body);
+        self.last = if contact.is_empty() { n - 1 } else { contact.end - 1 };
+        self.alpha.clear();
+        self.alpha.extend(body.modes.values.iter().map(|value| storage + flow * value));
+        for values in [&mut self.w, &mut self.r, &mut self.inverse] {
+            values.resize(n * nm, 0.0);
+        }
+        self.moving.resize(2 * nm, 0.0);
+        self.carried.begin(nm);
+        self.column.clear();
+        self.row.clear();
+        let ring = Ring { line: transport, alpha: &self.alpha, flow: coefficients.flow, last: self.last };
+        let (mut step, filled) = (0, n - 2);
+        while self.carried.alive && step < filled {
+            let steps = step..(step + STRIDE).min(filled);
+            let rows = step * nm..steps.end * nm;
+            step = steps.end;
+            self.column.resize(rows.end, 0.0);
+            self.row.resize(rows.end, 0.0);
+            let fill = [&mut self.column[rows.clone()], &mut self.row[rows]];
+            let factors = [&mut self.w[..], &mut self.r, &mut self.inverse];
+            factorise_filled(&ring, steps, factors, fill, &mut self.carried);
+        }
+        if step + contact.len() > n {
+            // It reaches the contact: either all of that has an entry, or nothing.
+            self.column.resize(filled * nm, 0.0);
+            self.row.resize(filled * nm, 0.0);
+        }
+        let factors = [&mut self.w[..], &mut self.r, &mut self.inverse];
+        factorise(&ring, step..n, factors, &mut self.carried);
+        let check = self.inverse[self.last * nm..][..nm].iter().sum::<f64>();
+        if check.is_finite() { Ok(()) } else { Err(HeatError::Singular { unknowns: body.size() }) }
+    }
+
+    /// Rows of the column and the row of the last node at the nodes `contact`; none where these have faded before.
+    pub fn fill(&self, contact: &Range<usize>, nm: usize) -> [&[f64]; 2] {
+        [&self.column, &self.row].map(|filled| reaching(filled, self.inverse.len() - contact.len() * nm))
+    }
+
+    /// `x ← S⁻¹ x`.
+    #[cfg(test)]
+    pub fn solve(&self, body: &HeatBody, x: &mut [f64]) {
+        self.eliminate(body, x);
+        self.substitute(body, x);
+    }
+
+    /// The first half of a solution: `x ← (1 + w + row)⁻¹ x`.
+    pub fn eliminate(&self, body: &HeatBody, x: &mut [f64]) {
+        let nm = body.modes.len();
+        let (before, after) = x.split_at_mut((self.last + 1) * nm);
+        let first = before.len();
+        if !after.is_empty() {
+            rows::eliminate(&self.w[first + nm..], after, nm);
+            let around = &after[after.len() - nm..];
+            (0..nm).for_each(|m| before[m] -= self.w[m] * around[m]);
+        }
+        rows::eliminate(&self.w[nm..first], before, nm);
+        let (before, last) = before.split_at_mut(self.last * nm);
+        let (row, rest) = self.row.split_at(self.row.len().min(after.len()));
+        rows::subtract_products(row, after, last);
+        rows::subtract_products(rest, before, last);
+    }
+
+    /// The second half of a solution.
+    pub fn substitute(&self, body: &HeatBody, x: &mut [f64]) {
+        let nm = body.modes.len();
+        let (before, after) = x.split_at_mut((self.last + 1) * nm);
+        let (before, last) = before.split_at_mut(self.last * nm);
+        last.iter_mut().zip(&self.inverse[before.len()..]).for_each(|(x, d)| *x *= d);
+        let (column, rest) = self.column.split_at(self.column.len().min(after.len()));
+        rows::subtract(column, last, after);
+        rows::subtract(rest, last, before);
+        rows::substitute(&self.inverse, &self.r, before, last);
+        if !after.is_empty() {
+            let (first, next) = (before.len() + nm, if before.is_empty() { &*last } else { &before[..nm] });
+            rows::substitute(&self.inverse[first..], &self.r[first..], after, next);
+        }
+    }
+
+    /// Surface values of the solution at the nodes `contact`, from what [`Self::eliminate`] has left.
+    pub fn trace(&mut self, body: &HeatBody, contact: &Range<usize>, x: &[f64], out: &mut Vec<f64>) {
+        let nm = body.modes.len();
+        let rows = contact.start * nm..contact.end * nm;
+        let column = reaching(&self.column, self.inverse.len() - rows.len());
+        let factors = [&self.inverse[rows.clone()], &self.r[rows.clone()], column];
+        out.resize(contact.len(), 0.0);
+        rows::substituted_surface(factors, &x[rows], &mut self.moving, &body.modes.surface, out);
+    }
+
+    /// Adds a load on the surface at the nodes `contact` to what [`Self::eliminate`] has left.
+    pub fn add_eliminated(&mut self, body: &HeatBody, contact: &Range<usize>, load: &[f64], x: &mut [f64]) {
+        let nm = body.modes.len();
+        let rows = contact.start * nm..contact.end * nm;
+        let factors = [&self.w[rows.clone()], reaching(&self.row, self.inverse.len() - rows.len())];
+        rows::add_eliminated(factors, load, &body.modes.surface, &mut x[rows], &mut self.moving);
+    }
+}
+
+/// Part of a filled column or row from the place `first` on; nothing if it has faded before.
+fn reaching(filled: &[f64], first: usize) -> &[f64] {
+    filled.get(first..).unwrap_or_default()
+}

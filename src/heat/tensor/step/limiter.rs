@@ -1,0 +1,152 @@
+//! Conservative limiter: nodes that are too cold are raised, those that are too hot are lowered, and the heat comes from or goes
+//! to as near as there is room for it.
+//!
+//! An undershoot is the other side of an overshoot close by: steep gradients make elements of higher order swing about the
+//! exact field. So the heat comes from the nearest nodes below the same surface node, and where these have too little from
+//! the rows beside. What lies within the margin is left alone: raising every swing by a hundredth of a kelvin, and be it
+//! step by step, drives the heat into the depth and cools the hot surface by some percent within milliseconds. Lowering is
+//! raising of the negative field.
+
+use super::bounds::{MARGIN, beyond};
+use crate::heat::error::HeatError;
+use crate::heat::state::HeatState;
+use crate::heat::tensor::mesh::body::HeatBody;
+use crate::heat::tensor::mesh::kernels::dot;
+use crate::heat::tensor::mesh::layout::Layout;
+
+/// Share of the margin to which nodes are raised \[1]: what is raised does not fall below the margin at once again.
+const RAISED: f64 = 0.5;
+
+/// Moves all nodes back that lie beyond a datum by more than a share of the margin, if one does by more than the margin; each
+/// body keeps its heat content.
+pub fn keep_bounds(layout: &Layout, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
+    let [below, above] = beyond(state);
+    let HeatState { values: field, data, range, .. } = state;
+    if below > 0.0 {
+        let floor = data[0] - RAISED * MARGIN;
+        if !raise(layout, field, floor, values) {
+            return Err(HeatError::OutOfBounds { found: range[0], datum: data[0], extreme: "coldest" });
+        }
+        range[0] = floor;
+    }
+    if above > 0.0 {
+        let ceiling = data[1] + RAISED * MARGIN;
+        let negate = |field: &mut [f64]| field.iter_mut().for_each(|value| *value = -*value);
+        negate(field);
+        let kept = raise(layout, field, -ceiling, values);
+        negate(field);
+        if !kept {
+            return Err(HeatError::OutOfBounds { found: range[1], datum: data[1], extreme: "hottest" });
+        }
+        range[1] = ceiling;
+    }
+    Ok(())
+}
+
+/// Raises all nodes to `floor`, and tells whether both bodies have the heat for it.
+fn raise(layout: &Layout, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> bool {
+    let mut bodies = layout.bodies().into_iter().zip(layout.split_mut(field));
+    bodies.all(|(body, field)| raise_body(body, field, floor, values) <= 0.0)
+}
+
+/// Heat content below one surface node over `ρc` above that at the temperature `floor`, per length [K m].
+fn row_excess(body: &HeatBody, row: &[f64], floor: f64) -> f64 {
+    dot(row, &body.modes.content) - floor * body.nodal.weights.iter().sum::<f64>()
+}
+
+/// Moves the temperatures below one surface node by `share` of the way to `floor`.
+fn shrink(body: &HeatBody, row: &mut [f64], floor: f64, share: f64) {
+    row.iter_mut().zip(&body.modes.free).for_each(|(x, one)| *x -= share * (*x - floor * one));
+}
+
+/// Raises the nodes of one body to `floor`; the heat over `ρc` that it lacks for it [K m²].
+fn raise_body(body: &HeatBody, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> f64 {
+    let nodal = &body.nodal;
+    let (nm, size) = (nodal.modes(), nodal.len());
+    values.resize(2 * size, 0.0);
+    let (raised, change) = values.split_at_mut(size);
+    let mut poor = Vec::new();
+    for (i, (row, weight)) in field.chunks_exact_mut(nm).zip(&body.line.weights).enumerate() {
+        nodal.values(row, raised);
+        if raised.iter().all(|value| *value >= floor) {
+            continue;
+        }
+        raised.iter_mut().for_each(|value| *value -= floor);
+        change.copy_from_slice(raised);
+        let lack = raise_column(raised, &nodal.weights);
+        change.iter_mut().zip(&*raised).for_each(|(before, after)| *before = after - *before);
+        nodal.add(change, row);
+        if lack > 0.0 {
+            poor.push((i, weight * lack));
+        }
+    }
+    poor.into_iter().map(|(i, lack)| take_beside(body, field, floor, i, lack)).sum()
+}
+
+/// Raises negative values to zero and takes as much from the nearest positive ones; what is lacking, in values times weights.
+fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
+    let mut missing = 0.0;
+    for j in 0..values.len() {
+        let mut lack = (-values[j] * weights[j]).max(0.0);
+        values[j] = values[j].max(0.0);
+        let mut distance = 1;
+        while lack > 0.0 && distance < values.len() {
+            let near = [j.checked_sub(distance), Some(j + distance).filter(|&k| k < values.len())];
+            let has: f64 = near.iter().flatten().map(|&k| (values[k] * weights[k]).max(0.0)).sum();
+            let share = if has > lack { lack / has } else { 1.0 };
+            for k in near.into_iter().flatten() {
+                // What is still to be raised gives nothing.
+                values[k] *= if values[k] > 0.0 { 1.0 - share } else { 1.0 };
+            }
+            lack -= share * has;
+            distance += 1;
+        }
+        missing += lack.max(0.0);
+    }
+    missing
+}
+
+/// Takes `lack` [K m²] from the rows nearest to the row `i`, all of which lie above the floor; what is still lacking.
+fn take_beside(body: &HeatBody, field: &mut [f64], floor: f64, i: usize, mut lack: f64) -> f64 {
+    let (nm, n) = (body.nodal.modes(), body.line.len());
+    let closed = body.line.closed > 0.0;
+    let farthest = if closed { n.div_ceil(2) } else { n };
+    for distance in 1..farthest {
+        let (before, after) = (i.checked_sub(distance), Some(i + distance).filter(|&k| k < n));
+        let around = |k: usize| Some(k % n).filter(|_| closed);
+        let near = [before.or_else(|| around(i + n - distance)), after.or_else(|| around(i + distance))];
+        let has = near.map(|k| {
+            k.map_or(0.0, |k| body.line.weights[k] * row_excess(body, &field[k * nm..][..nm], floor).max(0.0))
+        });
+        let total = has[0] + has[1];
+        let share = if total > lack { lack / total } else { 1.0 };
+        for k in near.into_iter().flatten() {
+            shrink(body, &mut field[k * nm..][..nm], floor, share);
+        }
+        lack -= share * total;
+        if lack <= 0.0 {
+            return 0.0;
+        }
+    }
+    lack
+}
+
+#[cfg(test)]
+mod tests {
+    use super::raise_column;
+
+    #[test]
+    fn the_nearest_nodes_raise_an_undershoot_and_the_surface_keeps_its_heat() {
+        let (mut values, weights) = ([100.0, 10.0, -1.0, 4.0, 0.0], [1.0, 1.0, 2.0, 1.0, 1.0]);
+        assert_eq!(raise_column(&mut values, &weights), 0.0);
+        let share = 2.0 / 14.0;
+        assert_eq!(values, [100.0, 10.0 * (1.0 - share), 0.0, 4.0 * (1.0 - share), 0.0]);
+    }
+
+    #[test]
+    fn what_a_column_lacks_is_told() {
+        let mut values = [1.0, -3.0, 0.5];
+        assert_eq!(raise_column(&mut values, &[1.0, 1.0, 2.0]), 1.0);
+        assert_eq!(values, [0.0; 3]);
+    }
+}

@@ -1,0 +1,242 @@
+//! Surface loads: what acts on the surfaces, divided among their elements.
+//!
+//! Everything enters the equations through moments over the surface elements, `∫ q ds`, `∫ q ξ ds`, `∫ k_c ξ² ds` with
+//! ξ from 0 to 1 across an element, integrated piecewise between all break points (nodes of the mesh and of the profile,
+//! edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
+
+use super::radiation::Radiation;
+use crate::config::Thermal;
+use crate::heat::error::HeatError;
+use crate::heat::exchange::{Exchange, TreadHeat};
+use crate::heat::state::BoundaryState;
+use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::streamline::Streamline;
+use crate::heat::tensor::solve::conductance::even_conductance;
+use crate::piecewise::{Interval, Piecewise, interpolate};
+use std::f64::consts::PI;
+
+/// Exponent of the pressure in the conductance of rough surfaces in plastic contact.
+const PRESSURE_EXPONENT: f64 = 0.95;
+
+/// Moments of everything that acts, on the surface elements; linear in the data.
+#[derive(Clone, Debug, Default)]
+pub struct SurfaceLoads {
+    /// `∫ k_c (1, ξ, ξ²) ds` on the elements of the contact zone [W/(m K)].
+    pub conductance: Vec<[f64; 3]>,
+    /// `γ_f ∫ q (1, ξ) ds` on the elements of the contact zone [W/m].
+    pub friction: Vec<[f64; 2]>,
+    /// Share of it that acts in the present stage [1].
+    pub friction_share: f64,
+    /// `∫ q (1, ξ) ds` on the elements of the tread [W/m]; empty without heat there.
+    pub tread: Vec<[f64; 2]>,
+    /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact zone
+    /// [W/m]; empty without.
+    pub reversible: Vec<[f64; 2]>,
+    /// Heat content over `ρc` of the rail that enters with the stream \[K].
+    pub arriving: f64,
+    /// What wheel and rail radiate.
+    pub radiation: [Radiation; 2],
+}
+
+impl SurfaceLoads {
+    /// Friction heat in the present stage [W/m].
+    pub fn friction_heat(&self) -> f64 {
+        self.friction_share * self.friction.iter().map(|q| q[0]).sum::<f64>()
+    }
+
+    /// Replaces the loads by the moments of `exchange` on the surface elements, radiation excepted; `arriving` is the heat
+    /// content over `ρc` of the rail that enters \[K].
+    pub fn set(&mut self, layout: &Layout, exchange: &Exchange, arriving: f64) -> Result<(), HeatError> {
+        self.friction_share = 1.0;
+        self.arriving = arriving;
+        let zone = Zone { x: layout.zone_positions(), half_length: layout.config.reach };
+        let thermal = &layout.config.thermal;
+        self.friction.clear();
+        self.friction.resize(layout.zone_elements(), [0.0; 2]);
+        zone.add_friction(thermal.heat_ratio, &exchange.friction_power, &mut self.friction)?;
+        self.conductance.clear();
+        self.conductance.resize(layout.zone_elements(), [0.0; 3]);
+        zone.add_conductance(thermal, exchange, &mut self.conductance)?;
+        self.reversible.clear();
+        if !exchange.reversible.is_empty() {
+            zone.add_reversible(&exchange.reversible, &self.conductance, &mut self.reversible)?;
+        }
+        self.tread.clear();
+        add_tread(&layout.wheel.line, layout.config.wheel.radius, &exchange.tread, &mut self.tread)
+    }
+
+    /// Sum of what acts, at the given speeds.
+    pub fn boundary(&self, speeds: [f64; 2]) -> BoundaryState {
+        let total = |moments: &[[f64; 2]]| moments.iter().map(|q| q[0]).sum();
+        BoundaryState {
+            speeds,
+            conductance: self.conductance.iter().map(|c| c[0]).sum(),
+            heat: [total(&self.friction), total(&self.tread)],
+        }
+    }
+}
+
+/// Elements of the contact zone.
+struct Zone<'a> {
+    /// Positions of their nodes \[m], ascending.
+    x: &'a [f64],
+    /// Half-length within which everything has to act \[m].
+    half_length: f64,
+}
+
+impl Zone<'_> {
+    /// Adds the moments of a friction power, of which the share `fraction` becomes heat.
+    fn add_friction(&self, fraction: f64, power: &Piecewise, out: &mut [[f64; 2]]) -> Result<(), HeatError> {
+        check("friction power", power)?;
+        for (x, v) in power.segments() {
+            self.over_elements("friction power", x, &mut |e, xi, at, length| {
+                let value = |t: f64| fraction * (v[0] + t * (v[1] - v[0]));
+                let (q0, q1) = (value(at[0]), value(at[1]));
+                out[e][0] += 0.5 * length * (q0 + q1);
+                // ∫ of the product of two linear functions.
+                out[e][1] += length / 6.0 * (q0 * (2.0 * xi[0] + xi[1]) + q1 * (xi[0] + 2.0 * xi[1]));
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Appends what reversible temperatures conduct, taken as linear on every element.
+    fn add_reversible(
+        &self,
+        difference: &Piecewise,
+        conductance: &[[f64; 3]],
+        out: &mut Vec<[f64; 2]>,
+    ) -> Result<(), HeatError> {
+        check("reversible temperature", difference)?;
+        let value = |x: f64| interpolate(&difference.x, &difference.value, x);
+        let mut from = self.x.first().map_or(0.0, |&x| value(x));
+        for (c, &end) in conductance.iter().zip(&self.x[1..]) {
+            let to = value(end);
+            let slope = to - from;
+            out.push([c[0] * from + c[1] * slope, c[1] * from + c[2] * slope]);
+            from = to;
+        }
+        Ok(())
+    }
+
+    /// Adds the moments of the conductance of all patches.
+    fn add_conductance(&self, thermal: &Thermal, exchange: &Exchange, out: &mut [[f64; 3]]) -> Result<(), HeatError> {
+        for patch in &exchange.patches {
+            if patch.low.is_nan() || patch.high.is_nan() || patch.low > patch.high {
+                return Err(HeatError::Patch { low: patch.low, high: patch.high });
+            }
+            match even_conductance(thermal) {
+                Some(value) => {
+                    self.over_elements("contact patch", [patch.low, patch.high], &mut |e, xi, _, length| {
+                        add_moments(&mut out[e], xi, length, &|_| value);
+                    })?
+                }
+                None => self.add_pressed(thermal, patch, &exchange.pressure, out)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the moments of the conductance of one patch that depends on the pressure.
+    fn add_pressed(
+        &self,
+        thermal: &Thermal,
+        patch: &Interval,
+        pressure: &Piecewise,
+        out: &mut [[f64; 3]],
+    ) -> Result<(), HeatError> {
+        let law = |p: f64| thermal.conductance * (p.max(0.0) / thermal.reference_pressure).powf(PRESSURE_EXPONENT);
+        check("contact pressure", pressure)?;
+        for (x, p) in pressure.segments() {
+            let inside = [x[0].max(patch.low), x[1].min(patch.high)];
+            if inside[1] <= inside[0] {
+                continue;
+            }
+            let pressure = |place: f64| p[0] + (place - x[0]) / (x[1] - x[0]) * (p[1] - p[0]);
+            let (from, to) = (pressure(inside[0]), pressure(inside[1]));
+            self.over_elements("contact pressure", inside, &mut |e, xi, at, length| {
+                let along = |f: f64| from + (at[0] + f * (at[1] - at[0])) * (to - from);
+                add_moments(&mut out[e], xi, length, &|f| law(along(f)));
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Divides an interval among the elements of the contact zone: element, ξ at both ends, fractions of the interval
+    /// at both ends, length of the part.
+    fn over_elements(
+        &self,
+        name: &'static str,
+        interval: [f64; 2],
+        f: &mut dyn FnMut(usize, [f64; 2], [f64; 2], f64),
+    ) -> Result<(), HeatError> {
+        let (x, zone) = (self.x, self.half_length);
+        let [low, high] = interval;
+        // Edges that coincide with the end of the zone are inside, round-off included.
+        let reach = zone * (1.0 + 1e-12);
+        if let Some(&x) = interval.iter().find(|x| x.is_nan() || x.abs() > reach) {
+            return Err(HeatError::OutsideZone { name, x, zone });
+        }
+        let first = x.partition_point(|&x| x <= low).saturating_sub(1);
+        for (e, ends) in x.windows(2).enumerate().skip(first) {
+            if ends[0] >= high {
+                break;
+            }
+            let part = [low.max(ends[0]), high.min(ends[1])];
+            if part[1] > part[0] {
+                let xi = part.map(|x| (x - ends[0]) / (ends[1] - ends[0]));
+                f(e, xi, part.map(|x| (x - low) / (high - low)), part[1] - part[0]);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Adds the moments of heat on arcs of the tread, which has the given `radius` \[m].
+fn add_tread(line: &Streamline, radius: f64, segments: &[TreadHeat], out: &mut Vec<[f64; 2]>) -> Result<(), HeatError> {
+    for segment in segments {
+        let TreadHeat { angle, width, heat } = *segment;
+        for (name, value) in [("tread heat", heat), ("angle of tread heat", angle)] {
+            if !value.is_finite() {
+                return Err(HeatError::Input { name, value });
+            }
+        }
+        if !(width > 0.0 && width <= 2.0 * PI) {
+            return Err(HeatError::Input { name: "width of tread heat", value: width });
+        }
+        out.resize(line.len(), [0.0; 2]);
+        let length = width * radius;
+        let middle = angle.rem_euclid(2.0 * PI) * radius;
+        for (e, h) in line.lengths.iter().enumerate() {
+            for turn in -2..=1 {
+                let start = line.nodes[e] - f64::from(turn) * line.closed;
+                let low = ((middle - 0.5 * length - start) / h).clamp(0.0, 1.0);
+                let high = ((middle + 0.5 * length - start) / h).clamp(0.0, 1.0);
+                if high > low {
+                    let part = heat / length * (high - low) * h;
+                    out[e][0] += part;
+                    out[e][1] += part * 0.5 * (low + high);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a profile that is no function.
+fn check(name: &'static str, profile: &Piecewise) -> Result<(), HeatError> {
+    profile.check().map_err(|why| HeatError::Profile { name, why })
+}
+
+/// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the part.
+fn add_moments(out: &mut [f64; 3], xi: [f64; 2], length: f64, c: &dyn Fn(f64) -> f64) {
+    const POINTS: [(f64, f64); 3] =
+        [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+    for (f, weight) in POINTS {
+        let x = xi[0] + f * (xi[1] - xi[0]);
+        let value = weight * length * c(f);
+        out[0] += value;
+        out[1] += value * x;
+        out[2] += value * x * x;
+    }
+}

@@ -1,0 +1,13 @@
+//! A step in time: loads, time formula, flows, bounds; and the stationary state.
+
+pub mod arrival;
+pub mod bounds;
+pub mod flows;
+pub mod formula;
+pub mod history;
+pub mod limiter;
+pub mod load_vector;
+pub mod loads;
+pub mod memory;
+pub mod radiation;
+pub mod stationary;
