@@ -14,6 +14,7 @@ use crate::contact::line::ContactGrid;
 use crate::contact::line::kernel::KernelCorrection;
 use crate::contact::series::{HalfPlaneKernel, SeriesSolver};
 use crate::contact::{self, ContactSolver, Surfaces};
+use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
 use crate::mechanics::{self, Pair};
@@ -125,6 +126,19 @@ impl Model {
             zone,
             config,
         })
+    }
+
+    /// Puts the heat model that `heat` makes for the given parameters in the place of the one on tensor meshes; without
+    /// temperatures there is none.
+    pub fn with_heat(
+        mut self,
+        heat: impl FnOnce(&HeatConfig) -> Result<Box<dyn HeatModel>, HeatError>,
+    ) -> Result<Self, ModelError> {
+        if let Some(thermal) = &self.thermal {
+            let margin = thermal.spacing;
+            self.thermal = Some(ThermalModel::with_heat(&self.config, self.zone, margin, self.reach, heat)?);
+        }
+        Ok(self)
     }
 
     /// Outer radius of the wheel in a state \[m]: the cold one and its growth by the bulk temperature.

@@ -61,7 +61,7 @@ pub struct ThermalModel {
     /// If `physics.thermoelastic_heating` is on.
     thermoelastic: Option<Thermoelastic>,
     /// Distance of the contact nodes [m].
-    spacing: f64,
+    pub(super) spacing: f64,
     weakening: WeakSteel,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
