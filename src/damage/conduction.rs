@@ -1,5 +1,6 @@
-//! Conduction of heat in a spot: both directions in turn, arc – depth – arc (Strang's splitting, second order), each by an
-//! L-stable implicit formula of second order. Stable for any step; insulated below and at the sides, where nothing is hot.
+//! Conduction of heat in a spot: both directions in turn, arc – depth – arc (Strang's splitting, second order), each by
+//! an L-stable implicit formula of second order. Stable for any step; insulated below and at the sides, where nothing
+//! is hot.
 
 use super::mesh::{Line, SpotMesh};
 
@@ -8,15 +9,15 @@ const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// Memory that steps reuse.
 #[derive(Default)]
-pub(super) struct Scratch {
+pub(super) struct ConductionScratch {
     along: Factors,
     across: Factors,
     stage: Vec<f64>,
 }
 
-/// One direction of the mesh: `nodes` in a row, `stride` apart in memory, and as many `lanes` of them side by side.
+/// Direction of the mesh: `nodes` in a row, `stride` apart in memory, and as many `lanes` of them side by side.
 #[derive(Clone, Copy, Default)]
-struct Rows {
+struct Lanes {
     nodes: usize,
     stride: usize,
     lanes: usize,
@@ -26,22 +27,22 @@ struct Rows {
 /// Factors of `1 − θ L` for all lanes of one direction.
 #[derive(Default)]
 struct Factors {
-    rows: Rows,
+    rows: Lanes,
     lower: Vec<f64>,
     upper: Vec<f64>,
     inverse: Vec<f64>,
 }
 
 /// Advances excess temperatures `values` by `dt` \[s], with heat transfer from the surface to a medium without excess
-/// temperature by the coefficient `film` [W/(m² K)].
-pub(super) fn conduct(mesh: &SpotMesh, values: &mut [f64], dt: f64, film: f64, scratch: &mut Scratch) {
+/// temperature by the coefficient `convection` [W/(m² K)].
+pub(super) fn conduct(mesh: &SpotMesh, values: &mut [f64], dt: f64, convection: f64, scratch: &mut ConductionScratch) {
     let (columns, layers) = (mesh.arc.len(), mesh.depth.len());
-    let Scratch { along, across, stage } = scratch;
+    let ConductionScratch { along, across, stage } = scratch;
     let theta = GAMMA * dt * mesh.diffusivity();
-    along.rows = Rows { nodes: columns, stride: layers, lanes: layers, apart: 1 };
+    along.rows = Lanes { nodes: columns, stride: layers, lanes: layers, apart: 1 };
     along.set(&mesh.along, 0.0, |lane| 0.5 * theta * mesh.stretch[lane]);
-    across.rows = Rows { nodes: layers, stride: 1, lanes: columns, apart: layers };
-    across.set(&mesh.across, GAMMA * dt * mesh.cooling(film), |_| theta);
+    across.rows = Lanes { nodes: layers, stride: 1, lanes: columns, apart: layers };
+    across.set(&mesh.across, GAMMA * dt * mesh.cooling(convection), |_| theta);
     along.advance(values, stage);
     across.advance(values, stage);
     along.advance(values, stage);
@@ -50,7 +51,7 @@ pub(super) fn conduct(mesh: &SpotMesh, values: &mut [f64], dt: f64, film: f64, s
 impl Factors {
     /// Factors of a line with a sink at its first node, with the coefficient `theta` of each lane.
     fn set(&mut self, line: &Line, sink: f64, theta: impl Fn(usize) -> f64) {
-        let Rows { nodes, stride, lanes, apart } = self.rows;
+        let Lanes { nodes, stride, lanes, apart } = self.rows;
         for values in [&mut self.lower, &mut self.upper, &mut self.inverse] {
             values.clear();
             values.resize(nodes * lanes, 0.0);
@@ -69,7 +70,7 @@ impl Factors {
 
     /// Replaces `values` by the solution of `(1 − θ L) x = values`.
     fn solve(&self, values: &mut [f64]) {
-        let Rows { nodes, stride, lanes, apart } = self.rows;
+        let Lanes { nodes, stride, lanes, apart } = self.rows;
         for node in 0..nodes {
             for at in (0..lanes).map(|lane| node * stride + lane * apart) {
                 let before = if node > 0 { values[at - stride] } else { 0.0 };

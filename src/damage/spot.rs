@@ -104,7 +104,7 @@ impl Spot {
         // A place that was at rest is cold.
         let field = self.field.get_or_insert_with(|| Arc::new(Field::cold(mesh.size(), recorder)));
         let field = Arc::make_mut(field);
-        let mut scratch = conduction::Scratch::default();
+        let mut scratch = conduction::ConductionScratch::default();
         let mut now = field.temperature.clone();
         conduct(mesh, &mut now, dt, visit.film, &mut scratch);
         if back {
@@ -161,7 +161,7 @@ impl Spot {
         }
         let field = Arc::make_mut(field);
         field.remainder = Vec::new();
-        let mut scratch = conduction::Scratch::default();
+        let mut scratch = conduction::ConductionScratch::default();
         while self.pending >= own_step(self.alone) {
             let step = own_step(self.alone);
             self.pending -= step;
@@ -217,7 +217,14 @@ impl Field {
     }
 
     /// Own conduction over a step, with the records of the points.
-    fn advance(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder, scratch: &mut conduction::Scratch) {
+    fn advance(
+        &mut self,
+        mesh: &SpotMesh,
+        dt: f64,
+        film: f64,
+        recorder: &Recorder,
+        scratch: &mut conduction::ConductionScratch,
+    ) {
         let before = self.temperature.clone();
         conduct(mesh, &mut self.temperature, dt, film, scratch);
         self.age += dt;

@@ -103,8 +103,8 @@ pub enum HeatError {
         /// Steps below this one need no correction \[s].
         direct_below: f64,
     },
-    /// Temperatures beyond those of everything that acts, without the heat or the room for it in the body that would bring them
-    /// back.
+    /// Temperatures beyond those of everything that acts, without the heat or the room for it in the body that would
+    /// bring them back.
     #[error(
         "temperatures reach {found} K over thermal.reference where {datum} K is the {extreme} that acts; a smaller \
          solver.max_step or thermal.conductance resolves the step"

@@ -1,4 +1,4 @@
-//! What acts on the surfaces during a step: patches, pressure, frictional heat, heat on the tread.
+//! Exchange of heat at the surfaces during a step: patches, pressure, frictional heat, heat on the tread.
 
 use crate::piecewise::{Interval, Piecewise};
 use serde::{Deserialize, Serialize};
@@ -8,25 +8,26 @@ use serde::{Deserialize, Serialize};
 pub struct TreadHeat {
     /// Angle of its middle from the contact point, positive on the leading side \[rad].
     pub angle: f64,
-    /// Its extent \[rad].
+    /// Angle that it covers \[rad].
     pub width: f64,
     /// Heat into the wheel [W/m], uniform over the arc.
     pub heat: f64,
 }
 
-/// What acts on the bodies per metre of width at the end of a step; all but the friction power holds over the step.
+/// Contact and heat at the surfaces per metre of width at the end of a step; all but the friction power holds over the
+/// step.
 ///
 /// It may be refilled for every step without new memory, see [`Exchange::clear`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Exchange {
-    /// Where the bodies touch, without overlap; none: lifted off.
+    /// Intervals in which the bodies touch, without overlap; none: lifted off.
     pub patches: Vec<Interval>,
     /// Contact pressure over x \[Pa]; used by the pressure-dependent conductance only.
     pub pressure: Piecewise,
     /// Friction power per area `|τ s|` over x [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
     pub friction_power: Piecewise,
-    /// By how much the mean of the friction power over the step exceeds that at its end, relative to the latter \[1]; zero: it
-    /// holds over the step.
+    /// By how much the mean of the friction power over the step exceeds that at its end, relative to the latter \[1];
+    /// zero: it holds over the step.
     pub friction_excess: f64,
     /// Heat on the tread of the wheel.
     pub tread: Vec<TreadHeat>,

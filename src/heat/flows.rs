@@ -19,9 +19,9 @@ pub struct HeatFlows {
     pub to_hub: f64,
     /// Carried out of the modelled rail by the stream, less what enters with it.
     pub outflow: f64,
-    /// From the wheel to the air.
+    /// Heat from the wheel to the air.
     pub wheel_to_air: f64,
-    /// From the rail to the air.
+    /// Heat from the rail to the air.
     pub rail_to_air: f64,
     /// Growth of the wheel's heat content.
     pub stored_wheel: f64,

@@ -1,8 +1,8 @@
 //! Melting of steel: latent heat as a plateau of the heat capacity between solidus and liquidus.
 //!
-//! The fields of the heat model are heat contents over `ρc`: `h = T + (L/c) f(T)` with the molten fraction f, linear from
-//! the solidus to the liquidus. Where nothing melts, `h` is the temperature itself. All temperatures here are excess
-//! temperatures over the reference \[K].
+//! The fields of the heat model are heat contents over `ρc`: `h = T + (L/c) f(T)` with the molten fraction f, linear
+//! from the solidus to the liquidus. Where nothing melts, `h` is the temperature itself. All temperatures here are
+//! excess temperatures over the reference \[K].
 
 use super::parameters::HeatConfig;
 
@@ -18,7 +18,8 @@ pub struct Melting {
 }
 
 impl Melting {
-    /// For the material and the reference temperature; `None` without latent heat, and if everything is molten anyway.
+    /// Relation for the material and the reference temperature; `None` without latent heat, and if everything is molten
+    /// anyway.
     pub fn new(config: &HeatConfig) -> Option<Self> {
         let (material, reference) = (&config.material, config.thermal.reference);
         let solidus = material.solidus - reference;

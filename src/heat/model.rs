@@ -9,15 +9,17 @@ use super::tensor::step::memory::HeatScratch;
 
 /// Model of the temperature of wheel and rail, per metre of the contact's width; immutable, its data are in the state.
 ///
-/// Velocities are that of the wheel's centre [m/s] and the angular one [rad/s], forward rolling positive. Temperatures count
-/// from the reference \[K]. A state of another model is refused with an error, or ignored where there is none to return.
+/// Velocities are that of the wheel's centre [m/s] and the angular one [rad/s], forward rolling positive. Temperatures
+/// count from the reference \[K]. A state of another model is refused with an error, or ignored where there is none to
+/// return.
 pub trait HeatModel: Send + Sync {
-    /// State of a wheel at the uniform temperature `wheel` (but for a fixed hub) on a rail at the uniform temperature `rail`.
+    /// State of a wheel at the uniform temperature `wheel` (but for a fixed hub) on a rail at the uniform temperature
+    /// `rail`.
     fn initial(&self, wheel: f64, rail: f64) -> HeatState;
 
-    /// State after long rolling at constant speeds and exchange, and its heat flows: the stationary temperatures of the heat,
-    /// over a wheel that had the uniform temperature `wheel` on a rail at [`Exchange::arriving`], and what these two exchange
-    /// in passing. At standstill, where nothing carries heat away, only the uniform temperatures.
+    /// State after long rolling at constant speeds and exchange, and its heat flows: the stationary temperatures of the
+    /// heat, over a wheel that had the uniform temperature `wheel` on a rail at [`Exchange::arriving`], and what these
+    /// two exchange in passing. At standstill, where nothing carries heat away, only the uniform temperatures.
     fn after_long_rolling(
         &self,
         velocity: f64,
@@ -41,7 +43,7 @@ pub trait HeatModel: Send + Sync {
         scratch: &mut HeatScratch,
     ) -> Result<HeatFlows, HeatError>;
 
-    /// Whether a state has the dimensions of this model.
+    /// Test that a state has the dimensions of this model.
     fn fits(&self, state: &HeatState) -> bool;
 
     /// Surface positions at which a state is observed \[m], ascending, with the contact point in their middle.
@@ -50,16 +52,16 @@ pub trait HeatModel: Send + Sync {
     /// Replaces `seen` by what a state shows, but for [`Observation::core`]; its memory is reused.
     fn observe(&self, state: &HeatState, seen: &mut Observation) -> Result<(), HeatError>;
 
-    /// Replaces `out` by the mean temperatures of wheel and rail between the surface and `depth` \[m] at the positions of
-    /// [`Self::zone_x`]. Depths from a tenth to four half-widths at the nominal load are told apart.
+    /// Replaces `out` by the mean temperatures of wheel and rail between the surface and `depth` \[m] at the positions
+    /// of [`Self::zone_x`]. Depths from a tenth to four half-widths at the nominal load are told apart.
     fn mean_over_depth(&self, state: &HeatState, depth: f64, out: &mut [Vec<f64>; 2]) -> Result<(), HeatError>;
 
-    /// Data from which [`Self::wheel_column`] finds the temperatures at the given `depths` \[m] of the wheel; computed once,
-    /// their meaning is the model's.
+    /// Data from which [`Self::wheel_column`] finds the temperatures at the given `depths` \[m] of the wheel; computed
+    /// once, their meaning is the model's.
     fn depth_weights(&self, depths: &[f64]) -> Vec<f64>;
 
-    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread from the contact point, at
-    /// the depths that `weights` were made for; zeros for a state of another model.
+    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread from the contact
+    /// point, at the depths that `weights` were made for; zeros for a state of another model.
     fn wheel_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]);
 
     /// Temperature fields of wheel and rail.

@@ -8,14 +8,16 @@ use serde::{Deserialize, Serialize};
 pub struct Observation {
     /// Maxima, values at the contact point and means.
     pub temperatures: Temperatures,
-    /// Surface temperatures at the positions of [`HeatModel::zone_x`](super::HeatModel::zone_x), over the reference \[K].
+    /// Surface temperatures at the positions of [`HeatModel::zone_x`](super::HeatModel::zone_x), over the reference
+    /// \[K].
     pub surface: [Vec<f64>; 2],
     /// Temperature integrated over the layer whose expansion acts on the contact, at the same positions [K m]: of the
     /// wheel less its mean along the tread, of the rail less the temperature in the depth.
     pub layer: [Vec<f64>; 2],
     /// Mean depth of the heat in that layer \[m].
     pub layer_depth: [f64; 2],
-    /// Mean temperatures over a depth, see [`HeatModel::mean_over_depth`](super::HeatModel::mean_over_depth); filled on demand only.
+    /// Mean temperatures over a depth, see [`HeatModel::mean_over_depth`](super::HeatModel::mean_over_depth); filled on
+    /// demand only.
     pub core: [Vec<f64>; 2],
     /// No node of the bodies is colder, over the reference \[K]; exact where it comes near absolute zero.
     pub lowest: f64,
@@ -48,8 +50,8 @@ pub struct Temperatures {
 /// Temperature of one body.
 #[derive(Clone, Debug)]
 pub struct TemperatureField {
-    /// Mesh of the body: the wheel about its centre, the rail with the contact point at the origin; cells between all nodes,
-    /// those in the middle of the quadratic layers included.
+    /// Mesh of the body: the wheel about its centre, the rail with the contact point at the origin; cells between all
+    /// nodes, those in the middle of the quadratic layers included.
     pub mesh: Mesh,
     /// Temperatures at the nodes, over the reference \[K].
     pub temperature: Vec<f64>,

@@ -23,8 +23,8 @@ pub struct HeatConfig {
     pub half_width: f64,
     /// Half-length of the finely meshed zone that ordinary patches and their friction heat stay within \[m].
     pub zone: f64,
-    /// Half-length of the zone that every patch and all friction heat stay within \[m]; beyond [`Self::zone`] the elements
-    /// grow.
+    /// Half-length of the zone that every patch and all friction heat stay within \[m]; beyond [`Self::zone`] the
+    /// elements grow.
     pub reach: f64,
 }
 
@@ -44,8 +44,8 @@ impl HeatConfig {
         self.material.conductivity / self.heat_capacity()
     }
 
-    /// Refuses geometry on which no mesh can be laid, and steel that is molten before it begins to melt; the error names the
-    /// parameter and its range.
+    /// Refuses geometry on which no mesh can be laid, and steel that is molten before it begins to melt; the error
+    /// names the parameter and its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let c = self;
         let radius = c.wheel.radius;

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Temperatures of both bodies and what the next step needs to know of the last one: plain data, whose meaning the model knows
-/// that made it.
+/// Temperatures of both bodies and what the next step needs to know of the last one: plain data, whose meaning the
+/// model knows that made it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
-    /// Unknowns of the temperature fields; of the tensor model coefficients of the modes across the streamlines, wheel, then
-    /// rail, heat contents over `ρc` where steel melts \[K].
+    /// Unknowns of the temperature fields; of the tensor model coefficients of the modes across the streamlines, wheel,
+    /// then rail, heat contents over `ρc` where steel melts \[K].
     pub values: Vec<f64>,
     /// Speeds and totals of the last step; `None` if there was none.
     pub(super) last: Option<BoundaryState>,

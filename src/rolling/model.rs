@@ -49,7 +49,7 @@ pub struct Workspace {
     /// Of the contact solver.
     pub contact: contact::ContactScratch,
     /// Of the heat step.
-    pub heat: thermal::Scratch,
+    pub heat: thermal::ThermalScratch,
     /// State before and after an internal step.
     pub states: [State; 2],
 }

@@ -132,8 +132,8 @@ fn attempt(
             let brake_power = (next.audit.brake - state.audit.brake) / plan.dt;
             let tread_heat = brake::tread_heat(model, demand.target, brake_power);
             let step = HeatStep { dt: plan.dt, tread_heat, criteria };
-            let touch = thermal.touch(&model.contact, &next.contact, demand.target.temperature);
-            let temperatures = thermal.step(before, next, &touch, step, temperatures, &mut workspace.heat)?;
+            let contact = thermal.contact(&model.contact, &next.contact, demand.target.temperature);
+            let temperatures = thermal.step(before, next, &contact, step, temperatures, &mut workspace.heat)?;
             next.thermal = Some(temperatures);
             audit::grow(next, &before.deformation);
         }

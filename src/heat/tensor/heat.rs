@@ -3,7 +3,7 @@
 use super::melt::latent::LatentHeat;
 use super::mesh::body::HeatBody;
 use super::mesh::kernels::dot;
-use super::mesh::layout::{LAYER_GROWTH, Layout};
+use super::mesh::layout::{HeatLayout, LAYER_GROWTH};
 use super::weights::ObservationWeights;
 use crate::heat::error::HeatError;
 use crate::heat::parameters::HeatConfig;
@@ -13,7 +13,7 @@ use crate::heat::state::HeatState;
 #[derive(Clone, Debug)]
 pub struct Heat {
     /// Meshes of both bodies.
-    pub(super) layout: Layout,
+    pub(super) layout: HeatLayout,
     /// Latent heat, unless melting is left out.
     pub(super) latent: Option<LatentHeat>,
     /// Weights of the modes in what is observed.
@@ -30,7 +30,7 @@ impl Heat {
 
     /// Meshes with layers that grow by `growth` from one to the next, for studies of the mesh.
     pub fn with_layers(config: &HeatConfig, growth: f64) -> Result<Self, HeatError> {
-        let layout = Layout::new(config, growth)?;
+        let layout = HeatLayout::new(config, growth)?;
         Ok(Self { latent: LatentHeat::new(&layout), weights: ObservationWeights::new(&layout), layout })
     }
 

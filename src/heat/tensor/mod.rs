@@ -9,11 +9,12 @@
 //! ```
 //!
 //! and a tensor-product Galerkin method needs only `∫ g N N dz`, `∫ g N′N′ dz`, `∫ g⁻¹ N N dz` (quadratic) and the
-//! linear elements along `s`. Where heat spreads sideways into wider bodies, all of them have the width at the depth `z` over
-//! that of the contact as a second weight (`mesh::section`).
+//! linear elements along `s`. Where heat spreads sideways into wider bodies, all of them have the width at the depth
+//! `z` over that of the contact as a second weight (`mesh::section`).
 //!
-//! Rooms: `mesh` (meshes, modes, fields), `solve` (linear equations of a stage), `melt` (latent heat), `step` (loads, time
-//! formula, flows, bounds, stationary state). `heat`, `weights` and `points` hold the model and what is read from a state.
+//! Rooms: `mesh` (meshes, modes, fields), `solve` (linear equations of a stage), `melt` (latent heat), `step` (loads,
+//! time formula, flows, bounds, stationary state). `heat`, `weights` and `points` hold the model and what is read from
+//! a state.
 
 mod heat;
 mod melt;

@@ -35,8 +35,8 @@ impl Heat {
         (1.0 - xi) * dot(from, &across) + xi * dot(to, &across)
     }
 
-    /// Temperatures below the two surface nodes of a body (0: wheel, 1: rail) beside the distance `s` along the surface, mode
-    /// by mode, and its place between them from 0 to 1.
+    /// Temperatures below the two surface nodes of a body (0: wheel, 1: rail) beside the distance `s` along the
+    /// surface, mode by mode, and its place between them from 0 to 1.
     fn columns_at(&self, body: usize, state: &HeatState, s: f64) -> (Vec<f64>, f64) {
         let (field, body_at) = (self.layout.split(&state.values)[body], self.layout.bodies()[body]);
         let nm = body_at.modes.len();
@@ -48,8 +48,8 @@ impl Heat {
         (rows, xi)
     }
 
-    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread, at the depths whose values of
-    /// the modes are `weights`.
+    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread, at the depths whose
+    /// values of the modes are `weights`.
     pub(super) fn fill_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
         let nm = self.layout.wheel.modes.len();
         let (rows, xi) = self.columns_at(0, state, s);
@@ -97,8 +97,8 @@ fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -
     TemperatureField { mesh, temperature }
 }
 
-/// Nodes of the element at a distance along the surface, and the place within it from 0 to 1; outside an open streamline
-/// that of its end.
+/// Nodes of the element at a distance along the surface, and the place within it from 0 to 1; outside an open
+/// streamline that of its end.
 fn element(body: &HeatBody, s: f64) -> ([usize; 2], f64) {
     let line = &body.line;
     let mut s = s;

@@ -3,7 +3,7 @@
 use super::melt::latent::LatentHeat;
 use super::mesh::body::HeatBody;
 use super::mesh::kernels::{dot, products_of_three};
-use super::mesh::layout::Layout;
+use super::mesh::layout::HeatLayout;
 use crate::heat::observation::{Observation, Temperatures};
 use crate::heat::state::HeatState;
 use crate::piecewise::peak;
@@ -19,8 +19,8 @@ const FLASH_DEPTH: f64 = 0.25;
 /// Weights of the modes in what is observed, of wheel and rail.
 #[derive(Clone, Debug)]
 pub struct ObservationWeights {
-    /// Integrals over the layer whose expansion acts on the contact \[m]; of the rail less the temperature a half-width below
-    /// the surface.
+    /// Integrals over the layer whose expansion acts on the contact \[m]; of the rail less the temperature a half-width
+    /// below the surface.
     layer: [Vec<f64>; 2],
     /// First moments over that layer [m²]; of the rail less those of the temperature a half-width below.
     moments: [Vec<f64>; 2],
@@ -31,7 +31,7 @@ pub struct ObservationWeights {
 
 impl ObservationWeights {
     /// Weights for the modes of both bodies.
-    pub fn new(layout: &Layout) -> Self {
+    pub fn new(layout: &HeatLayout) -> Self {
         let c = &layout.config;
         let flash = FLASH_DEPTH * c.half_width;
         let mut layer = layout.bodies().map(|body| body.modes.integrals(flash));
@@ -49,7 +49,7 @@ impl ObservationWeights {
     }
 
     /// Replaces `seen` by what a state shows; `latent` is given where steel melts in it.
-    pub fn observe(&self, layout: &Layout, latent: Option<&LatentHeat>, state: &HeatState, seen: &mut Observation) {
+    pub fn observe(&self, layout: &HeatLayout, latent: Option<&LatentHeat>, state: &HeatState, seen: &mut Observation) {
         let mut volume_means = [0.0; 2];
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(&state.values)).enumerate() {
             volume_means[i] = self.observe_body(layout, i, body, field, seen);
@@ -69,7 +69,14 @@ impl ObservationWeights {
     }
 
     /// Fills surface and layer of the body `i` (0: wheel, 1: rail); its mean over the volume \[K].
-    fn observe_body(&self, layout: &Layout, i: usize, body: &HeatBody, field: &[f64], seen: &mut Observation) -> f64 {
+    fn observe_body(
+        &self,
+        layout: &HeatLayout,
+        i: usize,
+        body: &HeatBody,
+        field: &[f64],
+        seen: &mut Observation,
+    ) -> f64 {
         let (nodes, nm) = (layout.zone_nodes(body), body.modes.len());
         let (weights, moments) = (&self.layer[i], &self.moments[i]);
         let zone = &field[nodes.start * nm..nodes.end * nm];
@@ -92,7 +99,7 @@ impl ObservationWeights {
     /// contact zone \[m].
     fn take_latent_heat(
         &self,
-        layout: &Layout,
+        layout: &HeatLayout,
         latent: &LatentHeat,
         state: &HeatState,
         seen: &mut Observation,
@@ -114,9 +121,9 @@ impl ObservationWeights {
         melted
     }
 
-    /// Replaces `out` by the mean temperatures of wheel and rail from the surface down to `depth` \[m] at the surface nodes of
-    /// the contact zone.
-    pub fn mean_over_depth(&self, layout: &Layout, field: &[f64], depth: f64, out: &mut [Vec<f64>; 2]) {
+    /// Replaces `out` by the mean temperatures of wheel and rail from the surface down to `depth` \[m] at the surface
+    /// nodes of the contact zone.
+    pub fn mean_over_depth(&self, layout: &HeatLayout, field: &[f64], depth: f64, out: &mut [Vec<f64>; 2]) {
         let (above, share) = core_place(depth, layout.config.half_width);
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(field)).enumerate() {
             let (nodes, nm) = (layout.zone_nodes(body), body.modes.len());
@@ -136,8 +143,8 @@ fn core_place(depth: f64, half_width: f64) -> (usize, f64) {
     (above, place - above as f64)
 }
 
-/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns; zero where the layer is colder than the
-/// rest of the tread, and in between where it is warmer in parts.
+/// Mean depth of heat \[m] with the first moments and the contents `layer` of the columns; zero where the layer is
+/// colder than the rest of the tread, and in between where it is warmer in parts.
 fn mean_depth(moments: impl Iterator<Item = f64>, layer: &[f64]) -> f64 {
     let (net, content) = layer.iter().fold((0.0, 0.0), |(net, sum), heat| (net + heat, sum + heat.abs()));
     let warm = f64::max(net / content, 0.0);

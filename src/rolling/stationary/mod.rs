@@ -44,11 +44,11 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
-        let touch = thermal.touch(&model.contact, &state.contact, goal.drive.temperature);
+        let contact = thermal.contact(&model.contact, &state.contact, goal.drive.temperature);
         let mut temperatures = match model.config.initial.temperature {
-            StartTemperature::Uniform => thermal.uniform(&touch)?,
+            StartTemperature::Uniform => thermal.uniform(&contact)?,
             StartTemperature::Stationary => {
-                thermal.stationary(&state, &touch, brake::tread_heat(model, &goal.drive, state.hub.brake.power))?
+                thermal.stationary(&state, &contact, brake::tread_heat(model, &goal.drive, state.hub.brake.power))?
             }
         };
         if let (Some(before), true) = (&state.thermal, averaged > 0) {

@@ -1,11 +1,11 @@
-//! How heat deforms the bodies, as far as it acts on the contact.
+//! Deformation of the bodies by heat, as far as it acts on the contact.
 //!
 //! The temperature of the wheel is split into its bulk and the layer under the contact.
-//! - The bulk is taken as axisymmetric. A free wheel grows by `α T̄ r_o` with the mean T̄ over its volume: exact at a uniform
-//!   temperature, and for any in an annulus of one width that nothing holds. With `thermal.cross_section = contact` it is an
-//!   annulus on a rigid cold hub in plane strain, `u(r_o) = (1+ν)/(1−ν) α I/r_o + C (r_o − r_i²/r_o)`, `I = ∫ T r dr`, with `C`
-//!   from `σ_r(r_o) = 0` (Timoshenko & Goodier, *Theory of Elasticity*, section 150). The growth lifts the hub and raises the
-//!   peripheral velocity.
+//! - The bulk is taken as axisymmetric. A free wheel grows by `α T̄ r_o` with the mean T̄ over its volume: exact at a
+//!   uniform temperature, and for any in an annulus of one width that nothing holds. With
+//!   `thermal.cross_section = contact` it is an annulus on a rigid cold hub in plane strain,
+//!   `u(r_o) = (1+ν)/(1−ν) α I/r_o + C (r_o − r_i²/r_o)`, `I = ∫ T r dr`, with `C` from `σ_r(r_o) = 0` (Timoshenko &
+//!   Goodier, *Theory of Elasticity*, section 150). The growth lifts the hub and raises the peripheral velocity.
 //! - The layer (tens of micrometres, much thinner than the patch) is held by the cold material below: it swells by
 //!   `(1+ν)/(1−ν) α ∫T dz`, and its membrane force `Eα/(1−ν) ∫T dz` pulls tangentially at the body by its gradient.
 
@@ -27,7 +27,7 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// From the parameters.
+    /// Expansion for the parameters.
     pub fn new(config: &Config) -> Self {
         let (wheel, material) = (&config.wheel, Isotropic::from(&config.material));
         let growth = match config.thermal.cross_section {

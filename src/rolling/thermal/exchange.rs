@@ -1,4 +1,4 @@
-//! What the contact and the brake blocks do to the temperature fields.
+//! Heat of the contact and of the brake blocks on the temperature fields.
 
 use crate::config::Config;
 use crate::contact::Traction;
@@ -19,7 +19,7 @@ pub struct BrakeBlocks {
 }
 
 impl BrakeBlocks {
-    /// From the parameters.
+    /// Arrangement for the parameters.
     pub fn new(config: &Config) -> Self {
         let thermal = &config.thermal;
         Self {
@@ -44,9 +44,9 @@ impl BrakeBlocks {
     }
 }
 
-/// What temperatures see of a contact.
-pub struct Touch<'a> {
-    /// Its forces.
+/// A contact as the temperatures see it.
+pub struct ThermalContact<'a> {
+    /// Forces of the contact.
     pub traction: &'a Traction,
     /// Reversible temperatures of the surfaces of wheel and rail besides those of the fields \[K]; empty without.
     pub reversible: [Piecewise; 2],
@@ -54,10 +54,10 @@ pub struct Touch<'a> {
     pub arriving: f64,
 }
 
-impl Touch<'_> {
-    /// Writes what a contact and the brake blocks, with the heat [W], do to the temperature fields. Patches of the
-    /// new time act over the whole step; the heat of friction is the energy that the mechanical step has dissipated. Within the reach
-    /// of a contact node it arises where the `film` of molten steel leaves friction.
+impl ThermalContact<'_> {
+    /// Writes the exchange of the contact and of the brake blocks with the heat `tread_heat` [W]. Patches of the new
+    /// time act over the whole step; the heat of friction is the energy that the mechanical step has dissipated. Within
+    /// the reach of a contact node it arises where the `film` of molten steel leaves friction.
     pub(super) fn fill(&self, blocks: &BrakeBlocks, tread_heat: f64, film: &Piecewise, exchange: &mut Exchange) {
         let contact = self.traction;
         exchange.clear();

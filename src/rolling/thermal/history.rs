@@ -1,6 +1,6 @@
 //! The history of the wheel's material beside the temperatures of the contact.
 
-use super::exchange::Touch;
+use super::exchange::ThermalContact;
 use crate::config::{Config, Tuning};
 use crate::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
 use crate::heat::{HeatModel, HeatState, Observation};
@@ -15,18 +15,19 @@ pub struct MaterialHistory {
     weights: Vec<f64>,
 }
 
-/// A step, for the history: what the heat model found at its end.
-pub struct Seen<'a> {
+/// End of a step as the heat model found it.
+pub struct ObservedStep<'a> {
     /// The heat model with its state.
     pub field: (&'a dyn HeatModel, &'a HeatState),
-    /// What it shows.
+    /// Observation of that state.
     pub observation: &'a Observation,
-    /// Where the surface is known [m].
+    /// Positions at which the surface is known \[m].
     pub zone: &'a [f64],
 }
 
 impl MaterialHistory {
-    /// For contact within `zone` \[m] of the contact point, at the half-width `half_width` \[m] under the nominal load.
+    /// History for contact within `zone` \[m] of the contact point, at the half-width `half_width` \[m] under the
+    /// nominal load.
     pub fn new(config: &Config, heat: &dyn HeatModel, half_width: f64, zone: f64) -> Self {
         let (wheel, material, thermal) = (&config.wheel, &config.material, &config.thermal);
         let spots = HotSpots::new(&SpotLayout {
@@ -50,10 +51,18 @@ impl MaterialHistory {
         self.spots.begin([temperatures.wheel_max, temperatures.rail_max])
     }
 
-    /// Takes a history on by a step of `dt` \[s] that led to `next`.
-    pub fn advance(&self, damage: &mut Damage, next: &State, dt: f64, criteria: Criteria, touch: &Touch, seen: &Seen) {
+    /// Advances a history by a step of `dt` \[s] that led to `next`.
+    pub fn advance(
+        &self,
+        damage: &mut Damage,
+        next: &State,
+        dt: f64,
+        criteria: Criteria,
+        contact: &ThermalContact,
+        seen: &ObservedStep,
+    ) {
         let temperatures = &seen.observation.temperatures;
-        let patch = touch.traction.extent();
+        let patch = contact.traction.extent();
         let moment = Moment {
             dt,
             angle: next.motion.angle,
@@ -77,13 +86,13 @@ impl MaterialHistory {
         depths.iter().map(at).collect()
     }
 
-    /// Whether a history has the dimensions of this model.
+    /// Test that a history has the dimensions of this model.
     pub fn fits(&self, damage: &Damage) -> bool {
         self.spots.fits(damage)
     }
 }
 
-/// What decides about the structure of the steel.
+/// Limits that decide about the structure of the steel.
 pub fn criteria(tuning: &Tuning) -> Criteria {
     Criteria {
         austenitisation: tuning.austenitisation,

@@ -1,8 +1,8 @@
-//! Heat of the rolling contact: what the mechanics gives to the temperature fields, and what they give back.
+//! Heat of the rolling contact: coupling of the mechanics with the temperature fields.
 //!
 //! The coupling is staggered: a mechanical step first, then one implicit heat step with the energy that friction has
-//! dissipated in it, and with its pressure and patches held over the step. Friction coefficient and thermal deformation of
-//! the next step follow from the new temperatures.
+//! dissipated in it, and with its pressure and patches held over the step. Friction coefficient and thermal deformation
+//! of the next step follow from the new temperatures.
 
 mod deformation;
 mod exchange;
@@ -26,24 +26,25 @@ use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
 use exchange::BrakeBlocks;
-pub use exchange::Touch;
+pub use exchange::ThermalContact;
 pub use history::criteria;
-use history::{MaterialHistory, Seen};
+use history::{MaterialHistory, ObservedStep};
 use smoothing::Smoothing;
 use thermoelastic::Thermoelastic;
 use weakening::WeakSteel;
 
-/// How far above the liquidus a molten contact may get \[K]: a step that gets there from below was too long.
+/// Excess over the liquidus that a molten contact may reach \[K]: a step that gets there from below was too long.
 const OVERHEATING: f64 = 50.0;
 
-/// Length of a step in which the deformation of a very hot contact goes half of the way to its new value, times the expansion
-/// coefficient \[s/K]; 0.2 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge of the patch cools what
-/// it touches, steel shrinks, the edge recedes, and steel warms and swells again, one step later: a feedback from one step to the
-/// next of about −7 per millisecond for steel, measured, and proportional to the expansion. It flips beyond `2/(1 + 7 h/ms)`.
+/// Length of a step in which the deformation of a very hot contact goes half of the way to its new value, times the
+/// expansion coefficient \[s/K]; 0.2 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge
+/// of the patch cools what it touches, steel shrinks, the edge recedes, and steel warms and swells again, one step
+/// later: a feedback from one step to the next of about −7 per millisecond for steel, measured, and proportional to the
+/// expansion. It flips beyond `2/(1 + 7 h/ms)`.
 const DAMPED: f64 = 2.4e-9;
 
-/// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K]. Flashes of
-/// quiet rolling swell by nanometres, whatever their depth, and it changes with every step.
+/// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K].
+/// Flashes of quiet rolling swell by nanometres, whatever their depth, and it changes with every step.
 const SMOOTHED: f64 = 10.0;
 
 /// Temperatures of wheel and rail and their coupling with the contact.
@@ -71,31 +72,31 @@ pub struct ThermalModel {
 /// A heat step beside the mechanical one.
 #[derive(Clone, Copy, Debug)]
 pub struct HeatStep {
-    /// Its length \[s].
+    /// Length of the step \[s].
     pub dt: f64,
     /// Heat of the brake blocks into the tread \[W].
     pub tread_heat: f64,
-    /// What decides about the structure of the steel.
+    /// Limits that decide about the structure of the steel.
     pub criteria: Criteria,
 }
 
 /// Memory that heat steps reuse.
 #[derive(Default)]
-pub struct Scratch {
+pub struct ThermalScratch {
     heat: HeatScratch,
     exchange: Exchange,
-    sight: Sight,
+    view: ThermalView,
 }
 
-/// What is seen of a state, and how it acts through its depth.
+/// Observation of a state, and the smoothing of its swelling.
 #[derive(Default)]
-struct Sight {
+struct ThermalView {
     seen: Observation,
     smoothing: [Smoothing; 2],
 }
 
-/// Refuses, before any memory is taken, what [`ThermalModel::new`] would refuse on the mesh of the configuration: too many
-/// elements in the contact zone, on whose number the size of the heat model depends.
+/// Refuses, before any memory is taken, what [`ThermalModel::new`] would refuse on the mesh of the configuration: too
+/// many elements in the contact zone, on whose number the size of the heat model depends.
 pub fn check_size(config: &Config) -> Result<(), HeatError> {
     let zone = mechanics::contact_zone(config);
     let reach = (zone.candidates() / 2 + 1) as f64 * zone.spacing();
@@ -103,8 +104,8 @@ pub fn check_size(config: &Config) -> Result<(), HeatError> {
 }
 
 impl ThermalModel {
-    /// Temperatures on tensor meshes for contact within `zone` \[m] of the contact point; the temperature is resolved up to
-    /// `margin` \[m] beyond. Wide patches stay within `reach` \[m].
+    /// Temperatures on tensor meshes for contact within `zone` \[m] of the contact point; the temperature is resolved
+    /// up to `margin` \[m] beyond. Wide patches stay within `reach` \[m].
     pub fn new(config: &Config, zone: f64, margin: f64, reach: f64) -> Result<Self, HeatError> {
         Self::with_heat(config, zone, margin, reach, |parameters| Ok(Box::new(Heat::new(parameters)?)))
     }
@@ -145,8 +146,8 @@ impl ThermalModel {
         self.above_liquidus(OVERHEATING)
     }
 
-    /// Absolute temperature \[K] from which on a molten film carries no friction, or that of the wheel at the start: a step that
-    /// heats the contact beyond had too much friction.
+    /// Absolute temperature \[K] from which on a molten film carries no friction, or that of the wheel at the start: a
+    /// step that heats the contact beyond had too much friction.
     pub fn frictionless(&self) -> f64 {
         self.above_liquidus(FILM_GROWS)
     }
@@ -156,8 +157,8 @@ impl ThermalModel {
         self.weakening.liquidus().map_or(f64::INFINITY, |liquidus| (liquidus + excess).max(start))
     }
 
-    /// What temperatures see of a contact with a rail that arrives with the absolute temperature `rail` \[K].
-    pub fn touch<'a>(&self, model: &ContactModel, contact: &'a ContactState, rail: f64) -> Touch<'a> {
+    /// A contact as the temperatures see it, with a rail that arrives with the absolute temperature `rail` \[K].
+    pub fn contact<'a>(&self, model: &ContactModel, contact: &'a ContactState, rail: f64) -> ThermalContact<'a> {
         let traction = &contact.traction;
         let reversible = match &self.thermoelastic {
             Some(thermoelastic) => {
@@ -165,57 +166,65 @@ impl ThermalModel {
             }
             None => Default::default(),
         };
-        Touch { traction, reversible, arriving: rail - self.reference }
+        ThermalContact { traction, reversible, arriving: rail - self.reference }
     }
 
-    /// Uniform temperatures at the start: the initial one of the wheel, and that of the arriving rail. No heat has flowed yet.
-    pub fn uniform(&self, touch: &Touch) -> Result<ThermalState, StepError> {
-        let fields = self.heat.initial(self.wheel_excess, touch.arriving);
-        self.begun(touch, ThermalState { fields, ..ThermalState::default() })
+    /// Uniform temperatures at the start: the initial one of the wheel, and that of the arriving rail. No heat has
+    /// flowed yet.
+    pub fn uniform(&self, contact: &ThermalContact) -> Result<ThermalState, StepError> {
+        let fields = self.heat.initial(self.wheel_excess, contact.arriving);
+        self.begun(contact, ThermalState { fields, ..ThermalState::default() })
     }
 
-    /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel and that of the
-    /// arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only the excess temperature.
-    pub fn stationary(&self, state: &State, touch: &Touch, tread_heat: f64) -> Result<ThermalState, StepError> {
+    /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel and that of
+    /// the arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only
+    /// the excess temperature.
+    pub fn stationary(
+        &self,
+        state: &State,
+        contact: &ThermalContact,
+        tread_heat: f64,
+    ) -> Result<ThermalState, StepError> {
         let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
         let mut exchange = Exchange::default();
-        touch.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
+        contact.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
         let (fields, flows) = self.heat.after_long_rolling(v, omega, &exchange, self.wheel_excess)?;
-        self.begun(touch, ThermalState { fields, flows, ..ThermalState::default() })
+        self.begun(contact, ThermalState { fields, flows, ..ThermalState::default() })
     }
 
     /// All of a start that follows from its temperature fields.
-    fn begun(&self, touch: &Touch, mut thermal: ThermalState) -> Result<ThermalState, StepError> {
-        let mut sight = Sight::default();
-        self.observe(touch, f64::INFINITY, &mut thermal, &mut sight)?;
-        thermal.damage = self.history.begin(&sight.seen);
+    fn begun(&self, contact: &ThermalContact, mut thermal: ThermalState) -> Result<ThermalState, StepError> {
+        let mut view = ThermalView::default();
+        self.observe(contact, f64::INFINITY, &mut thermal, &mut view)?;
+        thermal.damage = self.history.begin(&view.seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
 
-    /// The heat step that belongs to a mechanical step: from the temperatures `before` with the contact and the motion of
-    /// `next`; `thermal` gives its memory for the result.
+    /// The heat step that belongs to a mechanical step: from the temperatures `before` with the contact and the motion
+    /// of `next`; `thermal` gives its memory for the result.
     pub fn step(
         &self,
         before: &ThermalState,
         next: &State,
-        touch: &Touch,
+        contact: &ThermalContact,
         step: HeatStep,
         mut thermal: ThermalState,
-        scratch: &mut Scratch,
+        scratch: &mut ThermalScratch,
     ) -> Result<ThermalState, StepError> {
         let HeatStep { dt, tread_heat, criteria } = step;
-        let Scratch { heat, exchange, sight } = scratch;
+        let ThermalScratch { heat, exchange, view } = scratch;
         thermal.weakening.film.clone_from(&before.weakening.film);
-        touch.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
+        contact.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
         let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(touch, dt, &mut thermal, sight)?;
+        self.observe(contact, dt, &mut thermal, view)?;
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
-        let seen = Seen { field: (&*self.heat, &thermal.fields), observation: &sight.seen, zone: self.heat.zone_x() };
-        self.history.advance(&mut thermal.damage, next, dt, criteria, touch, &seen);
+        let seen =
+            ObservedStep { field: (&*self.heat, &thermal.fields), observation: &view.seen, zone: self.heat.zone_x() };
+        self.history.advance(&mut thermal.damage, next, dt, criteria, contact, &seen);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));
@@ -227,12 +236,18 @@ impl ThermalModel {
     }
 
     /// Fills all that follows from the temperature fields after a step of `dt` \[s].
-    fn observe(&self, touch: &Touch, dt: f64, thermal: &mut ThermalState, sight: &mut Sight) -> Result<(), StepError> {
-        let Sight { seen, smoothing } = sight;
+    fn observe(
+        &self,
+        contact: &ThermalContact,
+        dt: f64,
+        thermal: &mut ThermalState,
+        view: &mut ThermalView,
+    ) -> Result<(), StepError> {
+        let ThermalView { seen, smoothing } = view;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
-        if touch.reversible.iter().any(|surface| !surface.is_empty()) {
-            for (field, reversible) in seen.surface.iter_mut().zip(&touch.reversible) {
+        if contact.reversible.iter().any(|surface| !surface.is_empty()) {
+            for (field, reversible) in seen.surface.iter_mut().zip(&contact.reversible) {
                 let rise = |x: f64| piecewise::interpolate(&reversible.x, &reversible.value, x);
                 field.iter_mut().zip(zone).for_each(|(t, &x)| *t += rise(x));
             }
@@ -249,13 +264,13 @@ impl ThermalModel {
         for (surface, field) in thermal.surface.iter_mut().zip(&seen.surface) {
             piecewise::resample(zone, field, &self.points, surface);
         }
-        thermal.patch_mean = touch.traction.extent().map_or([0.0; 2], |patch| {
+        thermal.patch_mean = contact.traction.extent().map_or([0.0; 2], |patch| {
             [0, 1].map(|body| piecewise::mean(zone, &seen.surface[body], patch.low, patch.high))
         });
         thermal.loaded_mean =
-            [0, 1].map(|body| piecewise::weighted_mean(&touch.traction.pressure, zone, &seen.surface[body]));
+            [0, 1].map(|body| piecewise::weighted_mean(&contact.traction.pressure, zone, &seen.surface[body]));
         let mean = thermal.friction_excess();
-        let friction = touch.traction.friction;
+        let friction = contact.traction.friction;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         let warm = seen.temperatures.wheel_max.max(seen.temperatures.rail_max) > SMOOTHED;
         match &self.expansion {
@@ -268,7 +283,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&*self.heat, touch.traction, dt, thermal, seen)?;
+        self.weakening.find(&*self.heat, contact.traction, dt, thermal, seen)?;
         Ok(())
     }
 
@@ -281,7 +296,7 @@ impl ThermalModel {
         thermal.deformation.average(&before.deformation, share);
     }
 
-    /// Whether temperatures have the dimensions of this model.
+    /// Test that temperatures have the dimensions of this model.
     pub fn fits(&self, thermal: &ThermalState) -> bool {
         let deformation = &thermal.deformation;
         let profiles = deformation.membrane_force.iter().chain(&deformation.swelling);
@@ -305,8 +320,8 @@ impl ThermalModel {
     }
 }
 
-/// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: what is put in arrives, what one
-/// body loses another place gains, so that each is counted at both of its ends.
+/// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: what is put in
+/// arrives, what one body loses another place gains, so that each is counted at both of its ends.
 fn balance(flows: &HeatFlows) -> [f64; 2] {
     let sources = [flows.friction, flows.tread];
     let HeatFlows { stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air, .. } = *flows;

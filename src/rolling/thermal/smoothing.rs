@@ -1,9 +1,9 @@
-//! How the depth of a hot layer smooths its swelling.
+//! Smoothing of the swelling of a hot layer by its depth.
 //!
-//! A heat source line at the depth `d` below the surface of a half-plane lifts it by a Poisson kernel, `e^{−|k|d}` at the
-//! wavenumber `k` (2(1 + ν) α ∫ T e^{−|k|z} dz; from the thermoelastic potential, J. R. Barber, *Elasticity*, ch. 14). A
-//! flash that is much thinner than an element lifts what lies above it; a locked wheel is heated to the depth of several
-//! elements, and hot spots narrower than that do not lift it by their own height.
+//! A heat source line at the depth `d` below the surface of a half-plane lifts it by a Poisson kernel, `e^{−|k|d}` at
+//! the wavenumber `k` (2(1 + ν) α ∫ T e^{−|k|z} dz; from the thermoelastic potential, J. R. Barber, *Elasticity*, ch.
+//! 14). A flash that is much thinner than an element lifts what lies above it; a locked wheel is heated to the depth of
+//! several elements, and hot spots narrower than that do not lift it by their own height.
 
 use std::f64::consts::PI;
 

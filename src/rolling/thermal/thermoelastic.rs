@@ -1,14 +1,14 @@
 //! Reversible (Gough–Joule) heating: compressed material warms, released material cools again.
 //!
-//! Draganis, thesis eq. (3.6): the heat source `−T₀ β tr ε̇`, `β = α(3λ + 2μ)`, moves with the material. Deformation under
-//! a rolling contact varies over the patch length a, heat diffuses over `√(2κa/V)`, tens of micrometres: the change of
-//! temperature `−T₀ β tr ε/ρc` is adiabatic, but for the share `1/Pe` (`Pe = aV/2κ`), and over the depth of the thermal
-//! layer it is that of the surface. It is therefore added to the temperature fields, and its difference between the
-//! bodies, opposite tangential strains, conducts through the interface. Below about `Pe = 1` (millimetres per second) it
-//! would diffuse away, which is not modelled.
+//! Draganis, thesis eq. (3.6): the heat source `−T₀ β tr ε̇`, `β = α(3λ + 2μ)`, moves with the material. Deformation
+//! under a rolling contact varies over the patch length a, heat diffuses over `√(2κa/V)`, tens of micrometres: the
+//! change of temperature `−T₀ β tr ε/ρc` is adiabatic, but for the share `1/Pe` (`Pe = aV/2κ`), and over the depth of
+//! the thermal layer it is that of the surface. It is therefore added to the temperature fields, and its difference
+//! between the bodies, opposite tangential strains, conducts through the interface. Below about `Pe = 1` (millimetres
+//! per second) it would diffuse away, which is not modelled.
 //!
-//! The linear law knows no absolute zero. Cooling beyond a tenth of the reference temperature, which steel does not reach,
-//! therefore continues as an exponential, like that of the exact law `dT/T = −β/(ρc) d tr ε`, and tends to it.
+//! The linear law knows no absolute zero. Cooling beyond a tenth of the reference temperature, which steel does not
+//! reach, therefore continues as an exponential, like that of the exact law `dT/T = −β/(ρc) d tr ε`, and tends to it.
 
 use crate::config::Config;
 use crate::contact::Traction;
@@ -32,7 +32,7 @@ pub struct Thermoelastic {
 }
 
 impl Thermoelastic {
-    /// From the parameters.
+    /// Heating for the parameters.
     pub fn new(config: &Config) -> Self {
         let material = Isotropic::from(&config.material);
         Self {

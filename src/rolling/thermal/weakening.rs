@@ -1,4 +1,5 @@
-//! What heat leaves of the steel under the contact: less strength deep below the surface, less friction where the surface melts.
+//! Weakening of the steel under the contact by heat: less strength deep below the surface, less friction where the
+//! surface melts.
 
 use crate::config::{Config, Material};
 use crate::contact::Traction;
@@ -9,9 +10,10 @@ use crate::rolling::error::StepError;
 use crate::rolling::state::ThermalState;
 use std::f64::consts::PI;
 
-/// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact is near
-/// its maximum, and a hotter but thinner skin does not yield on its own. Nor does a narrower strip: the steel that flows under
-/// a punch down to some depth does so over more than that depth to both sides, and its strength counts everywhere on the way.
+/// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact
+/// is near its maximum, and a hotter but thinner skin does not yield on its own. Nor does a narrower strip: the steel
+/// that flows under a punch down to some depth does so over more than that depth to both sides, and its strength counts
+/// everywhere on the way.
 const LOADED_DEPTH: f64 = 0.5;
 
 /// Share of friction below which temperatures say nothing about those without a film [1].
@@ -20,7 +22,7 @@ const LEAST: f64 = 1e-3;
 /// Largest part of the friction on a place that one step takes away because it is overheated [1].
 const CUT: f64 = 0.75;
 
-/// How steel weakens.
+/// Law by which steel weakens.
 #[derive(Clone, Debug)]
 pub struct WeakSteel {
     material: Material,
@@ -33,7 +35,7 @@ pub struct WeakSteel {
 }
 
 impl WeakSteel {
-    /// From the parameters.
+    /// Law for the parameters.
     pub fn new(config: &Config) -> Self {
         let (material, reference) = (config.material.clone(), config.thermal.reference);
         let melts = material.latent_heat > 0.0 && reference < material.solidus;
@@ -47,8 +49,8 @@ impl WeakSteel {
         (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
     }
 
-    /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s], infinite in the stationary state; its
-    /// film is still that of the step before.
+    /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s], infinite in the stationary
+    /// state; its film is still that of the step before.
     pub fn find(
         &self,
         heat: &dyn HeatModel,
@@ -80,18 +82,18 @@ impl WeakSteel {
         Ok(())
     }
 
-    /// Largest share of friction on a place at the excess temperature `hot` \[K] after a step with `share` of it: a place that has
-    /// overheated carries less than before, whatever the prediction says.
+    /// Largest share of friction on a place at the excess temperature `hot` \[K] after a step with `share` of it: a
+    /// place that has overheated carries less than before, whatever the prediction says.
     fn overheated(&self, share: f64, hot: f64) -> f64 {
         let excess = self.liquidus().map_or(0.0, |liquidus| (self.reference + hot - liquidus).max(0.0));
         share * (1.0 - CUT * (excess / FILM_GROWS).min(1.0))
     }
 
-    /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as linear in
-    /// the share, and the share that belongs to its own temperature is found; a share from the temperature before would let
-    /// the surface overheat and freeze in turns. In a long step the flash follows friction in full, as in
-    /// [`crate::contact::Friction::local`]; in a short one it rises by what the power of friction without a film warms a half-space,
-    /// `q √(Δt/π)/√(kρc)` with half of the power for each body.
+    /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as
+    /// linear in the share, and the share that belongs to its own temperature is found; a share from the temperature
+    /// before would let the surface overheat and freeze in turns. In a long step the flash follows friction in full, as
+    /// in [`crate::contact::Friction::local`]; in a short one it rises by what the power of friction without a film
+    /// warms a half-space, `q √(Δt/π)/√(kρc)` with half of the power for each body.
     fn melt(
         &self,
         zone: &[f64],
@@ -104,7 +106,8 @@ impl WeakSteel {
             film.clear();
             return;
         }
-        let before = std::mem::take(film);
+        let before = film.clone();
+        film.clear();
         let Material { conductivity, density, specific_heat, .. } = self.material;
         let warming = (dt / (PI * conductivity * density * specific_heat)).sqrt();
         let [wheel, rail] = &seen.surface;

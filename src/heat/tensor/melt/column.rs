@@ -1,15 +1,15 @@
 //! Temperatures below one surface node, where steel melts.
 //!
-//! The heat content over `ρc` is a field of the mesh, but its latent part is not: it rises within less than a layer. So it is put
-//! on the mesh by the weight of the heat content, with the parabolas of the temperature between the nodes,
+//! The heat content over `ρc` is a field of the mesh, but its latent part is not: it rises within less than a layer. So
+//! it is put on the mesh by the weight of the heat content, with the parabolas of the temperature between the nodes,
 //!
 //! ```text
 //! M h = M T + Λ(T),   Λᵢ = ∫ G Nᵢ ℓ(T) dz ,
 //! ```
 //!
-//! and a melting front moves steadily through a layer. With `h = T + ℓ` at the nodes alone it would rest at every node until
-//! the whole share of that node is molten. The map from `h` to `T` is the gradient of a convex function, turned round: it is
-//! found by Newton's method, and the latent part of two heat contents differs by less than these.
+//! and a melting front moves steadily through a layer. With `h = T + ℓ` at the nodes alone it would rest at every node
+//! until the whole share of that node is molten. The map from `h` to `T` is the gradient of a convex function, turned
+//! round: it is found by Newton's method, and the latent part of two heat contents differs by less than these.
 
 use super::parabola::{add_products, parabola, points, polynomial, sections};
 use crate::heat::melting::Melting;
@@ -17,16 +17,17 @@ use crate::heat::tensor::mesh::depth_modes::{DepthModes, quadratic};
 
 /// Residual at which a temperature counts as found \[K].
 const TOLERANCE: f64 = 1e-6;
-/// The same over the heat content, where that is more than any steel has \[1].
+/// Residual over the heat content, where that is more than any steel has \[1].
 const ROUND_OFF: f64 = 1e-11;
 const ITERATIONS: usize = 30;
-/// How far a temperature may lie below the reference, or below all contents \[K].
+/// Distance by which a temperature may lie below the reference, or below all contents \[K].
 const MARGIN: f64 = 0.005;
 
 /// Elements of a body across its streamlines.
 #[derive(Clone, Debug)]
 pub struct DepthColumn {
-    /// Half the thickness of the layers times their weight `G`, a polynomial of the place in the layer from −1 to 1 \[m].
+    /// Half the thickness of the layers times their weight `G`, a polynomial of the place in the layer from −1 to 1
+    /// \[m].
     layers: Vec<[f64; 3]>,
     /// Half the thickness of the layers \[m].
     halves: Vec<f64>,
@@ -38,7 +39,7 @@ pub struct DepthColumn {
     size: usize,
 }
 
-/// Memory of a search, and what it finds.
+/// Temperatures and latent heat below a surface node, with the memory of their search.
 #[derive(Clone, Debug, Default)]
 pub struct ColumnMelting {
     /// Excess temperatures at the nodes \[K].
@@ -56,7 +57,7 @@ pub struct ColumnMelting {
 }
 
 impl DepthColumn {
-    /// Of a body with the given modes.
+    /// Elements of a body with the given modes.
     pub fn new(modes: &DepthModes) -> Self {
         let layers = modes.weights.clone();
         let halves: Vec<f64> = modes.depths.windows(3).step_by(2).map(|z| 0.5 * (z[2] - z[0])).collect();
@@ -78,8 +79,8 @@ impl DepthColumn {
 
     /// Fills `found` for the heat content over `ρc` at the nodes.
     ///
-    /// For latent heats a thousand times that of steel the search may not end, and where a layer is much thicker than what is hot
-    /// in it, a node may come to lie below all contents; then the contents of the nodes decide alone.
+    /// For latent heats a thousand times that of steel the search may not end, and where a layer is much thicker than
+    /// what is hot in it, a node may come to lie below all contents; then the contents of the nodes decide alone.
     pub fn find(&self, melting: &Melting, content: &[f64], found: &mut ColumnMelting) {
         let lowest = |values: &[f64]| values.iter().copied().fold(0.0, f64::min);
         if !self.search(melting, content, found) || lowest(&found.temperature) < lowest(content) - MARGIN {
@@ -267,8 +268,8 @@ mod tests {
         }
     }
 
-    /// Straight profiles whose solidus lies at any depth of a layer melt to the depth of the middle between both temperatures,
-    /// and the content goes up and down the profile without a rest at a node.
+    /// Straight profiles whose solidus lies at any depth of a layer melt to the depth of the middle between both
+    /// temperatures, and the content goes up and down the profile without a rest at a node.
     #[test]
     fn the_molten_thickness_of_a_straight_profile_is_exact_wherever_the_front_lies() {
         let (column, mut found) = (column(), ColumnMelting::default());

@@ -1,20 +1,20 @@
 //! A step in which steel melts or freezes.
 //!
-//! The field is the heat content `h` over `ρc`; the stream carries it, but only the temperature `T = h − ℓ(h)` conducts,
-//! ℓ the latent part. With the matrices of storage and stream `A_h` and of conduction `A_T` the stage
+//! The field is the heat content `h` over `ρc`; the stream carries it, but only the temperature `T = h − ℓ(h)`
+//! conducts, ℓ the latent part. With the matrices of storage and stream `A_h` and of conduction `A_T` the stage
 //! `ρcM̃ k = f − A_h h − A_T T` is that of a step without melting and one more load,
 //!
 //! ```text
 //! S k = f − (A_h + A_T) hₙ + A_T ℓ(hₙ + Δt k) .
 //! ```
 //!
-//! ℓ is found as a fixed point. The map is a contraction, since ℓ changes by less than h, and Anderson mixing speeds it up.
-//! Every iterate keeps the heat balance to round-off, because the linear equations hold for it exactly. Where in a column the
-//! latent part lies is found by [`DepthColumn`](super::column::DepthColumn).
+//! ℓ is found as a fixed point. The map is a contraction, since ℓ changes by less than h, and Anderson mixing speeds it
+//! up. Every iterate keeps the heat balance to round-off, because the linear equations hold for it exactly. Where in a
+//! column the latent part lies is found by [`DepthColumn`](super::column::DepthColumn).
 
 use super::latent::{ColumnSearch, LatentHeat};
 use crate::heat::error::HeatError;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::solver::StageSolver;
 use crate::linalg::anderson::Anderson;
@@ -80,12 +80,12 @@ impl MeltingIteration {
         &self.temperature
     }
 
-    /// Replaces `rate`, the load on a backward Euler step from the heat content `before`, by the rate of that step, melting
-    /// included; the number of iterations.
+    /// Replaces `rate`, the load on a backward Euler step from the heat content `before`, by the rate of that step,
+    /// melting included; the number of iterations.
     pub fn solve(
         &mut self,
         law: &LatentHeat,
-        layout: &Layout,
+        layout: &HeatLayout,
         solver: &mut StageSolver,
         coefficients: StageCoefficients,
         before: &[f64],
@@ -122,7 +122,7 @@ impl MeltingIteration {
 }
 
 /// Largest difference of two fields at the nodes \[K]; `values` is a buffer.
-fn largest_difference(layout: &Layout, a: &[f64], b: &[f64], values: &mut Vec<f64>) -> f64 {
+fn largest_difference(layout: &HeatLayout, a: &[f64], b: &[f64], values: &mut Vec<f64>) -> f64 {
     let (mut largest, mut difference) = (0.0_f64, Vec::new());
     for (body, (a, b)) in layout.bodies().into_iter().zip(layout.split(a).into_iter().zip(layout.split(b))) {
         let nodal = &body.nodal;

@@ -2,7 +2,7 @@
 
 use super::column::{ColumnMelting, DepthColumn};
 use crate::heat::melting::Melting;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::mesh::nodal::Nodal;
 
 /// Heat content over `ρc` from which on iron boils \[K], and what is molten below a surface node needs no exact place.
@@ -23,20 +23,20 @@ pub struct ColumnSearch {
     /// Heat content at the nodes.
     pub values: Vec<f64>,
     found: ColumnMelting,
-    /// Whether the nodes alone decide what is molten.
+    /// True where the nodes alone decide what is molten.
     pub by_nodes: bool,
 }
 
 impl LatentHeat {
     /// Latent heat for the parameters and meshes of a layout; `None` if melting is left out.
-    pub fn new(layout: &Layout) -> Option<Self> {
+    pub fn new(layout: &HeatLayout) -> Option<Self> {
         let melting = Melting::new(&layout.config)?;
         Some(Self { melting, columns: layout.bodies().map(|body| DepthColumn::new(&body.modes)) })
     }
 
-    /// Replaces `latent` by the coefficients of the latent part below one surface node of a body (0: wheel, 1: rail) with the
-    /// nodes `nodal` and the heat content `row`; the molten thickness \[m], `None` if nothing has melted and `latent` is left
-    /// alone.
+    /// Replaces `latent` by the coefficients of the latent part below one surface node of a body (0: wheel, 1: rail)
+    /// with the nodes `nodal` and the heat content `row`; the molten thickness \[m], `None` if nothing has melted and
+    /// `latent` is left alone.
     pub fn below(
         &self,
         body: usize,
@@ -77,7 +77,7 @@ impl LatentHeat {
     }
 
     /// Replaces `out` by the coefficients of the latent part of both bodies with the heat content `content`.
-    pub fn find(&self, layout: &Layout, content: &[f64], out: &mut Vec<f64>, search: &mut ColumnSearch) {
+    pub fn find(&self, layout: &HeatLayout, content: &[f64], out: &mut Vec<f64>, search: &mut ColumnSearch) {
         out.clear();
         out.resize(content.len(), 0.0);
         let fields = layout.split(content).into_iter().zip(layout.split_mut(out));

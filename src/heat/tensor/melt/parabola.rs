@@ -31,7 +31,7 @@ pub fn sections(melting: &Melting, [a, b, c]: [f64; 3]) -> ([f64; 6], usize) {
 pub struct QuadraturePoint {
     /// Place in the layer from −1 to 1.
     pub place: f64,
-    /// Its weight.
+    /// Weight of the point.
     pub weight: f64,
 }
 

@@ -50,7 +50,8 @@ impl HeatBody {
         self.add_load(first, load, &self.modes.surface, out);
     }
 
-    /// Adds a load given at the nodes `first..` to a right-hand side; `across` are the values of the modes where it enters.
+    /// Adds a load given at the nodes `first..` to a right-hand side; `across` are the values of the modes where it
+    /// enters.
     pub fn add_load(&self, first: usize, load: &[f64], across: &[f64], out: &mut [f64]) {
         let nm = self.modes.len();
         // Most of a surface bears no load.

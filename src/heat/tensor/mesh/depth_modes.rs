@@ -1,4 +1,4 @@
-//! The factor of the tensor meshes across the streamlines: eigenmodes over the depth.
+//! Factor of the tensor meshes across the streamlines: eigenmodes over the depth.
 
 use super::section::Section;
 use crate::heat::error::HeatError;
@@ -7,10 +7,10 @@ use nalgebra::DMatrix;
 
 /// Eigenpairs of the direction across the streamlines.
 ///
-/// `∫ G φₘ′φₙ′ + (α/k) (φₘ(0) φₙ(0) + ∫ b φₘ φₙ) = λₘ δₘₙ`, `∫ G φₘ φₙ = δₘₙ`. The weight `G = g w/w₀` is that of the polar
-/// element times the width of the section over that of the contact, α the coefficient of convection to the air, `b` the bare
-/// surface beside the contact. The eigenvalues span twelve decades (boundary layers of micrometres in bodies of decimetres),
-/// and heat balances sum over all of them: the pencil is solved in double-double precision.
+/// `∫ G φₘ′φₙ′ + (α/k) (φₘ(0) φₙ(0) + ∫ b φₘ φₙ) = λₘ δₘₙ`, `∫ G φₘ φₙ = δₘₙ`. The weight `G = g w/w₀` is that of the
+/// polar element times the width of the section over that of the contact, α the coefficient of convection to the air,
+/// `b` the bare surface beside the contact. The eigenvalues span twelve decades (boundary layers of micrometres in
+/// bodies of decimetres), and heat balances sum over all of them: the pencil is solved in double-double precision.
 #[derive(Clone, Debug)]
 pub struct DepthModes {
     /// Eigenvalues `λ` [1/m²], ascending.
@@ -35,19 +35,20 @@ pub struct DepthModes {
     pub curvature: DMatrix<f64>,
     /// Depth of the nodes [m].
     pub depths: Vec<f64>,
-    /// Half the thickness of each layer times the coefficients of `G` as a polynomial of the place in it, from −1 to 1 [m].
+    /// Half the thickness of each layer times the coefficients of `G` as a polynomial of the place in it, from −1 to 1
+    /// [m].
     pub weights: Vec<[f64; 3]>,
-    /// Whether the last node is held at the reference temperature.
+    /// True where the last node is held at the reference temperature.
     pub fixed: bool,
 }
 
-/// Modes are padded to a multiple of this number with empty ones, so that inner loops run on full registers. Wider ones than
-/// those of four numbers need a multiple of theirs: `rows` leaves out what does not fill a register.
+/// Modes are padded to a multiple of this number with empty ones, so that inner loops run on full registers. Wider ones
+/// than those of four numbers need a multiple of theirs: `rows` leaves out what does not fill a register.
 const PADDING: usize = 4;
 
 impl DepthModes {
-    /// Quadratic elements on the layers of a section, `g = 1 − curvature z`; `fixed` holds the last node, `biot` is `α/k`
-    /// [1/m].
+    /// Quadratic elements on the layers of a section, `g = 1 − curvature z`; `fixed` holds the last node, `biot` is
+    /// `α/k` [1/m].
     pub fn new(section: &Section, curvature: f64, fixed: bool, biot: f64) -> Result<Self, HeatError> {
         let layers = &section.layers;
         let n = 2 * layers.len() - 1;

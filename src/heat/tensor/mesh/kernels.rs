@@ -1,7 +1,8 @@
 //! Loops over the rows of fields, where a row holds the modes at one node along the surface.
 //!
-//! They take much of the time of a step, and are written for the vector registers of the machine that runs them. Results of
-//! different machines differ by round-off: by the order of sums, and where a product and a sum are rounded at once.
+//! They take much of the time of a step, and are written for the vector registers of the machine that runs them.
+//! Results of different machines differ by round-off: by the order of sums, and where a product and a sum are rounded
+//! at once.
 
 use crate::linalg::vectorised::vectorised;
 

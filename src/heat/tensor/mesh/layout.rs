@@ -28,7 +28,7 @@ const LARGEST_ALONG_RAIL: f64 = 0.05;
 
 /// Meshes and modes of both bodies; immutable.
 #[derive(Clone, Debug)]
-pub struct Layout {
+pub struct HeatLayout {
     /// Parameters that the meshes follow from.
     pub config: HeatConfig,
     /// Mesh of the wheel.
@@ -39,7 +39,7 @@ pub struct Layout {
     pub zone_cells: usize,
 }
 
-impl Layout {
+impl HeatLayout {
     /// Meshes with layers that grow by `growth` from one to the next.
     ///
     /// Fails for parameters on which no mesh can be laid, and if the modes over the depth are not found.

@@ -5,7 +5,7 @@ use super::kernels::{dot, weighted_change};
 use crate::heat::error::HeatError;
 use nalgebra::DMatrix;
 
-/// Both ways between coefficients of modes and values at the nodes across the streamlines.
+/// Maps in both directions between coefficients of modes and values at the nodes across the streamlines.
 #[derive(Clone, Debug)]
 pub struct Nodal {
     /// Number of modes, padding included.
@@ -18,17 +18,19 @@ pub struct Nodal {
     pub weights: Vec<f64>,
     /// The values again, mode by mode.
     shapes: Vec<f64>,
-    /// How far into the depth a mode counts: the steep ones live in the thin layers at the surface only.
+    /// Number of nodes, from the surface on, at which a mode counts: the steep ones live in the thin layers at the
+    /// surface.
     reach: Vec<usize>,
     /// Largest value of every mode at a node.
     peaks: Vec<f64>,
 }
 
-/// Value of a mode relative to its largest one below which it does not count where a field is searched for its extremes.
+/// Value of a mode relative to its largest one below which it does not count where a field is searched for its
+/// extremes.
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl Nodal {
-    /// For the nodes of `modes` that are not held.
+    /// Maps for the nodes of `modes` that are not held.
     pub fn new(modes: &DepthModes) -> Result<Self, HeatError> {
         let (size, nm) = (modes.shapes.nrows(), modes.len());
         let square = modes.shapes.columns(0, size).into_owned();
@@ -94,8 +96,8 @@ impl Nodal {
         rows.fold(EMPTY, |range, row| joined(range, self.extremes_of_row(row)))
     }
 
-    /// Bounds of the field `to`, where `before` are those of the field `from`: exact at the nodes that change by more than
-    /// `slight` or might leave the bounds `allowed`.
+    /// Bounds of the field `to`, where `before` are those of the field `from`: exact at the nodes that change by more
+    /// than `slight` or might leave the bounds `allowed`.
     pub fn bounds_after(&self, [from, to]: [&[f64]; 2], known: &Known) -> [f64; 2] {
         let pairs = from.chunks_exact(self.modes).zip(to.chunks_exact(self.modes));
         let bounds = |range: [f64; 2], (from, to): (&[f64], &[f64])| {
@@ -132,7 +134,7 @@ impl Nodal {
     }
 }
 
-/// What is known of a field before it is searched.
+/// Knowledge of a field before it is searched.
 pub struct Known {
     /// Bounds before the step.
     pub before: [f64; 2],

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// The largest layer in thicknesses of the body.
 const LARGEST_LAYER: f64 = 0.15;
-/// The same where layers end with the parts of a section.
+/// The largest layer where layers end with the parts of a section, in thicknesses of the body.
 const LARGEST_OF_PARTS: f64 = 0.2;
 /// Thickness in which a part of the section counts, in thicknesses of the body.
 const SLIGHT: f64 = 1e-3;
@@ -23,14 +23,14 @@ pub struct Section {
     pub layers: Vec<f64>,
     /// Widths at both ends of each layer, over that of the contact [1].
     pub widths: Vec<[f64; 2]>,
-    /// Length of bare surface beside each layer per depth, over the width of the contact [1/m]; the contact's own strip is
-    /// not part of it.
+    /// Length of bare surface beside each layer per depth, over the width of the contact [1/m]; the contact's own strip
+    /// is not part of it.
     pub bare: Vec<f64>,
     /// Width of the heat of brake blocks over that of the contact, at least 1 [1].
     pub block: f64,
 }
 
-/// LayerGrading of the layers.
+/// Grading of the layers.
 #[derive(Clone, Copy, Debug)]
 pub struct LayerGrading {
     /// Thickness of the first layer [m].
@@ -41,9 +41,9 @@ pub struct LayerGrading {
 
 /// A part of a section from where the one before ends.
 struct SectionPart {
-    /// Its lower end [m].
+    /// Lower end [m].
     end: f64,
-    /// Its width over that of the contact, unless heat still spreads in it [1].
+    /// Width over that of the contact, unless heat still spreads in it [1].
     width: Option<f64>,
     /// Bare sides per depth and width of the contact, before the polar weight [1/m].
     bare: f64,
@@ -52,7 +52,7 @@ struct SectionPart {
 }
 
 impl Section {
-    /// As wide as the contact everywhere.
+    /// Section that is as wide as the contact everywhere.
     pub fn even(layers: Vec<f64>) -> Self {
         let n = layers.len() - 1;
         Self { layers, widths: vec![[1.0; 2]; n], bare: vec![0.0; n], block: 1.0 }
@@ -154,9 +154,9 @@ fn layers(LayerGrading { first, growth }: LayerGrading, thickness: f64) -> Vec<f
 /// Width `w/w₀` over which a half-space conducts at the distance `z = ζ w₀` from a heated strip of the width `w₀`:
 /// `1 + πζ − (π − 4/π) ζ/(1 + 2ζ)`.
 ///
-/// The slope at the strip, 4/π, makes the mean temperature of the strip exact to first order in `√(κt)/w₀`; far from it heat
-/// flows through half-circles, with the slope π. The 2 is chosen such that the mean temperature of the strip under constant
-/// flux is within 2.5 % of the three-dimensional one at all times.
+/// The slope at the strip, 4/π, makes the mean temperature of the strip exact to first order in `√(κt)/w₀`; far from it
+/// heat flows through half-circles, with the slope π. The 2 is chosen such that the mean temperature of the strip under
+/// constant flux is within 2.5 % of the three-dimensional one at all times.
 pub fn spread(zeta: f64) -> f64 {
     1.0 + PI * zeta - (PI - 4.0 / PI) * zeta / (1.0 + 2.0 * zeta)
 }

@@ -13,7 +13,8 @@ pub fn even_conductance(thermal: &Thermal) -> Option<f64> {
     }
 }
 
-/// First and one past the last element of the zone that conducts, from the moments `∫ k_c (1, ξ, ξ²) ds` on all of them.
+/// First and one past the last element of the zone that conducts, from the moments `∫ k_c (1, ξ, ξ²) ds` on all of
+/// them.
 pub fn conducting(moments: &[[f64; 3]]) -> Range<usize> {
     let conducts = |c: &[f64; 3]| c[0] > 0.0;
     match moments.iter().position(conducts) {
@@ -22,7 +23,8 @@ pub fn conducting(moments: &[[f64; 3]]) -> Range<usize> {
     }
 }
 
-/// `∫ k_c Nⱼ w̃ᵢ ds` of one element from the moments `∫ k_c (1, ξ, ξ²) ds`; `sigma` is the upwinding of the test functions [1].
+/// `∫ k_c Nⱼ w̃ᵢ ds` of one element from the moments `∫ k_c (1, ξ, ξ²) ds`; `sigma` is the upwinding of the test
+/// functions [1].
 pub fn of_element([whole, first, second]: [f64; 3], sigma: f64) -> [[f64; 2]; 2] {
     let (left, right) = (whole - first, first);
     [
@@ -40,7 +42,8 @@ pub struct ContactBands {
 }
 
 impl ContactBands {
-    /// From the moments of the conductance and the upwinding `τ v / h` on the elements between the nodes.
+    /// Replaces the rows by those for the moments of the conductance and the upwinding `τ v / h` on the elements
+    /// between the nodes.
     pub fn set(&mut self, moments: &[[f64; 3]], upwind: &[f64]) {
         for band in [&mut self.lower, &mut self.diagonal, &mut self.upper] {
             band.clear();

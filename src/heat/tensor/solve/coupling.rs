@@ -1,9 +1,10 @@
-//! Conduction through the contact in an implicit stage: what it leaves of a difference between the surface temperatures.
+//! Conduction through the contact in an implicit stage.
 //!
-//! That is the solution of `A d = d₀`, `A = 1 + β (G_w C̃_w + G_r C̃_r)`. Under a conductance that is the same all over the patch
-//! only the two elements in which the patch ends differ from those of a patch that ends at nodes. The factors of `A₀`, with
-//! full conductance in all elements, belong to the inverses of both bodies and are kept with them; the two elements change four
-//! columns of it (Sherman, Morrison & Woodbury; W. W. Hager, *SIAM Review* 31 (1989) 221–239).
+//! The difference that it leaves of one between the surface temperatures is the solution of `A d = d₀`,
+//! `A = 1 + β (G_w C̃_w + G_r C̃_r)`. Under a conductance that is the same all over the patch only the two elements in
+//! which the patch ends differ from those of a patch that ends at nodes. The factors of `A₀`, with full conductance in
+//! all elements, belong to the inverses of both bodies and are kept with them; the two elements change four columns of
+//! it (Sherman, Morrison & Woodbury; W. W. Hager, *SIAM Review* 31 (1989) 221–239).
 
 use super::conductance::{ContactBands, of_element};
 use super::inverse::{Inverse, InverseKey};
@@ -14,7 +15,7 @@ use crate::heat::tensor::mesh::kernels::add;
 use crate::linalg::DenseSystem;
 use nalgebra::{Matrix4, Vector4};
 
-/// What a coupling is made of.
+/// Data of a coupling.
 pub struct Conduction<'a> {
     /// Moments of the conductance on the elements of the contact [W/(m K)].
     pub moments: &'a [[f64; 3]],
@@ -74,7 +75,7 @@ struct Full {
 }
 
 impl Full {
-    /// For the conductance `value` in all elements.
+    /// Replaces the factors by those for the conductance `value` in all elements.
     fn set(&mut self, conduction: &Conduction, value: f64) -> Result<(), HeatError> {
         let moments: Vec<_> = (0..conduction.lengths.len()).map(|e| conduction.full(value, e)).collect();
         let bands = conduction.sides.map(|(inverse, _)| {
@@ -102,7 +103,7 @@ fn ends_of(n: usize) -> [usize; 4] {
     [0, 1, n - 2, n - 1]
 }
 
-/// What the first and the last element change: `A = A₀ + U Sᵀ`, where `S` picks their nodes.
+/// Change by the first and the last element: `A = A₀ + U Sᵀ`, where `S` picks their nodes.
 #[derive(Default)]
 struct Change {
     /// `A₀⁻¹ U`, column after column.
@@ -112,7 +113,8 @@ struct Change {
 }
 
 impl Change {
-    /// For what these elements lack of the conductance `value`; whether `A` has an inverse.
+    /// Replaces the change by that of the elements that lack a part of the conductance `value`, and tells whether `A`
+    /// has an inverse.
     fn set(&mut self, full: &Full, conduction: &Conduction, value: f64) -> bool {
         let (last, n) = (conduction.moments.len() - 1, conduction.moments.len() + 1);
         self.columns.clear();
@@ -135,7 +137,7 @@ impl Change {
         inverse.is_some()
     }
 
-    /// From `A₀⁻¹ x` to `A⁻¹ x`.
+    /// Turns `A₀⁻¹ x` into `A⁻¹ x`.
     fn apply(&self, x: &mut [f64]) {
         let weights = self.small * Vector4::from(ends_of(x.len()).map(|node| x[node]));
         for (column, weight) in self.columns.chunks_exact(x.len()).zip(&weights) {
@@ -144,13 +146,13 @@ impl Change {
     }
 }
 
-/// The factors of `A`.
+/// Factors of `A`.
 #[derive(Default)]
 pub struct Coupling {
     /// Those of `A₀`, by the inverses of the bodies.
     full: Lru<[InverseKey; 2], Full>,
     change: Change,
-    /// Whether these two hold; else `direct` does.
+    /// True where these two hold; else `direct` does.
     kept: bool,
     /// Factors of `A` itself.
     direct: DenseSystem,
@@ -180,7 +182,7 @@ impl Coupling {
         }
     }
 
-    /// Whether kept factors hold.
+    /// True where kept factors hold.
     #[cfg(test)]
     pub fn is_kept(&self) -> bool {
         self.kept

@@ -4,8 +4,8 @@ use crate::linalg::vectorised::vectorised;
 use pulp::Simd;
 
 vectorised! {
-    /// How an influence decays on the way to the node after the last row, `xᵢ = −lᵢ xᵢ₊₁` with 1 there; the first row in which
-    /// something is left. Rows before that are not touched.
+    /// Decay of an influence on the way to the node after the last row, `xᵢ = −lᵢ xᵢ₊₁` with 1 there. Returns the first
+    /// row in which something is left; rows before that are not touched.
     fn decay_towards<'a, S>(simd, links: &'a [f64], x: &'a mut [f64], width: usize) -> usize {
         let (links, x, k) = (S::as_simd_f64s(links).0, S::as_mut_simd_f64s(x).0, width / S::F64_LANES);
         for i in (0..x.len() / k).rev() {
@@ -25,8 +25,9 @@ vectorised! {
 }
 
 vectorised! {
-    /// How an influence decays on the way from the node of the first row, `mᵢ = −lᵢ₋₁ mᵢ₋₁` with 1 there, times the row of
-    /// `scales`; the number of rows in which something is left. Those after that are not touched. `moving` is a buffer of one row.
+    /// Decay of an influence on the way from the node of the first row, `mᵢ = −lᵢ₋₁ mᵢ₋₁` with 1 there, times the row
+    /// of `scales`. Returns the number of rows in which something is left; those after that are not touched. `moving`
+    /// is a buffer of one row.
     fn decay_from<'a, S>(
         simd,
         links: &'a [f64],
@@ -58,9 +59,9 @@ vectorised! {
 }
 
 vectorised! {
-    /// Sums of the rows of `scales`, and of these times the decay on the way back to every row before them: those of row `k` at
-    /// `j ≤ k` go to `k · strides[0] + j · strides[1]` in `out`, where nothing is left of them it stays as it is. `moving` is a
-    /// buffer of one row.
+    /// Sums of the rows of `scales`, and of these times the decay on the way back to every row before them: those of
+    /// row `k` at `j ≤ k` go to `k · strides[0] + j · strides[1]` in `out`, where nothing is left of them it stays as
+    /// it is. `moving` is a buffer of one row.
     fn decay_pairs<'a, S>(
         simd,
         links: &'a [f64],

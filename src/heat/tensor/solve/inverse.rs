@@ -9,7 +9,7 @@ use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::body::HeatBody;
 use std::ops::Range;
 
-/// What the matrix of an implicit stage in one body depends on.
+/// Data on which the matrix of an implicit stage in one body depends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseKey {
     /// Speed of the stream [m/s].
@@ -34,7 +34,7 @@ pub struct Inverse {
     pub exit: f64,
 }
 
-/// The inverses that were used last.
+/// Inverses that were used last.
 #[derive(Clone, Debug, Default)]
 pub struct Inverses {
     kept: Lru<InverseKey, Inverse>,
@@ -60,7 +60,7 @@ impl Inverses {
         })
     }
 
-    /// The present inverse.
+    /// Present inverse.
     ///
     /// # Panics
     /// If none was ever set.
@@ -68,7 +68,7 @@ impl Inverses {
         self.kept.present()
     }
 
-    /// Its factors, with their buffers.
+    /// Factors of the present inverse, with their buffers.
     ///
     /// # Panics
     /// If none was ever set.
@@ -76,7 +76,7 @@ impl Inverses {
         &mut self.kept.present_mut().factor
     }
 
-    /// What the present inverse belongs to.
+    /// Key of the present inverse.
     #[cfg(test)]
     pub fn key(&self) -> &InverseKey {
         self.kept.key().unwrap()

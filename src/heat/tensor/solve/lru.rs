@@ -3,8 +3,8 @@
 /// Number of values that are kept: eight wheels that drive in turn may need two each.
 const KEPT: usize = 16;
 
-/// Values that were used last, by what they belong to (least recently used: the oldest one makes room); the present one comes
-/// first.
+/// Values that were used last, by what they belong to (least recently used: the oldest one makes room); the present one
+/// comes first.
 #[derive(Clone, Debug)]
 pub struct Lru<K, V> {
     kept: Vec<(Option<K>, V)>,

@@ -6,12 +6,12 @@ use crate::heat::tensor::mesh::body::HeatBody;
 use crate::linalg::{Update, multiply_transposed};
 use std::ops::Range;
 
-/// Surface temperatures at some neighbouring nodes under unit loads at the same nodes.
+/// Influence matrix: surface temperatures at some neighbouring nodes under unit loads at the same nodes.
 ///
 /// Entries of the inverse of a tridiagonal matrix follow from its factors, `X_jj = 1/d_j + r_j w_{j+1} X_{j+1,j+1}`,
-/// `X_ij = −w_{j+1} X_{i,j+1}` for `j < i`, `X_ij = −r_i X_{i+1,j}` for `i < j` (Takahashi, Fagan & Chin 1973). Between nodes
-/// on both sides of a node `t` they are products of what decays on the way to `t` and from there on, so that the sums over
-/// the modes are products of matrices.
+/// `X_ij = −w_{j+1} X_{i,j+1}` for `j < i`, `X_ij = −r_i X_{i+1,j}` for `i < j` (Takahashi, Fagan & Chin 1973). Between
+/// nodes on both sides of a node `t` they are products of what decays on the way to `t` and from there on, so that the
+/// sums over the modes are products of matrices.
 #[derive(Clone, Debug, Default)]
 pub struct SurfaceInfluence {
     /// The temperatures, row-major.
@@ -20,10 +20,10 @@ pub struct SurfaceInfluence {
     count: usize,
     /// Diagonal of the inverse times `φₘ(0)²`, mode by mode, at the nodes.
     diagonal: Vec<f64>,
-    /// What a load at the nodes before `t` does there, and what a load at `t` does at the nodes from there on.
+    /// Influence of a load at the nodes before `t` on that node, and of a load at `t` on the nodes from there on.
     before: Vec<f64>,
     after: Vec<f64>,
-    /// One number per mode that a recurrence carries along.
+    /// Buffer of one number per mode, which a recurrence carries along.
     moving: Vec<f64>,
 }
 
@@ -44,7 +44,8 @@ impl SurfaceInfluence {
         self.matrix.resize(self.count * self.count, 0.0);
         self.set_diagonal(factor, body, &range);
         if self.count > 0 {
-            // An influence decays from a node to one before it by the factors of the latter's row, and the other way round.
+            // An influence decays from a node to one before it by the factors of the latter's row, and the other way
+            // round.
             let (first, last) = (range.start * nm, (range.end - 1) * nm);
             self.fill(&factor.w[first + nm..last + nm], nm, 0..self.count, Triangle::Lower);
             self.fill(&factor.r[first..last], nm, 0..self.count, Triangle::Upper);
@@ -52,8 +53,8 @@ impl SurfaceInfluence {
         self.add_round_trip(factor, body, &range);
     }
 
-    /// Diagonal of the inverse at the nodes `range`, of which the last one is eliminated last, weighted with `φₘ(0)²`; without
-    /// what goes around the ring, which includes all of the last node if anything does.
+    /// Diagonal of the inverse at the nodes `range`, of which the last one is eliminated last, weighted with `φₘ(0)²`;
+    /// without what goes around the ring, which includes all of the last node if anything does.
     fn set_diagonal(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
         let nm = body.modes.len();
         let around = !factor.fill(range, nm)[0].is_empty();
@@ -77,8 +78,8 @@ impl SurfaceInfluence {
         }
     }
 
-    /// Fills one triangle of the block of the nodes `nodes`; row `i` of `links` tells how an influence decays between the nodes
-    /// `i` and `i + 1`.
+    /// Fills one triangle of the block of the nodes `nodes`; row `i` of `links` tells how an influence decays between
+    /// the nodes `i` and `i + 1`.
     fn fill(&mut self, links: &[f64], nm: usize, nodes: Range<usize>, triangle: Triangle) {
         let Range { start, end } = nodes;
         if nodes.len() <= PAIRS {
@@ -107,7 +108,8 @@ impl SurfaceInfluence {
         self.fill(links, nm, middle..end, triangle);
     }
 
-    /// Adds what the last node takes part in to the response at the nodes `range`, if the ring is closed for some modes.
+    /// Adds what the last node takes part in to the response at the nodes `range`, if the ring is closed for some
+    /// modes.
     fn add_round_trip(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
         let nm = body.modes.len();
         let [column, row] = factor.fill(range, nm);
@@ -135,7 +137,7 @@ impl SurfaceInfluence {
     }
 }
 
-/// One of the two triangles of a matrix.
+/// Triangle of a matrix.
 #[derive(Clone, Copy)]
 enum Triangle {
     Lower,

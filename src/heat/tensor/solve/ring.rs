@@ -16,8 +16,8 @@ pub struct Ring<'a> {
     pub last: usize,
 }
 
-/// Entries of a row of [`Ring`] before anything is eliminated: the sum of the row, and both neighbours, each the part that goes
-/// with α and the other one.
+/// Entries of a row of [`Ring`] before anything is eliminated: the sum of the row, and both neighbours, each the part
+/// that goes with α and the other one.
 struct Entries {
     sum: [f64; 2],
     below: [f64; 2],
@@ -42,10 +42,10 @@ impl Ring<'_> {
     }
 }
 
-/// What an elimination carries from row to row, mode by mode.
+/// Numbers that an elimination carries from row to row, mode by mode.
 #[derive(Clone, Debug, Default)]
 pub struct Carried {
-    /// Whether the last node still has entries with the present one.
+    /// True while the last node has entries with the present one.
     pub alive: bool,
     /// Sum and inverse pivot of the row before.
     sum: Vec<f64>,
@@ -53,7 +53,7 @@ pub struct Carried {
     /// The column of the last node over the pivot in the row before, and the entry of its row with the next one.
     column: Vec<f64>,
     row: Vec<f64>,
-    /// What filled rows take from the sum of the last one.
+    /// Sum that filled rows take from that of the last one.
     taken: Vec<f64>,
 }
 
@@ -71,8 +71,9 @@ impl Carried {
 vectorised! {
     /// Factors `wᵢ`, `rᵢ` and `1/dᵢ` of the rows of some steps, and the filled column and row of the last node there.
     ///
-    /// Elimination in terms of row sums e (Grassmann, Taksar & Heyman, *Oper. Res.* 33 (1985)): nothing cancels in a fast
-    /// stream, `eᵢ = sᵢ − Lᵢ eᵢ₋₁/dᵢ₋₁`, `dᵢ = eᵢ − Uᵢ − cᵢ` with the row sums s, of the mass alone, and the column c.
+    /// Elimination in terms of row sums e (Grassmann, Taksar & Heyman, *Oper. Res.* 33 (1985)): nothing cancels in a
+    /// fast stream, `eᵢ = sᵢ − Lᵢ eᵢ₋₁/dᵢ₋₁`, `dᵢ = eᵢ − Uᵢ − cᵢ` with the row sums s, of the mass alone, and the
+    /// column c.
     fn factorise_filled<'a, S>(
         simd,
         ring: &'a Ring<'a>,
@@ -103,7 +104,7 @@ vectorised! {
 }
 
 vectorised! {
-    /// The same for the steps up to the last one, without fill.
+    /// Factors of the rows of the steps up to the last one, without fill.
     fn factorise<'a, S>(
         simd,
         ring: &'a Ring<'a>,
@@ -131,17 +132,17 @@ vectorised! {
     }
 }
 
-/// Registers of modes that go from row to row together. Every division waits for that of the row before: one register alone would
-/// wait, and with more there is no room for what is carried along.
+/// Registers of modes that go from row to row together. Every division waits for that of the row before: one register
+/// alone would wait, and with more there is no room for what is carried along.
 const BLOCK: usize = 4;
 
-/// Where the factors of all modes go, in registers of type `V`.
+/// Factors of all modes while they are computed, in registers of type `V`.
 struct Filled<'a, V> {
     factors: [&'a mut [V]; 3],
     fill: [&'a mut [V]; 2],
     /// Sum, inverse pivot, column, row and what is taken from the last sum, of the row before.
     carried: [&'a mut [V]; 5],
-    /// What is left of column and row after the last step.
+    /// Magnitude of column and row after the last step.
     left: V,
 }
 

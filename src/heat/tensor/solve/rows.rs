@@ -1,5 +1,5 @@
-//! Elimination, substitution and matrix products over the rows of fields, where a row holds the modes at one node along the
-//! surface; see [`kernels`](crate::heat::tensor::mesh::kernels).
+//! Elimination, substitution and matrix products over the rows of fields, where a row holds the modes at one node along
+//! the surface; see [`kernels`](crate::heat::tensor::mesh::kernels).
 
 use super::decay::less;
 use super::transport::Transport;
@@ -7,7 +7,8 @@ use crate::linalg::Update;
 use crate::linalg::vectorised::vectorised;
 
 vectorised! {
-    /// `xᵢ ← xᵢ − lᵢ xᵢ₋₁` from the second row of `x` on, to which the first row of `links` belongs; rows have `width` numbers.
+    /// `xᵢ ← xᵢ − lᵢ xᵢ₋₁` from the second row of `x` on, to which the first row of `links` belongs; rows have `width`
+    /// numbers.
     fn eliminate<'a, S>(simd, links: &'a [f64], x: &'a mut [f64], width: usize) {
         let (links, x, k) = (S::as_simd_f64s(links).0, S::as_mut_simd_f64s(x).0, width / S::F64_LANES);
         for (i, link) in links.chunks_exact(k).enumerate() {
@@ -37,8 +38,8 @@ vectorised! {
 }
 
 vectorised! {
-    /// Surface values of `xᵢ ← dᵢ (xᵢ − cᵢ xₙ) − lᵢ xᵢ₊₁` from the last row `n`, which is `dₙ xₙ`, to the first; the column c may be
-    /// empty, or end two rows before the last. `moving` is a buffer of two rows.
+    /// Surface values of `xᵢ ← dᵢ (xᵢ − cᵢ xₙ) − lᵢ xᵢ₊₁` from the last row `n`, which is `dₙ xₙ`, to the first; the
+    /// column c may be empty, or end two rows before the last. `moving` is a buffer of two rows.
     fn substituted_surface<'a, S>(
         simd,
         factors: [&'a [f64]; 3],
@@ -78,8 +79,8 @@ vectorised! {
 }
 
 vectorised! {
-    /// Adds the rows `shape · load` to `x`, after their elimination by the links and the row of the last node, which may be empty
-    /// or end two rows before it. `moving` is a buffer of two rows.
+    /// Adds the rows `shape · load` to `x`, after their elimination by the links and the row of the last node, which
+    /// may be empty or end two rows before it. `moving` is a buffer of two rows.
     fn add_eliminated<'a, S>(
         simd,
         factors: [&'a [f64]; 2],
@@ -137,7 +138,8 @@ vectorised! {
 }
 
 vectorised! {
-    /// Adds `factor` times the product of a row vector `g` with the matrix of three bands (lower, diagonal, upper) to `row`.
+    /// Adds `factor` times the product of a row vector `g` with the matrix of three bands (lower, diagonal, upper) to
+    /// `row`.
     fn add_banded<'a, S>(simd, factor: f64, g: &'a [f64], bands: [&'a [f64]; 3], row: &'a mut [f64]) {
         let _ = simd;
         let (n, [lower, diagonal, upper]) = (row.len(), bands.map(|band| &band[..row.len()]));
@@ -155,8 +157,8 @@ vectorised! {
 }
 
 vectorised! {
-    /// `(α M̃ + β F) x` for the rows of a body, with `α = a + b λ` of the modes' `values` λ; it replaces `out` or is added to it.
-    /// Ends of an open streamline have no outer neighbour; the entries there are zero.
+    /// `(α M̃ + β F) x` for the rows of a body, with `α = a + b λ` of the modes' `values` λ; it replaces `out` or is
+    /// added to it. Ends of an open streamline have no outer neighbour; the entries there are zero.
     fn tridiagonal_product<'a, S>(
         simd,
         line: &'a Transport,

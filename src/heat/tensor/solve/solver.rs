@@ -3,22 +3,24 @@
 use super::coefficients::StageCoefficients;
 use super::stage::Stage;
 use crate::heat::error::HeatError;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 
-/// Angular velocity [rad/s] below which, and step [s] from which on, conduction along the streamlines is computed exactly.
+/// Angular velocity [rad/s] below which, and step [s] from which on, conduction along the streamlines is computed
+/// exactly.
 ///
-/// The direct solver works mode by mode. For that it replaces the factor `1/r` of conduction around the wheel by `r/r_o²`,
-/// which is right at the tread. In a wheel that turns, the stream outweighs conduction around it, and nothing is lost. In
-/// a standing wheel heat spreads around the hub, too, and an iteration (GMRES) corrects the solution; short steps do not
-/// need it, since heat does not come far. Measured without correction, relative: faster rolling 1e-6 in all stationary
-/// temperatures; locked wheel 4e-5 in the maxima and 2e-3 in the wheel's mean after 10 s (stationary 5e-4 and 8e-2).
+/// The direct solver works mode by mode. For that it replaces the factor `1/r` of conduction around the wheel by
+/// `r/r_o²`, which is right at the tread. In a wheel that turns, the stream outweighs conduction around it, and nothing
+/// is lost. In a standing wheel heat spreads around the hub, too, and an iteration (GMRES) corrects the solution; short
+/// steps do not need it, since heat does not come far. Measured without correction, relative: faster rolling 1e-6 in
+/// all stationary temperatures; locked wheel 4e-5 in the maxima and 2e-3 in the wheel's mean after 10 s (stationary
+/// 5e-4 and 8e-2).
 pub const CURVED_BELOW: f64 = 1.0;
 pub const CURVED_STEP: f64 = 0.01;
 
 /// Relative residual of the exact operator at which its correction stops, in steps and in the stationary state, and at
-/// which it is accepted where round-off stops it. In steps the heat balance holds at any residual: what the modal solver
-/// leaves out moves heat along the streamlines only.
+/// which it is accepted where round-off stops it. In steps the heat balance holds at any residual: what the modal
+/// solver leaves out moves heat along the streamlines only.
 const STEP_TOLERANCE: f64 = 1e-10;
 const STATIONARY_TOLERANCE: f64 = 1e-13;
 const ACCEPTED: f64 = 1e-9;
@@ -35,7 +37,7 @@ impl StageSolver {
     /// `x ← S⁻¹ x` with the exact operator where it matters; the number of iterations of its correction.
     pub fn solve(
         &mut self,
-        layout: &Layout,
+        layout: &HeatLayout,
         coefficients: StageCoefficients,
         x: &mut [f64],
     ) -> Result<usize, HeatError> {
@@ -58,7 +60,7 @@ impl StageSolver {
 /// Exact operator with the modal solver as its preconditioner.
 struct ExactOperator<'a> {
     stage: &'a mut Stage,
-    layout: &'a Layout,
+    layout: &'a HeatLayout,
     coefficients: StageCoefficients,
 }
 

@@ -7,7 +7,7 @@ use super::inverse::{InverseKey, Inverses};
 use super::transport::Transport;
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::body::HeatBody;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::linalg::Update;
 use std::ops::Range;
 
@@ -36,20 +36,20 @@ pub struct BodyOperator {
 pub struct StageKey {
     /// Velocity of the wheel's centre [m/s] and angular velocity [rad/s].
     pub speeds: [f64; 2],
-    /// The same of the matrix that is inverted.
+    /// Velocities of the matrix that is inverted.
     pub inverted: [f64; 2],
     /// Weights of storage and flow.
     pub coefficients: StageCoefficients,
     /// Inverse of the step that upwinding sees [1/s].
     pub rate: f64,
-    /// Whether conduction along the streamlines of the wheel is exact.
+    /// True where conduction along the streamlines of the wheel is exact.
     pub curved: bool,
 }
 
 /// Everything needed to apply and to invert the matrix of an implicit stage.
 #[derive(Default)]
 pub struct Stage {
-    /// What the operators below were made for; `None`: there are none.
+    /// Key of the operators below; `None`: there are none.
     key: Option<StageKey>,
     conductance: Vec<[f64; 3]>,
     pub wheel: BodyOperator,
@@ -57,17 +57,18 @@ pub struct Stage {
     /// Contact elements and nodes, counted from the first of the zone.
     pub elements: Range<usize>,
     nodes: Range<usize>,
-    /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature difference.
+    /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature
+    /// difference.
     coupling: Coupling,
     /// Temperature of the wheel less that of the rail at the contact nodes, of the field that was multiplied last.
     pub jump: Vec<f64>,
-    /// The same of the field that was solved for last: the rate of the jump.
+    /// Rate of that jump, from the field that was solved for last.
     pub growth: Vec<f64>,
 }
 
 impl Stage {
     /// Prepares the operators; does nothing where they have not changed.
-    pub fn set(&mut self, layout: &Layout, conductance: &[[f64; 3]], key: StageKey) -> Result<(), HeatError> {
+    pub fn set(&mut self, layout: &HeatLayout, conductance: &[[f64; 3]], key: StageKey) -> Result<(), HeatError> {
         if self.key == Some(key) && self.conductance == conductance {
             return Ok(());
         }
@@ -104,7 +105,7 @@ impl Stage {
     }
 
     /// Prepares conduction through the contact between the present inverses; `even` is the conductance of all places.
-    fn set_coupling(&mut self, layout: &Layout, keys: [InverseKey; 2], even: Option<f64>) -> Result<(), HeatError> {
+    fn set_coupling(&mut self, layout: &HeatLayout, keys: [InverseKey; 2], even: Option<f64>) -> Result<(), HeatError> {
         let conduction = Conduction {
             moments: &self.conductance[self.elements.clone()],
             lengths: &layout.wheel.line.lengths[keys[0].nodes.start..keys[0].nodes.end - 1],
@@ -115,12 +116,12 @@ impl Stage {
         self.coupling.set(keys, &conduction)
     }
 
-    /// Whether conduction along the streamlines of the wheel is exact.
+    /// True where conduction along the streamlines of the wheel is exact.
     pub fn is_curved(&self) -> bool {
         self.key.is_some_and(|key| key.curved)
     }
 
-    /// Whether heat is conducted through the contact.
+    /// True where heat is conducted through the contact.
     pub fn coupled(&self) -> bool {
         !self.nodes.is_empty()
     }
@@ -132,7 +133,7 @@ impl Stage {
     }
 
     /// `out ← S x` with the exact operator, both bodies one after the other in `x`.
-    pub fn multiply(&mut self, layout: &Layout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
+    pub fn multiply(&mut self, layout: &HeatLayout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let [x_wheel, x_rail] = layout.split(x);
         let [wheel, rail] = layout.split_mut(out);
         coefficients.multiply(&layout.wheel, &self.wheel.transport, x_wheel, wheel, Update::Replace);
@@ -141,14 +142,14 @@ impl Stage {
     }
 
     /// Prepares [`Self::multiply_still`] for the present operators.
-    pub fn set_still(&mut self, layout: &Layout) {
+    pub fn set_still(&mut self, layout: &HeatLayout) {
         for (body, operator) in [(&layout.wheel, &mut self.wheel), (&layout.rail, &mut self.rail)] {
             operator.still.set_still(&operator.transport, &body.line, body.conductivity);
         }
     }
 
     /// `out ← out + S x` without what the stream carries.
-    pub fn multiply_still(&mut self, layout: &Layout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
+    pub fn multiply_still(&mut self, layout: &HeatLayout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let [x_wheel, x_rail] = layout.split(x);
         let [wheel, rail] = layout.split_mut(out);
         coefficients.multiply(&layout.wheel, &self.wheel.still, x_wheel, wheel, Update::Add);
@@ -157,7 +158,7 @@ impl Stage {
     }
 
     /// Adds what is no part of the modal solver: exact conduction along the streamlines, and that through the contact.
-    fn add_conduction(&mut self, layout: &Layout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
+    fn add_conduction(&mut self, layout: &HeatLayout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let x_wheel = &x[..layout.wheel.size()];
         let [wheel, rail] = layout.split_mut(out);
         if self.is_curved() {
@@ -176,7 +177,7 @@ impl Stage {
     }
 
     /// Fills [`Self::jump`] for the field `x`.
-    pub fn set_jump(&mut self, layout: &Layout, x: &[f64]) {
+    pub fn set_jump(&mut self, layout: &HeatLayout, x: &[f64]) {
         let [wheel, rail] = layout.split(x);
         let (at_wheel, at_rail) = (self.contact_nodes(&layout.wheel), self.contact_nodes(&layout.rail));
         layout.wheel.trace(at_wheel, wheel, &mut self.wheel.trace);
@@ -185,8 +186,9 @@ impl Stage {
         self.jump.extend(self.wheel.trace.iter().zip(&self.rail.trace).map(|(a, b)| a - b));
     }
 
-    /// The same for `x` and `ahead` times its rate, which a stage from `x` has just been solved for.
-    pub fn set_jump_ahead(&mut self, layout: &Layout, x: &[f64], rate: Option<&[f64]>, ahead: f64) {
+    /// Fills [`Self::jump`] for the field `x` and `ahead` times its rate, which a stage from `x` has just been solved
+    /// for.
+    pub fn set_jump_ahead(&mut self, layout: &HeatLayout, x: &[f64], rate: Option<&[f64]>, ahead: f64) {
         let Some(rate) = rate.filter(|_| ahead != 0.0) else { return self.set_jump(layout, x) };
         // The modal solver leaves both; an iteration around it does not.
         if self.is_curved() {
@@ -198,7 +200,7 @@ impl Stage {
     }
 
     /// `x ← P⁻¹ x` with the operator of the modal solver.
-    pub fn invert(&mut self, layout: &Layout, x: &mut [f64]) {
+    pub fn invert(&mut self, layout: &HeatLayout, x: &mut [f64]) {
         let Some(StageKey { coefficients, .. }) = self.key else { return };
         let nodes = layout.bodies().map(|body| self.contact_nodes(body));
         let coupled = self.coupled();
@@ -237,8 +239,9 @@ impl Stage {
 
 #[cfg(test)]
 impl Stage {
-    /// What conduction through the contact leaves of `jump`, by kept factors where it is `even`, else by those of the matrix itself.
-    pub fn left_of(&mut self, layout: &Layout, even: Option<f64>, jump: &[f64]) -> Vec<f64> {
+    /// Temperature difference that conduction through the contact leaves of `jump`, by kept factors where it is `even`,
+    /// else by those of the matrix itself.
+    pub fn left_of(&mut self, layout: &HeatLayout, even: Option<f64>, jump: &[f64]) -> Vec<f64> {
         let key = |operator: &BodyOperator| operator.inverses.key().clone();
         let keys = [key(&self.wheel), key(&self.rail)];
         self.set_coupling(layout, keys, even).unwrap();

@@ -80,8 +80,8 @@ impl Transport {
     }
 
     /// Adds the load of heat that is conducted through the contact in an element, where the conductance has the moments
-    /// `conductance`: tested as the conduction of the fields is, so that only the temperatures of the surfaces count and not
-    /// how they are split.
+    /// `conductance`: tested as the conduction of the fields is, so that only the temperatures of the surfaces count
+    /// and not how they are split.
     pub fn add_conducted(
         &self,
         line: &Streamline,
@@ -101,8 +101,8 @@ fn add_tested(line: &Streamline, element: usize, sigma: f64, moments: [f64; 2], 
     load[line.after(element)] += moments[1] + shifted;
 }
 
-/// Upwinding of the test functions on an element for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds`, instead of
-/// `sigma`.
+/// Upwinding of the test functions on an element for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds`,
+/// instead of `sigma`.
 ///
 /// Where the contact begins or ends within the element, full upwinding would give the node upstream a share below
 /// zero, and its temperature would undershoot: both shares keep the sign of the whole.
@@ -127,7 +127,7 @@ impl UpwindParameter {
         Self { speed, peclet: 0.5 * speed.abs() / diffusivity, transient: 2.0 * rate / speed.abs() }
     }
 
-    /// For an element of the given length.
+    /// Parameter of an element of the given length.
     fn of(&self, length: f64) -> f64 {
         let peclet = self.peclet * length;
         let magic = if peclet < 0.05 {

@@ -10,14 +10,16 @@ use std::ops::Range;
 
 /// Factors of the tridiagonal systems of all modes.
 ///
-/// Nodes are eliminated around the ring of the streamline: the first one after the contact comes first, the last one of the
-/// contact comes last. An open streamline is a ring with an empty link. So the surface under the contact is known before
-/// anything else is substituted back, and a load there is eliminated within the contact alone. What the last node shares with
-/// the first one fills a column and a row of the factors, `S = (1 + w + row)(1/inverse)(1 + r) + column`; both fade within
-/// some nodes where the stream is faster than conduction.
+/// Nodes are eliminated around the ring of the streamline: the first one after the contact comes first, the last one of
+/// the contact comes last. An open streamline is a ring with an empty link. So the surface under the contact is known
+/// before anything else is substituted back, and a load there is eliminated within the contact alone. What the last
+/// node shares with the first one fills a column and a row of the factors,
+/// `S = (1 + w + row)(1/inverse)(1 + r) + column`; both fade within some nodes where the stream is faster than
+/// conduction.
 #[derive(Clone, Debug, Default)]
 pub struct TridiagonalFactor {
-    /// How a node acts on the next one in the order of elimination, how that acts on it, and the inverse pivots; by nodes.
+    /// Factors by which a node acts on the next one in the order of elimination and that one on it, and the inverse
+    /// pivots; by nodes.
     pub w: Vec<f64>,
     pub r: Vec<f64>,
     pub inverse: Vec<f64>,

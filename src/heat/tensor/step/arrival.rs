@@ -1,20 +1,20 @@
 //! Arrival of rail of another temperature.
 //!
-//! The rail ahead of the contact has one temperature. Where it changes, the whole rail ahead changes at once and stays as it is
-//! under the wheel and behind it; the stream carries the front through the contact. The same equations thus see the rail
-//! as it is, whatever it was before.
+//! The rail ahead of the contact has one temperature. Where it changes, the whole rail ahead changes at once and stays
+//! as it is under the wheel and behind it; the stream carries the front through the contact. The same equations thus
+//! see the rail as it is, whatever it was before.
 
 use crate::heat::exchange::Exchange;
 use crate::heat::state::HeatState;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 
 /// Length of the front in half-widths at the nominal load: elements resolve it \[1].
 const FRONT: f64 = 1.0;
 
-/// Fills `begin` with `state` under the rail that arrives now with the heat content `arriving` over `ρc` \[K], and tells whether
-/// it differs from `state`. A standing wheel meets no other rail.
+/// Fills `begin` with `state` under the rail that arrives now with the heat content `arriving` over `ρc` \[K], and
+/// tells whether it differs from `state`. A standing wheel meets no other rail.
 pub fn arrive(
-    layout: &Layout,
+    layout: &HeatLayout,
     state: &HeatState,
     arriving: f64,
     velocity: f64,

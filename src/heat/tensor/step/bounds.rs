@@ -1,15 +1,16 @@
-//! Maximum principle: nothing becomes colder than the coldest datum or, without heat, hotter than the hottest one, to [`MARGIN`].
+//! Maximum principle: nothing becomes colder than the coldest datum or, without heat, hotter than the hottest one, to
+//! [`MARGIN`].
 //!
-//! The discretisation itself does not keep this bound. Steep gradients make finite elements of higher order, short steps with
-//! consistent mass, upwinding at contact edges and the second stage of the time formula swing beyond it. Where a node lies
-//! beyond a datum by more than a margin, all that do are [moved back](super::limiter).
+//! The discretisation itself does not keep this bound. Steep gradients make finite elements of higher order, short
+//! steps with consistent mass, upwinding at contact edges and the second stage of the time formula swing beyond it.
+//! Where a node lies beyond a datum by more than a margin, all that do are [moved back](super::limiter).
 
 use crate::heat::exchange::Exchange;
 use crate::heat::state::HeatState;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::mesh::nodal::Known;
 
-/// How far a node may lie beyond a datum before it is moved back \[K].
+/// Distance by which a node may lie beyond a datum before it is moved back \[K].
 pub const MARGIN: f64 = 0.09;
 /// Change in a step, in such margins, up to which bounds are widened without a look at the nodes [1].
 const SLOWLY: f64 = 0.25;
@@ -20,11 +21,11 @@ const SLIGHT: f64 = 0.05;
 /// Flux of friction heat that counts as none [W/m²]: that of a contact that sticks all over is round-off.
 const NO_FLUX: f64 = 1e-6;
 
-/// Coldest and hottest datum of a step \[K]: hub and air at the reference, the arriving rail, the wheel at the start, and what
-/// reversible temperatures may have moved. There is no lower bound while brake blocks cool, and no upper one while they or
-/// friction heat; from the end of the heat on, what is hottest then is a datum. Friction never cools: where round-off gives
-/// it a negative share somewhere, the lower bound holds all the same.
-pub fn data(layout: &Layout, state: &HeatState, exchange: &Exchange) -> [f64; 2] {
+/// Coldest and hottest datum of a step \[K]: hub and air at the reference, the arriving rail, the wheel at the start,
+/// and what reversible temperatures may have moved. There is no lower bound while brake blocks cool, and no upper one
+/// while they or friction heat; from the end of the heat on, what is hottest then is a datum. Friction never cools:
+/// where round-off gives it a negative share somewhere, the lower bound holds all the same.
+pub fn data(layout: &HeatLayout, state: &HeatState, exchange: &Exchange) -> [f64; 2] {
     let moved = exchange.reversible.value.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let cooled = exchange.tread.iter().any(|tread| tread.heat < 0.0);
     let heated = exchange.friction_power.value.iter().any(|power| *power > NO_FLUX)
@@ -37,11 +38,11 @@ pub fn data(layout: &Layout, state: &HeatState, exchange: &Exchange) -> [f64; 2]
     ]
 }
 
-/// Fills the bounds of the nodal values of `next`, exactly where they are needed: beyond the data, near absolute zero, and from
-/// the temperature `melts` \[K] on.
+/// Fills the bounds of the nodal values of `next`, exactly where they are needed: beyond the data, near absolute zero,
+/// and from the temperature `melts` \[K] on.
 ///
-/// What hardly changes keeps the bounds before, a little wider; what has become too wide is searched anew.
-pub fn set_range(layout: &Layout, state: &HeatState, next: &mut HeatState, melts: f64) {
+/// Rows that hardly change keep the bounds before, a little wider; bounds that have become too wide are searched anew.
+pub fn set_range(layout: &HeatLayout, state: &HeatState, next: &mut HeatState, melts: f64) {
     let [coldest, hottest] = next.data;
     let low = (coldest - MARGIN).max(-NEAR_ZERO * layout.config.thermal.reference);
     let high = melts.min(hottest + MARGIN);
@@ -61,13 +62,14 @@ pub fn set_range(layout: &Layout, state: &HeatState, next: &mut HeatState, melts
     }
 }
 
-/// How far the nodes lie below the coldest and above the hottest datum, where that is more than the margin \[K].
+/// Distances by which the nodes lie below the coldest and above the hottest datum, where that is more than the margin
+/// \[K].
 pub fn beyond(state: &HeatState) -> [f64; 2] {
     let ([low, high], [coldest, hottest]) = (state.range, state.data);
     [coldest - low, high - hottest].map(|excess| if excess > MARGIN { excess } else { 0.0 })
 }
 
-/// Whether the field swings so far beyond its data that another time formula is worth a try.
+/// Test that the field swings so far beyond its data that another time formula is worth a try.
 pub fn swings(state: &HeatState) -> bool {
     let [below, above] = beyond(state);
     below > SLIGHT * (state.range[1] - state.data[0]) || above > SLIGHT * (state.data[1] - state.range[0])

@@ -4,18 +4,18 @@ use super::loads::SurfaceLoads;
 use crate::heat::flows::HeatFlows;
 use crate::heat::tensor::mesh::body::HeatBody;
 use crate::heat::tensor::mesh::kernels::dot;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::stage::{BodyOperator, Stage};
 
 impl Stage {
     /// Sums the field from which a stage starts along the streamlines.
-    pub fn set_sums(&mut self, layout: &Layout, field: &[f64]) {
+    pub fn set_sums(&mut self, layout: &HeatLayout, field: &[f64]) {
         let [wheel, rail] = layout.split(field);
         layout.wheel.integrate(wheel, &mut self.wheel.sums[0]);
         layout.rail.integrate(rail, &mut self.rail.sums[0]);
     }
 
-    /// The same for the field `dt` seconds on, at the rates of the last stage.
+    /// Takes these sums on by `dt` seconds, at the rates of the last stage.
     pub fn advance_sums(&mut self, dt: f64) {
         for operator in [&mut self.wheel, &mut self.rail] {
             let [now, change] = &mut operator.sums;
@@ -26,7 +26,7 @@ impl Stage {
     /// Adds `weight` times the heat flows of a stage to their mean; the sums are those of `ends.temperature`.
     pub fn add_flows(
         &mut self,
-        layout: &Layout,
+        layout: &HeatLayout,
         loads: &SurfaceLoads,
         ends: &StageEnd,
         weight: f64,
@@ -58,14 +58,15 @@ impl Stage {
     }
 }
 
-/// Both bodies at the end of a stage: temperature and heat content there are the given ones and `ahead` times the rate.
+/// State of both bodies at the end of a stage: temperature and heat content there are the given ones and `ahead` times
+/// the rate.
 #[derive(Clone, Copy)]
 pub struct StageEnd<'a> {
     /// Temperature.
     pub temperature: &'a [f64],
     /// Heat content over `ρc`: the temperature where nothing melts.
     pub content: &'a [f64],
-    /// Its rate; `None`: it does not change.
+    /// Rate of the heat content; `None`: it does not change.
     pub rate: Option<&'a [f64]>,
     /// \[s]
     pub ahead: f64,
@@ -77,12 +78,13 @@ struct BodyFlows {
     air: f64,
     /// Into the fixed nodes.
     fixed: f64,
-    /// With the stream.
+    /// Heat that leaves with the stream.
     out: f64,
 }
 
 impl BodyOperator {
-    /// Flows at the temperatures whose sums are known and heat contents `content`, `ahead` seconds on at the rates `rate`.
+    /// Flows at the temperatures whose sums are known and heat contents `content`, `ahead` seconds on at the rates
+    /// `rate`.
     fn flows(&mut self, body: &HeatBody, content: &[f64], rate: Option<&[f64]>, ahead: f64) -> BodyFlows {
         let modes = &body.modes;
         let [now, change] = &mut self.sums;

@@ -1,8 +1,8 @@
 //! One implicit step of both bodies.
 //!
-//! Speeds and exchange hold over the step, but for the friction power, whose mean may differ from its end value. The formula is
-//! SDIRK2: of second order under constant exchange, stiffly accurate and L-stable (Alexander, *SIAM J. Numer. Anal.* 14
-//! (1977)), with `γ = 1 − 1/√2` and two stages
+//! Speeds and exchange hold over the step, but for the friction power, whose mean may differ from its end value. The
+//! formula is SDIRK2: of second order under constant exchange, stiffly accurate and L-stable (Alexander, *SIAM J.
+//! Numer. Anal.* 14 (1977)), with `γ = 1 − 1/√2` and two stages
 //!
 //! ```text
 //! ρcM̃ k₁ = f − A(T + γΔt k₁)
@@ -10,9 +10,9 @@
 //! T ← T + (1−γ)Δt k₁ + γΔt k₂
 //! ```
 //!
-//! Where speeds, conductance or heat jump from the last step to this one, and without a last step, one stage with `γ = 1`
-//! takes its place: backward Euler, which does not overshoot; likewise where two stages would undershoot by much, and where
-//! steel melts.
+//! Where speeds, conductance or heat jump from the last step to this one, and without a last step, one stage with
+//! `γ = 1` takes its place: backward Euler, which does not overshoot; likewise where two stages would undershoot by
+//! much, and where steel melts.
 
 use super::arrival::arrive;
 use super::bounds::{data, set_range, swings};
@@ -29,7 +29,7 @@ use crate::heat::state::HeatState;
 use crate::heat::tensor::heat::Heat;
 use crate::heat::tensor::melt::latent::LatentHeat;
 use crate::heat::tensor::mesh::kernels;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::solver::{CURVED_BELOW, CURVED_STEP};
 use crate::heat::tensor::solve::stage::StageKey;
@@ -38,14 +38,14 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// Coefficient `γ` of the formula with two stages.
 const TWO_STAGES: f64 = 1.0 - FRAC_1_SQRT_2;
 
-/// How a step is taken.
+/// Plan of a step.
 #[derive(Clone, Copy)]
 struct StepPlan<'a> {
     dt: f64,
     speeds: [f64; 2],
     /// By how much the mean friction power exceeds that at the end, relative to the latter \[1].
     excess: f64,
-    /// Whether two stages may be taken.
+    /// True where two stages may be taken.
     smooth: bool,
     /// Latent heat, where steel melts or freezes.
     melting: Option<&'a LatentHeat>,
@@ -68,8 +68,8 @@ impl StepPlan<'_> {
         StageKey { speeds, inverted, coefficients, rate: 1.0 / (gamma * dt), curved }
     }
 
-    /// Shares of the friction power at the end of the step that act in the stages. Their mean over the step is the given one;
-    /// the share of the last one is 1, unless the first one had to cool for that.
+    /// Shares of the friction power at the end of the step that act in the stages. Their mean over the step is the
+    /// given one; the share of the last one is 1, unless the first one had to cool for that.
     fn friction_shares(&self) -> [f64; 2] {
         let (gamma, stages) = self.stages();
         let held = 1.0 + self.excess;
@@ -128,7 +128,7 @@ pub fn advance(
 
 /// The time formula from the field of `state` to that of `next`.
 fn integrate(
-    layout: &Layout,
+    layout: &HeatLayout,
     state: &HeatState,
     next: &mut HeatState,
     plan: &StepPlan,

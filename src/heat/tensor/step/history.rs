@@ -9,8 +9,8 @@ const SLIGHT_HEAT: f64 = 1e4;
 /// Digits after the first of the binary numbers to which shared speeds are rounded.
 const SHARED_DIGITS: u32 = 8;
 
-/// Speeds near the present ones that many steps share: those of the last step, rounded. Where one has changed by more than
-/// rounding does, the present one takes its place.
+/// Speeds near the present ones that many steps share: those of the last step, rounded. Where one has changed by more
+/// than rounding does, the present one takes its place.
 ///
 /// They follow from the state, so that a step depends smoothly on its inputs.
 pub fn shared_speeds(state: &HeatState, speeds: [f64; 2]) -> [f64; 2] {
@@ -25,7 +25,7 @@ fn rounded(value: f64) -> f64 {
     f64::from_bits((value.to_bits() + (1 << (rest - 1))) >> rest << rest)
 }
 
-/// Whether speeds, conductance or heat change so much from `before` to `next` that a step cannot continue smoothly.
+/// Test that speeds, conductance or heat change so much from `before` to `next` that a step cannot continue smoothly.
 pub fn jumps(before: &BoundaryState, next: &BoundaryState) -> bool {
     let jump = |a: f64, b: f64| (a - b).abs() > JUMP * a.abs().max(b.abs());
     let change: f64 = before.heat.iter().zip(&next.heat).map(|(a, b)| (a - b).abs()).sum();

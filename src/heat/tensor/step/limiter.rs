@@ -1,25 +1,25 @@
-//! Conservative limiter: nodes that are too cold are raised, those that are too hot are lowered, and the heat comes from or goes
-//! to as near as there is room for it.
+//! Conservative limiter: nodes that are too cold are raised, those that are too hot are lowered, and the heat comes
+//! from or goes to as near as there is room for it.
 //!
-//! An undershoot is the other side of an overshoot close by: steep gradients make elements of higher order swing about the
-//! exact field. So the heat comes from the nearest nodes below the same surface node, and where these have too little from
-//! the rows beside. What lies within the margin is left alone: raising every swing by a hundredth of a kelvin, and be it
-//! step by step, drives the heat into the depth and cools the hot surface by some percent within milliseconds. Lowering is
-//! raising of the negative field.
+//! An undershoot is the other side of an overshoot close by: steep gradients make elements of higher order swing about
+//! the exact field. So the heat comes from the nearest nodes below the same surface node, and where these have too
+//! little from the rows beside. What lies within the margin is left alone: raising every swing by a hundredth of a
+//! kelvin, and be it step by step, drives the heat into the depth and cools the hot surface by some percent within
+//! milliseconds. Lowering is raising of the negative field.
 
 use super::bounds::{MARGIN, beyond};
 use crate::heat::error::HeatError;
 use crate::heat::state::HeatState;
 use crate::heat::tensor::mesh::body::HeatBody;
 use crate::heat::tensor::mesh::kernels::dot;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 
 /// Share of the margin to which nodes are raised \[1]: what is raised does not fall below the margin at once again.
 const RAISED: f64 = 0.5;
 
-/// Moves all nodes back that lie beyond a datum by more than a share of the margin, if one does by more than the margin; each
-/// body keeps its heat content.
-pub fn keep_bounds(layout: &Layout, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
+/// Moves all nodes back that lie beyond a datum by more than a share of the margin, if one does by more than the
+/// margin; each body keeps its heat content.
+pub fn keep_bounds(layout: &HeatLayout, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
     let [below, above] = beyond(state);
     let HeatState { values: field, data, range, .. } = state;
     if below > 0.0 {
@@ -44,7 +44,7 @@ pub fn keep_bounds(layout: &Layout, state: &mut HeatState, values: &mut Vec<f64>
 }
 
 /// Raises all nodes to `floor`, and tells whether both bodies have the heat for it.
-fn raise(layout: &Layout, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> bool {
+fn raise(layout: &HeatLayout, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> bool {
     let mut bodies = layout.bodies().into_iter().zip(layout.split_mut(field));
     bodies.all(|(body, field)| raise_body(body, field, floor, values) <= 0.0)
 }
@@ -83,7 +83,8 @@ fn raise_body(body: &HeatBody, field: &mut [f64], floor: f64, values: &mut Vec<f
     poor.into_iter().map(|(i, lack)| take_beside(body, field, floor, i, lack)).sum()
 }
 
-/// Raises negative values to zero and takes as much from the nearest positive ones; what is lacking, in values times weights.
+/// Raises negative values to zero and takes as much from the nearest positive ones; what is lacking, in values times
+/// weights.
 fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
     let mut missing = 0.0;
     for j in 0..values.len() {
@@ -106,7 +107,8 @@ fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
     missing
 }
 
-/// Takes `lack` [K m²] from the rows nearest to the row `i`, all of which lie above the floor; what is still lacking.
+/// Takes `lack` [K m²] from the rows nearest to the row `i`, all of which lie above the floor, and returns the rest
+/// that is still lacking.
 fn take_beside(body: &HeatBody, field: &mut [f64], floor: f64, i: usize, mut lack: f64) -> f64 {
     let (nm, n) = (body.nodal.modes(), body.line.len());
     let closed = body.line.closed > 0.0;

@@ -1,11 +1,11 @@
 //! Load vector of a stage.
 
 use super::loads::SurfaceLoads;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::stage::{BodyOperator, Stage};
 
 /// Adds everything that does not depend on the temperature to `out`.
-pub fn add_loads(stage: &mut Stage, layout: &Layout, loads: &SurfaceLoads, out: &mut [f64]) {
+pub fn add_loads(stage: &mut Stage, layout: &HeatLayout, loads: &SurfaceLoads, out: &mut [f64]) {
     let [wheel, rail] = layout.split_mut(out);
     let share = layout.config.thermal.wheel_share;
     let bodies = [

@@ -1,15 +1,15 @@
-//! Surface loads: what acts on the surfaces, divided among their elements.
+//! Surface loads, divided among the elements of the surfaces.
 //!
 //! Everything enters the equations through moments over the surface elements, `∫ q ds`, `∫ q ξ ds`, `∫ k_c ξ² ds` with
-//! ξ from 0 to 1 across an element, integrated piecewise between all break points (nodes of the mesh and of the profile,
-//! edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
+//! ξ from 0 to 1 across an element, integrated piecewise between all break points (nodes of the mesh and of the
+//! profile, edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
 
 use super::radiation::Radiation;
 use crate::config::Thermal;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::{Exchange, TreadHeat};
 use crate::heat::state::BoundaryState;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::mesh::streamline::Streamline;
 use crate::heat::tensor::solve::conductance::even_conductance;
 use crate::piecewise::{Interval, Piecewise, interpolate};
@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 /// Exponent of the pressure in the conductance of rough surfaces in plastic contact.
 const PRESSURE_EXPONENT: f64 = 0.95;
 
-/// Moments of everything that acts, on the surface elements; linear in the data.
+/// Moments of all loads on the surface elements; linear in the data.
 #[derive(Clone, Debug, Default)]
 pub struct SurfaceLoads {
     /// `∫ k_c (1, ξ, ξ²) ds` on the elements of the contact zone [W/(m K)].
@@ -29,12 +29,12 @@ pub struct SurfaceLoads {
     pub friction_share: f64,
     /// `∫ q (1, ξ) ds` on the elements of the tread [W/m]; empty without heat there.
     pub tread: Vec<[f64; 2]>,
-    /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact zone
-    /// [W/m]; empty without.
+    /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact
+    /// zone [W/m]; empty without.
     pub reversible: Vec<[f64; 2]>,
     /// Heat content over `ρc` of the rail that enters with the stream \[K].
     pub arriving: f64,
-    /// What wheel and rail radiate.
+    /// Radiation of wheel and rail.
     pub radiation: [Radiation; 2],
 }
 
@@ -44,9 +44,9 @@ impl SurfaceLoads {
         self.friction_share * self.friction.iter().map(|q| q[0]).sum::<f64>()
     }
 
-    /// Replaces the loads by the moments of `exchange` on the surface elements, radiation excepted; `arriving` is the heat
-    /// content over `ρc` of the rail that enters \[K].
-    pub fn set(&mut self, layout: &Layout, exchange: &Exchange, arriving: f64) -> Result<(), HeatError> {
+    /// Replaces the loads by the moments of `exchange` on the surface elements, radiation excepted; `arriving` is the
+    /// heat content over `ρc` of the rail that enters \[K].
+    pub fn set(&mut self, layout: &HeatLayout, exchange: &Exchange, arriving: f64) -> Result<(), HeatError> {
         self.friction_share = 1.0;
         self.arriving = arriving;
         let zone = Zone { x: layout.zone_positions(), half_length: layout.config.reach };
@@ -228,7 +228,8 @@ fn check(name: &'static str, profile: &Piecewise) -> Result<(), HeatError> {
     profile.check().map_err(|why| HeatError::Profile { name, why })
 }
 
-/// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the part.
+/// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the
+/// part.
 fn add_moments(out: &mut [f64; 3], xi: [f64; 2], length: f64, c: &dyn Fn(f64) -> f64) {
     const POINTS: [(f64, f64); 3] =
         [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];

@@ -12,7 +12,7 @@ use crate::heat::limits::check_speeds;
 use crate::heat::state::HeatState;
 use crate::heat::tensor::heat::Heat;
 use crate::heat::tensor::mesh::kernels::dot;
-use crate::heat::tensor::mesh::layout::Layout;
+use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::solver::StageSolver;
 use crate::heat::tensor::solve::stage::StageKey;
@@ -48,8 +48,8 @@ pub fn stationary(heat: &Heat, speeds: [f64; 2], exchange: &Exchange) -> Result<
     Ok((state, flows))
 }
 
-/// Temperatures after long rolling: those of the heat of `exchange`, over a wheel at the temperature `wheel` \[K] on a rail at that
-/// of the arriving one, with what these two exchange in passing.
+/// Temperatures after long rolling: those of the heat of `exchange`, over a wheel at the temperature `wheel` \[K] on a
+/// rail at that of the arriving one, with what these two exchange in passing.
 pub fn after_long_rolling(
     heat: &Heat,
     speeds: [f64; 2],
@@ -74,8 +74,8 @@ pub fn after_long_rolling(
     Ok((superposed(layout, &[warm, heated])?, flows))
 }
 
-/// Temperatures that a wheel loses and the rail gains where they touch, as after many turns, if the mean temperature of the
-/// tread is `tread` \[K]; of `exchange` only patches and pressure count.
+/// Temperatures that a wheel loses and the rail gains where they touch, as after many turns, if the mean temperature of
+/// the tread is `tread` \[K]; of `exchange` only patches and pressure count.
 ///
 /// They are the stationary state of a wheel that is kept warm by even heat on its tread, less the mean along every
 /// streamline of the wheel, which changes within minutes. The modal solver is exact enough for it: what it neglects
@@ -106,8 +106,8 @@ fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Re
     Ok(HeatState { values: field, range, ..HeatState::default() })
 }
 
-/// Equations of the stationary state under `exchange` with their right-hand side, and the coefficients of the matrix that is
-/// inverted; `curved`: conduction along the streamlines of the wheel is exact.
+/// Equations of the stationary state under `exchange` with their right-hand side, and the coefficients of the matrix
+/// that is inverted; `curved`: conduction along the streamlines of the wheel is exact.
 fn prepared(
     heat: &Heat,
     speeds: [f64; 2],
@@ -131,9 +131,9 @@ fn not_finite([velocity, omega]: [f64; 2]) -> HeatError {
     HeatError::NotFinite { dt: f64::INFINITY, velocity, omega }
 }
 
-/// Sum of temperature fields that hold at the same time, as if no step had led to it. Only the sum has to keep the bounds: what
-/// a wheel loses in passing is far below its datum, and the bounds of the parts say little about it.
-fn superposed(layout: &Layout, parts: &[HeatState]) -> Result<HeatState, HeatError> {
+/// Sum of temperature fields that hold at the same time, as if no step had led to it. Only the sum has to keep the
+/// bounds: what a wheel loses in passing is far below its datum, and the bounds of the parts say little about it.
+fn superposed(layout: &HeatLayout, parts: &[HeatState]) -> Result<HeatState, HeatError> {
     let mut sum = HeatState::new(vec![0.0; layout.size()]);
     for part in parts {
         sum.values.iter_mut().zip(&part.values).for_each(|(sum, value)| *sum += value);
@@ -144,7 +144,7 @@ fn superposed(layout: &Layout, parts: &[HeatState]) -> Result<HeatState, HeatErr
 }
 
 /// A state found without a step, with its extremes and within its bounds.
-pub fn bounded(layout: &Layout, mut state: HeatState) -> Result<HeatState, HeatError> {
+pub fn bounded(layout: &HeatLayout, mut state: HeatState) -> Result<HeatState, HeatError> {
     state.range = layout.extremes(&state.values);
     keep_bounds(layout, &mut state, &mut Vec::new())?;
     Ok(state)
