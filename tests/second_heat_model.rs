@@ -15,6 +15,7 @@ use wheelrail::mechanics::{Basis, bodies};
 use wheelrail::piecewise::{Interval, Piecewise};
 use wheelrail::rolling::outputs::observe;
 use wheelrail::rolling::{Inputs, Model, Rotation, State, Translation, Workspace, stationary, substeps};
+use wheelrail::simulation::Outputs;
 
 /// Surface positions at which flashes are known, on each side of the contact point.
 const POINTS: usize = 400;
@@ -182,21 +183,19 @@ impl HeatModel for FlashModel {
 }
 
 /// Model on flash temperatures, and one on tensor meshes.
-fn models() -> [Model; 2] {
+fn models(start: StartTemperature) -> [Model; 2] {
     let mut config = preset("railway", 20);
     config.solver.response = Response::Reduced;
-    config.initial.temperature = StartTemperature::Stationary;
+    config.initial.temperature = start;
+    // The flash model has no swelling.
+    config.physics.thermal_expansion = false;
     let basis = common::store().find(&config).unwrap();
     let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
-    [(); 2].map(|()| {
+    let [flash, tensor] = [(); 2].map(|()| {
         let pair = bodies(&config, Some(basis.clone()), &mut |_, _| {}).unwrap();
         Model::new(config.clone(), pair, Surfaces::smooth(config.wheel.radius)).unwrap()
-    })
-}
-
-fn flash_and_tensor_models() -> [Model; 2] {
-    let [one, other] = models();
-    [one.with_heat(|config| Ok(Box::new(FlashModel::new(config)))).unwrap(), other]
+    });
+    [flash.with_heat(|config| Ok(Box::new(FlashModel::new(config)))).unwrap(), tensor]
 }
 
 /// Rolling at a given creepage.
@@ -212,6 +211,19 @@ fn start(model: &Model, inputs: &Inputs) -> (State, Workspace) {
     let mut workspace = Workspace::default();
     let state = stationary::start(model, &model.config.tuning, inputs, &mut workspace).unwrap();
     (state, workspace)
+}
+
+/// Takes a state on by 20 steps of 1 ms; `seen` looks at each.
+fn roll(model: &Model, inputs: &Inputs, mut seen: impl FnMut(Outputs)) -> State {
+    let (mut state, mut workspace) = start(model, inputs);
+    for _ in 0..20 {
+        let mut next = State::default();
+        substeps::advance(model, &model.config.tuning, &state, inputs, 1e-3, &mut workspace, &mut next).unwrap();
+        state = next;
+        assert!(model.fits(&state));
+        seen(observe(model, &state));
+    }
+    state
 }
 
 /// Largest `∫ₓ¹ √(1 − ξ²)/√(ξ − x) dξ` of all x, by Simpson's rule in `u = √(ξ − x)`.
@@ -230,7 +242,7 @@ fn elliptical_peak() -> f64 {
 /// of the rigid one.
 #[test]
 fn stationary_flash_of_a_sliding_patch_is_that_of_an_elliptical_source() {
-    let [model, _] = flash_and_tensor_models();
+    let [model, _] = models(StartTemperature::Stationary);
     let seen = observe(&model, &start(&model, &sliding(&model.config, CREEPAGE)).0);
     let (material, a) = (&model.config.material, seen.contact_half_width);
     let effusivity = (material.conductivity * material.density * material.specific_heat).sqrt();
@@ -247,34 +259,24 @@ fn stationary_flash_of_a_sliding_patch_is_that_of_an_elliptical_source() {
     }
 }
 
-/// Where the bodies are equal, touch well and hardly slip, they share the heat in equal parts: both models then see the same flash.
+/// Equal bodies that hardly slip share the heat in equal parts: both models then see the same flash, while the bulk is cold.
 #[test]
 fn flashes_of_both_models_agree_while_the_bodies_share_the_heat_in_equal_parts() {
-    let models = flash_and_tensor_models();
-    let rises = models.each_ref().map(|model| {
-        let seen = observe(model, &start(model, &sliding(&model.config, 0.01)).0);
-        assert!(seen.heat_to_wheel > 0.0);
-        // The stationary wheel of the tensor model is as warm as it gets in hours.
-        let per_root_heat = |rise: f64| rise / (seen.heat_to_wheel + seen.heat_to_rail);
-        per_root_heat(seen.temperature_wheel_max - seen.temperature_wheel_bulk)
+    let rises = models(StartTemperature::Uniform).map(|model| {
+        let state = roll(&model, &sliding(&model.config, 0.01), |_| ());
+        let seen = observe(&model, &state);
+        let rise = seen.temperature_wheel_max - model.config.thermal.reference;
+        println!("flash {rise:.3} K under {:.3e} W", seen.heat_to_wheel + seen.heat_to_rail);
+        rise / (seen.heat_to_wheel + seen.heat_to_rail)
     });
-    println!("flash per heat {:.5e} and {:.5e} K/W", rises[0], rises[1]);
-    assert!((rises[0] / rises[1] - 1.0).abs() < 0.1);
+    assert!(rises[0] > 0.0 && (rises[0] / rises[1] - 1.0).abs() < 0.05, "{rises:?}");
 }
 
 #[test]
 fn a_lumped_wheel_keeps_the_heat_of_its_friction() {
-    let [model, _] = flash_and_tensor_models();
-    let inputs = sliding(&model.config, CREEPAGE);
-    let (mut state, mut workspace) = start(&model, &inputs);
-    let (width, dt, mut heat) = (model.config.model.contact_width, 1e-3, 0.0);
-    for _ in 0..20 {
-        let mut next = State::default();
-        substeps::advance(&model, &model.config.tuning, &state, &inputs, dt, &mut workspace, &mut next).unwrap();
-        heat += dt * observe(&model, &next).heat_to_wheel;
-        state = next;
-        assert!(model.fits(&state));
-    }
+    let [model, _] = models(StartTemperature::Stationary);
+    let (width, mut heat) = (model.config.model.contact_width, 0.0);
+    let state = roll(&model, &sliding(&model.config, CREEPAGE), |seen| heat += 1e-3 * seen.heat_to_wheel);
     let (seen, wheel) = (observe(&model, &state), &model.config.wheel);
     let area = PI * (wheel.radius.powi(2) - wheel.hub_radius.powi(2));
     let capacity = model.config.material.density * model.config.material.specific_heat * area * width;
@@ -286,7 +288,7 @@ fn a_lumped_wheel_keeps_the_heat_of_its_friction() {
 
 #[test]
 fn states_do_not_pass_from_one_heat_model_to_the_other() {
-    let [flash, tensor] = flash_and_tensor_models();
+    let [flash, tensor] = models(StartTemperature::Stationary);
     let inputs = sliding(&flash.config, CREEPAGE);
     let (ours, theirs) = (start(&flash, &inputs).0, start(&tensor, &inputs).0);
     assert!(flash.fits(&ours) && tensor.fits(&theirs));
@@ -297,7 +299,7 @@ fn states_do_not_pass_from_one_heat_model_to_the_other() {
 #[test]
 fn flash_of_an_even_strip_follows_its_closed_form() {
     let (a, flux) = (5e-3, 1e8);
-    let [model, _] = flash_and_tensor_models();
+    let [model, _] = models(StartTemperature::Stationary);
     let [mut found, mut parameters] = [None, None];
     model
         .with_heat(|config| {

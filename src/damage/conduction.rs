@@ -84,7 +84,7 @@ impl Factors {
         }
     }
 
-    /// Two stages: the second starts from what the first has changed.
+    /// Two stages: the second starts from the result of the first.
     fn advance(&self, values: &mut [f64], stage: &mut Vec<f64>) {
         stage.clear();
         stage.extend_from_slice(values);

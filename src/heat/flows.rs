@@ -17,7 +17,7 @@ pub struct HeatFlows {
     pub to_rail: f64,
     /// Wheel to hub.
     pub to_hub: f64,
-    /// Carried out of the modelled rail by the stream, less what enters with it.
+    /// Heat that the stream carries out of the modelled rail, less the heat that enters with it.
     pub outflow: f64,
     /// Heat from the wheel to the air.
     pub wheel_to_air: f64,
@@ -32,12 +32,12 @@ pub struct HeatFlows {
 }
 
 impl HeatFlows {
-    /// Heat that the wheel receives less what it passes on and stores [W/m]; zero but for round-off.
+    /// Heat that the wheel receives, less the heat that it passes on and stores [W/m]; zero but for round-off.
     pub fn wheel_imbalance(&self) -> f64 {
         self.to_wheel + self.tread - self.to_hub - self.wheel_to_air - self.stored_wheel
     }
 
-    /// Heat that the rail receives less what it passes on and stores [W/m]; zero but for round-off.
+    /// Heat that the rail receives, less the heat that it passes on and stores [W/m]; zero but for round-off.
     pub fn rail_imbalance(&self) -> f64 {
         self.to_rail - self.outflow - self.rail_to_air - self.stored_rail
     }

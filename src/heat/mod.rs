@@ -16,7 +16,7 @@
 //!
 //! Limits:
 //! - Line contact in the plane; distances along the surface stand for x in the contact zone (they differ by `x²/6r²`).
-//! - What acts is held over a step, but for the friction power. The time formula is of second order under constant
+//! - Loads are held over a step, but for the friction power. The time formula is of second order under constant
 //!   speeds and exchange; a run in which they vary is of first order in the step.
 //! - A hot spot carried round the wheel is smeared where the mesh along the tread is coarse.
 //! - Air has the reference temperature, and convection to it acts under the contact, too.

@@ -18,8 +18,9 @@ pub trait HeatModel: Send + Sync {
     fn initial(&self, wheel: f64, rail: f64) -> HeatState;
 
     /// State after long rolling at constant speeds and exchange, and its heat flows: the stationary temperatures of the
-    /// heat, over a wheel that had the uniform temperature `wheel` on a rail at [`Exchange::arriving`], and what these
-    /// two exchange in passing. At standstill, where nothing carries heat away, only the uniform temperatures.
+    /// heat, over a wheel that had the uniform temperature `wheel` on a rail at [`Exchange::arriving`], and the heat
+    /// that these two exchange in passing. At standstill, where nothing carries heat away, only the uniform
+    /// temperatures.
     fn after_long_rolling(
         &self,
         velocity: f64,
@@ -49,7 +50,7 @@ pub trait HeatModel: Send + Sync {
     /// Surface positions at which a state is observed \[m], ascending, with the contact point in their middle.
     fn zone_x(&self) -> &[f64];
 
-    /// Replaces `seen` by what a state shows, but for [`Observation::core`]; its memory is reused.
+    /// Replaces `seen` by the observation of a state, but for [`Observation::core`]; its memory is reused.
     fn observe(&self, state: &HeatState, seen: &mut Observation) -> Result<(), HeatError>;
 
     /// Replaces `out` by the mean temperatures of wheel and rail between the surface and `depth` \[m] at the positions

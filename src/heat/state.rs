@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Temperatures of both bodies and what the next step needs to know of the last one: plain data, whose meaning the
-/// model knows that made it.
+/// Temperatures of both bodies and the memory of the last step: plain data, whose meaning the model knows that made it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatState {
     /// Unknowns of the temperature fields; of the tensor model coefficients of the modes across the streamlines, wheel,
@@ -26,7 +25,7 @@ impl HeatState {
     }
 }
 
-/// Speeds and totals of what acts during a step.
+/// Speeds and total loads of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct BoundaryState {
     /// Velocity of the wheel's centre [m/s] and angular velocity [rad/s], forward rolling positive.

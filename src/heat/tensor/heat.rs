@@ -16,7 +16,7 @@ pub struct Heat {
     pub(super) layout: HeatLayout,
     /// Latent heat, unless melting is left out.
     pub(super) latent: Option<LatentHeat>,
-    /// Weights of the modes in what is observed.
+    /// Weights of the modes in observations.
     pub(super) weights: ObservationWeights,
 }
 

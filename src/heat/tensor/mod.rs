@@ -13,8 +13,7 @@
 //! `z` over that of the contact as a second weight (`mesh::section`).
 //!
 //! Rooms: `mesh` (meshes, modes, fields), `solve` (linear equations of a stage), `melt` (latent heat), `step` (loads,
-//! time formula, flows, bounds, stationary state). `heat`, `weights` and `points` hold the model and what is read from
-//! a state.
+//! time formula, flows, bounds, stationary state). `heat`, `weights` and `points` hold the model and read states.
 
 mod heat;
 mod melt;

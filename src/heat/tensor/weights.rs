@@ -16,7 +16,7 @@ const CORE_GROWTH: f64 = 1.6;
 /// Depth of the layer whose expansion acts on the contact, in half-widths at the nominal load.
 const FLASH_DEPTH: f64 = 0.25;
 
-/// Weights of the modes in what is observed, of wheel and rail.
+/// Weights of the modes in observations of wheel and rail.
 #[derive(Clone, Debug)]
 pub struct ObservationWeights {
     /// Integrals over the layer whose expansion acts on the contact \[m]; of the rail less the temperature a half-width
@@ -48,7 +48,7 @@ impl ObservationWeights {
         Self { layer, moments, core }
     }
 
-    /// Replaces `seen` by what a state shows; `latent` is given where steel melts in it.
+    /// Replaces `seen` by the observation of a state; `latent` is given where steel melts in it.
     pub fn observe(&self, layout: &HeatLayout, latent: Option<&LatentHeat>, state: &HeatState, seen: &mut Observation) {
         let mut volume_means = [0.0; 2];
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(&state.values)).enumerate() {

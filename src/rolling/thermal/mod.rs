@@ -38,9 +38,9 @@ const OVERHEATING: f64 = 50.0;
 
 /// Length of a step in which the deformation of a very hot contact goes half of the way to its new value, times the
 /// expansion coefficient \[s/K]; 0.2 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge
-/// of the patch cools what it touches, steel shrinks, the edge recedes, and steel warms and swells again, one step
-/// later: a feedback from one step to the next of about −7 per millisecond for steel, measured, and proportional to the
-/// expansion. It flips beyond `2/(1 + 7 h/ms)`.
+/// of the patch cools the steel that it touches, the steel shrinks, the edge recedes, and steel warms and swells again,
+/// one step later: a feedback from one step to the next of about −7 per millisecond for steel, measured, and
+/// proportional to the expansion. It flips beyond `2/(1 + 7 h/ms)`.
 const DAMPED: f64 = 2.4e-9;
 
 /// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K].
@@ -95,8 +95,8 @@ struct ThermalView {
     smoothing: [Smoothing; 2],
 }
 
-/// Refuses, before any memory is taken, what [`ThermalModel::new`] would refuse on the mesh of the configuration: too
-/// many elements in the contact zone, on whose number the size of the heat model depends.
+/// Refuses, before any memory is taken, a configuration on whose mesh [`ThermalModel::new`] would fail: too many
+/// elements in the contact zone, on whose number the size of the heat model depends.
 pub fn check_size(config: &Config) -> Result<(), HeatError> {
     let zone = mechanics::contact_zone(config);
     let reach = (zone.candidates() / 2 + 1) as f64 * zone.spacing();
@@ -177,7 +177,7 @@ impl ThermalModel {
     }
 
     /// Stationary temperatures of a stationary contact, with the initial excess temperature of the wheel and that of
-    /// the arriving rail on top and what they exchange in passing. At standstill, where nothing carries heat away, only
+    /// the arriving rail on top and their exchange in passing. At standstill, where nothing carries heat away, only
     /// the excess temperature.
     pub fn stationary(
         &self,
@@ -287,7 +287,7 @@ impl ThermalModel {
         Ok(())
     }
 
-    /// Moves what acts back on the contact by `share` of the way from `before` to `thermal`.
+    /// Moves the effects on the contact by `share` of the way from `before` to `thermal`.
     pub fn average(&self, thermal: &mut ThermalState, before: &ThermalState, share: f64) {
         let mix = |now: &mut f64, before: f64| *now = before + share * (*now - before);
         let Heating { now, before: earlier } = &mut thermal.heating;
@@ -320,8 +320,8 @@ impl ThermalModel {
     }
 }
 
-/// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: what is put in
-/// arrives, what one body loses another place gains, so that each is counted at both of its ends.
+/// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: each flow is counted
+/// at its source and at its sink.
 fn balance(flows: &HeatFlows) -> [f64; 2] {
     let sources = [flows.friction, flows.tread];
     let HeatFlows { stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air, .. } = *flows;

@@ -2,8 +2,8 @@
 //!
 //! A heat source line at the depth `d` below the surface of a half-plane lifts it by a Poisson kernel, `e^{−|k|d}` at
 //! the wavenumber `k` (2(1 + ν) α ∫ T e^{−|k|z} dz; from the thermoelastic potential, J. R. Barber, *Elasticity*, ch.
-//! 14). A flash that is much thinner than an element lifts what lies above it; a locked wheel is heated to the depth of
-//! several elements, and hot spots narrower than that do not lift it by their own height.
+//! 14). A flash that is much thinner than an element lifts the surface above it; a locked wheel is heated to the depth
+//! of several elements, and hot spots narrower than that do not lift it by their own height.
 
 use std::f64::consts::PI;
 

@@ -92,8 +92,8 @@ impl WeakSteel {
     /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as
     /// linear in the share, and the share that belongs to its own temperature is found; a share from the temperature
     /// before would let the surface overheat and freeze in turns. In a long step the flash follows friction in full, as
-    /// in [`crate::contact::Friction::local`]; in a short one it rises by what the power of friction without a film
-    /// warms a half-space, `q √(Δt/π)/√(kρc)` with half of the power for each body.
+    /// in [`crate::contact::Friction::local`]; in a short one it rises by the warming of a half-space under the power
+    /// of friction without a film, `q √(Δt/π)/√(kρc)` with half of the power for each body.
     fn melt(
         &self,
         zone: &[f64],

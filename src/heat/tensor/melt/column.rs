@@ -80,7 +80,7 @@ impl DepthColumn {
     /// Fills `found` for the heat content over `ρc` at the nodes.
     ///
     /// For latent heats a thousand times that of steel the search may not end, and where a layer is much thicker than
-    /// what is hot in it, a node may come to lie below all contents; then the contents of the nodes decide alone.
+    /// its hot part, a node may come to lie below all contents; then the contents of the nodes decide alone.
     pub fn find(&self, melting: &Melting, content: &[f64], found: &mut ColumnMelting) {
         let lowest = |values: &[f64]| values.iter().copied().fold(0.0, f64::min);
         if !self.search(melting, content, found) || lowest(&found.temperature) < lowest(content) - MARGIN {
@@ -123,7 +123,7 @@ impl DepthColumn {
                 solve(matrix, change);
                 temperature.iter_mut().zip(&*change).for_each(|(t, change)| *t += change);
             } else {
-                // Half of what was too much.
+                // Half of a change that was too large.
                 change.iter_mut().for_each(|change| *change *= 0.5);
                 temperature.iter_mut().zip(&*change).for_each(|(t, change)| *t -= change);
             }
@@ -147,7 +147,7 @@ impl DepthColumn {
         }
         let mut largest = 0.0_f64;
         for (i, residual) in residual.iter_mut().enumerate().take(self.size) {
-            // What is missing of `M (h − T) − Λ`; a node that is held lacks nothing.
+            // Residual `M (h − T) − Λ`; a node that is held has none.
             let mut missing = -*residual;
             for j in i.saturating_sub(2)..(i + 3).min(self.size) {
                 missing += self.mass[i.min(j)][i.abs_diff(j)] * (content[j] - temperature[j]);

@@ -59,7 +59,7 @@ impl ColumnMixing {
         self.places.extend((0..latent.len()).filter(|&i| latent[i] != 0.0 || image[i] != 0.0));
     }
 
-    /// Moves the latent part on; what melts later than in the first iteration takes its image.
+    /// Moves the latent part on; coefficients that change after the first iteration take their image.
     fn mix(&mut self, latent: &mut [f64], image: &[f64]) {
         let Self { places, latent: few, image: few_images, anderson } = self;
         for (few, all) in [(&mut *few, &*latent), (&mut *few_images, image)] {
@@ -95,7 +95,7 @@ impl MeltingIteration {
         base.clone_from(rate);
         solver.stage.set_still(layout);
         let mut change = f64::INFINITY;
-        // Where columns are too coarse for a front, what is molten may jump between both ways to find it.
+        // Where columns are too coarse for a front, the molten part may jump between both searches.
         for (by_nodes, most) in [false, true].into_iter().zip(ITERATIONS) {
             search.by_nodes = by_nodes;
             law.find(layout, before, latent, search);

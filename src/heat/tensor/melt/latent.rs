@@ -5,7 +5,7 @@ use crate::heat::melting::Melting;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::mesh::nodal::Nodal;
 
-/// Heat content over `ρc` from which on iron boils \[K], and what is molten below a surface node needs no exact place.
+/// Heat content over `ρc` from which on iron boils \[K], and the front below a surface node needs no exact place.
 const BOILING: f64 = 3400.0;
 
 /// Relation of heat content and temperature on the meshes of both bodies.
@@ -23,7 +23,7 @@ pub struct ColumnSearch {
     /// Heat content at the nodes.
     pub values: Vec<f64>,
     found: ColumnMelting,
-    /// True where the nodes alone decide what is molten.
+    /// True where the nodes alone decide about melting.
     pub by_nodes: bool,
 }
 

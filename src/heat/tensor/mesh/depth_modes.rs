@@ -31,7 +31,7 @@ pub struct DepthModes {
     pub section: f64,
     /// Nodal values, one mode per column; a fixed last node is left out.
     pub shapes: DMatrix<f64>,
-    /// `∫ (1/g − g) w/w₀ φₘ φₙ dz`: what the replacement of `1/g` by `g` neglects; empty for a straight body.
+    /// `∫ (1/g − g) w/w₀ φₘ φₙ dz`: part that the replacement of `1/g` by `g` neglects; empty for a straight body.
     pub curvature: DMatrix<f64>,
     /// Depth of the nodes [m].
     pub depths: Vec<f64>,
@@ -43,7 +43,8 @@ pub struct DepthModes {
 }
 
 /// Modes are padded to a multiple of this number with empty ones, so that inner loops run on full registers. Wider ones
-/// than those of four numbers need a multiple of theirs: `rows` leaves out what does not fill a register.
+/// than those of four numbers need a multiple of theirs: the loops over rows leave out a rest that does not fill a
+/// register.
 const PADDING: usize = 4;
 
 impl DepthModes {
@@ -121,7 +122,8 @@ impl DepthModes {
         (0..self.len()).map(|m| (0..3).map(|i| shape[i] * node(2 * element + i, m)).sum()).collect()
     }
 
-    /// Mean of every mode over the block: what enters beside the contact's strip joins where heat has spread that far.
+    /// Mean of every mode over the block: heat that enters beside the contact's strip joins where heat has spread that
+    /// far.
     fn under_block(&self, section: &Section) -> Vec<f64> {
         let mut sums = self.surface.clone();
         let mut covered = 1.0;

@@ -1,4 +1,4 @@
-//! Tensor meshes of wheel and rail: streamlines along the surface, modes over the depth, and what is stored on them.
+//! Tensor meshes of wheel and rail: streamlines along the surface, modes over the depth, and fields on them.
 
 pub mod body;
 pub mod depth_modes;

@@ -104,7 +104,7 @@ impl Nodal {
             // The largest change at any node below, or more.
             let change = weighted_change(from, to, &self.peaks);
             let bounds = [known.before[0] - change, known.before[1] + change];
-            // Written so that what is not a number is not taken for known.
+            // Written so that NaN is not taken for known.
             let clear = change <= known.slight && bounds[0] >= known.allowed[0] && bounds[1] <= known.allowed[1];
             joined(range, if clear { bounds } else { self.extremes_of_row(to) })
         };

@@ -1,8 +1,8 @@
 //! The cross-section of a body as conduction into the depth sees it: how wide it is, and where it touches the air.
 //!
-//! Heat enters over the width `w₀` of the contact and spreads sideways until it fills rim or rail head. What is at the
-//! distance `z` from the contact has the width `w(z)` of [`spread`]; the rim ends where it holds the volume of the real
-//! one. Below it are web and boss. Derivation and measured errors: `docs/theory/width-of-conduction.md`.
+//! Heat enters over the width `w₀` of the contact and spreads sideways until it fills rim or rail head. Material at the
+//! distance `z` from the contact conducts over the width `w(z)` of [`spread`]; the rim ends where it holds the volume
+//! of the real one. Below it are web and boss. Derivation and measured errors: `docs/theory/width-of-conduction.md`.
 
 use crate::config::CrossSection;
 use crate::fem::grading::graded;
@@ -16,7 +16,7 @@ const LARGEST_OF_PARTS: f64 = 0.2;
 /// Thickness in which a part of the section counts, in thicknesses of the body.
 const SLIGHT: f64 = 1e-3;
 
-/// Layers of a body and what belongs to each.
+/// Layers of a body, with widths and bare surfaces.
 #[derive(Clone, Debug)]
 pub struct Section {
     /// Depths of the ends of the layers, from zero on [m].
@@ -130,7 +130,7 @@ impl Section {
             let places = graded(size * growth, growth, LARGEST_OF_PARTS * thickness, end - start);
             let ends: Vec<[f64; 2]> = places.windows(2).map(|z| [start + z[0], start + z[1]]).collect();
             let width = |z: f64| part.width.unwrap_or_else(|| spread(z / strip));
-            // What lies bare on top joins where heat has spread that far.
+            // Bare surface on top counts from where heat has spread that far.
             let opened = width(end) - width(start);
             for &[from, to] in &ends {
                 let (widths, height) = ([width(from), width(to)], to - from);

@@ -10,8 +10,8 @@ use std::ops::Range;
 ///
 /// Entries of the inverse of a tridiagonal matrix follow from its factors, `X_jj = 1/d_j + r_j w_{j+1} X_{j+1,j+1}`,
 /// `X_ij = −w_{j+1} X_{i,j+1}` for `j < i`, `X_ij = −r_i X_{i+1,j}` for `i < j` (Takahashi, Fagan & Chin 1973). Between
-/// nodes on both sides of a node `t` they are products of what decays on the way to `t` and from there on, so that the
-/// sums over the modes are products of matrices.
+/// nodes on both sides of a node `t` they are products of the decay on the way to `t` and of that from there on, so
+/// that the sums over the modes are products of matrices.
 #[derive(Clone, Debug, Default)]
 pub struct SurfaceInfluence {
     /// The temperatures, row-major.
@@ -54,7 +54,7 @@ impl SurfaceInfluence {
     }
 
     /// Diagonal of the inverse at the nodes `range`, of which the last one is eliminated last, weighted with `φₘ(0)²`;
-    /// without what goes around the ring, which includes all of the last node if anything does.
+    /// without the part that goes around the ring, which includes all of the last node if there is any.
     fn set_diagonal(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
         let nm = body.modes.len();
         let around = !factor.fill(range, nm)[0].is_empty();
@@ -108,15 +108,15 @@ impl SurfaceInfluence {
         self.fill(links, nm, middle..end, triangle);
     }
 
-    /// Adds what the last node takes part in to the response at the nodes `range`, if the ring is closed for some
-    /// modes.
+    /// Adds the part that runs through the last node to the response at the nodes `range`, if the ring is closed for
+    /// some modes.
     fn add_round_trip(&mut self, factor: &TridiagonalFactor, body: &HeatBody, range: &Range<usize>) {
         let nm = body.modes.len();
         let [column, row] = factor.fill(range, nm);
         if column.is_empty() {
             return;
         }
-        // What the last node does to the others, and they to it: both substitutions for a unit there.
+        // Influence of the last node on the others, and of these on it: both substitutions for a unit there.
         let (count, first) = (self.count, range.start * nm);
         self.before.clear();
         self.before.resize(count * nm, 1.0);

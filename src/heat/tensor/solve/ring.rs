@@ -133,14 +133,14 @@ vectorised! {
 }
 
 /// Registers of modes that go from row to row together. Every division waits for that of the row before: one register
-/// alone would wait, and with more there is no room for what is carried along.
+/// alone would wait, and with more there is no room for the carried numbers.
 const BLOCK: usize = 4;
 
 /// Factors of all modes while they are computed, in registers of type `V`.
 struct Filled<'a, V> {
     factors: [&'a mut [V]; 3],
     fill: [&'a mut [V]; 2],
-    /// Sum, inverse pivot, column, row and what is taken from the last sum, of the row before.
+    /// Sum, inverse pivot, column, row and part taken from the last sum, of the row before.
     carried: [&'a mut [V]; 5],
     /// Magnitude of column and row after the last step.
     left: V,
@@ -224,7 +224,7 @@ impl<V: Copy> Filled<'_, V> {
                 let (mut below, mut above) = (part(below, alpha[q]), part(above, alpha[q]));
                 let mut excess = part(sum, alpha[q]);
                 if step + 2 == end {
-                    // What is filled is the neighbour's entry here.
+                    // The filled entry is the neighbour's here.
                     above = less(simd, above, below, column[q]);
                 } else if step + 1 == end {
                     (below, above) = (simd.add_f64s(below, row[q]), simd.splat_f64s(0.0));

@@ -185,7 +185,10 @@ vectorised! {
                 let moved = simd.mul_add_e_f64s(carried[1], simd.sub_f64s(c, b), from);
                 let moved = simd.mul_add_e_f64s(carried[2], b, moved);
                 let product = simd.mul_add_e_f64s(alpha, held, moved);
-                *out = if update == Update::Add { simd.add_f64s(*out, product) } else { product };
+                *out = match update {
+                    Update::Add => simd.add_f64s(*out, product),
+                    Update::Replace => product,
+                };
             }
         }
     }

@@ -19,8 +19,8 @@ pub const CURVED_BELOW: f64 = 1.0;
 pub const CURVED_STEP: f64 = 0.01;
 
 /// Relative residual of the exact operator at which its correction stops, in steps and in the stationary state, and at
-/// which it is accepted where round-off stops it. In steps the heat balance holds at any residual: what the modal
-/// solver leaves out moves heat along the streamlines only.
+/// which it is accepted where round-off stops it. In steps the heat balance holds at any residual: the part that the
+/// modal solver leaves out moves heat along the streamlines only.
 const STEP_TOLERANCE: f64 = 1e-10;
 const STATIONARY_TOLERANCE: f64 = 1e-13;
 const ACCEPTED: f64 = 1e-9;

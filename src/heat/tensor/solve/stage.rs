@@ -57,8 +57,8 @@ pub struct Stage {
     /// Contact elements and nodes, counted from the first of the zone.
     pub elements: Range<usize>,
     nodes: Range<usize>,
-    /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: what conduction through the contact leaves of a temperature
-    /// difference.
+    /// `1 + β (G_wheel C̃_wheel + G_rail C̃_rail)`: its inverse turns a temperature difference into the part that
+    /// conduction through the contact leaves.
     coupling: Coupling,
     /// Temperature of the wheel less that of the rail at the contact nodes, of the field that was multiplied last.
     pub jump: Vec<f64>,
@@ -148,7 +148,7 @@ impl Stage {
         }
     }
 
-    /// `out ← out + S x` without what the stream carries.
+    /// `out ← out + S x` without the heat that the stream carries.
     pub fn multiply_still(&mut self, layout: &HeatLayout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let [x_wheel, x_rail] = layout.split(x);
         let [wheel, rail] = layout.split_mut(out);
@@ -157,7 +157,8 @@ impl Stage {
         self.add_conduction(layout, coefficients, x, out);
     }
 
-    /// Adds what is no part of the modal solver: exact conduction along the streamlines, and that through the contact.
+    /// Adds the conduction that is no part of the modal solver: exact conduction along the streamlines, and that
+    /// through the contact.
     fn add_conduction(&mut self, layout: &HeatLayout, coefficients: StageCoefficients, x: &[f64], out: &mut [f64]) {
         let x_wheel = &x[..layout.wheel.size()];
         let [wheel, rail] = layout.split_mut(out);

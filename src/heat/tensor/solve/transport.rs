@@ -69,7 +69,7 @@ impl Transport {
         (self.entry, self.exit) = (None, None);
     }
 
-    /// Row sum of `F`: what enters with the stream.
+    /// Row sum of `F`: heat that enters with the stream.
     pub fn entry(&self, row: usize) -> f64 {
         self.entry.map_or(0.0, |(node, value)| if node == row { value } else { 0.0 })
     }

@@ -12,8 +12,8 @@ use std::ops::Range;
 ///
 /// Nodes are eliminated around the ring of the streamline: the first one after the contact comes first, the last one of
 /// the contact comes last. An open streamline is a ring with an empty link. So the surface under the contact is known
-/// before anything else is substituted back, and a load there is eliminated within the contact alone. What the last
-/// node shares with the first one fills a column and a row of the factors,
+/// before anything else is substituted back, and a load there is eliminated within the contact alone. The link of the
+/// last node with the first one fills a column and a row of the factors,
 /// `S = (1 + w + row)(1/inverse)(1 + r) + column`; both fade within some nodes where the stream is faster than
 /// conduction.
 #[derive(Clone, Debug, Default)]
@@ -126,7 +126,7 @@ impl TridiagonalFactor {
         }
     }
 
-    /// Surface values of the solution at the nodes `contact`, from what [`Self::eliminate`] has left.
+    /// Surface values of the solution at the nodes `contact`, after [`Self::eliminate`].
     pub fn trace(&mut self, body: &HeatBody, contact: &Range<usize>, x: &[f64], out: &mut Vec<f64>) {
         let nm = body.modes.len();
         let rows = contact.start * nm..contact.end * nm;
@@ -136,7 +136,7 @@ impl TridiagonalFactor {
         rows::substituted_surface(factors, &x[rows], &mut self.moving, &body.modes.surface, out);
     }
 
-    /// Adds a load on the surface at the nodes `contact` to what [`Self::eliminate`] has left.
+    /// Adds a load on the surface at the nodes `contact` after [`Self::eliminate`].
     pub fn add_eliminated(&mut self, body: &HeatBody, contact: &Range<usize>, load: &[f64], x: &mut [f64]) {
         let nm = body.modes.len();
         let rows = contact.start * nm..contact.end * nm;

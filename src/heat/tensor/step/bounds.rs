@@ -22,9 +22,9 @@ const SLIGHT: f64 = 0.05;
 const NO_FLUX: f64 = 1e-6;
 
 /// Coldest and hottest datum of a step \[K]: hub and air at the reference, the arriving rail, the wheel at the start,
-/// and what reversible temperatures may have moved. There is no lower bound while brake blocks cool, and no upper one
-/// while they or friction heat; from the end of the heat on, what is hottest then is a datum. Friction never cools:
-/// where round-off gives it a negative share somewhere, the lower bound holds all the same.
+/// and the range of reversible temperatures. There is no lower bound while brake blocks cool, and no upper one while
+/// they or friction heat; from the end of the heat on, the hottest node is a datum. Friction never cools: where
+/// round-off gives it a negative share somewhere, the lower bound holds all the same.
 pub fn data(layout: &HeatLayout, state: &HeatState, exchange: &Exchange) -> [f64; 2] {
     let moved = exchange.reversible.value.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let cooled = exchange.tread.iter().any(|tread| tread.heat < 0.0);
@@ -55,7 +55,7 @@ pub fn set_range(layout: &HeatLayout, state: &HeatState, next: &mut HeatState, m
         let b = layout.rail.nodal.bounds_after([from_rail, rail], &known);
         next.range = [a[0].min(b[0]), a[1].max(b[1])];
     }
-    // Written so that what is not a number is not taken for known.
+    // Written so that NaN is not taken for known.
     let known = !wide && next.range[0] >= low && next.range[1] <= high;
     if !known {
         next.range = layout.extremes(&next.values);

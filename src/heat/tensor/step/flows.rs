@@ -101,7 +101,7 @@ impl BodyOperator {
             stored += body.heat_capacity * modes.content[m] * change[m];
             let to_air = body.convection * modes.air[m] * now;
             air += to_air;
-            // Residual of the energy balance tested with 1 at the free nodes: what reaches the fixed ones.
+            // Residual of the energy balance tested with 1 at the free nodes: heat that reaches the fixed ones.
             fixed += body.conductivity * modes.values[m] * modes.free[m] * now
                 - to_air
                 - body.heat_capacity * (modes.content[m] - modes.free[m]) * change[m];
@@ -110,7 +110,7 @@ impl BodyOperator {
         let out = self.transport.exit.map_or(0.0, |(node, exit)| {
             let nm = modes.len();
             let held = |field: &[f64]| dot(&field[node * nm..(node + 1) * nm], &modes.content);
-            // What the stage changes leaves with the stream of the matrix that is inverted.
+            // The change of the stage leaves with the stream of the matrix that is inverted.
             exit * held(content) + ahead_exit * ahead * rate.map_or(0.0, held)
         });
         BodyFlows { stored, air, fixed, out }

@@ -118,7 +118,7 @@ pub fn advance(
     }
     keep_bounds(layout, next, &mut work.values)?;
     if next.data[0] == f64::NEG_INFINITY {
-        // What was cooled is from now on the coldest that acts.
+        // The coldest node is a datum from now on.
         next.range = layout.extremes(&next.values);
         next.data[0] = state.data[0].min(next.range[0]);
     }

@@ -3,7 +3,7 @@
 //!
 //! An undershoot is the other side of an overshoot close by: steep gradients make elements of higher order swing about
 //! the exact field. So the heat comes from the nearest nodes below the same surface node, and where these have too
-//! little from the rows beside. What lies within the margin is left alone: raising every swing by a hundredth of a
+//! little from the rows beside. Nodes within the margin are left alone: raising every swing by a hundredth of a
 //! kelvin, and be it step by step, drives the heat into the depth and cools the hot surface by some percent within
 //! milliseconds. Lowering is raising of the negative field.
 
@@ -14,7 +14,8 @@ use crate::heat::tensor::mesh::body::HeatBody;
 use crate::heat::tensor::mesh::kernels::dot;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 
-/// Share of the margin to which nodes are raised \[1]: what is raised does not fall below the margin at once again.
+/// Share of the margin to which nodes are raised \[1]: a node that is raised does not fall below the margin at once
+/// again.
 const RAISED: f64 = 0.5;
 
 /// Moves all nodes back that lie beyond a datum by more than a share of the margin, if one does by more than the
@@ -83,7 +84,7 @@ fn raise_body(body: &HeatBody, field: &mut [f64], floor: f64, values: &mut Vec<f
     poor.into_iter().map(|(i, lack)| take_beside(body, field, floor, i, lack)).sum()
 }
 
-/// Raises negative values to zero and takes as much from the nearest positive ones; what is lacking, in values times
+/// Raises negative values to zero and takes as much from the nearest positive ones; returns the lack, in values times
 /// weights.
 fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
     let mut missing = 0.0;
@@ -96,7 +97,7 @@ fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
             let has: f64 = near.iter().flatten().map(|&k| (values[k] * weights[k]).max(0.0)).sum();
             let share = if has > lack { lack / has } else { 1.0 };
             for k in near.into_iter().flatten() {
-                // What is still to be raised gives nothing.
+                // A value that is still to be raised gives nothing.
                 values[k] *= if values[k] > 0.0 { 1.0 - share } else { 1.0 };
             }
             lack -= share * has;

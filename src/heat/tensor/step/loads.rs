@@ -65,7 +65,7 @@ impl SurfaceLoads {
         add_tread(&layout.wheel.line, layout.config.wheel.radius, &exchange.tread, &mut self.tread)
     }
 
-    /// Sum of what acts, at the given speeds.
+    /// Sums of the loads, at the given speeds.
     pub fn boundary(&self, speeds: [f64; 2]) -> BoundaryState {
         let total = |moments: &[[f64; 2]]| moments.iter().map(|q| q[0]).sum();
         BoundaryState {
@@ -100,7 +100,7 @@ impl Zone<'_> {
         Ok(())
     }
 
-    /// Appends what reversible temperatures conduct, taken as linear on every element.
+    /// Appends the heat that reversible temperatures conduct, taken as linear on every element.
     fn add_reversible(
         &self,
         difference: &Piecewise,

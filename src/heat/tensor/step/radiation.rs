@@ -20,9 +20,9 @@ pub struct Radiation {
 impl Radiation {
     /// Radiation during a step of `dt` seconds after the temperatures `field`.
     ///
-    /// It follows from the mean temperatures along the streamlines at the beginning of the step. What falls with the
-    /// temperature on the way, `(1 − e⁻ˣ)/x` with `x` the step over the time in which the whole body would cool, keeps
-    /// the heat of long steps right to first order and never cools below the surroundings.
+    /// It follows from the mean temperatures along the streamlines at the beginning of the step. The factor
+    /// `(1 − e⁻ˣ)/x`, with `x` the step over the time in which the whole body would cool, accounts for the cooling
+    /// within the step: long steps are right to first order and never cool below the surroundings.
     pub fn set(&mut self, body: &HeatBody, thermal: &Thermal, field: &[f64], dt: f64) {
         let Self { load, heat, sums } = self;
         load.clear();

@@ -49,7 +49,7 @@ pub fn stationary(heat: &Heat, speeds: [f64; 2], exchange: &Exchange) -> Result<
 }
 
 /// Temperatures after long rolling: those of the heat of `exchange`, over a wheel at the temperature `wheel` \[K] on a
-/// rail at that of the arriving one, with what these two exchange in passing.
+/// rail at that of the arriving one, with the heat that these two exchange in passing.
 pub fn after_long_rolling(
     heat: &Heat,
     speeds: [f64; 2],
@@ -62,14 +62,14 @@ pub fn after_long_rolling(
     if moving == [false; 2] {
         return Ok((superposed(layout, &parts)?, HeatFlows::default()));
     }
-    // The temperature with which the rail arrives belongs to what passes, not to what lasts.
+    // The temperature of the arriving rail belongs to the uniform bodies, not to the stationary heat.
     let (heated, flows) = stationary(heat, speeds, &Exchange { arriving: 0.0, ..exchange.clone() })?;
     // Where one of both surfaces stays, it warms or cools for ever.
     let excess = wheel - rail;
     if moving == [true; 2] && excess != 0.0 && !exchange.patches.is_empty() {
         parts.push(passing(heat, speeds, exchange, excess)?);
     }
-    // What passes between the bodies keeps their bounds by itself; heat comes on top.
+    // The exchange between the bodies keeps their bounds by itself; heat comes on top.
     let warm = superposed(layout, &parts)?;
     Ok((superposed(layout, &[warm, heated])?, flows))
 }
@@ -78,8 +78,8 @@ pub fn after_long_rolling(
 /// the tread is `tread` \[K]; of `exchange` only patches and pressure count.
 ///
 /// They are the stationary state of a wheel that is kept warm by even heat on its tread, less the mean along every
-/// streamline of the wheel, which changes within minutes. The modal solver is exact enough for it: what it neglects
-/// acts on the mean.
+/// streamline of the wheel, which changes within minutes. The modal solver is exact enough for it: its error acts on
+/// the mean.
 fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Result<HeatState, HeatError> {
     let layout = &heat.layout;
     let even = Exchange {
@@ -132,7 +132,7 @@ fn not_finite([velocity, omega]: [f64; 2]) -> HeatError {
 }
 
 /// Sum of temperature fields that hold at the same time, as if no step had led to it. Only the sum has to keep the
-/// bounds: what a wheel loses in passing is far below its datum, and the bounds of the parts say little about it.
+/// bounds: the loss of a wheel in passing is far below its datum, and the bounds of the parts say little about it.
 fn superposed(layout: &HeatLayout, parts: &[HeatState]) -> Result<HeatState, HeatError> {
     let mut sum = HeatState::new(vec![0.0; layout.size()]);
     for part in parts {
