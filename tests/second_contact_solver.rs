@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SolverState, Surfaces,
-    Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SolvedFriction, SolverState,
+    Surfaces, Traction, Yielding,
 };
 use wheelrail::mechanics::{Basis, Pair, bodies, contact_modulus};
 use wheelrail::piecewise::{Interval, Piecewise};
@@ -167,11 +167,14 @@ impl ContactSolver for Hertz {
             loads: [forces.clone(), -&forces],
             port_forces: forces,
             rigid,
-            friction_power: 0.0,
-            friction_work: 0.0,
-            dissipation_excess: 0.0,
-            friction: problem.friction.coefficient(slip),
-            tread_slip: slip,
+            friction: SolvedFriction {
+                coefficient: problem.friction.coefficient(slip),
+                tread_slip: slip,
+                power: 0.0,
+                work: 0.0,
+                dissipation: profile(vec![0.0; PROFILE]),
+                excess: 0.0,
+            },
             edges: vec![Interval { low: -half_width, high: half_width }],
             patches: vec![Interval { low: -half_width, high: half_width }],
             stick_fraction: 0.0,
@@ -179,11 +182,7 @@ impl ContactSolver for Hertz {
             pressure: profile(pressure),
             shear: profile(vec![0.0; PROFILE]),
             slip: profile(vec![slip; PROFILE]),
-            dissipation: profile(vec![0.0; PROFILE]),
-            overlap: Piecewise::default(),
-            plastic_work: 0.0,
-            springing_work: 0.0,
-            yielding: 0.0,
+            yielding: Yielding::default(),
             iterations,
         };
         found.solver = SolverState::Stateless;

@@ -142,7 +142,7 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
         for load in [4e4, 6e4, 8e4, 1e5, 1.2e5] {
             let nodes = |simulation: &Simulation| {
                 let t = &simulation.state().contact.traction;
-                let at = |&x: &f64| [t.pressure.at(x) / SHEAR, t.shear.at(x).abs() / SHEAR, t.overlap.at(x)];
+                let at = |&x: &f64| [t.pressure.at(x) / SHEAR, t.shear.at(x).abs() / SHEAR, t.yielding.overlap.at(x)];
                 t.pressure.x.iter().map(|x| (*x, at(x))).collect::<Vec<_>>()
             };
             let mut latest = [Vec::new(), Vec::new()];

@@ -27,5 +27,5 @@ pub use limits::SteelLimits;
 pub use problem::{AxisDrive, ContactProblem, LineProblem, RetardedSurface, RigidMotion, SurfaceResponse};
 pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 pub use surface::{Placement, Relief, Surfaces};
-pub use traction::Traction;
+pub use traction::{SolvedFriction, Traction, Yielding};
 pub use worn::{Loss, Worn};

@@ -24,16 +24,6 @@ pub struct Traction {
     pub rigid: [f64; 3],
     /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N].
     pub resultant: [f64; 3],
-    /// Power that friction turns from mechanical energy into heat, net of what hot material gives back by expanding as
-    /// it passes the contact [W/m].
-    pub friction_power: f64,
-    /// Friction coefficient with which they were found \[1].
-    pub friction: f64,
-    /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
-    /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
-    pub tread_slip: f64,
-    /// Energy that friction has turned into heat in the step [J/m].
-    pub friction_work: f64,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the
     /// pressures beside them.
     pub edges: Vec<Interval>,
@@ -51,11 +41,38 @@ pub struct Traction {
     /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the
     /// friction power, but for the thousandths that pressure on the inclined surface and expanding material add to it.
     pub slip: Piecewise,
-    /// Where friction dissipates at the end of the step [W/m²].
+    /// Friction coefficient and the heat of friction.
+    pub friction: SolvedFriction,
+    /// Yielding of the steel.
+    pub yielding: Yielding,
+    /// Iterations until all decisions between open, stick and slip were made, without those of the search for the
+    /// friction coefficient.
+    pub iterations: usize,
+}
+
+/// Friction of a solved contact, per metre of width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SolvedFriction {
+    /// Coefficient with which the forces were found \[1].
+    pub coefficient: f64,
+    /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
+    /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
+    pub tread_slip: f64,
+    /// Power that friction turns from mechanical energy into heat at the end of the step, net of the power that hot
+    /// material gives back by expanding as it passes the contact [W/m].
+    pub power: f64,
+    /// Energy that friction has turned into heat in the step [J/m].
+    pub work: f64,
+    /// Density of the dissipation at the end of the step [W/m²].
     pub dissipation: Piecewise,
-    /// By how much the mean dissipation of the step exceeds that at its end, relative to the latter \[1]: with it,
+    /// Excess of the mean dissipation of the step over that at its end, relative to the latter \[1]: with it,
     /// [`Self::dissipation`] integrates to the energy of the step.
-    pub dissipation_excess: f64,
+    pub excess: f64,
+}
+
+/// Yielding of the steel in a solved contact, per metre of width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Yielding {
     /// Depth by which yielding steel lies in the way of the other surface \[m], with zeros at its ends; empty where
     /// nothing yields.
     pub overlap: Piecewise,
@@ -64,10 +81,31 @@ pub struct Traction {
     /// Work of the rest, which springs back when the pressure falls [J/m].
     pub springing_work: f64,
     /// Share of the contact length that yields \[1].
-    pub yielding: f64,
-    /// Iterations until all decisions between open, stick and slip were made, without those of the search for the
-    /// friction coefficient.
-    pub iterations: usize,
+    pub share: f64,
+}
+
+impl SolvedFriction {
+    /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns
+    /// the power for which the profile of dissipation stands. Friction never cools: where it is less than the errors of
+    /// what hot material gives back, it heats nothing. Nor does it where its coefficient is zero.
+    pub(super) fn dissipate(&mut self, friction: f64, work: f64, duration: f64) -> f64 {
+        (self.power, self.work) = (friction, work);
+        if self.coefficient == 0.0 {
+            self.excess = 0.0;
+            return 0.0;
+        }
+        let mean = if duration > 0.0 { work / duration } else { friction }.max(0.0);
+        // Where friction has all but ended within the step, its mean stands for it.
+        let power = if friction > ENDING * mean { friction } else { mean };
+        self.excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
+        power
+    }
+
+    /// Takes away the slip and its dissipation.
+    fn rest(&mut self) {
+        (self.power, self.work, self.tread_slip, self.excess) = (0.0, 0.0, 0.0, 0.0);
+        self.dissipation.value.fill(0.0);
+    }
 }
 
 impl Traction {
@@ -91,42 +129,24 @@ impl Traction {
         self.edges.iter().map(|edges| edges.high - edges.low).sum()
     }
 
-    /// Takes the power of friction at the end of a step of `duration` seconds [W/m] and its energy in it [J/m]; returns
-    /// the power for which the profile of dissipation stands. Friction never cools: where it is less than the errors of
-    /// what hot material gives back, it heats nothing. Nor does it where its coefficient is zero.
-    pub(super) fn dissipate(&mut self, friction: f64, work: f64, duration: f64) -> f64 {
-        (self.friction_power, self.friction_work) = (friction, work);
-        if self.friction == 0.0 {
-            self.dissipation_excess = 0.0;
-            return 0.0;
-        }
-        let mean = if duration > 0.0 { work / duration } else { friction }.max(0.0);
-        // Where friction has all but ended within the step, its mean stands for it.
-        let power = if friction > ENDING * mean { friction } else { mean };
-        self.dissipation_excess = if power > 0.0 { mean / power - 1.0 } else { 0.0 };
-        power
-    }
-
     /// Work of the pressure where the surfaces have become `deeper` \[m] at the nodes of the overlap, the first and the
     /// last of which bear nothing [J/m]. Where nodes lie between the lattice points of a dent it keeps a little less
     /// than the whole overlap, the more the wider the nodes: the rest springs back.
     pub fn work_of(&self, deeper: impl Fn(f64) -> f64) -> f64 {
-        let x = &self.overlap.x;
+        let x = &self.yielding.overlap.x;
         let width = |i: usize| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]);
         (0..x.len()).map(|i| width(i) * deeper(x[i]) * self.pressure.at(x[i])).sum()
     }
 
     /// Work of the pressure on the whole overlap [J/m].
     pub fn overlap_work(&self) -> f64 {
-        self.work_of(|x| self.overlap.at(x))
+        self.work_of(|x| self.yielding.overlap.at(x))
     }
 
     /// Takes away all slip and what it dissipates: the state of a wheel at rest.
     pub fn rest(&mut self) {
-        (self.friction_power, self.friction_work, self.tread_slip) = (0.0, 0.0, 0.0);
+        self.friction.rest();
         self.slip.value.fill(0.0);
-        self.dissipation.value.fill(0.0);
-        self.dissipation_excess = 0.0;
     }
 }
 

@@ -15,7 +15,7 @@ pub fn energy(model: &Model, state: &State) -> f64 {
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
         + model.bodies.correction_energy(&state.contact)
-        + state.contact.traction.springing_work
+        + state.contact.traction.yielding.springing_work
 }
 
 /// Balance at a stationary start.
@@ -49,7 +49,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
         brake: before.brake - next.hub.brake.impulse * mean[2],
         thermal_work: before.thermal_work,
-        friction: before.friction + next.contact.traction.friction_work,
+        friction: before.friction + next.contact.traction.friction.work,
         plastic: before.plastic,
         damping: before.damping + damped + damper * mean[1],
         throughput: before.throughput + work.abs(),

@@ -93,13 +93,13 @@ impl ContactModel {
     /// and zero while nothing yields.
     pub fn softest(&self, state: &State) -> [f64; 2] {
         let traction = &state.contact.traction;
-        let (Some(patch), true) = (traction.extent(), traction.yielding > 0.0) else { return [0.0; 2] };
+        let (Some(patch), true) = (traction.extent(), traction.yielding.share > 0.0) else { return [0.0; 2] };
         let strength = &state.weakening().strength;
         let within = strength.x.iter().zip(&strength.value).filter(|(x, _)| **x > patch.low && **x < patch.high);
         let share = within.map(|(_, share)| *share).fold(1.0, f64::min);
         let standing =
             self.standing([state.motion.velocity.now, state.motion.omega.now], state.clock.last_step, traction);
-        let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction);
+        let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction.coefficient);
         [softest, self.least_pressure(traction.resultant[1])]
     }
 

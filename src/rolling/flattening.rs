@@ -23,35 +23,35 @@ pub fn none(model: &Model) -> [Flattening; 2] {
 pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening.clone_from(&state.flattening);
     let traction = &mut next.contact.traction;
-    traction.plastic_work = 0.0;
+    traction.yielding.plastic_work = 0.0;
     let whole = traction.overlap_work();
     if whole <= 0.0 {
-        traction.springing_work = 0.0;
+        traction.yielding.springing_work = 0.0;
     }
     let traction = &next.contact.traction;
-    let Some(patch) = traction.extent().filter(|_| !traction.overlap.is_empty()) else { return };
+    let Some(patch) = traction.extent().filter(|_| !traction.yielding.overlap.is_empty()) else { return };
     let stands = bodies_that_stand(model, next, patch);
     if stands == [false; 2] {
         return;
     }
     let (traction, radius) = (&mut next.contact.traction, model.contact.surfaces.radius);
-    let spacing = traction.overlap.x.windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
+    let spacing = traction.yielding.overlap.x.windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
     let warmer = &state.weakening().warmer_wheel;
     for (body, at) in [place[1] * radius, place[0]].into_iter().enumerate() {
         let share = |x: f64| share(body, stands, warmer.at(x));
-        let overlap = &traction.overlap;
+        let overlap = &traction.yielding.overlap;
         let mut by = overlap.clone();
         by.value.iter_mut().zip(&overlap.x).for_each(|(depth, &x)| *depth *= share(x));
         if by.value.iter().any(|depth| *depth > 0.0) {
             next.flattening[body].press(at, &by, spacing);
         }
     }
-    traction.plastic_work = traction.work_of(|x| {
+    traction.yielding.plastic_work = traction.work_of(|x| {
         let deeper = |body: usize, at: f64| next.flattening[body].depth(at + x) - state.flattening[body].depth(at + x);
         deeper(0, place[1] * radius) + deeper(1, place[0])
     });
     if whole > 0.0 {
-        traction.springing_work *= 1.0 - traction.plastic_work / whole;
+        traction.yielding.springing_work *= 1.0 - traction.yielding.plastic_work / whole;
     }
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
 }

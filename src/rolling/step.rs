@@ -118,7 +118,7 @@ fn attempt(
     solved?;
     // The energy is that of the solution found: another solver that takes over has none of its own yet.
     next.audit = audit::advance(model, &plan.td, state, next);
-    next.audit.plastic += next.contact.traction.plastic_work;
+    next.audit.plastic += next.contact.traction.yielding.plastic_work;
     zones::narrow(model, next);
     let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub.force, [next.audit.energy; 3]];
     if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
@@ -169,7 +169,7 @@ impl Plan {
         let (law, traction) = (friction_law(demand.tuning), &state.contact.traction);
         let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
         let friction = Friction::local(law, available, heating, ratio);
-        let friction = friction.after(dt, traction.friction, traction.tread_slip, heating);
+        let friction = friction.after(dt, traction.friction.coefficient, traction.friction.tread_slip, heating);
         Self { dt, td, of_height, restarted: before == 0.0, drives, given, speeds, friction }
     }
 }

@@ -41,14 +41,14 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     }
     let traction = &next.contact.traction;
     let (velocity, rim) = (next.motion.velocity.now, next.motion.omega.now * model.rolling_radius(state));
-    let t_gamma = per_metre(traction.friction_work / dt, velocity, rim);
+    let t_gamma = per_metre(traction.friction.work / dt, velocity, rim);
     let mass = law(&model.config).rate(t_gamma, traction.touching()) * velocity.abs().max(STANDSTILL) * dt;
     let volume = mass / model.config.material.density;
     let load = traction.resultant[1];
-    if volume.is_nan() || volume <= 0.0 || load <= 0.0 || traction.dissipation.is_empty() {
+    if volume.is_nan() || volume <= 0.0 || load <= 0.0 || traction.friction.dissipation.is_empty() {
         return;
     }
-    let spread = traction.dissipation.clone();
+    let spread = traction.friction.dissipation.clone();
     let worn_rail = flattening::stands(model, next)[1];
     let element = model.contact.nominal_half_width() / model.config.mesh.elements_per_half_width as f64;
     let spacing = element.max(FINEST);
@@ -65,7 +65,7 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
         next.flattening[1].forget_beyond(next.motion.distance, model.config.rail.length);
         work *= 2.0;
     }
-    next.contact.traction.plastic_work += work;
+    next.contact.traction.yielding.plastic_work += work;
 }
 
 /// Length over which the wear of a step is evened out \[m], so that what a wave of the pressure wears off does not take away more

@@ -10,12 +10,9 @@
 
 use super::axes::Axes;
 use super::coefficient::CoefficientSearch;
-use super::fast::alternating;
-use super::fast::initial_guess::{Comparison, InitialGuess};
-use super::fast::patch_inverse::KeptInverses;
-use super::fast::pressure_shear::PressureShear;
+use super::fast::Shortcuts;
 use super::linear;
-use super::states::{self, Rules};
+use super::states::{self, Comparison, Rules};
 use super::unknowns::Unknowns;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
@@ -64,9 +61,7 @@ struct SearchMemory {
     system: DenseSystem,
     /// States before an update.
     before: Vec<NodeStatus>,
-    inverses: KeptInverses,
-    pressure_shear: PressureShear,
-    guess: InitialGuess,
+    fast: Shortcuts,
     solved: [u64; 2],
 }
 
@@ -102,12 +97,12 @@ impl<'a> ActiveSet<'a> {
         }
         let (penalty, friction) = (states::penalty(&self.line), self.problem.friction);
         self.guess_closed(penalty);
-        self.line.traction.friction = friction.coefficient(self.line.traction.tread_slip);
+        self.line.traction.friction.coefficient = friction.coefficient(self.line.traction.friction.tread_slip);
         self.line.update_upwind();
         self.line.take_surface_angle();
         self.line.frame.rim_angle = self.line.predicted_angle();
         self.line.traction.iterations = self.find_states(penalty)?;
-        self.line.traction.tread_slip = states::mean_slip(&self.line);
+        self.line.traction.friction.tread_slip = states::mean_slip(&self.line);
         if friction.varies() {
             self.find_coefficient(penalty)?;
         }
@@ -118,10 +113,10 @@ impl<'a> ActiveSet<'a> {
 
     /// Guesses the closed nodes from which the search starts.
     fn guess_closed(&mut self, penalty: f64) {
-        let SearchMemory { unknowns, row, before, inverses, guess, .. } = &mut *self.memory;
+        let SearchMemory { unknowns, row, before, fast, .. } = &mut *self.memory;
         let tolerance = states::FORCE_TOLERANCE[0] * self.problem.nominal_load / self.line.grid.len() as f64;
         let comparison = Comparison { penalty, tolerance };
-        guess.find(&mut self.line, &self.axes, comparison, (unknowns, row, before, inverses));
+        fast.guess(&mut self.line, &self.axes, comparison, (unknowns, row, before));
     }
 
     /// Finds the states of all nodes at the present friction coefficient; returns the iterations made.
@@ -152,11 +147,11 @@ impl<'a> ActiveSet<'a> {
         let friction = self.problem.friction;
         let mut search = CoefficientSearch::new(friction.bounds());
         for _ in 0..MAX_COEFFICIENTS {
-            let law = friction.coefficient(self.line.traction.tread_slip);
-            let Some(next) = search.next(self.line.traction.friction, law) else { return Ok(()) };
-            self.line.traction.friction = next;
+            let law = friction.coefficient(self.line.traction.friction.tread_slip);
+            let Some(next) = search.next(self.line.traction.friction.coefficient, law) else { return Ok(()) };
+            self.line.traction.friction.coefficient = next;
             self.find_states(penalty)?;
-            self.line.traction.tread_slip = states::mean_slip(&self.line);
+            self.line.traction.friction.tread_slip = states::mean_slip(&self.line);
         }
         Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
     }
@@ -164,10 +159,10 @@ impl<'a> ActiveSet<'a> {
     /// Solves the linear problem of the present states; fills forces, rigid motions, displacements, slips and gaps.
     fn solve_linear(&mut self) -> Result<(), ContactError> {
         let Self { line, axes, memory, .. } = self;
-        let SearchMemory { unknowns, row, system, inverses, pressure_shear, solved, .. } = &mut **memory;
+        let SearchMemory { unknowns, row, system, fast, solved, .. } = &mut **memory;
         unknowns.list(line, axes);
         line.update_rim();
-        let alternated = alternating::solve(line, axes, unknowns, row, (inverses, pressure_shear));
+        let alternated = fast.solve(line, axes, unknowns, row);
         if !alternated {
             linear::solve(line, axes, unknowns, row, system)?;
         }

@@ -99,7 +99,7 @@ impl ContactSolver for ActiveSetSolver {
         history.copy_from(&start.history);
         (*ports, *energy) = (start.ports, 0.0);
         copy(&mut traction.port_forces, &start.traction.port_forces);
-        traction.tread_slip = start.traction.tread_slip;
+        traction.friction.tread_slip = start.traction.friction.tread_slip;
         for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
             copy(ours, theirs);
         }

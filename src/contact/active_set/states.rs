@@ -20,6 +20,15 @@ const SLIP_ROUND_OFF: [f64; 3] = [1e-9, 1e-11, 1e-13];
 /// yet.
 const OVERLOAD: f64 = 3.0;
 
+/// Comparison of gaps and forces by which nodes open and close.
+#[derive(Clone, Copy)]
+pub(super) struct Comparison {
+    /// Stiffness that compares gaps with forces [N/m per m].
+    pub penalty: f64,
+    /// Tolerance of nodal forces [N/m].
+    pub tolerance: f64,
+}
+
 /// Rules by which one update of the states goes.
 pub(super) struct Rules {
     /// Stiffness that compares gaps with forces [N/m per m].
@@ -151,9 +160,9 @@ pub(super) fn support(line: &mut ContactLine) -> bool {
 /// forces and gaps then mean nothing yet.
 fn is_overloaded(line: &ContactLine) -> bool {
     let nodes = 0..line.grid.len();
-    let limit: f64 = nodes.clone().map(|i| line.normal(i).max(0.0)).sum::<f64>() * line.traction.friction;
+    let limit: f64 = nodes.clone().map(|i| line.normal(i).max(0.0)).sum::<f64>() * line.traction.friction.coefficient;
     let stuck = nodes.filter(|&i| line.state.status[i] == NodeStatus::Stick).map(|i| line.tangential(i).abs());
-    stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction > 0.0
+    stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction.coefficient > 0.0
 }
 
 /// True if the stuck nodes do not slip, round-off apart: their rows are linearised in V and Ω. In short steps of slow

@@ -108,7 +108,7 @@ impl<'a> ContactLine<'a> {
 
     /// Friction force that candidate `i` can bear over its normal force \[1].
     pub fn friction(&self, i: usize) -> f64 {
-        self.given.strength.friction(i, self.traction.friction)
+        self.given.strength.friction(i, self.traction.friction.coefficient)
     }
 
     /// Depth \[m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].

@@ -49,13 +49,13 @@ pub fn finish(line: ContactLine) {
         retarded: retarded.force[1],
     };
     let [friction, work] = power.friction(&problem.time, &mut history.friction);
-    let power = traction.dissipate(friction, work, problem.duration);
+    let power = traction.friction.dissipate(friction, work, problem.duration);
     let slopes = Slopes { grid, gap: &state.gap, overlap, rail_slope: &given.rail_slope, depth: &given.depth };
     traction.resultant = observe::resultant(problem.radius(), &frame, slopes, traction);
     traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();
     observe::overlap(grid, state, overlap, traction);
     let (moving, limits) = (if problem.time.is_stationary() { 0.0 } else { 1.0 }, &given.strength.limit);
-    traction.springing_work = moving * observe::springing_work(grid, overlap, limits, traction);
+    traction.yielding.springing_work = moving * observe::springing_work(grid, overlap, limits, traction);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
     observe::read_off(grid, (power, limit), state, slip, traction);

@@ -53,8 +53,9 @@ pub fn read_off(
         traction.edges.push(edges);
         traction.patches.push(stretch(grid, edges, &run));
         length += run.clone().map(|i| grid.width(i)).sum::<f64>();
-        let margin =
-            |i: usize| (grid.share(i) * (traction.friction * normal(i) - tangential(i).abs())).max(0.0).powi(2);
+        let margin = |i: usize| {
+            (grid.share(i) * (traction.friction.coefficient * normal(i) - tangential(i).abs())).max(0.0).powi(2)
+        };
         stuck += stick_length(grid, &state.status, margin, run);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
@@ -69,21 +70,21 @@ pub fn read_off(
         NodeStatus::SlipForward | NodeStatus::SlipBackward => (-tangential(i) * state.slip[i] / grid.width(i)).max(0.0),
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
-    over_patches(grid, status, patches, density, &mut traction.dissipation);
-    scale_to(&mut traction.dissipation, power, &traction.pressure);
+    over_patches(grid, status, patches, density, &mut traction.friction.dissipation);
+    scale_to(&mut traction.friction.dissipation, power, &traction.pressure);
 }
 
 /// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].
 pub(in crate::contact) fn overlap(grid: &ContactGrid, state: &LineState, overlap: &[f64], traction: &mut Traction) {
-    traction.overlap.clear();
+    traction.yielding.overlap.clear();
     let closed = state.status.iter().filter(|s| s.is_active()).count();
     let yielding = state.yielded.iter().filter(|yields| **yields).count();
-    traction.yielding = if closed > 0 { yielding as f64 / closed as f64 } else { 0.0 };
+    traction.yielding.share = if closed > 0 { yielding as f64 / closed as f64 } else { 0.0 };
     let first = state.yielded.iter().position(|yields| *yields);
     let (Some(first), Some(last)) = (first, state.yielded.iter().rposition(|yields| *yields)) else { return };
     let stretch = first.saturating_sub(1)..(last + 2).min(grid.len());
     for (x, depth) in grid.x[stretch.clone()].iter().zip(&overlap[stretch]) {
-        traction.overlap.push(*x, depth.max(0.0));
+        traction.yielding.overlap.push(*x, depth.max(0.0));
     }
 }
 

@@ -6,7 +6,7 @@ use super::state::{Past, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
 use crate::contact::line::LineHistory;
-use crate::contact::traction::Traction;
+use crate::contact::traction::{SolvedFriction, Traction};
 use crate::linalg::POINTS;
 use crate::multistep::History;
 use crate::piecewise::{Interval, Piecewise};
@@ -99,11 +99,11 @@ pub(super) fn finish(
 ) -> f64 {
     let (_, force) = line.slipping();
     let [friction, work] = remember(line, &force, state, history);
-    traction.friction = line.friction;
-    let power = traction.dissipate(friction, work, line.problem.line.duration);
+    traction.friction.coefficient = line.friction;
+    let power = traction.friction.dissipate(friction, work, line.problem.line.duration);
     let weighted: f64 = force.iter().zip(&line.slips).map(|(f, s)| f * s).sum();
     let slide = line.tractions.slide;
-    traction.tread_slip = if slide == 0.0 { mean_slip(line) } else { weighted / (slide * line.load()) };
+    traction.friction.tread_slip = if slide == 0.0 { mean_slip(line) } else { weighted / (slide * line.load()) };
     traction.rigid = line.rigid;
     traction.resultant = line.resultant();
     write_ports(line, traction);
@@ -113,10 +113,10 @@ pub(super) fn finish(
         patches.push(Interval { low, high });
     }
     traction.stick_fraction = line.tractions.stick.half_width / line.tractions.pressure.half_width;
-    traction.overlap.clear();
-    (traction.plastic_work, traction.yielding, traction.iterations) = (0.0, 0.0, 1);
+    traction.yielding.overlap.clear();
+    (traction.yielding.plastic_work, traction.yielding.share, traction.iterations) = (0.0, 0.0, 1);
     write_profiles(line, traction);
-    scale_to(&mut traction.dissipation, power, &traction.pressure);
+    scale_to(&mut traction.friction.dissipation, power, &traction.pressure);
     energy(line)
 }
 
@@ -150,7 +150,7 @@ fn write_ports(line: &SeriesLine, traction: &mut Traction) {
 }
 
 fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
-    let Traction { pressure, shear, slip, dissipation, .. } = traction;
+    let Traction { pressure, shear, slip, friction: SolvedFriction { dissipation, .. }, .. } = traction;
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(Piecewise::clear);
     let ([low, high], part) = (line.tractions.pressure.ends(), line.slipping_ends());
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(|profile| profile.push(low, 0.0));

@@ -80,7 +80,7 @@ impl SeriesSolver {
     fn check_limits(problem: &ContactProblem, traction: &Traction) -> Result<(), ContactError> {
         let limits = &problem.line.limits;
         // Where it sticks friction shears the steel less; that is for the grid to find out.
-        let bears = |x: f64| limits.sheared_at(x, traction.friction);
+        let bears = |x: f64| limits.sheared_at(x, traction.friction.coefficient);
         let yields = |(x, p): (&f64, &f64)| *p > bears(*x);
         let pressure = &traction.pressure;
         let any = limits.is_limited()
@@ -180,7 +180,7 @@ impl ContactSolver for SeriesSolver {
         match state.ports {
             Ports::Smooth => None,
             Ports::Narrow | Ports::Wide => self.grid.narrowed(state, nominal_load).or_else(|| {
-                let (travel, slip) = (state.traction.rigid[0], state.traction.tread_slip);
+                let (travel, slip) = (state.traction.rigid[0], state.traction.friction.tread_slip);
                 if slip.abs() > MOST_SLIDING * travel.abs() {
                     return None;
                 }

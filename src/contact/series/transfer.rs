@@ -122,7 +122,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant[1]) else { return None };
     let reach = ROOM * constants.points.reach;
-    if state.rest > 0 || load <= 0.0 || traction.yielding > 0.0 || edges.low < -reach || edges.high > reach {
+    if state.rest > 0 || load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {
         return None;
     }
     let even = even(grid);
@@ -139,7 +139,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     if share > 0.0 {
         (stick.half_width, stick.centre) = (share * half_width, centre + side * (1.0 - share) * half_width);
     }
-    let slide = direction * traction.friction;
+    let slide = direction * traction.friction.coefficient;
     let history = |before: bool| {
         let value = |h: &History| if before { h.before } else { h.now };
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())

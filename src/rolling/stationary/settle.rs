@@ -178,7 +178,7 @@ impl Pass<'_> {
         let width = self.model.wheel.width;
         let asked = self.goal.tangential_force(self.model.wheel.inertia, trial) * width;
         let load = state.contact.traction.resultant[1] * width;
-        let friction = state.contact.traction.friction;
+        let friction = state.contact.traction.friction.coefficient;
         let carried = friction * load;
         if self.sought.is_none() || asked.abs() < share * carried {
             return Ok(());
@@ -209,7 +209,7 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
     state.hub.force[2] = goal.given[2].loads().map_or(state.hub.force[2], |[load, _]| load + state.hub.brake.moment);
     state.hub.driving = state.hub.force;
     state.clock.control = substeps::unlimited(model, &state);
-    state.friction_power = state.contact.traction.friction_power;
+    state.friction_power = state.contact.traction.friction.power;
     state.audit = audit::start(model, &state);
     state.pressing = Pressing::constant(state.contact.traction.resultant[1]);
     state

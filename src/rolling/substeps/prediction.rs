@@ -40,7 +40,7 @@ pub fn controlled(model: &Model, state: &State) -> Controlled {
         forces: traction.resultant,
         resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.hub.driving[k]),
         damper: model.wheel.damper_force(state),
-        slip: traction.tread_slip,
+        slip: traction.friction.tread_slip,
         temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
         velocity: state.motion.velocity.now,
         omega: state.motion.omega.now,
@@ -106,7 +106,7 @@ impl Found {
         let bound = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
         let (heating, molten) = (rise.abs(), hottest > bound && rise > 0.0);
         let overheats = molten && hottest - rise <= bound;
-        let yields = to.contact.traction.yielding > 0.0;
+        let yields = to.contact.traction.yielding.share > 0.0;
         let strikes = touching(from) != touching(to);
         Self { error, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
     }

@@ -64,11 +64,11 @@ impl ThermalContact<'_> {
         exchange.patches.extend(&contact.edges);
         copy(&contact.pressure, &mut exchange.pressure);
         if film.is_empty() {
-            copy(&contact.dissipation, &mut exchange.friction_power);
+            copy(&contact.friction.dissipation, &mut exchange.friction_power);
         } else {
-            film::divided(&contact.dissipation, film, &mut exchange.friction_power);
+            film::divided(&contact.friction.dissipation, film, &mut exchange.friction_power);
         }
-        exchange.friction_excess = contact.dissipation_excess;
+        exchange.friction_excess = contact.friction.excess;
         blocks.fill(tread_heat, &mut exchange.tread);
         exchange.arriving = self.arriving;
         let [wheel, rail] = &self.reversible;

@@ -270,7 +270,7 @@ impl ThermalModel {
         thermal.loaded_mean =
             [0, 1].map(|body| piecewise::weighted_mean(&contact.traction.pressure, zone, &seen.surface[body]));
         let mean = thermal.friction_excess();
-        let friction = contact.traction.friction;
+        let friction = contact.traction.friction.coefficient;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         let warm = seen.temperatures.wheel_max.max(seen.temperatures.rail_max) > SMOOTHED;
         match &self.expansion {

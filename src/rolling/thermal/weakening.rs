@@ -114,7 +114,7 @@ impl WeakSteel {
         for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
             let hot = wheel.max(*rail);
-            let whole = (traction.friction * traction.pressure.at(at) * traction.slip.at(at)).abs();
+            let whole = (traction.friction.coefficient * traction.pressure.at(at) * traction.slip.at(at)).abs();
             let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);

@@ -7,7 +7,7 @@
 
 use super::patch_inverse::{KeptInverses, compliance};
 use crate::contact::active_set::axes::Axes;
-use crate::contact::active_set::states::closing_state;
+use crate::contact::active_set::states::{Comparison, closing_state};
 use crate::contact::active_set::unknowns::Unknowns;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
@@ -17,15 +17,6 @@ use nalgebra::DVector;
 
 /// Guesses of the closed nodes at most.
 const MAX_GUESSES: usize = 6;
-
-/// Comparison of gaps and forces by which nodes open and close.
-#[derive(Clone, Copy)]
-pub struct Comparison {
-    /// Stiffness that compares gaps with forces [N/m per m].
-    pub penalty: f64,
-    /// Tolerance of nodal forces [N/m].
-    pub tolerance: f64,
-}
 
 /// Balance of the height of the hub without its coefficients of the port forces.
 struct HeightBalance {
