@@ -52,7 +52,8 @@ TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml $(shell find src resources docs/theory -type f) \
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
+	$(shell find src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/coupling.md docs/validation.md docs/speed.md \
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
@@ -69,7 +70,7 @@ test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
-	$(CARGO) test --release --locked
+	$(CARGO) test --release --locked -p wheelrail -p wheelrail-slave
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)

@@ -1,4 +1,4 @@
-//! What the compiler alone does not do for the shared library.
+//! Steps of building the shared library that the compiler does not take alone.
 //!
 //! - The library of an FMU exports the functions of the standard and no others, and needs no libraries but those of the C
 //!   runtime: options for the linker.
@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let directory = std::env::var("OUT_DIR")?;
         let zig = std::env::var("RUSTC_LINKER").is_ok_and(|linker| linker.contains("zigcc"));
         if zig {
-            // The linker of zig knows no `--exclude-libs`; of several version scripts it takes the last, which is this one.
+            // The linker of zig knows no `--exclude-libs`; of several version scripts it takes the last, which is this
+            // one.
             let script = Path::new(&directory).join("exports");
             fs::write(&script, "{ global: fmi2*; local: *; };\n")?;
             println!("cargo::rustc-cdylib-link-arg=-Wl,--version-script={}", script.display());

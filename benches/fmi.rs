@@ -10,12 +10,12 @@ use slave::*;
 use std::hint::black_box;
 use std::ptr;
 use std::time::Duration;
-use wheelrail::fmi::variable::{Causality, Variable};
-use wheelrail::fmi::variables::variables;
+use wheelrail::fmi::v2::variables::variables;
+use wheelrail::fmi::variable::{Causality, Kind, Variable};
 
 /// References of the first `count` real variables of a causality.
 fn reals(causality: Causality, count: usize) -> Vec<u32> {
-    let wanted = |v: &&Variable| v.causality() == causality && v.kind.type_name() == "Real";
+    let wanted = |v: &&Variable| v.causality() == causality && matches!(v.kind, Kind::Real { .. });
     variables().iter().filter(wanted).map(|v| v.reference).take(count).collect()
 }
 

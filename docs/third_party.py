@@ -23,7 +23,8 @@ def linked():
             if normal and not macro and dependency["pkg"] not in found:
                 found.add(dependency["pkg"])
                 pending.append(dependency["pkg"])
-    return sorted((packages[package] for package in found), key=lambda package: (package["name"], package["version"]))
+    others = [packages[package] for package in found if packages[package]["source"]]  # without members of the workspace
+    return sorted(others, key=lambda package: (package["name"], package["version"]))
 
 
 def texts(package):

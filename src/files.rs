@@ -1,5 +1,5 @@
-//! Files that others name: only regular ones of bounded size are read, so that no pipe, device or forgotten terabyte holds up
-//! who reads it.
+//! Files that others name: only regular ones of bounded size are read, so that no pipe, device or forgotten terabyte
+//! holds up who reads it.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -20,12 +20,12 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     Ok(content)
 }
 
-/// The same as text.
+/// Content of such a file as text.
 pub fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error.utf8_error()))
 }
 
-/// Refuses what is no file that can be read to its end.
+/// Refuses anything that is no file of bounded length.
 fn regular(about: &fs::Metadata) -> io::Result<()> {
     if !about.is_file() {
         let what = if about.is_dir() { "a directory" } else { "a pipe, device or the like" };

@@ -29,8 +29,8 @@ use std::collections::VecDeque;
 use std::ptr;
 use std::sync::OnceLock;
 use wheelrail::fmi::lifecycle::{Call, Phase};
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Causality, Kind, Variable};
-use wheelrail::fmi::variables::variables;
 
 /// Values that no real variable may take, and extremes of the number format.
 const ODD: [f64; 7] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 1e30, -1e30];
@@ -161,7 +161,7 @@ impl<'a> Master<'a> {
             self.outputs = None;
             return;
         }
-        let wanted = |v: &&Variable| v.causality() == Causality::Output && v.kind.type_name() == "Real";
+        let wanted = |v: &&Variable| v.causality() == Causality::Output && matches!(v.kind, Kind::Real { .. });
         let rows: Vec<&Variable> = variables().iter().filter(wanted).collect();
         let references: Vec<u32> = rows.iter().map(|v| v.reference).collect();
         let Ok(values) = self.slave.get_reals(&references) else {
@@ -408,7 +408,7 @@ impl<'a> Master<'a> {
 
     /// Derivatives of all outputs along a random direction, and in time; they leave no trace.
     fn differentiate(&mut self) {
-        let real = |v: &&Variable| v.kind.type_name() == "Real";
+        let real = |v: &&Variable| matches!(v.kind, Kind::Real { .. });
         let outputs = variables().iter().filter(real).filter(|v| v.causality() == Causality::Output);
         let references: Vec<u32> = outputs.map(|v| v.reference).collect();
         let inputs: Vec<&Variable> = variables().iter().filter(real).collect();

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::Config;
-use wheelrail::fmi::variables::variables;
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::mechanics::{rail_mesh, wheel_mesh};
 use wheelrail::simulation::{Inputs, PROFILE_POINTS, Simulation};
 

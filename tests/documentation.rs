@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::Path;
 use wheelrail::fmi::package::{self, Binary, Contents};
 use wheelrail::fmi::v2::description::Extent;
-use wheelrail::fmi::variables::variables;
+use wheelrail::fmi::v2::variables::variables;
 use zip::ZipArchive;
 
 /// Text files of the folder `documentation`, and the names of all.

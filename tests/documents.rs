@@ -1,5 +1,6 @@
 //! Documents name what exists: links lead somewhere, and files that are mentioned are there.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -81,6 +82,45 @@ fn files_and_targets_of_make_that_the_recipes_for_hosted_runners_use_exist() {
         }
     }
     assert!(used > 5 && missing.is_empty(), "{used} {missing:?}");
+}
+
+/// Crates that the text of a `Cargo.toml` names under any kind of dependencies.
+fn dependencies(manifest: &str) -> Vec<&str> {
+    let (mut names, mut within) = (Vec::new(), false);
+    for line in manifest.lines() {
+        if let Some(table) = line.strip_prefix('[') {
+            within = table.trim_end_matches(']').ends_with("dependencies");
+        } else if let Some((name, _)) = line.split_once('=').filter(|_| within && !line.starts_with('#')) {
+            names.push(name.trim());
+        }
+    }
+    names
+}
+
+/// Crates in the first column of the tables of a page.
+fn listed(page: &str) -> Vec<&str> {
+    let cells = page.lines().filter_map(|line| line.strip_prefix("| `")?.split('|').next());
+    cells.flat_map(|cell| cell.split(',').map(|name| name.trim_matches([' ', '`']))).collect()
+}
+
+#[test]
+fn the_page_of_dependencies_names_every_crate_that_is_asked_for_and_no_other() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let manifests = ["Cargo.toml", "slave/Cargo.toml", "coach/Cargo.toml", "thesis/Cargo.toml"].map(read);
+    let asked: BTreeSet<&str> = manifests.iter().flat_map(|manifest| dependencies(manifest)).collect();
+    let page = read("docs/dependencies.md");
+    let listed = listed(&page);
+    assert!(asked.len() > 20, "{asked:?}");
+    assert_eq!(listed.len(), listed.iter().collect::<BTreeSet<_>>().len(), "a crate twice: {listed:?}");
+    assert_eq!(asked, listed.into_iter().collect());
+}
+
+#[test]
+fn the_reader_of_manifests_sees_every_kind_of_dependencies() {
+    let text = "[package]\nname = \"a\"\n[dependencies]\n# c = 1\nb = { version = \"1\" }\n[target.'cfg(unix)'.dependencies]\n\
+                libc = \"0\"\n[dev-dependencies]\nd-e = \"2\"\n[lints]\nworkspace = true\n";
+    assert_eq!(dependencies(text), ["b", "libc", "d-e"]);
+    assert_eq!(listed("| crate | for |\n|---|---|\n| `a`, `b-c` | x `d`, `e` |\n"), ["a", "b-c"]);
 }
 
 #[test]

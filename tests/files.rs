@@ -8,10 +8,10 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use wheelrail::config::Config;
-use wheelrail::fmi::instance::Instance;
+use wheelrail::fmi::instance::{Instance, simulation};
 use wheelrail::fmi::log::{CallError, Log};
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::Value;
-use wheelrail::fmi::variables::variables;
 use wheelrail::simulation::{BasisStore, Model, basis_file_name};
 
 /// An empty directory for one test.
@@ -141,7 +141,7 @@ fn a_file_that_is_there_stays_until_the_run_ends_and_nothing_else_is_left_behind
     let mut instance = start(&[("wheel.profile_save", &link)]).unwrap();
     assert_eq!(fs::read_to_string(&real).unwrap(), old, "a run under way");
     instance.terminate().unwrap();
-    assert_eq!(fs::read_to_string(&real).unwrap(), instance.simulation().unwrap().wheel_profile_file());
+    assert_eq!(fs::read_to_string(&real).unwrap(), simulation(&mut instance).unwrap().wheel_profile_file());
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
 }
@@ -151,7 +151,7 @@ fn the_path_of_a_saved_profile_is_no_part_of_a_state_and_wheels_that_save_elsewh
     let folder = workplace("elsewhere");
     let mut wheels = ["one.csv", "two.csv"].map(|name| start(&[("wheel.profile_save", &folder.join(name))]).unwrap());
     let [one, two] = &mut wheels;
-    let [a, b] = [&mut *one, two].map(|wheel| wheel.simulation().unwrap());
+    let [a, b] = [&mut *one, two].map(|wheel| simulation(wheel).unwrap());
     assert!(std::sync::Arc::ptr_eq(a.model(), b.model()));
     assert_eq!(a.checkpoint(), b.checkpoint());
     let text = format!("{:?}", a.checkpoint().tuning);
@@ -160,7 +160,7 @@ fn the_path_of_a_saved_profile_is_no_part_of_a_state_and_wheels_that_save_elsewh
     let state = one.snapshot().unwrap();
     let [one, two] = &mut wheels;
     two.restore(&state).unwrap();
-    assert_eq!(two.config(), one.config());
+    assert_eq!(two.slave().config(), one.slave().config());
     two.terminate().unwrap();
     assert!(folder.join("one.csv").is_file() && !folder.join("two.csv").exists());
 }

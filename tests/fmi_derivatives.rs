@@ -6,8 +6,8 @@ use libfmi::fmi2Status::{fmi2Error, fmi2OK};
 use libfmi::{fmi2FMUstate, fmi2Status};
 use slave::{Slave, load, variable};
 use std::ptr;
-use wheelrail::fmi::variable::Causality;
-use wheelrail::fmi::variables::variables;
+use wheelrail::fmi::v2::variables::variables;
+use wheelrail::fmi::variable::{Causality, Kind};
 
 fn references(names: &[&str]) -> Vec<u32> {
     names.iter().map(|name| variable(name).reference).collect()
@@ -186,7 +186,7 @@ fn a_tool_that_skips_pairs_not_declared_gets_every_derivative() {
     for name in ["control.rotation", "control.translation"] {
         assert_eq!(slave.set_integer(name, 1), fmi2OK);
     }
-    let is_real = |name: &str| variable(name).kind.type_name() == "Real";
+    let is_real = |name: &str| matches!(variable(name).kind, Kind::Real { .. });
     let inputs = variables().iter().filter(|v| v.causality() == Causality::Input && is_real(v.name));
     let inputs: Vec<&str> = inputs.map(|v| v.name).collect();
     let compare = |slave: &Slave, section: &str| {

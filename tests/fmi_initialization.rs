@@ -3,8 +3,8 @@
 mod slave;
 
 use slave::*;
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Causality, Kind};
-use wheelrail::fmi::variables::variables;
 
 #[test]
 fn the_order_of_sets_does_not_matter() {

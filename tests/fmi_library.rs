@@ -39,8 +39,9 @@ fn it_needs_nothing_but_the_c_runtime() {
     assert!(needed.iter().all(|name| known.contains(&name.as_str())), "{needed:?}");
 }
 
-/// Largest size of what is loaded of the ordinary library \[bytes]. `make fmu-all` links the same code for whole programs and
-/// refuses more than 5 MB (`packaging/check.py`), where this build has 1.5 times as much: 6.3 MB beside 4.2 MB.
+/// Largest size of what is loaded of the ordinary library \[bytes]. `make fmu-all` links the same code for whole
+/// programs and refuses more than 5 MB (`packaging/check.py`), where this build has 1.5 times as much: 6.3 MB beside
+/// 4.2 MB.
 #[cfg(target_os = "linux")]
 const LARGEST: u64 = 7_200_000;
 

@@ -7,8 +7,8 @@ use libfmi::fmi2Type;
 use slave::*;
 use std::fs;
 use std::ptr;
-use wheelrail::fmi::variable::{Causality, Start, Variable};
-use wheelrail::fmi::variables::variables;
+use wheelrail::fmi::v2::variables::variables;
+use wheelrail::fmi::variable::{Causality, Kind, Start, Variable};
 
 #[test]
 fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
@@ -328,7 +328,7 @@ fn input_derivatives_make_a_ramp_for_one_step() {
 
 /// Bits of all real outputs by name.
 fn named_outputs(slave: &Slave) -> Vec<(&'static str, u64)> {
-    let real = |v: &&Variable| v.causality() == Causality::Output && v.kind.type_name() == "Real";
+    let real = |v: &&Variable| v.causality() == Causality::Output && matches!(v.kind, Kind::Real { .. });
     variables().iter().filter(real).map(|v| v.name).zip(slave.outputs()).collect()
 }
 

@@ -1,5 +1,5 @@
-//! What is said once in a run, by name, although nothing fails: inputs without effect, values of another unit, moments that
-//! drive backwards.
+//! What is said once in a run, by name, although nothing fails: inputs without effect, values of another unit, moments
+//! that drive backwards.
 
 mod slave;
 

@@ -7,8 +7,8 @@ mod slave;
 use slave::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Largest memory that a load, run and unload may leave behind on average [kB]. Statics own no heap, so that nothing is lost
-/// with them (measured 0.6 kB, in the first rounds only).
+/// Largest memory that a load, run and unload may leave behind on average [kB]. Statics own no heap, so that nothing is
+/// lost with them (measured 0.6 kB, in the first rounds only).
 const LEFT_BEHIND: i64 = 10;
 
 unsafe extern "C" {

@@ -4,9 +4,9 @@ mod slave;
 
 use slave::*;
 use wheelrail::fmi::presets;
-use wheelrail::fmi::v2::description::start_value;
+use wheelrail::fmi::settings::start_value;
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Causality, Value, Variable};
-use wheelrail::fmi::variables::variables;
 
 /// Parameters, or inputs, with their declared start values.
 fn declared(causality: Causality) -> impl Iterator<Item = (&'static Variable, Value)> {
@@ -29,8 +29,8 @@ fn write(slave: &Slave, values: impl Iterator<Item = (&'static Variable, Value)>
     values.map(write).count()
 }
 
-/// A run of a railway wheel after `before`, on a mesh that is quick: all outputs at the start and after each of some steps, and
-/// all that is said.
+/// A run of a railway wheel after `before`, on a mesh that is quick: all outputs at the start and after each of some
+/// steps, and all that is said.
 fn run(before: impl Fn(&Slave)) -> (Vec<Vec<u64>>, Vec<String>) {
     let dll = load();
     let arguments = Arguments { resources: Some(RESOURCES), ..Default::default() };
@@ -73,7 +73,8 @@ fn writing_back_all_declared_start_values_changes_no_bit_of_a_run_and_says_nothi
     }
 }
 
-/// The others of each kind are written: a nominal load, friction, temperature and speed other than the declared ones stay.
+/// The others of each kind are written: a nominal load, friction, temperature and speed other than the declared ones
+/// stay.
 #[test]
 fn inputs_that_are_written_back_follow_the_parameters_that_are_not_and_are_counted() {
     let parameters = |slave: &Slave| {

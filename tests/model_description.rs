@@ -5,11 +5,12 @@ use std::path::Path;
 use wheelrail::config::Config;
 use wheelrail::fmi::presets;
 use wheelrail::fmi::reference::markdown;
+use wheelrail::fmi::settings::start_value;
 use wheelrail::fmi::table::table;
 use wheelrail::fmi::units::UNITS;
-use wheelrail::fmi::v2::description::{Extent, model_description, start_value};
+use wheelrail::fmi::v2::description::{Extent, model_description};
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
-use wheelrail::fmi::variables::variables;
 use wheelrail::simulation::{Outputs, PROFILE_POINTS};
 
 fn with_causality(causality: Causality) -> impl Iterator<Item = &'static Variable> {
@@ -31,7 +32,7 @@ fn committed_reference_is_the_generated_one() {
 
 #[test]
 fn a_profile_is_one_row_and_its_points_are_scalars() {
-    let arrays: Vec<_> = table().into_iter().filter(|row| row.dimension.is_some()).collect();
+    let arrays: Vec<_> = table().iter().filter(|row| row.dimension.is_some()).collect();
     assert_eq!(arrays.len(), 8);
     assert_eq!(variables().len(), table().len() - 8 + 8 * PROFILE_POINTS);
     let values: Vec<f64> = (0..PROFILE_POINTS).map(|k| k as f64).collect();

@@ -7,10 +7,10 @@ use common::{model, prescribed, preset};
 use std::path::Path;
 use std::sync::Arc;
 use wheelrail::config::{Config, ContactMethod, Wear};
-use wheelrail::fmi::instance::Instance;
+use wheelrail::fmi::instance::{Instance, simulation};
 use wheelrail::fmi::log::{CallError, Log};
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::Value;
-use wheelrail::fmi::variables::variables;
 use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
 
 /// A cold wheel with wear.
@@ -232,7 +232,8 @@ fn the_fmu_saves_the_profile_of_its_wheel_and_loads_it() {
             let variable = variables().iter().find(|variable| variable.name == *name).unwrap();
             instance.set(&[variable.reference], vec![value.clone()])?;
         }
-        instance.offer_model(model(instance.config().clone()));
+        let model = model(instance.slave().config().clone());
+        instance.parts().0.offer_model(model);
         instance.enter_initialization()?;
         instance.exit_initialization()?;
         Ok(instance)
@@ -250,11 +251,11 @@ fn the_fmu_saves_the_profile_of_its_wheel_and_loads_it() {
     }
     std::fs::remove_file(&path).ok();
     first.terminate().unwrap();
-    let left = first.simulation().unwrap().wheel_profile();
+    let left = simulation(&mut first).unwrap().wheel_profile();
     assert!(left.iter().any(|sample| sample[1] < -1e-4) && left.iter().any(|s| s[1] < 0.0 && s[1] > -1e-7));
     let mut second = start(&[("wheel.profile", text(&path))]).unwrap();
-    assert_eq!(second.simulation().unwrap().wheel_profile().len(), left.len());
-    for [s, height] in second.simulation().unwrap().wheel_profile() {
+    assert_eq!(simulation(&mut second).unwrap().wheel_profile().len(), left.len());
+    for [s, height] in simulation(&mut second).unwrap().wheel_profile() {
         assert!((height - at(&left, s)).abs() < 1e-15, "{s} {height}");
     }
     for (name, words) in [("profile.txt", "must end in .csv"), ("nowhere/profile.csv", "folder that exists")] {

@@ -1,12 +1,13 @@
 //! One communication step of the coach beside wheels that are stepped at the same time by a master that holds inputs.
 //!
-//! The wheels own their inertia. What the master hands over at the beginning of a step is where the wheelsets are then, and
-//! what contacts and brakes do to them. The coach takes an implicit step in which wheelsets are masses under the suspension
-//! and these forces, and a second one ahead: the mean of the suspension's forces over that second step is what the wheels
-//! get, and hold, while it happens. Forces of the beginning of a step, held, would swing up in a stiff primary suspension.
+//! The wheels own their inertia. What the master hands over at the beginning of a step is where the wheelsets are then,
+//! and what contacts and brakes do to them. The coach takes an implicit step in which wheelsets are masses under the
+//! suspension and these forces, and a second one ahead: the mean of the suspension's forces over that second step is
+//! what the wheels get, and hold, while it happens. Forces of the beginning of a step, held, would swing up in a stiff
+//! primary suspension.
 //!
-//! In the first step wheels roll at the initial speed without force, whatever the inputs say: some masters hand over nothing
-//! before it.
+//! In the first step wheels roll at the initial speed without force, whatever the inputs say: some masters hand over
+//! nothing before it.
 
 use crate::AXLES;
 use crate::brake::Brakes;
@@ -93,7 +94,8 @@ impl Running {
     }
 }
 
-/// Wheelsets in the vehicle's step. While one rolls, its mass counts with its rotation; when it stands, it does not move.
+/// Wheelsets in the vehicle's step. While one rolls, its mass counts with its rotation; when it stands, it does not
+/// move.
 fn predicted(p: &Parameters, h: f64, seen: &[Seen; AXLES], pulls: &[f64; AXLES]) -> Wheelsets {
     let mut wheels = Wheelsets { masses: [p.wheelset_mass; AXLES], forces: seen.map(|s| s.force) };
     for (k, s) in seen.iter().enumerate() {

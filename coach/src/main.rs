@@ -1,5 +1,5 @@
 //! Prints the `modelDescription.xml` of the coach.
 
 fn main() {
-    print!("{}", coach::fmi::v2::description::model_description());
+    print!("{}", coach::fmi::description::model_description());
 }

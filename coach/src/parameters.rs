@@ -1,6 +1,6 @@
-//! The table of parameters: names, units, ranges and defaults. Names are those of the files of the Python package (vehicle;
-//! brake under `brake`), defaults those of its examples: Manchester benchmark vehicle 1 with a disc brake, whose sources
-//! stand in `examples/train/`.
+//! The table of parameters: names, units, ranges and defaults. Names are those of the files of the Python package
+//! (vehicle; brake under `brake`), defaults those of its examples: Manchester benchmark vehicle 1 with a disc brake,
+//! whose sources stand in `examples/train/`.
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]

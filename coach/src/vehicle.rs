@@ -1,7 +1,7 @@
 //! A four-axle coach in the plane as linear equations, those of `vehicle.py`: body, two bogies, four wheelsets.
 //!
-//! Positions are counted from the static state: x along the track, y up, pitch counter-clockwise. Wheelsets move in x only.
-//! With b, the row that maps all coordinates to the elongation of a spring and damper,
+//! Positions are counted from the static state: x along the track, y up, pitch counter-clockwise. Wheelsets move in x
+//! only. With b, the row that maps all coordinates to the elongation of a spring and damper,
 //!
 //! ```text
 //! M q'' + C q' + K q = f,     K = sum k bᵀb,     C = sum c bᵀb                              [N], [N m]
@@ -66,8 +66,8 @@ pub struct Coach {
 
 /// Where everything is and how fast it moves.
 ///
-/// Positions along the track count from where the first wheelset was last found: millimetres in place of kilometres, whose
-/// last digit times 63 MN/m would be felt.
+/// Positions along the track count from where the first wheelset was last found: millimetres in place of kilometres,
+/// whose last digit times 63 MN/m would be felt.
 #[derive(Clone, Debug)]
 pub struct Motion {
     origin: f64,
@@ -171,8 +171,8 @@ impl Coach {
         (0..AXLES).map(link).collect()
     }
 
-    /// What the primary suspension does to each wheelset: along the track \[N], and the load on the rail beside the static
-    /// one \[N].
+    /// What the primary suspension does to each wheelset: along the track \[N], and the load on the rail beside the
+    /// static one \[N].
     pub fn forces(&self, motion: &Motion) -> [[f64; AXLES]; 2] {
         let force = |link: &Link| {
             -link.stiffness * dot(&link.row, &motion.position) - link.damping * dot(&link.row, &motion.velocity)
@@ -180,8 +180,8 @@ impl Coach {
         [std::array::from_fn(|axle| force(&self.pulls[axle])), std::array::from_fn(|axle| -force(&self.lifts[axle]))]
     }
 
-    /// Moves on by `h` \[s] with wheelsets as masses under the suspension and constant forces. `torques` \[N m] are those of
-    /// the brakes on the wheels, forward positive; the frames carry their reaction.
+    /// Moves on by `h` \[s] with wheelsets as masses under the suspension and constant forces. `torques` \[N m] are
+    /// those of the brakes on the wheels, forward positive; the frames carry their reaction.
     pub fn advance(&self, motion: &mut Motion, h: f64, torques: &[f64; AXLES], wheels: &Wheelsets) {
         let mut masses = self.masses;
         masses[WHEELSETS..].copy_from_slice(&wheels.masses);

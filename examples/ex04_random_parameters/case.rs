@@ -6,8 +6,9 @@ use std::sync::{Arc, Mutex};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::log::{CallError, Log, Status};
 use wheelrail::fmi::presets;
+use wheelrail::fmi::v2::access::type_of;
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Access, Causality, Kind, Value, Variable};
-use wheelrail::fmi::variables::variables;
 
 /// Communication steps of a case.
 const STEPS: usize = 5;
@@ -213,7 +214,7 @@ fn fit_lengths(values: &mut [(&'static Variable, Value)], random: &mut Random) {
 /// The first output that is not finite or outside its declared range.
 fn outside(instance: &mut Instance) -> Result<Option<String>, CallError> {
     for variable in variables().iter().filter(|v| v.causality() == Causality::Output) {
-        for value in instance.get(&[variable.reference], variable.kind.type_name())? {
+        for value in instance.get(&[variable.reference], type_of(variable.kind))? {
             if let Err(why) = variable.check(&value) {
                 return Ok(Some(why.to_string()));
             }
@@ -226,7 +227,7 @@ fn outside(instance: &mut Instance) -> Result<Option<String>, CallError> {
 fn too_cold(instance: &mut Instance, coldest: f64) -> Result<Option<String>, CallError> {
     let surface = |name: &str| name.starts_with("temperature.") || name.starts_with("profile.temperature");
     for variable in variables().iter().filter(|v| v.causality() == Causality::Output && surface(v.name)) {
-        for value in instance.get(&[variable.reference], variable.kind.type_name())? {
+        for value in instance.get(&[variable.reference], type_of(variable.kind))? {
             let lowest = match value {
                 Value::Real(value) => value,
                 Value::Reals(values) => values.into_iter().fold(f64::MAX, f64::min),
@@ -249,7 +250,7 @@ fn unbalanced(instance: &mut Instance) -> Result<Option<String>, CallError> {
 /// Value of a variable with one entry.
 fn one(instance: &mut Instance, name: &str) -> Result<Value, CallError> {
     let row = variables().iter().find(|variable| variable.name == name).expect("a variable of this name");
-    let values = instance.get(&[row.reference], row.kind.type_name())?;
+    let values = instance.get(&[row.reference], type_of(row.kind))?;
     Ok(values.into_iter().next().expect("one value"))
 }
 

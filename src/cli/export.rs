@@ -7,7 +7,7 @@ use super::steady::{OperatingPoint, Velocity, parse_creepage};
 use super::vtu::{self, Data};
 use super::{Failure, model};
 use std::path::PathBuf;
-use wheelrail::fmi::instance::Instance;
+use wheelrail::fmi::instance::{Instance, simulation};
 use wheelrail::simulation::{BodyField, Fields, Stress, TemperatureField};
 
 /// Write displacement, velocity, stress and temperature of wheel and rail for ParaView (.vtu).
@@ -38,7 +38,7 @@ impl Export {
     pub fn run(self) -> Result<(), Failure> {
         eprintln!("displacement and stress need all finite-element equations: using solver.response = full");
         let (mut instance, when) = self.instance()?;
-        let fields = instance.simulation().map_err(failed)?.fields().map_err(|e| Failure::Run(e.to_string()))?;
+        let fields = simulation(&mut instance).map_err(failed)?.fields().map_err(|e| Failure::Run(e.to_string()))?;
         self.write(&fields, &when)
     }
 

@@ -3,7 +3,7 @@
 use super::{Failure, model};
 use std::fs;
 use std::path::PathBuf;
-use wheelrail::fmi::package::{self, Basis, Binary, Contents};
+use wheelrail::fmi::package::{self, Binary, Contents, StoredBasis};
 use wheelrail::fmi::presets;
 use wheelrail::fmi::v2::description::Extent;
 
@@ -60,7 +60,7 @@ impl Pack {
     }
 
     /// The basis that a preset needs.
-    fn basis(&self, preset: &str) -> Result<Option<Basis>, Failure> {
+    fn basis(&self, preset: &str) -> Result<Option<StoredBasis>, Failure> {
         let bar = model::bar(preset, 100);
         let config = presets::load(Some(&self.resources), preset).map_err(Failure::Run)?;
         let model = model::prepare(config, &self.resources, &self.cache, &bar)?;

@@ -3,8 +3,8 @@
 use super::Failure;
 use wheelrail::config::nearest;
 use wheelrail::fmi::units::Measure;
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Enumeration, Kind, Value, Variable};
-use wheelrail::fmi::variables::variables;
 
 /// A variable and the value it is to have.
 #[derive(Clone)]

@@ -73,9 +73,9 @@ impl Setup {
             instance.set(&[variable.reference], vec![value.clone()]).map_err(wrong)?;
         }
         let bar = model::bar("preparing", 100);
-        let model = model::prepare(instance.config().clone(), &self.resources, &self.cache, &bar)?;
+        let model = model::prepare(instance.slave().config().clone(), &self.resources, &self.cache, &bar)?;
         bar.finish_and_clear();
-        instance.offer_model(model);
+        instance.parts().0.offer_model(model);
         instance.enter_initialization().map_err(failed)?;
         Ok(instance)
     }

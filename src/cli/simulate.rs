@@ -10,8 +10,8 @@ use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
+use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Value, Variable};
-use wheelrail::fmi::variables::variables;
 
 /// Variables in the file unless others are named.
 const OUTPUTS: &str = "wheel.velocity,wheel.omega,wheel.distance,contact.force_x,contact.force_y,contact.moment,\

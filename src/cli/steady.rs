@@ -11,6 +11,7 @@ use wheelrail::config::parameter_range;
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Value, Variable};
 use wheelrail::simulation::{STANDSTILL, peripheral_velocity};
+use wheelrail_slave::Type;
 
 /// Columns of the table.
 const OUTPUTS: [&str; 12] = [
@@ -143,7 +144,7 @@ impl OperatingPoint {
             }
         }
         let instance = setup.initialize(&fixed, None)?;
-        let velocity = velocity.velocity.unwrap_or(instance.config().initial.velocity);
+        let velocity = velocity.velocity.unwrap_or(instance.slave().config().initial.velocity);
         let [low, high] = parameter_range("initial.velocity");
         if !(velocity.abs() > STANDSTILL && (low..=high).contains(&velocity)) {
             let range = format!("{low} to {high} m/s without standstill");
@@ -154,7 +155,7 @@ impl OperatingPoint {
 
     /// Moves on to another creepage, that of the radius to which the wheel then grows.
     pub fn set(&mut self, creepage: f64) -> Result<(), Failure> {
-        let radius = self.instance.config().wheel.radius;
+        let radius = self.instance.slave().config().wheel.radius;
         let references = [find("drive.velocity", |_| true)?.reference, find("drive.omega", |_| true)?.reference];
         let mut growth = 0.0;
         for _ in 0..GROWTH_PASSES {
@@ -169,7 +170,7 @@ impl OperatingPoint {
     }
 
     fn real(&mut self, name: &str) -> Result<f64, Failure> {
-        let values = self.instance.get(&[find(name, |_| true)?.reference], "Real").map_err(failed)?;
+        let values = self.instance.get(&[find(name, |_| true)?.reference], Type::Real).map_err(failed)?;
         Ok(if let Some(Value::Real(v)) = values.first() { *v } else { 0.0 })
     }
 
@@ -177,7 +178,7 @@ impl OperatingPoint {
     fn default_range(&mut self) -> Result<Range, Failure> {
         self.set(0.0)?;
         let (friction, half_width) = (self.real("contact.friction")?, self.real("contact.half_width")?);
-        let full_slip = analytic::carter_full_slip(friction, half_width, self.instance.config().wheel.radius);
+        let full_slip = analytic::carter_full_slip(friction, half_width, self.instance.slave().config().wheel.radius);
         if full_slip > 0.0 {
             return Ok(Range { from: 0.0, to: RANGE * full_slip, count: COUNT });
         }

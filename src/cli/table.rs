@@ -7,16 +7,17 @@ use std::io::{self, Write};
 use std::path::Path;
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::units::UNITS;
+use wheelrail::fmi::v2::access::type_of;
 use wheelrail::fmi::variable::{Kind, Value, Variable};
+use wheelrail_slave::Type;
 
 /// Values of variables, in their order.
 pub fn read(instance: &mut Instance, variables: &[&Variable]) -> Result<Vec<Value>, Failure> {
     let mut values = vec![None; variables.len()];
-    for type_name in ["Real", "Integer", "Boolean", "String"] {
-        let of_type: Vec<usize> =
-            (0..variables.len()).filter(|&i| variables[i].kind.type_name() == type_name).collect();
+    for wanted in Type::ALL {
+        let of_type: Vec<usize> = (0..variables.len()).filter(|&i| type_of(variables[i].kind) == wanted).collect();
         let references: Vec<_> = of_type.iter().map(|&i| variables[i].reference).collect();
-        for (i, value) in of_type.into_iter().zip(instance.get(&references, type_name).map_err(failed)?) {
+        for (i, value) in of_type.into_iter().zip(instance.get(&references, wanted).map_err(failed)?) {
             values[i] = Some(value);
         }
     }

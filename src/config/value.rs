@@ -19,13 +19,14 @@ pub enum Value {
 }
 
 impl Value {
-    /// Name of the type.
-    pub fn type_name(&self) -> &'static str {
+    /// Sort of the value in words.
+    pub fn sort(&self) -> &'static str {
         match self {
-            Value::Real(_) | Value::Reals(_) => "Real",
-            Value::Integer(_) => "Integer",
-            Value::Boolean(_) => "Boolean",
-            Value::String(_) => "String",
+            Value::Real(_) => "a number",
+            Value::Integer(_) => "a whole number",
+            Value::Boolean(_) => "true or false",
+            Value::String(_) => "a text",
+            Value::Reals(_) => "an array of numbers",
         }
     }
 }
@@ -100,13 +101,13 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Name of the type of the values.
-    pub fn type_name(self) -> &'static str {
+    /// Sort of the values in words.
+    pub fn sort(self) -> &'static str {
         match self {
-            Kind::Real { .. } => "Real",
-            Kind::Integer { .. } | Kind::Enumeration(_) => "Integer",
-            Kind::Boolean => "Boolean",
-            Kind::String => "String",
+            Kind::Real { .. } => "a number",
+            Kind::Integer { .. } | Kind::Enumeration(_) => "a whole number",
+            Kind::Boolean => "true or false",
+            Kind::String => "a text",
         }
     }
 
@@ -152,7 +153,7 @@ impl Kind {
             | (Kind::Integer { .. } | Kind::Enumeration(_), Value::Integer(_))
             | (Kind::Boolean, Value::Boolean(_))
             | (Kind::String, Value::String(_)) => Ok(()),
-            (kind, value) => Err(format!("{name} is of type {}, not {}", kind.type_name(), value.type_name())),
+            (kind, value) => Err(format!("{name} is {}, not {}", kind.sort(), value.sort())),
         }
     }
 }

@@ -13,24 +13,25 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// File name and contents of a precomputed basis.
-pub type Basis = (String, Vec<u8>);
+pub type StoredBasis = (String, Vec<u8>);
 
-/// What goes into an FMU besides what is made from the table of variables.
+/// Contents of an FMU besides those that are made from the table of variables.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// Which variables the model description lists.
+    /// Extent of the model description.
     pub extent: Extent,
     /// Shared libraries, one for each platform.
     pub binaries: Vec<Binary>,
     /// Directory with the presets (`*.json`).
     pub resources: PathBuf,
-    /// Directory with a run to compare with: inputs, results and their settings (`wheelrail_in.csv`, `_ref.csv`, `_ref.opt`).
+    /// Directory with a run to compare with: inputs, results and their settings (`wheelrail_in.csv`, `_ref.csv`,
+    /// `_ref.opt`).
     pub reference: PathBuf,
     /// Precomputed bases, for `resources/basis/`.
-    pub bases: Vec<Basis>,
+    pub bases: Vec<StoredBasis>,
 }
 
-/// Files that are the same in every FMU: pictures, licence texts, style of the pages.
+/// Files that do not differ between FMUs: pictures, licence texts, style of the pages.
 const FIXED: [(&str, &[u8]); 9] = [
     ("documentation/style.css", include_bytes!("../../docs/style.css")),
     ("model.png", include_bytes!("../../docs/model.png")),
@@ -161,7 +162,8 @@ pub fn platform() -> Result<&'static str, PackageError> {
 }
 
 /// Directory of the binary for an operating system and an architecture, both as Rust calls them. The names of FMI 2.0
-/// stand for x86 processors, on macOS for those of Apple as well; a master on another machine finds no binary under them.
+/// stand for x86 processors, on macOS for those of Apple as well; a master on another machine finds no binary under
+/// them.
 fn platform_of(os: &'static str, architecture: &'static str) -> Result<&'static str, PackageError> {
     match (os, architecture) {
         ("windows", "x86_64") => Ok("win64"),

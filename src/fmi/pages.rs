@@ -1,5 +1,5 @@
-//! Pages of the documentation: the Markdown of `docs` as HTML that needs no network. Mathematics is written in the characters
-//! of Unicode there, in code, and stays as it is.
+//! Pages of the documentation: the Markdown of `docs` as HTML that needs no network. Mathematics is written in the
+//! characters of Unicode there, in code, and stays as it is.
 
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
 
@@ -92,7 +92,7 @@ impl Page {
         Parser::new(self.text).take_while(|event| !heading(event)).filter_map(text).collect()
     }
 
-    /// Whether it is a chapter of the theory.
+    /// True if it is a chapter of the theory.
     pub fn is_theory(&self) -> bool {
         self.path.starts_with("theory/")
     }

@@ -8,8 +8,8 @@ use std::{fs, io};
 /// Name of the preset that holds until another is chosen.
 pub const DEFAULT: &str = "railway";
 
-/// Reads `<resources>/<name>.json`. Without resources only the default is known, which is `Config::default()`. The error text lists the
-/// presets that exist.
+/// Reads `<resources>/<name>.json`. Without resources only the default is known, which is `Config::default()`. The
+/// error text lists the presets that exist.
 pub fn load(resources: Option<&Path>, name: &str) -> Result<Config, String> {
     let unknown = |why: &str| {
         let names = available(resources).join(", ");

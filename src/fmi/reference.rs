@@ -1,13 +1,13 @@
 //! The reference of all variables as text: cells of a row, and `docs/reference.md`.
 
+use super::settings::start_value;
 use super::table::{enumerations, table};
 use super::units::Measure;
-use super::v2::description::start_value;
 use super::variable::{Causality, Kind, Reference, Value, Variable};
 use crate::config::display_number;
 use std::fmt::Write;
 
-/// What a table for people says about a variable.
+/// Cells about a variable in a table for people.
 pub struct Cells {
     /// Name; of an array with its points.
     pub name: String,
@@ -19,7 +19,7 @@ pub struct Cells {
     pub range: String,
     /// Default of inputs and parameters, numbers with six digits.
     pub start: String,
-    /// Whether a parameter may change during a run.
+    /// "yes" if a parameter may change during a run.
     pub tunable: &'static str,
     /// Meaning.
     pub text: String,

@@ -1,8 +1,8 @@
-//! THE table: every variable of the interface, once. Getters, setters, `modelDescription.xml` and the documentation
+//! Table of the variables of the interface, each once. Getters, setters, `modelDescription.xml` and the documentation
 //! are all made from it.
 //!
-//! The rows are where the values live: [`Drive::ROWS`], [`Inputs::controls`], [`Outputs::ROWS`] and [`Config::rows`]. A
-//! profile is one row, an array; [`super::variables`] spreads it over scalars.
+//! Its rows come from the places of the values: [`Drive::ROWS`], [`Inputs::controls`], [`Outputs::ROWS`] and
+//! [`Config::rows`]. A profile is one row, an array.
 //!
 //! Value references are fixed numbers by group, so that other people's scripts survive new variables: 100 control,
 //! 200 drive, 250 rail, 260 brake, 300 contact, 400 wheel, 500 hub, 600 heat, 700 damage, 800 solver, 1000 parameters,
@@ -12,11 +12,38 @@ use super::units;
 use super::variable::{Access, Enumeration, Kind, Reference, Start, Variable};
 use crate::config::Config;
 use crate::simulation::{Drive, Inputs, Outputs, Read};
+use std::array::from_fn;
+use std::sync::OnceLock;
+
+/// Number of rows: the preset, parameters, inputs and outputs.
+const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Outputs::ROWS.len();
 
 /// All rows: inputs, outputs, parameters by their numbers, profiles.
-pub fn table() -> Vec<Variable> {
-    let (profiles, outputs): (Vec<_>, Vec<_>) = outputs().partition(|row| row.dimension.is_some());
-    inputs().into_iter().chain(outputs).chain(parameters()).chain(profiles).collect()
+pub fn table() -> &'static [Variable] {
+    // Arrays here and below: vectors would be lost when the library is unloaded, for statics are never dropped.
+    static ROWS: OnceLock<[Variable; COUNT]> = OnceLock::new();
+    ROWS.get_or_init(|| {
+        let (profiles, outputs): (Vec<_>, Vec<_>) = outputs().partition(|row| row.dimension.is_some());
+        let mut rows = inputs().into_iter().chain(outputs).chain(parameters()).chain(profiles);
+        from_fn(|_| rows.next().unwrap_or_else(preset))
+    })
+}
+
+/// Row with the given value reference.
+pub fn find(reference: Reference) -> Option<&'static Variable> {
+    static ORDER: OnceLock<[(Reference, usize); COUNT]> = OnceLock::new();
+    let order = ORDER.get_or_init(|| {
+        let mut order = from_fn(|k| (table()[k].reference, k));
+        order.sort_unstable();
+        order
+    });
+    let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
+    Some(&table()[order[position].1])
+}
+
+/// Row with the given name.
+pub fn named(name: &str) -> Option<&'static Variable> {
+    table().iter().find(|row| row.name == name)
 }
 
 /// The enumerations of the table, each once, in the order of their first row.
@@ -33,8 +60,8 @@ pub fn enumerations() -> Vec<&'static Enumeration> {
 }
 
 fn row(reference: Reference, name: &'static str, kind: Kind, access: Access, description: &'static str) -> Variable {
-    let (dimension, start, tunable) = (None, Start::Stationary, false);
-    Variable { reference, name, kind, dimension, access, start, tunable, description }
+    let (dimension, element, start, tunable) = (None, None, Start::Stationary, false);
+    Variable { reference, name, kind, dimension, element, access, start, tunable, description }
 }
 
 fn real(measure: units::Measure, [min, max]: [f64; 2], nominal: f64) -> Kind {

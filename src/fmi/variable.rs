@@ -1,15 +1,14 @@
-//! Interface variables: what a row of [`super::table`] can say.
+//! Interface variables: rows of [`super::table`], and elements of rows that are arrays.
 
 use crate::config::Config;
 use crate::config::row::Row;
 use crate::simulation::{Drive, Inputs, OutputRow, Outputs, Read};
 
 pub use crate::config::value::{Enumeration, Kind, Value};
+pub use wheelrail_slave::Reference;
 
-/// FMI value reference.
-pub type Reference = u32;
-
-/// Where a variable lives. Parameters are fixed or tunable, inputs and real outputs continuous, the rest discrete.
+/// Place of the value of a variable. Parameters are fixed or tunable, inputs and real outputs continuous, the rest
+/// discrete.
 #[derive(Clone, Copy)]
 pub enum Access {
     /// Name of the preset file; the one parameter that is not part of [`Config`].
@@ -22,8 +21,6 @@ pub enum Access {
     ChoiceInput(fn(&Inputs) -> Value, fn(&mut Inputs, &Value)),
     /// An output.
     Output(&'static OutputRow),
-    /// One point of a profile, counted from 0.
-    ProfilePoint(fn(&Outputs) -> &[f64], usize),
 }
 
 /// FMI causality of a variable.
@@ -37,7 +34,7 @@ pub enum Causality {
     Output,
 }
 
-/// What an output depends on in Initialization Mode.
+/// Dependence of an output in Initialization Mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Zero by definition.
@@ -58,11 +55,13 @@ pub struct Variable {
     pub kind: Kind,
     /// Number of elements of an array; `None` for a scalar.
     pub dimension: Option<usize>,
-    /// Where the value is.
+    /// Index of the element of an array that this variable is; `None` for a row of the table.
+    pub element: Option<usize>,
+    /// Place of the value.
     pub access: Access,
-    /// For outputs; ignored otherwise.
+    /// Dependence of an output; ignored otherwise.
     pub start: Start,
-    /// Whether a parameter may change between steps.
+    /// True if a parameter may change between steps.
     pub tunable: bool,
     /// Meaning, plain text.
     pub description: &'static str,
@@ -74,7 +73,7 @@ impl Variable {
         match self.access {
             Access::Preset | Access::Parameter(_) => Causality::Parameter,
             Access::RealInput(_) | Access::ChoiceInput(..) => Causality::Input,
-            Access::Output(_) | Access::ProfilePoint(..) => Causality::Output,
+            Access::Output(_) => Causality::Output,
         }
     }
 
@@ -114,18 +113,15 @@ impl Variable {
 
     /// Value of an output; `None` for other variables.
     pub fn output(&self, outputs: &Outputs) -> Option<Value> {
-        let read = match self.access {
-            Access::Output(row) => row.read,
-            Access::ProfilePoint(get, point) => {
-                return Some(Value::Real(get(outputs).get(point).copied().unwrap_or(0.0)));
-            }
-            _ => return None,
-        };
-        Some(match read {
+        let Access::Output(row) = self.access else { return None };
+        Some(match row.read {
             Read::Real(get) => Value::Real(get(outputs)),
             Read::Count(get) => Value::Integer(i32::try_from(get(outputs)).unwrap_or(i32::MAX)),
             Read::Flag(get) => Value::Boolean(get(outputs)),
-            Read::Profile(get) => Value::Reals(get(outputs).to_vec()),
+            Read::Profile(get) => match self.element {
+                Some(point) => Value::Real(get(outputs).get(point).copied().unwrap_or(0.0)),
+                None => Value::Reals(get(outputs).to_vec()),
+            },
         })
     }
 

@@ -8,8 +8,8 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::PathBuf;
 use std::ptr;
 use std::sync::OnceLock;
-use wheelrail::fmi::variable::{Causality, Value, Variable};
-use wheelrail::fmi::variables::variables;
+use wheelrail::fmi::v2::variables::variables;
+use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
 
 /// The shared library that was built with the test executable.
 pub fn library() -> PathBuf {
@@ -387,7 +387,7 @@ impl<'a> Slave<'a> {
     /// All real outputs, bit by bit.
     #[track_caller]
     pub fn outputs(&self) -> Vec<u64> {
-        let real = |v: &&Variable| v.causality() == Causality::Output && v.kind.type_name() == "Real";
+        let real = |v: &&Variable| v.causality() == Causality::Output && matches!(v.kind, Kind::Real { .. });
         let references: Vec<u32> = variables().iter().filter(real).map(|v| v.reference).collect();
         let values = self.get_reals(&references).unwrap_or_else(|s| panic!("{s:?} {:?}", self.messages()));
         values.into_iter().map(f64::to_bits).collect()
@@ -407,7 +407,7 @@ impl<'a> Slave<'a> {
 
 /// Start value of a real variable in the model description.
 pub fn real_start(name: &str) -> f64 {
-    match wheelrail::fmi::v2::description::start_value(variable(name)) {
+    match wheelrail::fmi::settings::start_value(variable(name)) {
         Some(Value::Real(value)) => value,
         other => panic!("{name} starts with {other:?}"),
     }

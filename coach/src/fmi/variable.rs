@@ -1,36 +1,9 @@
-//! Values and variables of the interface.
+//! Variables of the interface.
 
 use crate::coupling::{Driven, Running, Seen};
+use wheelrail_slave::{Reference, Type};
 
-/// FMI value reference.
-pub type Reference = u32;
-
-/// A value of a variable.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// `fmi2Real`.
-    Real(f64),
-    /// `fmi2Integer`.
-    Integer(i32),
-    /// `fmi2Boolean`.
-    Boolean(bool),
-    /// `fmi2String`.
-    String(String),
-}
-
-impl Value {
-    /// Name of the FMI type.
-    pub fn type_name(&self) -> &'static str {
-        match self {
-            Value::Real(_) => "Real",
-            Value::Integer(_) => "Integer",
-            Value::Boolean(_) => "Boolean",
-            Value::String(_) => "String",
-        }
-    }
-}
-
-/// Where a variable lives. All variables are real but the valves.
+/// Place of the value of a variable. All variables are real but the valves.
 #[derive(Clone, Copy)]
 pub enum Access {
     /// A row of the parameters.
@@ -43,7 +16,7 @@ pub enum Access {
     Driven(usize, fn(&Driven) -> f64),
     /// Output of the coach.
     Output(fn(&Running) -> f64),
-    /// What the valve of an axle does.
+    /// Action of the valve of an axle.
     Valve(usize),
 }
 
@@ -62,14 +35,14 @@ pub struct Variable {
     pub start: f64,
     /// Meaning, plain text.
     pub text: &'static str,
-    /// Where it lives.
+    /// Place of its value.
     pub access: Access,
 }
 
 impl Variable {
-    /// Name of the FMI type.
-    pub fn type_name(&self) -> &'static str {
-        if matches!(self.access, Access::Valve(_)) { "Integer" } else { "Real" }
+    /// FMI type.
+    pub fn kind(&self) -> Type {
+        if matches!(self.access, Access::Valve(_)) { Type::Integer } else { Type::Real }
     }
 
     /// FMI causality.

@@ -1,9 +1,10 @@
 //! All variables: parameters from 1000 on, inputs of axle k from 100 k on, outputs to it from 100 k + 50 on.
 
-use super::variable::{Access, Reference, Variable};
+use super::variable::{Access, Variable};
 use crate::AXLES;
 use crate::coupling::{Driven, Running, Seen};
 use crate::parameters::Parameters;
+use wheelrail_slave::Reference;
 
 /// Name, unit, field and meaning of what the outside says of an axle.
 type SeenRow = (&'static str, &'static str, fn(&mut Seen) -> &mut f64, &'static str);

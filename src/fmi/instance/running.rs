@@ -1,74 +1,39 @@
-//! The simulation behind an instance: prepared when it is needed, saved and restored.
+//! The simulation behind a wheel, prepared when it is needed.
 
-use super::aside::{self, Report};
-use super::{Instance, Outcome};
+use super::{WheelSlave, derivatives};
 use crate::config::{Config, Files, Response};
-use crate::fmi::lifecycle::Call;
-use crate::fmi::log::{CallError, Status};
-use crate::fmi::settings::with_parameters;
-use crate::fmi::snapshot::Snapshot;
-use crate::fmi::variable::{Reference, Value};
-use crate::fmi::variables::{find, variables};
-use crate::simulation::{BasisStore, Inputs, Model, Simulation, Vertical, advice};
+use crate::fmi::table::{find, named};
+use crate::fmi::variable::{Reference, Value, Variable};
+use crate::simulation::{BasisStore, Checkpoint, Inputs, Model, Simulation, Vertical, advice};
 use std::sync::Arc;
+use wheelrail_slave::aside::{self, Report};
+use wheelrail_slave::{CallError, Life, Outcome, Status};
 
-impl Instance {
-    /// Copy of everything that is needed to continue from here.
-    pub fn snapshot(&self) -> Outcome<Snapshot> {
-        self.allow(Call::FmuState)?;
-        Ok(Snapshot {
-            phase: self.phase,
-            preset: self.preset.clone(),
-            base: self.base.clone(),
-            experiment: self.experiment.clone(),
-            parameters: self.parameters.clone(),
-            inputs: self.inputs.clone(),
-            bumpless: self.bumpless.clone(),
-            rates: self.rates,
-            time: self.time,
-            stop: self.stop,
-            checkpoint: self.simulation.as_ref().map(|simulation| simulation.checkpoint().clone()),
-        })
-    }
-
-    /// Continues from a snapshot, of this instance or another; on failure nothing changes.
-    pub fn restore(&mut self, snapshot: &Snapshot) -> Outcome {
-        self.allow(Call::FmuState)?;
-        let config = with_parameters(&snapshot.base, &snapshot.experiment, &snapshot.parameters);
+impl WheelSlave {
+    /// Continues from a checkpoint under `config`; without one, from what the settings say.
+    pub(super) fn resume(&mut self, checkpoint: Option<&Checkpoint>, config: &Config, life: &Life) -> Outcome {
         let refused = |error| CallError::error(format!("state cannot be set: {error}"));
-        match (&snapshot.checkpoint, &mut self.simulation) {
+        match (checkpoint, &mut self.simulation) {
             (None, _) => self.simulation = None,
-            (Some(checkpoint), Some(simulation)) if simulation.model().serves(&config) => {
+            (Some(checkpoint), Some(simulation)) if simulation.model().serves(config) => {
                 simulation.recall(checkpoint.clone()).map_err(refused)?;
                 simulation.retune(&config.tuning);
             }
             (Some(checkpoint), _) => {
-                let model = self.model(config.clone())?;
+                let model = self.model(config.clone(), life)?;
                 let resumed = Simulation::resume(model, config.tuning.clone(), checkpoint.clone());
                 self.simulation = Some(resumed.map_err(refused)?);
             }
         }
-        self.phase = snapshot.phase;
-        self.preset.clone_from(&snapshot.preset);
-        self.base.clone_from(&snapshot.base);
-        self.experiment.clone_from(&snapshot.experiment);
-        self.parameters.clone_from(&snapshot.parameters);
-        self.config = config;
-        self.inputs.clone_from(&snapshot.inputs);
-        self.bumpless.clone_from(&snapshot.bumpless);
-        self.rates = snapshot.rates;
-        (self.time, self.stop) = (snapshot.time, snapshot.stop);
-        // A master may restore and repeat a discarded step for ever: the failure is remembered.
-        (self.last_step, self.hopeless) = (Status::Ok, false);
         Ok(())
     }
 
     /// The simulation, brought up to date with parameters and inputs if it is not running yet.
-    pub fn simulation(&mut self) -> Outcome<&mut Simulation> {
+    pub fn simulation(&mut self, life: &Life) -> Outcome<&mut Simulation> {
         if self.simulation.is_none() {
-            self.check_settings()?;
-            let model = self.model(self.config.clone())?;
-            let mut inputs = self.effective_inputs();
+            self.check_settings(life)?;
+            let model = self.model(self.config.clone(), life)?;
+            let mut inputs = self.inputs(life);
             let config = self.config.clone();
             let failed = |error, inputs: &Inputs| {
                 let why = advice::failed_start(&error, &config, inputs);
@@ -77,48 +42,75 @@ impl Instance {
             let tuning = self.config.tuning.clone();
             let start = |inputs: &Inputs| {
                 let (model, tuning) = (model.clone(), tuning.clone());
-                aside::run(self.aside, &mut |_, _| {}, |_| Simulation::start(model, tuning, inputs))
+                aside::run(life.aside(), &mut |_, _| {}, |_| Simulation::start(model, tuning, inputs))
             };
-            if let Some(reference) = self.height_to_find(&inputs) {
+            if let Some(reference) = self.height_to_find(&inputs, life) {
                 let pressed = Inputs { vertical: Vertical::Force, ..inputs };
                 let loaded = start(&pressed)?.map_err(|error| failed(error, &pressed))?;
                 inputs.drive.displacement = loaded.outputs().hub_height;
-                self.bumpless.insert(reference, Value::Real(inputs.drive.displacement));
+                self.settings.bumpless.insert(reference, Value::Real(inputs.drive.displacement));
             }
             self.simulation = Some(start(&inputs)?.map_err(|error| failed(error, &inputs))?);
         }
         self.simulation.as_mut().ok_or_else(|| CallError::error("no simulation"))
     }
 
-    /// What the simulation computes; aside where it factorises matrices.
-    pub(super) fn compute<R: Send>(&mut self, work: impl FnOnce(&mut Simulation) -> R + Send) -> Outcome<R> {
+    /// Result of a computation by the simulation; on a thread of its own where it factorises matrices.
+    pub(super) fn compute<R: Send>(
+        &mut self,
+        life: &Life,
+        work: impl FnOnce(&mut Simulation) -> R + Send,
+    ) -> Outcome<R> {
         let full = self.config.solver.response == Response::Full;
-        let aside = if full { self.aside } else { aside::here };
-        let simulation = self.simulation()?;
+        let aside = if full { life.aside() } else { aside::here };
+        let simulation = self.simulation(life)?;
         aside::run(aside, &mut |_, _| {}, |_| work(simulation))
     }
 
+    /// Derivatives of outputs along a direction of inputs, of which each has its component (see [`Simulation::difference`]).
+    pub fn directional_derivative(
+        &mut self,
+        unknown: &[&Variable],
+        known: &[(&Variable, f64)],
+        life: &Life,
+    ) -> Outcome<Vec<f64>> {
+        let direction = derivatives::direction(known)?;
+        derivatives::check_outputs(unknown)?;
+        let failed = |error| CallError::error(format!("directional derivative: {error}"));
+        let difference = self.compute(life, |simulation| simulation.difference(&direction))?.map_err(failed)?;
+        derivatives::quotients(&difference, unknown)
+    }
+
+    /// Time derivatives of outputs, each of an order (see [`Simulation::rate`]).
+    pub fn output_derivatives(&mut self, outputs: &[(&Variable, i32)], life: &Life) -> Outcome<Vec<f64>> {
+        derivatives::check_orders(outputs)?;
+        Ok(derivatives::rates(self.simulation(life)?, outputs))
+    }
+
     /// Reference of the hub height, if it is prescribed at the start and has not been set.
-    fn height_to_find(&self, inputs: &Inputs) -> Option<Reference> {
-        let reference = variables().iter().find(|row| row.name == "drive.displacement")?.reference;
-        let unset = inputs.vertical == Vertical::Displacement && !self.given().contains_key(&reference);
+    fn height_to_find(&self, inputs: &Inputs, life: &Life) -> Option<Reference> {
+        let reference = named("drive.displacement")?.reference;
+        let unset = inputs.vertical == Vertical::Displacement && !self.given(life).contains_key(&reference);
         unset.then_some(reference)
     }
 
-    /// Refuses parameters and inputs that do not go together. Each is within its own range since it was set; what follows
-    /// from several can only be judged when all have been set, in whatever order.
-    fn check_settings(&self) -> Outcome {
+    /// Refuses parameters and inputs that do not go together. Each is within its own range since it was set; what
+    /// follows from several can only be judged when all have been set, in whatever order.
+    fn check_settings(&self, life: &Life) -> Outcome {
         self.config.validate().map_err(|error| {
-            let set = self.parameters.keys().filter_map(|reference| find(*reference));
+            let set = self.settings.parameters.keys().filter_map(|reference| find(*reference));
             let names: Vec<_> = set.filter(|row| row.name != error.name).map(|row| row.name).collect();
             let own = match names.as_slice() {
                 [] => String::new(),
-                names => format!("; with preset \"{}\" and {} as you have set them", self.preset, names.join(", ")),
+                names => {
+                    format!("; with preset \"{}\" and {} as you have set them", self.settings.preset, names.join(", "))
+                }
             };
             CallError::error(format!("{error}{own}"))
         })?;
-        self.effective_inputs().validate().map_err(|error| {
-            let set = self.given().keys().filter_map(|reference| find(*reference)).any(|row| row.name == error.name);
+        self.inputs(life).validate().map_err(|error| {
+            let set =
+                self.given(life).keys().filter_map(|reference| find(*reference)).any(|row| row.name == error.name);
             let initial = &self.config.initial;
             let source = match error.name {
                 _ if set => return CallError::error(error.to_string()),
@@ -139,15 +131,14 @@ impl Instance {
     }
 
     /// The model with these parameters; prepared now, with logged progress, unless it is the present one.
-    fn model(&mut self, config: Config) -> Outcome<Arc<Model>> {
+    fn model(&mut self, config: Config, life: &Life) -> Outcome<Arc<Model>> {
         if let Some(model) = self.model.as_ref().filter(|model| model.serves(&config)) {
             return Ok(model.clone());
         }
-        let log = &self.log;
         let mut last = (String::new(), 0.0);
         let mut progress = |what: &str, share: f64| {
             if what != last.0 || share >= last.1 + 0.1 {
-                log.progress(&format!("{what}: {:.0} %", 100.0 * share));
+                life.log().progress(&format!("{what}: {:.0} %", 100.0 * share));
                 last = (what.to_owned(), share);
             }
         };
@@ -157,9 +148,9 @@ impl Instance {
         let failed = |error| CallError::error(advice::failed_preparation(&error, &config));
         let prepare =
             |report: &mut Report| Model::shared(config.clone(), &store, &mut |what, share| report(what, share));
-        let model = aside::run(self.aside, &mut progress, prepare)?.map_err(failed)?;
+        let model = aside::run(life.aside(), &mut progress, prepare)?.map_err(failed)?;
         if let Some(why) = model.not_kept() {
-            self.log.report(Status::Warning, why);
+            life.log().report(Status::Warning, why);
         }
         self.model = Some(model.clone());
         Ok(model)

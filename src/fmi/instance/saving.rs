@@ -1,16 +1,17 @@
 //! The profile of the wheel that a run leaves behind.
 
-use super::{Instance, Outcome};
 use crate::config::Config;
-use crate::fmi::log::{CallError, Status};
+use crate::simulation::Simulation;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use wheelrail_slave::{CallError, Log, Outcome, Status};
 
 /// End of the name of a profile, by which `wheel.profile` knows a file.
 const ENDING: &str = ".csv";
 
-/// Where the profile of the wheel is to be written, if anywhere; refuses what could not be written or read again.
+/// Path to which the profile of the wheel is to be written, if anywhere; refuses one that could not be written or read
+/// again.
 fn file_to_save(config: &Config) -> Outcome<Option<PathBuf>> {
     let name = config.files.profile_save.trim();
     if name.is_empty() {
@@ -52,18 +53,16 @@ fn cannot(path: &Path, error: &io::Error) -> CallError {
     CallError::error(format!("wheel.profile_save = \"{name}\" cannot be written ({error}); give another path"))
 }
 
-impl Instance {
-    /// Tries, without touching the file, whether the profile of the wheel can be written where `config` asks for it.
-    pub(super) fn try_to_save(config: &Config) -> Outcome {
-        let Some(path) = file_to_save(config)? else { return Ok(()) };
-        write_beside(&path, None).map_err(|error| cannot(&path, &error))
-    }
+/// Tries, without touching the file, if the profile of the wheel can be written where `config` asks for it.
+pub(super) fn try_to_save(config: &Config) -> Outcome {
+    let Some(path) = file_to_save(config)? else { return Ok(()) };
+    write_beside(&path, None).map_err(|error| cannot(&path, &error))
+}
 
-    /// Writes it, if asked for.
-    pub(super) fn save_profile(&self) -> Outcome {
-        let (Some(path), Some(simulation)) = (file_to_save(&self.config)?, &self.simulation) else { return Ok(()) };
-        write_beside(&path, Some(&simulation.wheel_profile_file())).map_err(|error| cannot(&path, &error))?;
-        self.log.report(Status::Ok, &format!("profile of the wheel written to {}", path.display()));
-        Ok(())
-    }
+/// Writes the profile of the wheel, if `config` asks for it.
+pub(super) fn save_profile(config: &Config, simulation: Option<&Simulation>, log: &Log) -> Outcome {
+    let (Some(path), Some(simulation)) = (file_to_save(config)?, simulation) else { return Ok(()) };
+    write_beside(&path, Some(&simulation.wheel_profile_file())).map_err(|error| cannot(&path, &error))?;
+    log.report(Status::Ok, &format!("profile of the wheel written to {}", path.display()));
+    Ok(())
 }

@@ -3,18 +3,18 @@
 use crate::config::Config;
 use crate::fmi::MODEL_IDENTIFIER;
 use crate::fmi::instance::derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
-use crate::fmi::log::CATEGORIES;
-pub use crate::fmi::settings::start_value;
+use crate::fmi::settings::start_value;
 use crate::fmi::table::enumerations;
 use crate::fmi::units::{BASE_UNITS, Measure, UNITS};
+use crate::fmi::v2::variables::variables;
 use crate::fmi::variable::{Access, Causality, Kind, Start, Variable};
-use crate::fmi::variables::variables;
 use crate::simulation::Read;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
+use wheelrail_slave::log::CATEGORIES;
 
 /// End of the default experiment \[s].
 pub const DEFAULT_STOP_TIME: f64 = 1.0;
@@ -25,12 +25,12 @@ const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an e
     a moving frame, exact Coulomb friction. x in travel direction, y up, omega > 0 rolls forward; contact forces act \
     on the wheel. Plane model: no lateral force, no spin.";
 
-/// When the interface was last changed. A date of the build would make equal builds unequal.
+/// Date of the last change of the interface. A date of the build would make equal builds unequal.
 const GENERATED: &str = "2026-11-24T00:00:00Z";
 
 const COPYRIGHT: &str = "Copyright 2026 The wheelrail authors";
 
-/// Which variables a description lists. Value references are the same in both, and so is the library.
+/// Extent of a description: the variables that it lists. Value references are the same in both, and so is the library.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Extent {
     /// All variables.
@@ -43,15 +43,16 @@ pub enum Extent {
 impl Extent {
     /// The variables that are listed, in the order of their indices.
     pub fn variables(self) -> impl Iterator<Item = &'static Variable> + Clone {
-        let listed = move |v: &&Variable| self == Extent::Full || !matches!(v.access, Access::ProfilePoint(..));
+        let listed = move |v: &&Variable| self == Extent::Full || v.element.is_none();
         variables().iter().filter(listed)
     }
 }
 
-type Xml = Writer<Vec<u8>>;
+/// Writer of the description.
+type XmlText = Writer<Vec<u8>>;
 
-/// Name-based UUID of the description with an empty GUID: changes with the interface and only with it. One without profiles
-/// says less of the same interface and has the GUID of the full one.
+/// Name-based UUID of the description with an empty GUID: changes with the interface and only with it. One without
+/// profiles says less of the same interface and has the GUID of the full one.
 pub fn guid() -> String {
     static GUID: OnceLock<Uuid> = OnceLock::new();
     let compute = || Uuid::new_v5(&Uuid::NAMESPACE_OID, write("", Extent::Full).unwrap_or_default().as_bytes());
@@ -98,11 +99,11 @@ fn write(guid: &str, extent: Extent) -> io::Result<String> {
     Ok(text)
 }
 
-fn empty(xml: &mut Xml, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
+fn empty(xml: &mut XmlText, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
     xml.create_element(name).with_attributes(attributes.iter().copied()).write_empty().map(drop)
 }
 
-fn list(xml: &mut Xml, name: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> io::Result<()> {
+fn list(xml: &mut XmlText, name: &str, content: impl FnOnce(&mut XmlText) -> io::Result<()>) -> io::Result<()> {
     xml.create_element(name).write_inner_content(content).map(drop)
 }
 
@@ -111,7 +112,7 @@ fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-fn capabilities(xml: &mut Xml) -> io::Result<()> {
+fn capabilities(xml: &mut XmlText) -> io::Result<()> {
     let output_order = OUTPUT_DERIVATIVE_ORDER.to_string();
     let attributes = [
         ("modelIdentifier", MODEL_IDENTIFIER),
@@ -129,7 +130,7 @@ fn capabilities(xml: &mut Xml) -> io::Result<()> {
     empty(xml, "CoSimulation", &attributes)
 }
 
-fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
+fn unit_definitions(xml: &mut XmlText) -> io::Result<()> {
     list(xml, "UnitDefinitions", |xml| {
         for unit in UNITS {
             xml.create_element("Unit").with_attribute(("name", unit.name)).write_inner_content(|xml| {
@@ -179,7 +180,7 @@ fn type_name(measure: Measure) -> String {
     }
 }
 
-fn real_type(xml: &mut Xml, measure: Measure) -> io::Result<()> {
+fn real_type(xml: &mut XmlText, measure: Measure) -> io::Result<()> {
     let mut attributes = vec![("quantity", quantity(measure)), ("unit", measure.unit)];
     attributes.extend(measure.display.map(|display| ("displayUnit", display)));
     attributes.extend(measure.is_relative().then_some(("relativeQuantity", "true")));
@@ -187,7 +188,7 @@ fn real_type(xml: &mut Xml, measure: Measure) -> io::Result<()> {
     element.write_inner_content(|xml| empty(xml, "Real", &attributes)).map(drop)
 }
 
-fn type_definitions(xml: &mut Xml) -> io::Result<()> {
+fn type_definitions(xml: &mut XmlText) -> io::Result<()> {
     list(xml, "TypeDefinitions", |xml| {
         measures().into_iter().try_for_each(|measure| real_type(xml, measure))?;
         for list in enumerations() {
@@ -215,13 +216,13 @@ pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
         Access::ChoiceInput(..) => "discrete",
         Access::Output(row) if matches!(row.read, Read::Count(_) | Read::Flag(_)) => "discrete",
-        Access::RealInput(_) | Access::Output(_) | Access::ProfilePoint(..) => "continuous",
+        Access::RealInput(_) | Access::Output(_) => "continuous",
         _ if variable.tunable => "tunable",
         _ => "fixed",
     }
 }
 
-fn model_variables(xml: &mut Xml, extent: Extent) -> io::Result<()> {
+fn model_variables(xml: &mut XmlText, extent: Extent) -> io::Result<()> {
     extent.variables().try_for_each(|variable| {
         let reference = variable.reference.to_string();
         let (causality, initial) = match variable.causality() {
@@ -243,7 +244,7 @@ fn model_variables(xml: &mut Xml, extent: Extent) -> io::Result<()> {
 }
 
 /// The element inside a `ScalarVariable` that gives the type.
-fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
+fn typed(xml: &mut XmlText, variable: &Variable) -> io::Result<()> {
     let mut attributes: Vec<(&str, String)> = Vec::new();
     let element = match variable.kind {
         Kind::Real { measure, min, max, nominal } => {
@@ -277,7 +278,7 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
 /// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
 /// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
 /// outputs depend on everything, too, or are zero by definition.
-fn model_structure(xml: &mut Xml, extent: Extent) -> io::Result<()> {
+fn model_structure(xml: &mut XmlText, extent: Extent) -> io::Result<()> {
     let outputs: Vec<_> = (1usize..)
         .zip(extent.variables())
         .filter(|(_, variable)| variable.causality() == Causality::Output)

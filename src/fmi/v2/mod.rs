@@ -1,6 +1,9 @@
-//! What belongs to FMI 2.0 alone: the model description and the exported C functions.
+//! FMI 2.0: its scalar variables, the model description, the wheel as a slave, and the exported C functions.
 //!
-//! Everything else of [`crate::fmi`] knows variables, values and phases of life, which other versions share.
+//! Everything else of [`crate::fmi`] knows rows of the table, arrays among them, which other versions share.
 
+pub mod access;
 pub mod c_abi;
 pub mod description;
+
+pub mod variables;

@@ -1,7 +1,8 @@
 //! Messages to the master: categories, levels, and errors of calls.
 
-/// Severity of a message and outcome of a call, in the order of `fmi2Status`.
+/// Severity of a message and outcome of a call, with the numbers of `fmi2Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(C)]
 pub enum Status {
     /// The call succeeded.
     Ok,
@@ -45,20 +46,24 @@ impl Status {
     }
 }
 
-/// Why a call was not carried out.
+/// Refusal of a call.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CallError {
-    /// What the C function returns.
+    /// Return value of the C function.
     pub status: Status,
-    /// Why, in the words of the user.
+    /// Reason, in the words of the user.
     pub message: String,
 }
+
+/// Result of a call.
+pub type Outcome<T = ()> = Result<T, CallError>;
 
 impl CallError {
     /// A call that is refused and changes nothing.
     pub fn error(message: impl Into<String>) -> CallError {
         CallError { status: Status::Error, message: message.into() }
     }
+
     /// A step that could not be computed.
     pub fn discard(message: impl Into<String>) -> CallError {
         CallError { status: Status::Discard, message: message.into() }
@@ -68,8 +73,8 @@ impl CallError {
 /// Receiver of messages: status, category, text.
 pub type Sink = Box<dyn Fn(Status, &str, &str)>;
 
-/// Filters messages by category. Warnings, discarded steps, errors and worse always pass; everything else must be asked
-/// for.
+/// Filter of messages by category. Warnings, discarded steps, errors and worse always pass; everything else must be
+/// asked for.
 pub struct Log {
     sink: Sink,
     enabled: [bool; CATEGORIES.len()],
@@ -82,7 +87,7 @@ impl Log {
     }
 
     /// Switches all categories when none is named; otherwise only the named ones are on, or these off.
-    pub fn switch(&mut self, on: bool, categories: &[String]) -> Result<(), CallError> {
+    pub fn switch(&mut self, on: bool, categories: &[String]) -> Outcome {
         let mut enabled = if on && !categories.is_empty() { [false; CATEGORIES.len()] } else { self.enabled };
         for name in categories {
             let known = CATEGORIES.iter().position(|(category, _)| category == name);

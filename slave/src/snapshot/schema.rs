@@ -1,7 +1,8 @@
 //! The layout of a type as text: names of structs, fields and variants, and types of numbers, in their order.
 //!
-//! Serialized states carry neither names nor types. Their layout is told by the type itself: a deserializer without data
-//! hands out ones and notes what it is asked for. Each alternative of an enumeration is visited in a pass of its own.
+//! Serialized states carry neither names nor types. Their layout is told by the type itself: a deserializer without
+//! data hands out ones and notes what it is asked for. Each alternative of an enumeration is visited in a pass of its
+//! own.
 
 use serde::Deserialize;
 use serde::de::value::{Error, U32Deserializer};

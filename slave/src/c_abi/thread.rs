@@ -2,7 +2,7 @@
 //!
 //! Threads of the standard library will not do: to start one leaves a destructor in the thread that starts it.
 
-use crate::fmi::instance::aside::{Report, here};
+use crate::aside::{Report, here};
 use std::any::Any;
 use std::ffi::c_void;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -12,7 +12,7 @@ use std::{mem, ptr};
 /// Stack of the thread [bytes]: twice that of threads of the standard library.
 const STACK: usize = 4 << 20;
 
-/// What the thread has to say.
+/// News from the thread.
 #[derive(Default)]
 struct News {
     progress: Vec<(String, f64)>,
@@ -39,7 +39,7 @@ impl Job<'_> {
     }
 }
 
-/// What the thread runs.
+/// Entry of the thread.
 extern "C" fn enter(job: *mut c_void) -> *mut c_void {
     // SAFETY: `beside` hands over its job and does not touch it until this thread has been joined.
     unsafe { &mut *job.cast::<Job>() }.run();
@@ -58,8 +58,8 @@ impl Drop for Running {
 
 /// Starts a thread on the job; `None` if the system grants none.
 fn start(job: *mut Job) -> Option<Running> {
-    // SAFETY: attributes are initialised before they are used and destroyed once; a thread identity is a plain number or
-    // address, for which zeros are a value, and read only after the call has set it.
+    // SAFETY: attributes are initialised before they are used and destroyed once; a thread identity is a plain number
+    // or address, for which zeros are a value, and read only after the call has set it.
     unsafe {
         let (mut attributes, mut thread) = (mem::zeroed(), mem::zeroed());
         if libc::pthread_attr_init(&mut attributes) != 0 {
@@ -72,7 +72,7 @@ fn start(job: *mut Job) -> Option<Running> {
     }
 }
 
-/// An [`Aside`](crate::fmi::instance::aside::Aside) on a thread of the operating system.
+/// An [`Aside`](crate::aside::Aside) on a thread of the operating system.
 pub fn beside(work: &mut (dyn FnMut(&mut Report) + Send), listener: &mut Report) {
     let board = Default::default();
     let mut job = Job { work, panic: None, board: &board };

@@ -1,11 +1,8 @@
 //! Values on their way through the C interface: pointers are checked, C integers matched, never trusted.
 
-use crate::fmi::log::CallError;
-use crate::fmi::variables::find;
-use libfmi::*;
+use super::types::{CO_SIMULATION, Question, fmi2Boolean, fmi2String};
+use crate::log::{CallError, Outcome};
 use std::ffi::{CStr, CString, c_int};
-
-pub type Outcome<T = ()> = Result<T, CallError>;
 
 /// The array a master passed; an empty one may be NULL.
 ///
@@ -64,38 +61,19 @@ pub fn boolean(value: fmi2Boolean, name: &str) -> Outcome<bool> {
     }
 }
 
-/// Values for boolean variables; the message about a wrong one names the variable.
-pub fn booleans(references: &[fmi2ValueReference], values: &[fmi2Boolean]) -> Outcome<Vec<bool>> {
-    let name = |reference: &fmi2ValueReference| {
-        find(*reference).map_or_else(|| format!("value reference {reference}"), |variable| variable.name.to_owned())
-    };
-    references.iter().zip(values).map(|(reference, value)| boolean(*value, &name(reference))).collect()
-}
-
 /// Refuses every type of simulation but co-simulation.
 pub fn co_simulation(kind: c_int) -> Outcome {
-    const CO_SIMULATION: c_int = fmi2Type::fmi2CoSimulation as c_int;
-    match kind {
-        CO_SIMULATION => Ok(()),
-        _ => {
-            let only = format!("{CO_SIMULATION} (fmi2CoSimulation), the only type of this FMU");
-            Err(CallError::error(format!("fmuType = {kind} is outside its range: {only}")))
-        }
+    if kind == CO_SIMULATION {
+        return Ok(());
     }
+    let only = format!("{CO_SIMULATION} (fmi2CoSimulation), the only type of this FMU");
+    Err(CallError::error(format!("fmuType = {kind} is outside its range: {only}")))
 }
 
 /// The question about the last step that a master asks by a number.
-pub fn question(kind: c_int) -> Outcome<fmi2StatusKind> {
-    use fmi2StatusKind::*;
-    const KINDS: [fmi2StatusKind; 4] = [fmi2DoStepStatus, fmi2PendingStatus, fmi2LastSuccessfulTime, fmi2Terminated];
-    KINDS.into_iter().find(|known| *known as c_int == kind).ok_or_else(|| {
-        let known: Vec<_> = KINDS.into_iter().map(|known| format!("{} ({known:?})", known as c_int)).collect();
+pub fn question(kind: c_int) -> Outcome<Question> {
+    Question::ALL.into_iter().find(|known| *known as c_int == kind).ok_or_else(|| {
+        let known = Question::ALL.map(|known| format!("{} ({})", known as c_int, known.name()));
         CallError::error(format!("fmi2StatusKind = {kind} is outside its range: {}", known.join(", ")))
     })
 }
-
-/// The functions take `c_int` where the header has an enumeration: both are passed alike.
-const _: () = {
-    assert!(size_of::<fmi2StatusKind>() == size_of::<c_int>() && align_of::<fmi2StatusKind>() == align_of::<c_int>());
-    assert!(size_of::<fmi2Type>() == size_of::<c_int>() && align_of::<fmi2Type>() == align_of::<c_int>());
-};

@@ -1,32 +1,37 @@
 //! States that a master holds as `fmi2FMUstate`.
 //!
-//! A handle is the address of a word of memory that belongs to the instance, and the key under which the state is found.
-//! The library never follows a handle. Some masters, however, pass the handle itself where the address of the handle is
-//! asked for (fmusim up to 0.0.39 in `fmi2FreeFMUstate`): the library then reads that word as if it were a handle. It is
-//! none, so the call is refused. Words of freed states are kept for new ones, so that this holds for stale handles, too.
+//! A handle is the address of a word of memory that belongs to the instance, and the key under which the state is
+//! found. The library never follows a handle. Some masters, however, pass the handle itself where the address of the
+//! handle is asked for (fmusim up to 0.0.39 in `fmi2FreeFMUstate`): the library then reads that word as if it were a
+//! handle. It is none, so the call is refused. Words of freed states are kept for new ones, so that this holds for
+//! stale handles, too.
 
-use super::marshal::Outcome;
-use crate::fmi::log::CallError;
-use crate::fmi::snapshot::Snapshot;
-use libfmi::fmi2FMUstate;
+use super::types::fmi2FMUstate;
+use crate::log::{CallError, Outcome};
+use crate::snapshot::Snapshot;
 use std::collections::BTreeMap;
 use std::ptr;
 
-/// What every handle points to: odd, so never the address of a word.
+/// Content of the word behind every handle: odd, so never the address of a word.
 const NO_HANDLE: usize = 1;
 
 /// All states of one instance.
-#[derive(Default)]
-pub struct States {
-    held: BTreeMap<usize, (Box<usize>, Snapshot)>,
+pub struct States<T> {
+    held: BTreeMap<usize, (Box<usize>, Snapshot<T>)>,
     /// Words without a state, which keep their addresses.
     #[allow(clippy::vec_box)]
     spare: Vec<Box<usize>>,
 }
 
-impl States {
+impl<T> Default for States<T> {
+    fn default() -> Self {
+        Self { held: BTreeMap::new(), spare: Vec::new() }
+    }
+}
+
+impl<T> States<T> {
     /// The state behind a handle; refuses what is no handle of this instance.
-    pub fn find(&self, handle: fmi2FMUstate) -> Outcome<&Snapshot> {
+    pub fn find(&self, handle: fmi2FMUstate) -> Outcome<&Snapshot<T>> {
         match self.held.get(&handle.addr()) {
             Some((_, snapshot)) => Ok(snapshot),
             None => Err(unknown(handle)),
@@ -34,7 +39,7 @@ impl States {
     }
 
     /// Keeps a snapshot under `handle`, or under a new handle if that is NULL; returns the handle.
-    pub fn keep(&mut self, handle: fmi2FMUstate, snapshot: Snapshot) -> Outcome<fmi2FMUstate> {
+    pub fn keep(&mut self, handle: fmi2FMUstate, snapshot: Snapshot<T>) -> Outcome<fmi2FMUstate> {
         if !handle.is_null() {
             let (_, held) = self.held.get_mut(&handle.addr()).ok_or_else(|| unknown(handle))?;
             *held = snapshot;

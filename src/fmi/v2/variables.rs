@@ -1,9 +1,9 @@
 //! The scalar variables of FMI 2.0: the table with its arrays spread over one variable per element.
 
-use super::table::{preset, table};
-use super::variable::{Access, Reference, Variable};
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, Outputs, Read};
+use crate::fmi::table::{preset, table};
+use crate::fmi::variable::{Access, Reference, Variable};
+use crate::simulation::{Drive, Inputs, Outputs};
 use std::array::from_fn;
 use std::sync::OnceLock;
 
@@ -26,8 +26,7 @@ pub fn variables() -> &'static [Variable] {
     // Arrays here and below: vectors would be lost when the library is unloaded, for statics are never dropped.
     static SCALARS: OnceLock<[Variable; COUNT]> = OnceLock::new();
     SCALARS.get_or_init(|| {
-        let table = table();
-        let mut scalars = table.iter().flat_map(scalars);
+        let mut scalars = table().iter().flat_map(scalars);
         from_fn(|_| scalars.next().unwrap_or_else(preset))
     })
 }
@@ -47,12 +46,14 @@ pub fn find(reference: Reference) -> Option<&'static Variable> {
 /// A scalar itself; the elements of an array, whose references follow that of the array.
 fn scalars(row: &Variable) -> Vec<Variable> {
     let Access::Output(output) = row.access else { return vec![*row] };
-    let Read::Profile(get) = output.read else { return vec![*row] };
+    if row.dimension.is_none() {
+        return vec![*row];
+    }
     let element = |(point, &(name, description))| Variable {
         reference: row.reference + 1 + point as Reference,
         name,
         dimension: None,
-        access: Access::ProfilePoint(get, point),
+        element: Some(point),
         description,
         ..*row
     };

@@ -2,20 +2,18 @@
 
 use super::component::{Component, panic_text};
 use super::logger::sink;
-use super::marshal::{Outcome, boolean, co_simulation, text};
-use super::states::States;
-use crate::fmi::instance::Instance;
-use crate::fmi::log::{CallError, Log, Status};
-use crate::fmi::uri::path_of;
-use crate::fmi::v2::description::guid;
-use libfmi::*;
+use super::marshal::{boolean, co_simulation, text};
+use super::types::{CallbackFunctions, fmi2Boolean, fmi2Component, fmi2String};
+use crate::instance::{Instance, ScalarAccess};
+use crate::log::{CallError, Log, Outcome, Status};
+use crate::uri::path_of;
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::ptr;
 
 /// Arguments of `fmi2Instantiate` but for the functions.
-struct Arguments {
+struct Request {
     name: fmi2String,
     kind: c_int,
     guid: fmi2String,
@@ -36,9 +34,9 @@ fn resources(location: Option<String>, log: &Log) -> Option<PathBuf> {
     None
 }
 
-impl Arguments {
-    /// The instance, or why there is none.
-    unsafe fn instance(&self, functions: &fmi2CallbackFunctions) -> Outcome<Instance> {
+impl Request {
+    /// The instance, or the reason why there is none.
+    unsafe fn instance<S: ScalarAccess>(&self, functions: &CallbackFunctions) -> Outcome<Instance<S>> {
         // SAFETY: see the module: NULL or strings.
         let (name, theirs) = unsafe { (text(self.name, "instanceName"), text(self.guid, "fmuGUID")) };
         let name = name?;
@@ -49,7 +47,7 @@ impl Arguments {
         boolean(self.visible, "visible")?;
         let log = Log::new(sink(&name, functions), boolean(self.logging, "loggingOn")?);
         let theirs = theirs?;
-        let ours = guid();
+        let ours = S::guid();
         if theirs != ours {
             return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{ours}\"")));
         }
@@ -60,21 +58,22 @@ impl Arguments {
             None
         });
         let resources = resources(location, &log);
+        #[allow(unused_mut)]
         let mut instance = Instance::new(resources, log)?;
         #[cfg(unix)]
-        instance.compute_on(super::aside::beside);
+        instance.compute_on(super::thread::beside);
         Ok(instance)
     }
 }
 
 /// A new instance; NULL if it cannot be made, after a message.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Instantiate(
+#[allow(clippy::too_many_arguments)]
+pub unsafe fn fmi2Instantiate<S: ScalarAccess>(
     instanceName: fmi2String,
     fmuType: c_int,
     fmuGUID: fmi2String,
     fmuResourceLocation: fmi2String,
-    functions: *const fmi2CallbackFunctions,
+    functions: *const CallbackFunctions,
     visible: fmi2Boolean,
     loggingOn: fmi2Boolean,
 ) -> fmi2Component {
@@ -82,7 +81,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let Some(functions) = (unsafe { functions.as_ref() }) else {
         return ptr::null_mut();
     };
-    let arguments = Arguments {
+    let request = Request {
         name: instanceName,
         kind: fmuType,
         guid: fmuGUID,
@@ -91,11 +90,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
         logging: loggingOn,
     };
     // SAFETY: see the module.
-    let error = match catch_unwind(AssertUnwindSafe(|| unsafe { arguments.instance(functions) })) {
-        Ok(Ok(instance)) => {
-            let component = Component { instance, strings: Vec::new(), states: States::default() };
-            return component.hand_out();
-        }
+    let error = match catch_unwind(AssertUnwindSafe(|| unsafe { request.instance::<S>(functions) })) {
+        Ok(Ok(instance)) => return Component::new(instance).hand_out(),
         Ok(Err(error)) => error,
         Err(panic) => CallError { status: Status::Fatal, message: format!("internal error: {}", panic_text(panic)) },
     };
@@ -106,9 +102,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
 }
 
 /// Frees an instance with all its states; a pointer that is no instance, or no longer, is left alone.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    if let Some(component) = Component::take_back(c) {
+pub unsafe fn fmi2FreeInstance<S: ScalarAccess>(c: fmi2Component) {
+    if let Some(component) = Component::<S>::take_back(c) {
         // SAFETY: `component` came from `Box::into_raw` in `hand_out` and is known no more.
         let component = unsafe { Box::from_raw(component) };
         let _ = catch_unwind(AssertUnwindSafe(|| drop(component)));

@@ -1,8 +1,8 @@
-//! When a master may call what: the state machine of FMI 2.0, section 4.2.4, as data.
+//! Legal calls in each phase of life: the state machine of FMI 2.0, section 4.2.4, as data.
 
 use serde::{Deserialize, Serialize};
 
-/// Where an instance is in its life; one bit each.
+/// Phase in the life of an instance; one bit each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Phase {
@@ -81,7 +81,7 @@ impl Call {
         }
     }
 
-    /// Whether the call is legal in the phase.
+    /// True if the call is legal in the phase.
     pub const fn legal(self, phase: Phase) -> bool {
         self.mask() & phase as u8 != 0
     }

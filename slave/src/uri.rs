@@ -1,4 +1,4 @@
-//! Where the resources are: `fmuResourceLocation`.
+//! Resource locations: the path that `fmuResourceLocation` means.
 
 use std::path::PathBuf;
 

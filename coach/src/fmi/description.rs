@@ -1,11 +1,12 @@
 //! `modelDescription.xml` and the GUID, both made from the variables.
 
 use crate::fmi::MODEL_IDENTIFIER;
-use crate::fmi::log::CATEGORIES;
 use crate::fmi::variable::Variable;
 use crate::fmi::variables::variables;
 use std::fmt::Write;
 use uuid::Uuid;
+use wheelrail_slave::Type;
+use wheelrail_slave::log::CATEGORIES;
 
 /// Units of the variables with their attributes of `BaseUnit`.
 const UNITS: [(&str, &str); 15] = [
@@ -79,15 +80,15 @@ fn written(guid: &str) -> String {
 fn scalar(xml: &mut String, variable: &Variable) {
     let Variable { reference, name, unit, range: [low, high], start, text, .. } = variable;
     let causality = variable.causality();
-    let kind = variable.type_name();
+    let kind = variable.kind();
     let (variability, initial) = match (causality, kind) {
         ("parameter", _) => ("fixed", " initial=\"exact\""),
-        ("output", "Integer") => ("discrete", " initial=\"calculated\""),
+        ("output", Type::Integer) => ("discrete", " initial=\"calculated\""),
         ("output", _) => ("continuous", " initial=\"calculated\""),
         _ => ("continuous", ""),
     };
     let mut attributes = String::new();
-    if kind == "Real" {
+    if kind == Type::Real {
         let _ = write!(attributes, " unit=\"{unit}\"");
     }
     if causality != "output" {
@@ -96,6 +97,6 @@ fn scalar(xml: &mut String, variable: &Variable) {
     let _ = writeln!(
         xml,
         "    <ScalarVariable name=\"{name}\" valueReference=\"{reference}\" description=\"{text}\" \
-         causality=\"{causality}\" variability=\"{variability}\"{initial}><{kind}{attributes}/></ScalarVariable>"
+         causality=\"{causality}\" variability=\"{variability}\"{initial}><{kind:?}{attributes}/></ScalarVariable>"
     );
 }
