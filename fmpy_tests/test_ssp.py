@@ -72,7 +72,8 @@ def in_python(braking, fmu):
     run, rows = ParallelStop(braking, fmu), []
     for _ in range(STEPS):
         run.step(STEP)
-        row = [run.coach.speed(), run.coach.travelled(), run.brakes.distributor.pressure, run.brakes.protection.reference]
+        vehicle, brakes = run.coach.vehicle, run.coach.brakes
+        row = [vehicle.speed(), vehicle.travelled(), brakes.distributor.pressure, brakes.protection.reference]
         row += [driven[ssp.TO_WHEEL[name]] for driven in run.driven for name in AXLE]
         row += [getattr(w, name) for w in run.seen for name in ("position", "velocity", "omega", "force", "torque")]
         rows.append(row)

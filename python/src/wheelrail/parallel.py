@@ -5,8 +5,10 @@ master that cannot. There the coach looks one step further ahead: the wheels hol
 step that comes. Forces of the beginning of a step, held, would swing up in a stiff primary suspension. In the first step wheels
 roll at the initial speed without force.
 
-`ParallelStop` has the coach in Python; its equations are those of the FMU in `coach/`, written independently of it.
-`Parallel` is the bare algorithm, for any FMUs.
+`HeldCoach` is the coach in Python, `ParallelStop` a stop with it. `coach.fmu` has the same equations in Rust, because other
+people's masters run it without Python; they stay in Python because scenarios need more of them than an FMU can offer: sets of
+coaches with couplers, slopes, lifted rails, sand, and exudyn in the place of the vehicle. `fmpy_tests/test_coach_fmu.py` ties both
+to rounding. `Parallel` is the bare algorithm, for any FMUs.
 """
 
 from types import SimpleNamespace
@@ -38,20 +40,47 @@ class Parallel:
             self.held[target][name] = self.slaves[source].get(output)
 
 
+class HeldCoach:
+    """The coach of a scenario for a master that holds forces: what `coach.fmu` computes."""
+
+    def __init__(self, scenario):
+        self.scenario, self.vehicle = scenario, Coach(scenario.vehicle)
+        self.vehicle.start(scenario.speed)
+        self.brakes = Brakes(scenario.brake, [scenario.speed] * AXLES)
+
+    def step(self, h, seen, demand=None):
+        """Moves on by `h` [s] under a demand, that of the scenario if none is given; returns what each wheelset gets in the next
+        step, by name of the wheel's input. `seen` are the wheelsets at the beginning of the step, `None` in the first one."""
+        vehicle, speed, wheelset = self.vehicle, self.scenario.speed, self.scenario.vehicle.wheelset
+        omegas, reaction = [speed / wheelset.radius] * AXLES, [0.0] * AXLES
+        masses, others = np.full(AXLES, float(wheelset.mass)), np.zeros(AXLES)
+        if seen:
+            vehicle.correct([w.position for w in seen], [w.velocity for w in seen])
+            omegas, reaction = [w.omega for w in seen], [w.torque for w in seen]
+            masses, others = predicted(h, wheelset, seen, vehicle.forces()[0], [w.force for w in seen])
+        demand = self.scenario.demand if demand is None else demand
+        torques, _ = self.brakes.step(h, demand, [wheelset.radius * omega for omega in omegas])
+        now = vehicle.advance(h, reaction, 0.0, masses, others)
+        present = vehicle.position, vehicle.velocity
+        then = vehicle.advance(h, reaction, 0.0, masses, others)
+        vehicle.position, vehicle.velocity = present
+        pulls, loads = (0.5 * (a + b) for a, b in zip(now, then))
+        names = ("drive.force", "drive.load_change", "brake.torque")
+        return [dict(zip(names, values)) for values in zip(pulls, loads - vehicle.static_load, torques)]
+
+
 class ParallelStop:
     """A coach on a level track with one friction coefficient everywhere: that of the first section of the scenario's."""
 
     def __init__(self, scenario, fmu):
-        self.scenario, self.coach = scenario, Coach(scenario.vehicle)
-        self.coach.start(scenario.speed)
-        self.brakes = Brakes(scenario.brake, [scenario.speed] * AXLES)
-        self.wheelsets = [wheelset(scenario, fmu, self.coach.static_load) for _ in range(AXLES)]
-        self.radius = scenario.vehicle.wheelset.radius
+        self.coach = HeldCoach(scenario)
+        load = self.coach.vehicle.static_load
+        self.wheelsets = [wheelset(scenario, fmu, load) for _ in range(AXLES)]
         self.seen, self.driven = None, [{} for _ in range(AXLES)]
 
     def step(self, h):
         """Coach and wheels take a step of `h` [s], each with what the others were at its beginning."""
-        driven = self._coach(h)
+        driven = self.coach.step(h, self.seen)
         for wheelset, held in zip(self.wheelsets, self.driven):
             wheelset.wheel.set(held)
             wheelset.wheel.step(h)
@@ -61,24 +90,6 @@ class ParallelStop:
     def _read(self, wheel):
         """What the coach knows of a wheelset."""
         return SimpleNamespace(**dict(zip(("position", "velocity", "omega", "force", "torque"), wheel.get(*READ))))
-
-    def _coach(self, h):
-        """Moves the coach; returns what its wheelsets get in the next step."""
-        coach, seen, wheelset = self.coach, self.seen, self.scenario.vehicle.wheelset
-        omegas, reaction = [self.scenario.speed / self.radius] * AXLES, [0.0] * AXLES
-        masses, others = np.full(AXLES, float(wheelset.mass)), np.zeros(AXLES)
-        if seen:
-            coach.correct([w.position for w in seen], [w.velocity for w in seen])
-            omegas, reaction = [w.omega for w in seen], [w.torque for w in seen]
-            masses, others = predicted(h, wheelset, seen, coach.forces()[0], [w.force for w in seen])
-        torques, _ = self.brakes.step(h, self.scenario.demand, [self.radius * omega for omega in omegas])
-        now = coach.advance(h, reaction, 0.0, masses, others)
-        present = coach.position, coach.velocity
-        then = coach.advance(h, reaction, 0.0, masses, others)
-        coach.position, coach.velocity = present
-        pulls, loads = (0.5 * (a + b) for a, b in zip(now, then))
-        names = ("drive.force", "drive.load_change", "brake.torque")
-        return [dict(zip(names, values)) for values in zip(pulls, loads - coach.static_load, torques)]
 
     def close(self):
         """Frees the wheelsets."""
