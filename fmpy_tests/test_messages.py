@@ -4,9 +4,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from wheelrail import Refused
+from wheelrail import Fmu, Refused
 from wheelrail.__main__ import rigid
 from wheelrail.files import BadFile
+from wheelrail.wheelset import LAW, WITHOUT_EFFECT, FrictionLaw
 
 
 def test_an_item_that_is_none_is_refused_with_those_that_are(start):
@@ -41,3 +42,13 @@ def test_rigid_wheelsets_refuse_unknown_parameters_and_name_those_without_effect
     assert capsys.readouterr().err == ""
     rigid(scenario(**{"friction.falling_ratio": 0.4, "solver.tolerance": 0.01}))
     assert capsys.readouterr().err.strip().endswith("without effect: solver.tolerance")
+
+
+def test_rigid_wheelsets_know_every_parameter_of_friction_of_the_fmu_or_refuse_it(packed):
+    with Fmu(packed) as fmu:
+        names = {name for name, v in fmu.variables.items() if name.startswith("friction.") and v.causality == "parameter"}
+        assert FrictionLaw.of({}, fmu) == FrictionLaw()
+    assert names == {*LAW, *WITHOUT_EFFECT}
+    assert FrictionLaw.of({"friction.falling_ratio": 0.4, "friction.softening": 0.0}) == FrictionLaw(falling_ratio=0.4)
+    with pytest.raises(Refused, match="rigid wheelsets do not know friction.stribeck_velocity, only the law of friction.falling"):
+        FrictionLaw.of({"friction.falling_ratio": 0.4, "friction.stribeck_velocity": 1.0})

@@ -18,7 +18,7 @@ from . import scenario as scenarios
 from .brake import Brakes, Valve
 from .team import Team
 from .vehicle import AXLES, GRAVITY, Coach
-from .wheelset import LAW, Drive, FmuWheelset, RigidWheelset
+from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
 STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
@@ -100,18 +100,18 @@ class Contacts:
 
 def wheelsets_of(fmu, scenario, coach):
     """Wheelsets of all coaches from the front: in the FMU, if there is one, where the scenario has them there; the others are
-    rigid, with the friction law of the scenario's wheels."""
-    wheelset, law = scenario.vehicle.wheelset, scenario.wheel
+    rigid, with the friction law of the scenario's wheels and of the FMU, or refused if they do not know it."""
+    wheelset, parameters = scenario.vehicle.wheelset, scenario.wheel
     damping = scenario.vehicle.primary.vertical_damping
-    falling = [law.get(name, plain) for name, plain in zip(LAW, (1.0, 0.0))]
     inside = (scenario.fmu_coaches or range(1, coach.count + 1)) if fmu else ()
+    law = FrictionLaw.of(parameters, fmu) if len(inside) < coach.count else None
     found = []
     for number in range(1, coach.count + 1):
         for _ in range(AXLES):
             if number in inside:
-                found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, dict(law)))
+                found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, dict(parameters)))
             else:
-                found.append(RigidWheelset(wheelset, scenario.speed, 4e-3, *falling))
+                found.append(RigidWheelset(wheelset, scenario.speed, law=law))
     return found
 
 

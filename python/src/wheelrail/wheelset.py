@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .fmu import Wheel
+from .fmu import Refused, Wheel
 
 WHEELS = 2
 
@@ -97,20 +97,47 @@ def whole_wheelset(fmu, wheelset, parameters):
     return parameters | doubled | hub | {"wheel.radius": wheelset.radius}
 
 
-# Parameters of the FMU that a rigid wheelset has.
-LAW = ("friction.falling_ratio", "friction.falling_decay")
+class FrictionLaw(NamedTuple):
+    """Friction of a rigid wheelset: mu = mu_0 (A + (1 - A) exp(-B |s|)), which is the law of the FMU for slip velocities s.
+
+    Its other parameters have no effect here: nothing is hot, memory is shorter than a step, and the rail gives mu_0.
+    """
+
+    falling_ratio: float = 1.0  # A, 1
+    falling_decay: float = 0.0  # B, s/m
+
+    @classmethod
+    def of(cls, parameters, fmu=None):
+        """Law of the FMU under `parameters` by name, beside the start values of `fmu` if there is one. Parameters of friction
+        that this law does not know are refused."""
+        given = {name: value for name, value in parameters.items() if name.startswith("friction.")}
+        unknown = [name for name in given if name not in (*LAW, *WITHOUT_EFFECT)]
+        if unknown:
+            raise Refused(f"rigid wheelsets do not know {', '.join(unknown)}, only the law of {' and '.join(LAW)}")
+        start = {name: float(fmu.variable(name).start) for name in LAW} if fmu else {}
+        values = start | given
+        return cls(**{name.removeprefix("friction."): values[name] for name in LAW if name in values})
+
+    def factor(self, slip):
+        """Coefficient over that of the rail [1] at a slip velocity [m/s]."""
+        return self.falling_ratio + (1.0 - self.falling_ratio) * np.exp(-self.falling_decay * abs(slip))
+
+
+# Parameters of friction in the FMU: those of the law, and those without effect on a rigid wheelset. Others are refused.
+LAW = tuple(f"friction.{name}" for name in FrictionLaw._fields)
+WITHOUT_EFFECT = ("friction.coefficient", "friction.softening", "friction.softening_floor", "friction.memory_length")
 
 
 class RigidWheelset:
-    """A rigid wheelset under Carter's creep force with friction that falls with the slip, by backward Euler.
+    """A rigid wheelset under Carter's creep force, by backward Euler.
 
-    With z = |s|/(V xi_full), F = mu N (2 z - z^2) below full slip, mu N beyond; mu = mu_0 (A + (1 - A) exp(-B |s|)) with
-    the slip s of the step before. The load is that of the suspension; nothing is hot.
+    With z = |s|/(V xi_full), F = mu N (2 z - z^2) below full slip, mu N beyond, with the friction of the slip s of the step
+    before. The load is that of the suspension; nothing is hot.
     """
 
-    def __init__(self, wheelset, speed, full_slip=4e-3, falling_ratio=1.0, falling_decay=0.0):
+    def __init__(self, wheelset, speed, full_slip=4e-3, law=FrictionLaw()):
         self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
-        self.full_slip, self.ratio, self.decay = full_slip, falling_ratio, falling_decay
+        self.full_slip, self.law = full_slip, law
         self.position, self.velocity, self.omega = 0.0, speed, speed / wheelset.radius
         self.slip, self.energy = 0.0, 0.0
 
@@ -118,7 +145,7 @@ class RigidWheelset:
         """Advances by `h` seconds."""
         r, m, inertia = self.radius, self.mass, self.inertia
         pull, torque, load = (0.5 * sum(pair) for pair in (drive.force, drive.torque, drive.load))
-        grip = load * drive.friction * (self.ratio + (1.0 - self.ratio) * np.exp(-self.decay * abs(self.slip)))
+        grip = load * drive.friction * self.law.factor(self.slip)
         scale = max(abs(self.velocity), abs(r * self.omega), 0.01) * self.full_slip
         turning = np.sign(self.omega) or np.sign(self.velocity)
         free = self.velocity + h * pull / m
