@@ -45,7 +45,7 @@
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
 //! | [`mechanics`] | elasticity and convection; full and reduced bodies behind [`mechanics::BodyResponse`] | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md), [rail-ends](../../../docs/theory/rail-ends.md) |
 //! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, modal direct solver | [heat](../../../docs/theory/heat.md) |
-//! | [`surface`] | what rail and wheel carry on top of their ideal shapes: files, waves, roughness, holes, joints, flats | [profiles](../../../docs/theory/profiles.md) |
+//! | [`surface`] | shapes of both surfaces: profiles from files, waves, roughness, holes, joints, flats; dents; wear | [profiles](../../../docs/theory/profiles.md) |
 //! | [`contact`] | exact Coulomb contact behind [`contact::ContactSolver`], seen by everyone else as its [`contact::Traction`]; friction laws | [contact](../../../docs/theory/contact.md), [edge-consistent-rows](../../../docs/theory/edge-consistent-rows.md), [kernel-correction](../../../docs/theory/kernel-correction.md), [patch-contact](../../../docs/theory/patch-contact.md) |
 //! | [`damage`] | history of hot material: temperatures of places that were heated in one piece, structure of the steel | [material-history](../../../docs/theory/material-history.md) |
 //! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit, derivatives | [lever-arms](../../../docs/theory/lever-arms.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |

@@ -42,7 +42,7 @@ impl Isotropic {
 
     /// Modulus of uniaxial stress in plane strain, `E/(1 − ν²)` \[Pa].
     pub fn plane_strain_modulus(&self) -> f64 {
-        self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
+        2.0 * self.contact_modulus()
     }
 
     /// Contact modulus `E*` of two bodies of this material \[Pa].

@@ -20,9 +20,9 @@
 //! ```
 
 pub mod advice;
+mod foreign_state;
 mod lock;
-pub mod plausibility;
-mod plausible;
+pub mod mistaken_units;
 mod shared;
 mod start;
 mod store;
@@ -36,9 +36,10 @@ pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 use crate::config::{Config, ConfigError, Response, Tuning};
 use crate::heat::HeatError;
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
-use crate::rolling::{self, fields, outputs, sensitivity, stationary, substeps};
+use crate::rolling::{self, ModelError, fields, outputs, sensitivity, stationary, substeps};
+use crate::surface::{self, Surfaces};
+use foreign_state::is_plausible;
 use lock::lock;
-use plausible::plausible;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use tools::{Shelf, Tools};
@@ -108,7 +109,7 @@ impl Model {
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
         rolling::Model::check_size(&config)?;
-        let surfaces = rolling::surfaces::surfaces(&config, store.resources())?;
+        let surfaces = Surfaces::from_config(&config, store.resources()).map_err(ModelError::from)?;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
         if config.solver.response == Response::Reduced {
             let (found, bytes) = match store.find(&config)? {
@@ -311,15 +312,15 @@ impl Simulation {
         fields::temperatures(&self.model.rolling, &self.checkpoint.state)
     }
 
-    /// The present profile of the wheel, worn and flattened as it is: positions around the tread, angle times radius, and heights
+    /// Present profile of the wheel, worn and flattened: positions around the tread, angle times radius, and heights
     /// over the circle \[m].
     pub fn wheel_profile(&self) -> Vec<[f64; 2]> {
-        rolling::surfaces::wheel_profile(&self.model.rolling, &self.checkpoint.state)
+        outputs::tread(&self.model.rolling, &self.checkpoint.state)
     }
 
-    /// The same as the file that `wheel.profile` reads.
+    /// Present profile of the wheel as the text of a file that `wheel.profile` reads.
     pub fn wheel_profile_file(&self) -> String {
-        rolling::surfaces::csv(&self.wheel_profile())
+        surface::csv(&self.wheel_profile())
     }
 
     /// The model this simulation runs on.
@@ -343,7 +344,8 @@ impl Simulation {
             Origin::Stationary(_) => None,
             Origin::Step { state, .. } => Some(&**state),
         };
-        if !origin.into_iter().chain([&checkpoint.state]).all(|state| model.rolling.fits(state) && plausible(state)) {
+        if !origin.into_iter().chain([&checkpoint.state]).all(|state| model.rolling.fits(state) && is_plausible(state))
+        {
             return Err(StepError::ForeignState);
         }
         Ok(Self::at(model, tuning, checkpoint))

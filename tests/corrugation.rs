@@ -11,7 +11,8 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::config::Config;
-use wheelrail::mechanics::{contact_modulus, wheel_mass};
+use wheelrail::material::Isotropic;
+use wheelrail::mechanics::wheel_mass;
 use wheelrail::simulation::{Inputs, Model, Simulation, Translation};
 
 /// Contact resonance of the wheel of Paper A, from an independent eigenvalue analysis [rad/s].
@@ -38,7 +39,11 @@ fn inputs(model: &Model, velocity: f64) -> Inputs {
 
 /// Half-width of the patch [m].
 fn half_width(config: &Config) -> f64 {
-    hertz_half_width(config.model.nominal_load, config.wheel.radius, contact_modulus(config))
+    hertz_half_width(
+        config.model.nominal_load,
+        config.wheel.radius,
+        Isotropic::from(&config.material).contact_modulus(),
+    )
 }
 
 /// `J₀(z)` by its integral.

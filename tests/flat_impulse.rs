@@ -12,6 +12,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 use wheelrail::config::Config;
+use wheelrail::material::Isotropic;
 use wheelrail::simulation::{Inputs, Model, Simulation};
 
 const LENGTH: f64 = 0.04;
@@ -72,7 +73,7 @@ impl Lumped {
     fn new(config: &Config, cell: f64) -> Self {
         let count = (0.03 / cell) as i32;
         let x: Vec<f64> = (-count..=count).map(|k| f64::from(k) * cell).collect();
-        let kernel = 2.0 / (PI * wheelrail::mechanics::contact_modulus(config) * config.model.contact_width);
+        let kernel = 2.0 / (PI * Isotropic::from(&config.material).contact_modulus() * config.model.contact_width);
         // The mean of −ln|x| over a cell.
         let part = |s: f64| if s == 0.0 { 0.0 } else { s * (s.abs().ln() - 1.0) };
         let mean = |d: f64| -(part(d + 0.5 * cell) - part(d - 0.5 * cell)) / cell;

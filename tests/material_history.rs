@@ -1,7 +1,7 @@
 //! History of hot material: spots that take over the field of a standing contact and conduct it on by themselves.
 
 use std::f64::consts::PI;
-use wheelrail::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
+use wheelrail::damage::{Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 
 const REFERENCE: f64 = 293.0;
 const CONDUCTIVITY: f64 = 50.0;
@@ -26,13 +26,13 @@ fn wheel(resolution: f64) -> HotSpots {
     })
 }
 
-/// Moment of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`. The contact is known
+/// Step of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`. The contact is known
 /// for all of a spot.
-fn moment(dt: f64, angle: f64, omega: f64, hottest: f64) -> Moment<'static> {
+fn moment(dt: f64, angle: f64, omega: f64, hottest: f64) -> TreadStep<'static> {
     let hottest = [hottest, 0.0];
     let surface: (&[f64], &[f64]) = (&[], &[]);
     let (contact_length, contact_reach) = (0.0, 1.0);
-    Moment { dt, angle, omega, contact_length, contact_reach, hottest, bulk: 0.0, surface, criteria: CRITERIA }
+    TreadStep { dt, angle, omega, contact_length, contact_reach, hottest, bulk: 0.0, surface, criteria: CRITERIA }
 }
 
 /// `erfc x` of a positive number: the series for small ones, the continued fraction for large ones.
@@ -290,7 +290,7 @@ fn every_point_of_a_rolling_tread_is_hot_for_its_passes_only() {
             dt = if dt > 2e-4 { 1e-4 } else { 3e-4 };
             angle += omega * dt;
             let surface: (&[f64], &[f64]) = (&x, &values);
-            let now = Moment { surface, ..moment(dt, angle, omega, 900.0) };
+            let now = TreadStep { surface, ..moment(dt, angle, omega, 900.0) };
             spots.advance(&mut damage, &now, &sample);
         }
         longest.push(damage.findings().above_ac1);
@@ -315,7 +315,7 @@ fn the_rail_chills_a_rolling_hot_place_at_every_pass() {
     let end = turns as f64 * 2.0 * PI / omega;
     for k in 1..=1000 {
         let now = moment(end / 1000.0, omega * end * k as f64 / 1000.0, omega, 0.0);
-        spots.advance(&mut damage, &Moment { contact_length: length, ..now }, &sample);
+        spots.advance(&mut damage, &TreadStep { contact_length: length, ..now }, &sample);
     }
     // Heat that the middle column has lost per area.
     let (mesh, field) = (spots.mesh(), damage.spots[0].field().unwrap());

@@ -6,11 +6,12 @@ use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::series::{HalfPlaneKernel, SeriesSolver};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Flattening, Friction,
-    LineProblem, Placement, RigidMotion, SolverState, SteelLimits, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
+    RigidMotion, SolverState, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
+use wheelrail::surface::{Flattening, Placement, Surfaces};
 
 const RADIUS: f64 = 0.5;
 const FRICTION: f64 = 0.3;

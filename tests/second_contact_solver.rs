@@ -11,13 +11,15 @@ use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SolvedFriction, SolverState,
-    Surfaces, Traction, Yielding,
+    Traction, Yielding,
 };
-use wheelrail::mechanics::{Basis, Pair, bodies, contact_modulus};
+use wheelrail::material::Isotropic;
+use wheelrail::mechanics::{Basis, Pair, bodies};
 use wheelrail::piecewise::{Interval, Piecewise};
 use wheelrail::rolling::outputs::observe;
 use wheelrail::rolling::{Inputs, Model, Rotation, State, Translation, Workspace, stationary, substeps};
 use wheelrail::simulation::Outputs;
+use wheelrail::surface::Surfaces;
 
 /// Points of the reported profiles.
 const PROFILE: usize = 401;
@@ -211,7 +213,11 @@ fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
     let pair = |config: &Config| -> Pair { bodies(config, Some(basis.clone()), &mut |_, _| {}).unwrap() };
     let (toys, grids) = (pair(&config), pair(&config));
     let place = Arc::default();
-    let toy = Hertz { x: toys.surface_x.clone(), modulus: contact_modulus(&config), place: Arc::clone(&place) };
+    let toy = Hertz {
+        x: toys.surface_x.clone(),
+        modulus: Isotropic::from(&config.material).contact_modulus(),
+        place: Arc::clone(&place),
+    };
     let smooth = || Surfaces::smooth(config.wheel.radius);
     let toys = Model::with_solver(config.clone(), toys, smooth(), Box::new(toy), None).unwrap();
     let models = [toys, Model::new(config.clone(), grids, smooth()).unwrap()];
@@ -260,7 +266,7 @@ fn stationary_contact_of_the_second_solver_is_that_of_hertz() {
     });
     let config = &model.config;
     let line_load = inputs.drive.load / config.model.contact_width;
-    let a = hertz_half_width(line_load, config.wheel.radius, contact_modulus(config));
+    let a = hertz_half_width(line_load, config.wheel.radius, Isotropic::from(&config.material).contact_modulus());
     assert!((ours.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9, "{}", ours.contact_force_y);
     assert!((ours.contact_half_width / a - 1.0).abs() < 1e-9);
     assert!((ours.contact_pressure_max / hertz_peak_pressure(line_load, a) - 1.0).abs() < 1e-9);

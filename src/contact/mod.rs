@@ -9,23 +9,17 @@
 pub mod active_set;
 pub mod error;
 pub mod film;
-pub mod flattening;
 pub mod friction;
 pub mod limits;
 pub mod line;
 pub mod problem;
 pub mod series;
 pub mod solver;
-pub mod surface;
 pub mod traction;
-pub mod worn;
 
 pub use error::ContactError;
-pub use flattening::Flattening;
-pub use friction::{Friction, FrictionLaw, Heating};
+pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use limits::SteelLimits;
 pub use problem::{AxisDrive, ContactProblem, LineProblem, RetardedSurface, RigidMotion, SurfaceResponse};
 pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
-pub use surface::{Placement, Relief, Surfaces};
 pub use traction::{SolvedFriction, Traction, Yielding};
-pub use worn::{Loss, Worn};

@@ -2,9 +2,9 @@
 
 use super::friction::Friction;
 use super::limits::SteelLimits;
-use super::surface::{Placement, Surfaces};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
+use crate::surface::{Placement, Surfaces};
 use nalgebra::{DMatrix, DVector};
 
 /// Linear answer of both bodies at their surfaces; the ports are the surface displacements x, y of every node.

@@ -2,7 +2,7 @@
 //! an L-stable implicit formula of second order. Stable for any step; insulated below and at the sides, where nothing
 //! is hot.
 
-use super::mesh::{Line, SpotMesh};
+use super::mesh::{ConductionLine, SpotMesh};
 
 /// Coefficient of the two-stage formula [1]: `1 − 1/√2` (Alexander, *SIAM J. Numer. Anal.* 14 (1977)).
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -50,7 +50,7 @@ pub(super) fn conduct(mesh: &SpotMesh, values: &mut [f64], dt: f64, convection: 
 
 impl Factors {
     /// Factors of a line with a sink at its first node, with the coefficient `theta` of each lane.
-    fn set(&mut self, line: &Line, sink: f64, theta: impl Fn(usize) -> f64) {
+    fn set(&mut self, line: &ConductionLine, sink: f64, theta: impl Fn(usize) -> f64) {
         let Lanes { nodes, stride, lanes, apart } = self.rows;
         for values in [&mut self.lower, &mut self.upper, &mut self.inverse] {
             values.clear();

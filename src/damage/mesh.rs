@@ -14,7 +14,7 @@ const BEYOND: f64 = 0.04;
 /// Largest layer in depths of the mesh, largest element along the arc in reaches beyond the middle.
 const LARGEST: f64 = 0.2;
 
-/// What a mesh and the conduction on it depend on.
+/// Dimensions, material and boundary of a spot, from which its mesh and the conduction on it follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotLayout {
     /// Radius of the wheel \[m].
@@ -47,9 +47,9 @@ pub struct SpotMesh {
     /// Depth \[m], from the surface down.
     pub depth: Vec<f64>,
     /// Coefficients of conduction along the arc and over the depth.
-    pub(super) along: Line,
-    pub(super) across: Line,
-    /// How much faster than at the surface heat spreads along the arc at each depth [1]: `1/g²`, `g = 1 − z/r`.
+    pub(super) along: ConductionLine,
+    pub(super) across: ConductionLine,
+    /// Diffusivity along the arc at each depth over that at the surface [1]: `1/g²`, `g = 1 − z/r`.
     pub(super) stretch: Vec<f64>,
     conductivity: f64,
     heat_capacity: f64,
@@ -59,7 +59,7 @@ pub struct SpotMesh {
 
 /// Conduction along one direction: inverse of time per neighbour, for a diffusivity of one [1/m²].
 #[derive(Clone, Debug)]
-pub(super) struct Line {
+pub(super) struct ConductionLine {
     /// From the node before to each node.
     pub lower: Vec<f64>,
     /// From the node after.
@@ -85,8 +85,8 @@ impl SpotMesh {
         let arc: Vec<f64> = side.iter().rev().map(|s| -s).chain(side.iter().skip(1).copied()).collect();
         let weight = |z: f64| 1.0 - z / radius;
         Self {
-            along: Line::new(&arc, |_| 1.0),
-            across: Line::new(&depth, weight),
+            along: ConductionLine::new(&arc, |_| 1.0),
+            across: ConductionLine::new(&depth, weight),
             stretch: depth.iter().map(|&z| weight(z).powi(-2)).collect(),
             arc,
             depth,
@@ -117,7 +117,7 @@ impl SpotMesh {
     }
 }
 
-impl Line {
+impl ConductionLine {
     /// Finite volumes around the nodes under a weight of area and volume.
     fn new(nodes: &[f64], weight: impl Fn(f64) -> f64) -> Self {
         let n = nodes.len();

@@ -1,43 +1,43 @@
-//! What heat has done to the material of the wheel: histories of places that were heated while they stood in the contact,
-//! and of the points of the tread that passed through it.
+//! Metallurgy of hot treads: histories of places that were heated while they stood in the contact, and of the points of the
+//! tread that passed through it.
 //!
-//! The temperature fields of [`crate::heat`] live on meshes that stand with the contact: what turns out of it is smeared.
-//! A wheel that is locked, or nearly so, heats one place of its tread. Here a *spot*, a fine mesh over arc and depth that
+//! The temperature fields of [`crate::heat`] live on meshes that stand with the contact, on which heat that turns out of it is
+//! smeared. A wheel that is locked, or nearly so, heats one place of its tread. Here a *spot*, a fine mesh over arc and depth that
 //! is fixed to the material, takes over the field while the place lies under the contact, and conducts the heat on by
-//! itself when the wheel has turned it away. Every node remembers what metallurgy asks for. Derivation and limits:
+//! itself when the wheel has turned it away. Every node records what metallurgy asks for: peak, time above Ac1, cooling rate, martensite. Derivation and limits:
 //! `docs/theory/material-history.md`.
 //!
 //! Temperatures given to this room are excess temperatures over the reference \[K], those it reports are absolute.
 
 mod conduction;
-mod indices;
+mod fatigue;
 mod mesh;
 mod record;
 mod shared;
 mod spot;
 mod tread;
 
-pub use indices::{WearLaw, surface_fatigue};
+pub use fatigue::surface_fatigue;
 pub use mesh::{SpotLayout, SpotMesh};
 use record::Recorder;
-pub use record::{Criteria, Findings, Point};
+pub use record::{Criteria, Findings, MaterialPoint};
 use spot::Visit;
-pub use spot::{Field, Sample, Spot};
+pub use spot::{ColumnSampler, Spot, SpotField};
 pub use tread::Tread;
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Most places of the tread that are kept apart; beyond, the least hot of those that are cold is forgotten, but for what was found there.
+/// Largest number of spots. Beyond it, the least hot of the cold ones is forgotten, but for its findings.
 pub const MOST_SPOTS: usize = 8;
-/// Time within which a wheel that heats one place turns by less than the length of the nominal contact [s].
+/// Time in which a wheel turns by less than the length of the nominal contact if it heats one place [s].
 const HEATING_TIME: f64 = 10e-3;
-/// Places nearer to each other than this were heated by one slide that crept on [half-widths of the nominal contact].
+/// Distance of places below which one slide that crept on has heated both [half-widths of the nominal contact].
 const CONNECTED: f64 = 4.0;
 /// Share of the excess temperature that opens a spot at which it is cold again [1].
 const COLD: f64 = 0.25;
 
-/// Follows the material of one wheel; immutable, its data are in the [`Damage`].
+/// Model of the material history of one wheel; immutable, its data are in the [`Damage`].
 #[derive(Clone, Debug)]
 pub struct HotSpots {
     mesh: SpotMesh,
@@ -53,7 +53,7 @@ pub struct HotSpots {
     convection: f64,
 }
 
-/// What the wheel's material has gone through. Without anything hot it holds no memory.
+/// History of the wheel's material. Without hot spots it allocates no memory.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Damage {
     /// Highest temperature of the wheel's tread in the contact so far \[K].
@@ -66,15 +66,15 @@ pub struct Damage {
     pub spots: Vec<Spot>,
     /// Highest temperature at the depths of the mesh, of all these places so far \[K]; empty without any.
     pub peaks: Vec<f64>,
-    /// What was found about places that had to make room.
+    /// Findings at spots that had to make room.
     pub forgotten: Findings,
-    /// How many places were heated in one piece so far; those that touch each other count as one.
+    /// Number of places heated in one piece so far; those that touch each other count as one.
     pub places: u64,
 }
 
-/// What happens to the tread during a step, and where it stands at its end.
+/// Motion and temperatures of the tread in a step, and its position at the end.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment<'a> {
+pub struct TreadStep<'a> {
     /// Length of the step \[s].
     pub dt: f64,
     /// Angle of the wheel at the end, forward positive \[rad].
@@ -83,7 +83,7 @@ pub struct Moment<'a> {
     pub omega: f64,
     /// Length of the contact, zero without one \[m].
     pub contact_length: f64,
-    /// How far from the contact point the contact reaches \[m].
+    /// Largest distance of the contact from the contact point \[m].
     pub contact_reach: f64,
     /// Highest excess temperatures of wheel and rail in the contact zone \[K].
     pub hottest: [f64; 2],
@@ -96,7 +96,7 @@ pub struct Moment<'a> {
 }
 
 impl HotSpots {
-    /// For a wheel with the given mesh.
+    /// Model of a wheel with the given mesh.
     pub fn new(layout: &SpotLayout) -> Self {
         Self {
             mesh: SpotMesh::new(layout),
@@ -113,14 +113,14 @@ impl HotSpots {
         &self.mesh
     }
 
-    /// A wheel whose tread and rail have the excess temperatures `hottest` \[K] at the start.
+    /// History of a wheel whose tread and rail have the excess temperatures `hottest` \[K] at the start.
     pub fn begin(&self, hottest: [f64; 2]) -> Damage {
         let [peak, rail_peak] = hottest.map(|excess| self.reference + excess);
         Damage { peak, rail_peak, ..Damage::default() }
     }
 
-    /// Takes the history on by one step.
-    pub fn advance(&self, damage: &mut Damage, now: &Moment, sample: Sample) {
+    /// Advances the history by one step.
+    pub fn advance(&self, damage: &mut Damage, now: &TreadStep, sample: ColumnSampler) {
         damage.peak = damage.peak.max(self.reference + now.hottest[0]);
         damage.rail_peak = damage.rail_peak.max(self.reference + now.hottest[1]);
         let (ac1, threshold) = (now.criteria.austenitisation - self.reference, now.criteria.threshold);
@@ -146,7 +146,7 @@ impl HotSpots {
     }
 
     /// Opens a spot at the contact point. Beyond the zone of the contact its temperatures are those of spots that lie there.
-    fn open(&self, damage: &mut Damage, now: &Moment, sample: Sample) {
+    fn open(&self, damage: &mut Damage, now: &TreadStep, sample: ColumnSampler) {
         let (mesh, record) = (&self.mesh, self.recorder(now));
         let layers = mesh.depth.len();
         let visit = Visit { distance: 0.0, reach: self.reach(now), dt: now.dt, film: 0.0 };
@@ -165,16 +165,16 @@ impl HotSpots {
         damage.spots.push(spot);
     }
 
-    fn recorder(&self, now: &Moment) -> Recorder {
+    fn recorder(&self, now: &TreadStep) -> Recorder {
         Recorder { criteria: now.criteria, reference: self.reference }
     }
 
     /// Distance from the contact point up to which the temperatures of the contact are known finely \[m].
-    fn reach(&self, now: &Moment) -> f64 {
+    fn reach(&self, now: &TreadStep) -> f64 {
         self.zone.max(now.contact_reach)
     }
 
-    fn advance_spot(&self, spot: &mut Spot, now: &Moment, heats: bool, sample: Sample, peaks: &mut Vec<f64>) {
+    fn advance_spot(&self, spot: &mut Spot, now: &TreadStep, heats: bool, sample: ColumnSampler, peaks: &mut Vec<f64>) {
         let distance = self.distance(spot, now);
         let under = self.stands(now.omega) && distance.abs() <= self.half_width;
         let record = self.recorder(now);
@@ -195,20 +195,20 @@ impl HotSpots {
         }
     }
 
-    /// Whether the wheel turns so slowly that the contact heats one place.
+    /// Rotation so slow that the contact heats one place.
     fn stands(&self, omega: f64) -> bool {
         self.radius * omega.abs() * HEATING_TIME <= 2.0 * self.half_width
     }
 
     /// Distance of a spot from the contact point along the tread \[m], the shorter way round.
-    fn distance(&self, spot: &Spot, now: &Moment) -> f64 {
+    fn distance(&self, spot: &Spot, now: &TreadStep) -> f64 {
         let round = TAU * self.radius;
         (spot.arc - self.radius * now.angle + 0.5 * round).rem_euclid(round) - 0.5 * round
     }
 
     /// Coefficient of the heat that a rolling wheel gives to the cold rail, as a mean over a turn [W/(m² K)]: bodies of
     /// equal effusivity e that touch for the time t exchange `e ΔT √(t/π)` per area.
-    fn chill(&self, now: &Moment) -> f64 {
+    fn chill(&self, now: &TreadStep) -> f64 {
         let speed = self.radius * now.omega.abs();
         if speed == 0.0 || now.contact_length <= 0.0 {
             return 0.0;
@@ -233,7 +233,7 @@ impl HotSpots {
         }
     }
 
-    /// Whether a history has the dimensions of this model.
+    /// Agreement of a history with the dimensions of this model.
     pub fn fits(&self, damage: &Damage) -> bool {
         let peaks = damage.peaks.is_empty() || damage.peaks.len() == self.mesh.depth.len();
         peaks && damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
@@ -241,7 +241,7 @@ impl HotSpots {
 }
 
 impl Damage {
-    /// What was found at all places together.
+    /// Findings at all places together.
     pub fn findings(&self) -> Findings {
         let all = self.spots.iter().fold(self.forgotten, |all, spot| all.with(&spot.findings()));
         Findings { above_ac1: all.above_ac1.max(self.tread.longest()), ..all }

@@ -1,4 +1,4 @@
-//! What a point of material remembers of its temperatures, and what a place of the tread is judged by.
+//! Records of the temperatures of points of material, and findings at a place of the tread.
 
 use super::mesh::SpotMesh;
 use serde::{Deserialize, Serialize};
@@ -25,13 +25,13 @@ pub struct Criteria {
 
 /// Damage of a point of material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Point {
+pub struct MaterialPoint {
     /// Highest temperature so far \[K].
     pub peak: f64,
     /// Time above Ac1 so far \[s].
     pub above_ac1: f64,
-    /// When it fell below 800 °C, or below Ac1 if it had not reached 800 °C, and that temperature [s, K], while it has not
-    /// fallen below 500 °C.
+    /// Time at which it fell below 800 °C, or below Ac1 if it had not reached 800 °C, and that temperature [s, K]; none unless it is
+    /// between them and 500 °C.
     pub left: Option<[f64; 2]>,
     /// Mean cooling rate from there to 500 °C; zero before [K/s].
     pub cooling_rate: f64,
@@ -39,8 +39,8 @@ pub struct Point {
     pub martensite: f64,
 }
 
-impl Point {
-    /// Takes note of a step of `dt` \[s] to the time `time` \[s], from one temperature to another \[K].
+impl MaterialPoint {
+    /// Records a step of `dt` \[s] to the time `time` \[s], from one temperature to another \[K].
     pub fn record(&mut self, [before, after]: [f64; 2], time: f64, dt: f64, criteria: &Criteria) {
         self.peak = self.peak.max(after);
         let ac1 = criteria.austenitisation;
@@ -79,7 +79,7 @@ fn share_above(before: f64, after: f64, level: f64) -> f64 {
     }
 }
 
-/// What was found at a place of the tread.
+/// Findings at a place of the tread.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Findings {
     /// Highest temperature of its hottest point \[K].
@@ -96,7 +96,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Both together: the worst of each; the cooling rate is that of the one that was longer above Ac1.
+    /// Union of both: the worst of each; the cooling rate is that of the one that was longer above Ac1.
     pub fn with(&self, other: &Self) -> Self {
         Self {
             peak: self.peak.max(other.peak),
@@ -107,8 +107,8 @@ impl Findings {
         }
     }
 
-    /// Of all points of a mesh.
-    pub(super) fn of(mesh: &SpotMesh, points: &[Point], criteria: &Criteria) -> Self {
+    /// Findings at all points of a mesh.
+    pub(super) fn of(mesh: &SpotMesh, points: &[MaterialPoint], criteria: &Criteria) -> Self {
         let ac1 = criteria.austenitisation;
         let mut found = Self::default();
         for column in points.chunks_exact(mesh.depth.len()) {
@@ -130,7 +130,7 @@ impl Findings {
 }
 
 /// Depth to which an excess is positive, linear between nodes \[m], and the last node with it.
-fn deepest(depth: &[f64], column: &[Point], excess: impl Fn(&Point) -> f64) -> (f64, Option<usize>) {
+fn deepest(depth: &[f64], column: &[MaterialPoint], excess: impl Fn(&MaterialPoint) -> f64) -> (f64, Option<usize>) {
     let Some(last) = column.iter().rposition(|point| excess(point) > 0.0) else {
         return (0.0, None);
     };
@@ -141,9 +141,9 @@ fn deepest(depth: &[f64], column: &[Point], excess: impl Fn(&Point) -> f64) -> (
     (depth[last] + inside / (inside - outside) * (depth[last + 1] - depth[last]), Some(last))
 }
 
-/// Records the points of a spot.
+/// Recorder of the points of a spot.
 pub(super) struct Recorder {
-    /// What decides.
+    /// Temperatures and cooling rate that decide about the structure.
     pub criteria: Criteria,
     /// Absolute temperature over which excess temperatures are counted [K].
     pub reference: f64,
@@ -151,12 +151,12 @@ pub(super) struct Recorder {
 
 impl Recorder {
     /// A point that has the excess temperature `excess` [K] when its history begins.
-    pub fn begin(&self, excess: f64) -> Point {
-        Point { peak: self.reference + excess, ..Point::default() }
+    pub fn begin(&self, excess: f64) -> MaterialPoint {
+        MaterialPoint { peak: self.reference + excess, ..MaterialPoint::default() }
     }
 
-    /// Takes note of a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
-    pub fn step(&self, points: &mut [Point], before: &[f64], after: &[f64], time: f64, dt: f64) {
+    /// Records a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
+    pub fn step(&self, points: &mut [MaterialPoint], before: &[f64], after: &[f64], time: f64, dt: f64) {
         for (point, (&before, &after)) in points.iter_mut().zip(before.iter().zip(after)) {
             point.record([self.reference + before, self.reference + after], time, dt, &self.criteria);
         }

@@ -1,8 +1,8 @@
 //! A place of the tread that was heated in one piece.
 
-use super::conduction::{self, conduct};
+use super::conduction::{ConductionScratch, conduct};
 use super::mesh::SpotMesh;
-use super::record::{Findings, Point, Recorder};
+use super::record::{Findings, MaterialPoint, Recorder};
 use super::shared;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -10,17 +10,17 @@ use std::sync::Arc;
 /// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones take.
 const FIRST_STEP: f64 = 2e-5;
 const STEP_SHARE: f64 = 0.03;
-/// What a place had of heat of its own is forgotten when it is less than this [K].
+/// Temperature below which the heat that a place brought along is forgotten [K].
 const NEGLIGIBLE: f64 = 1.0;
 
-/// Fills a column with the excess temperatures \[K] at the depths of the mesh, at a distance along the tread \[m] from the
+/// Function that fills a column with the excess temperatures \[K] at the depths of the mesh, at a distance along the tread \[m] from the
 /// contact point.
-pub type Sample<'a> = &'a dyn Fn(f64, &mut [f64]);
+pub type ColumnSampler<'a> = &'a dyn Fn(f64, &mut [f64]);
 
 /// A step of a place under the contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visit {
-    /// How far its middle is from the contact point along the tread \[m].
+    /// Distance of its middle from the contact point along the tread \[m].
     pub distance: f64,
     /// Distance from the contact point up to which the temperatures of the contact are known finely \[m].
     pub reach: f64,
@@ -31,7 +31,7 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    /// Whether what lies `arc` \[m] from the middle of the place is known from the contact.
+    /// Knowledge of the temperatures at `arc` \[m] from the middle of the place from the contact.
     pub fn covers(&self, arc: f64) -> bool {
         (self.distance + arc).abs() <= self.reach
     }
@@ -40,32 +40,32 @@ impl Visit {
 /// A place of the tread that was heated in one piece, once or several times.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spot {
-    /// Where its middle lies in the material: distance along the tread, backwards from what touched at angle 0 \[m].
+    /// Position of its middle in the material: distance along the tread, backwards from the point that touched at angle 0 \[m].
     pub arc: f64,
-    /// Whether the contact is heating it, so that it takes its temperatures from there.
+    /// Heating by the contact, from which it then takes its temperatures.
     pub following: bool,
-    /// Its temperatures and what its points remember; none while it is cold. Copies of a state share them.
+    /// Its temperatures and the records of its points; none while it is cold. Copies of a state share them.
     #[serde(with = "shared")]
-    field: Option<Arc<Field>>,
+    field: Option<Arc<SpotField>>,
     /// Time since the contact left it \[s].
     alone: f64,
     /// Time that is still to be computed \[s].
     pending: f64,
-    /// What was found when it was hot before.
+    /// Findings of earlier heatings.
     earlier: Findings,
-    /// What was found since.
+    /// Findings of the latest heating.
     latest: Findings,
 }
 
 /// Temperatures of a spot.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Field {
+pub struct SpotField {
     /// Excess temperatures \[K].
     pub temperature: Vec<f64>,
-    /// What they are more than those under the contact: heat from before that the contact does not know; empty: nothing.
+    /// Excess over the temperatures under the contact: heat from before that the contact does not know; empty: zero.
     pub remainder: Vec<f64>,
     /// Histories of the nodes.
-    pub points: Vec<Point>,
+    pub points: Vec<MaterialPoint>,
     /// Time since the place became hot \[s].
     pub age: f64,
 }
@@ -74,37 +74,37 @@ impl Spot {
     /// A place whose middle touches at the distance `arc` \[m] turned, with the excess temperatures `temperature` \[K].
     pub(super) fn at(arc: f64, temperature: Vec<f64>, mesh: &SpotMesh, recorder: &Recorder) -> Self {
         let points = temperature.iter().map(|&excess| recorder.begin(excess)).collect();
-        let field = Some(Arc::new(Field { temperature, points, ..Field::default() }));
+        let field = Some(Arc::new(SpotField { temperature, points, ..SpotField::default() }));
         let mut spot = Self { arc, following: true, field, ..Self::default() };
         spot.judge(mesh, recorder);
         spot
     }
 
-    /// What was found there.
+    /// Findings at this place.
     pub fn findings(&self) -> Findings {
         self.earlier.with(&self.latest)
     }
 
-    /// Whether it is still being followed.
+    /// Presence of temperatures that are still followed.
     pub fn is_hot(&self) -> bool {
         self.field.is_some()
     }
 
-    /// Its temperatures, while it is hot.
-    pub fn field(&self) -> Option<&Field> {
+    /// Temperatures while it is hot.
+    pub fn field(&self) -> Option<&SpotField> {
         self.field.as_deref()
     }
 
-    /// A step under the contact: in its zone the temperatures are those of the sample, and what the place brought along;
-    /// beyond, where the sample knows little, it conducts by itself.
-    pub(super) fn follow(&mut self, mesh: &SpotMesh, visit: &Visit, sample: Sample, recorder: &Recorder) {
+    /// Step under the contact: in its zone the temperatures are those of the sample and the heat that the place brought along;
+    /// beyond, where the sample is coarse, the place conducts by itself.
+    pub(super) fn follow(&mut self, mesh: &SpotMesh, visit: &Visit, sample: ColumnSampler, recorder: &Recorder) {
         let back = !std::mem::replace(&mut self.following, true);
         let dt = visit.dt + std::mem::take(&mut self.pending);
         let layers = mesh.depth.len();
         // A place that was at rest is cold.
-        let field = self.field.get_or_insert_with(|| Arc::new(Field::cold(mesh.size(), recorder)));
+        let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh.size(), recorder)));
         let field = Arc::make_mut(field);
-        let mut scratch = conduction::ConductionScratch::default();
+        let mut scratch = ConductionScratch::default();
         let mut now = field.temperature.clone();
         conduct(mesh, &mut now, dt, visit.film, &mut scratch);
         if back {
@@ -133,7 +133,7 @@ impl Spot {
         self.judge(mesh, recorder);
     }
 
-    /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle; whether it lies within the mesh of a hot
+    /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle, and returns `true`, within the mesh of a hot
     /// place.
     pub(super) fn column(&self, mesh: &SpotMesh, arc: f64, column: &mut [f64]) -> bool {
         let (Some(field), layers) = (self.field(), mesh.depth.len()) else { return false };
@@ -150,7 +150,7 @@ impl Spot {
         true
     }
 
-    /// A step of `dt` \[s] away from the contact; returns whether its temperatures are new.
+    /// Step of `dt` \[s] away from the contact; returns `true` if its temperatures are new.
     pub(super) fn conduct(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder) -> bool {
         self.following = false;
         let Some(field) = self.field.as_mut() else { return false };
@@ -161,7 +161,7 @@ impl Spot {
         }
         let field = Arc::make_mut(field);
         field.remainder = Vec::new();
-        let mut scratch = conduction::ConductionScratch::default();
+        let mut scratch = ConductionScratch::default();
         while self.pending >= own_step(self.alone) {
             let step = own_step(self.alone);
             self.pending -= step;
@@ -180,9 +180,9 @@ impl Spot {
         }
     }
 
-    /// Ends the history of temperatures when all are below a limit \[K]; what was found stays.
+    /// Ends the history of temperatures when all are below a limit \[K]; findings stay.
     pub(super) fn rest_below(&mut self, limit: f64) {
-        let cold = |field: &Field| field.temperature.iter().all(|&excess| excess < limit);
+        let cold = |field: &SpotField| field.temperature.iter().all(|&excess| excess < limit);
         if self.field().is_some_and(cold) {
             (self.field, self.following, self.alone, self.pending) = (None, false, 0.0, 0.0);
             self.earlier = self.findings();
@@ -196,10 +196,10 @@ impl Spot {
         }
     }
 
-    /// Whether the data have the dimensions of a mesh.
+    /// Agreement of the data with the dimensions of a mesh.
     pub(super) fn fits(&self, mesh: &SpotMesh) -> bool {
         let size = mesh.size();
-        let fits = |field: &Field| {
+        let fits = |field: &SpotField| {
             let times = [field.age, self.alone, self.pending];
             field.temperature.len() == size
                 && field.points.len() == size
@@ -210,21 +210,14 @@ impl Spot {
     }
 }
 
-impl Field {
-    /// Of a place without excess temperatures.
+impl SpotField {
+    /// Temperatures of a place without excess.
     fn cold(size: usize, recorder: &Recorder) -> Self {
         Self { temperature: vec![0.0; size], points: vec![recorder.begin(0.0); size], ..Self::default() }
     }
 
-    /// Own conduction over a step, with the records of the points.
-    fn advance(
-        &mut self,
-        mesh: &SpotMesh,
-        dt: f64,
-        film: f64,
-        recorder: &Recorder,
-        scratch: &mut conduction::ConductionScratch,
-    ) {
+    /// Conduction of the place by itself over a step, with the records of its points.
+    fn advance(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder, scratch: &mut ConductionScratch) {
         let before = self.temperature.clone();
         conduct(mesh, &mut self.temperature, dt, film, scratch);
         self.age += dt;

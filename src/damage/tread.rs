@@ -1,4 +1,4 @@
-//! Points all round the tread and the time that each of them was hot in the contact.
+//! Points around the tread, and the time for which each of them was hot in the contact.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ const POINTS: [f64; 2] = [64.0, 8192.0];
 pub struct Tread {
     /// Circumference \[m].
     round: f64,
-    /// Of each point \[s].
+    /// Time of each point \[s].
     time: Vec<f64>,
     /// The longest of them \[s].
     longest: f64,

@@ -12,12 +12,12 @@ use std::f64::consts::PI;
 /// `P` nominal load per metre of width, `1/E* = 2 (1 − ν²)/E`. Source: Johnson, *Contact Mechanics* (1985), eq. 4.43.
 pub fn nominal_half_width(config: &Config) -> f64 {
     let load = config.model.nominal_load / config.model.contact_width;
-    analytic::hertz_half_width(load, config.wheel.radius, contact_modulus(config))
+    analytic::hertz_half_width(load, config.wheel.radius, Isotropic::from(&config.material).contact_modulus())
 }
 
-/// Contact modulus of wheel and rail \[Pa].
-pub fn contact_modulus(config: &Config) -> f64 {
-    Isotropic::from(&config.material).contact_modulus()
+/// Length of the elements at the contact under the nominal load \[m].
+pub fn element_length(config: &Config) -> f64 {
+    nominal_half_width(config) / config.mesh.elements_per_half_width as f64
 }
 
 /// Distance from the contact point up to which surface nodes are paired, in nominal half-widths: patches of softened steel

@@ -29,7 +29,7 @@ pub use basis::{Basis, BasisError};
 pub use damping::BodyDamping;
 pub use error::MechanicsError;
 pub use full::FullBody;
-pub use layout::{contact_modulus, nominal_half_width, wheel_inertia, wheel_mass};
+pub use layout::{element_length, nominal_half_width, wheel_inertia, wheel_mass};
 pub use meshes::{rail_mesh, rail_system, wheel_mesh, wheel_system};
 pub use pair::{Pair, Smooth, bodies};
 pub use reduced::ReducedBody;

@@ -4,17 +4,17 @@ use super::bodies::Operators;
 use super::error::StepError;
 use super::standing;
 use super::state::{State, ThermalDeformation, Weakening};
-use crate::config::{Config, Tuning};
+use crate::config::Config;
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Flattening, Friction,
-    FrictionLaw, LineProblem, Placement, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Surfaces,
-    Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
+    RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
+use crate::surface::{Flattening, Placement, Surfaces};
 
 /// Contact of the wheel with the rail.
 pub struct ContactModel {
@@ -220,24 +220,3 @@ const JUMP: f64 = 0.02;
 
 /// Length of the contact zone over the longest patch of softened steel \[1].
 const SPREAD: f64 = 1.15;
-
-/// The friction law with the present tunable parameters.
-pub fn friction_law(tuning: &Tuning) -> FrictionLaw {
-    FrictionLaw {
-        falling_ratio: tuning.falling_ratio,
-        falling_decay: tuning.falling_decay,
-        softening: tuning.softening,
-        softening_floor: tuning.softening_floor,
-        memory_length: memory_length(tuning),
-    }
-}
-
-/// Sliding distance over which friction that falls with the slip follows its law unless another one is given \[m]: of the size
-/// of a contact of asperities. The tread has no mass of its own and answers a lower friction with a slip that lowers it further.
-const MEMORY: f64 = 25e-6;
-
-/// Sliding distance over which friction follows its law \[m].
-pub fn memory_length(tuning: &Tuning) -> f64 {
-    let falls = tuning.falling_ratio < 1.0 && tuning.falling_decay > 0.0;
-    if tuning.memory_length == 0.0 && falls { MEMORY } else { tuning.memory_length }
-}

@@ -4,7 +4,7 @@ use super::control::InputError;
 use crate::contact::ContactError;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
-use crate::surface::ProfileError;
+use crate::surface::SurfaceError;
 
 /// Why a step or a stationary state could not be computed; the state before it is kept.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -150,12 +150,7 @@ pub enum ModelError {
     /// The heat model.
     #[error("heat model: {0}")]
     Heat(#[from] HeatError),
-    /// A surface that is none.
-    #[error("{parameter}: {source}")]
-    Profile {
-        /// Parameter that describes it.
-        parameter: &'static str,
-        /// What is wrong with it.
-        source: ProfileError,
-    },
+    /// A profile without meaning.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
 }

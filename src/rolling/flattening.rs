@@ -1,14 +1,14 @@
-//! Flattening that stays: what has yielded in a step becomes part of the surface.
+//! Permanent flattening: the overlap of yielding surfaces in a step becomes part of their shape.
 //!
 //! Pressure at its limit lets the surfaces overlap, and the softer one gives way. Steel that stands under the contact, or moves
 //! slowly through it, keeps the overlap as a dent. Steel that rolls through keeps none: it flows forward at the leading edge and
-//! back at the trailing one, and since its volume stays, a dent all around the wheel is none.
+//! back at the trailing one, and since its volume stays, the same depth all around the wheel would be no dent.
 
 use super::model::Model;
 use super::standing;
 use super::state::State;
-use crate::contact::Flattening;
 use crate::piecewise::Interval;
+use crate::surface::Flattening;
 
 /// Difference of the mean temperatures of wheel and rail above which only the warmer body gives way [K].
 const WARMER: f64 = 1.0;
@@ -18,9 +18,9 @@ pub fn none(model: &Model) -> [Flattening; 2] {
     [Flattening::none(std::f64::consts::TAU * model.contact.surfaces.radius), Flattening::none(0.0)]
 }
 
-/// Presses the overlap of the contact in `next` into the material at `place` (distance \[m], angle of the rim \[rad]) and
-/// notes the work.
-pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
+/// Adds the overlap of the contact in `next` to the dents of the material at `place` (distance \[m], angle of the rim \[rad])
+/// and notes the work.
+pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening.clone_from(&state.flattening);
     let traction = &mut next.contact.traction;
     traction.yielding.plastic_work = 0.0;
@@ -40,10 +40,10 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     for (body, at) in [place[1] * radius, place[0]].into_iter().enumerate() {
         let share = |x: f64| share(body, stands, warmer.at(x));
         let overlap = &traction.yielding.overlap;
-        let mut by = overlap.clone();
-        by.value.iter_mut().zip(&overlap.x).for_each(|(depth, &x)| *depth *= share(x));
-        if by.value.iter().any(|depth| *depth > 0.0) {
-            next.flattening[body].press(at, &by, spacing);
+        let mut added = overlap.clone();
+        added.value.iter_mut().zip(&overlap.x).for_each(|(depth, &x)| *depth *= share(x));
+        if added.value.iter().any(|depth| *depth > 0.0) {
+            next.flattening[body].indent(at, &added, spacing);
         }
     }
     traction.yielding.plastic_work = traction.work_of(|x| {
@@ -56,12 +56,12 @@ pub fn press(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
 }
 
-/// Whether the contact of a state stays so long on the material of wheel and rail that it leaves its mark there.
+/// Bodies, wheel and rail, on whose material the contact of a state stays so long that it leaves a dent.
 pub fn stands(model: &Model, state: &State) -> [bool; 2] {
     state.contact.traction.extent().map_or([false; 2], |patch| bodies_that_stand(model, state, patch))
 }
 
-/// The same for a patch.
+/// Bodies whose material stays so long under a patch of the contact.
 fn bodies_that_stand(model: &Model, state: &State, patch: Interval) -> [bool; 2] {
     let (velocity, omega) = (state.motion.velocity.now, state.motion.omega.now);
     let slowest = standing::slowest(patch, state.clock.last_step);

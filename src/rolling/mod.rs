@@ -7,8 +7,7 @@
 //! | [`state`], [`control`], [`error`] | data of a restart; inputs; failures |
 //! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
-//! | [`surfaces`] | shapes of wheel and rail as the parameters describe them |
-//! | [`flattening`], [`wear`] | what yield and friction change of them |
+//! | [`flattening`], [`wear`] | changes of the surfaces by yielding and friction in a step |
 //! | [`zones`] | how much of the surfaces the contact sees |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
@@ -35,7 +34,6 @@ mod step;
 pub mod substeps;
 pub mod suggested_step;
 pub mod support;
-pub mod surfaces;
 pub mod thermal;
 pub mod wear;
 pub mod zones;

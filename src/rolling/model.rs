@@ -13,11 +13,12 @@ use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::kernel::KernelCorrection;
 use crate::contact::series::{HalfPlaneKernel, SeriesSolver};
-use crate::contact::{self, ContactSolver, Surfaces};
+use crate::contact::{self, ContactSolver};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
 use crate::mechanics::{self, Pair};
+use crate::surface::{Flattening, Surfaces};
 
 /// Everything that does not change during a run; instances with equal parameters share it.
 pub struct Model {
@@ -150,7 +151,7 @@ impl Model {
     pub fn fits(&self, state: &State) -> bool {
         self.bodies.fits(state)
             && self.contact.solver.fits(&state.contact)
-            && state.flattening.iter().all(contact::Flattening::is_sound)
+            && state.flattening.iter().all(Flattening::is_sound)
             && match (&state.thermal, &self.thermal) {
                 (Some(temperatures), Some(model)) => model.fits(temperatures),
                 (None, None) => true,

@@ -6,9 +6,10 @@ use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
-use super::wear;
 use crate::damage::surface_fatigue;
+use crate::mechanics::element_length;
 use crate::piecewise::Piecewise;
+use crate::surface::WearLaw;
 
 /// Observables of a state.
 pub fn observe(model: &Model, state: &State) -> Outputs {
@@ -75,7 +76,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
             model.contact.shear_yield,
             traction.pressure_max,
         ),
-        wear_rate: wear::law(&model.config).rate(t_gamma, area),
+        wear_rate: WearLaw::from(&model.config).rate(t_gamma, area),
         rail_energy: t_gamma,
         internal_steps: state.clock.internal_steps,
         iterations: state.clock.iterations,
@@ -100,8 +101,8 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
 fn surface_outputs(model: &Model, state: &State) -> Outputs {
     let [wheel, rail] = &state.flattening;
     Outputs {
-        flattening: wheel.deepest(),
-        flattening_rail: rail.deepest(),
+        flattening: wheel.deepest_dent(),
+        flattening_rail: rail.deepest_dent(),
         worn_mass: state.worn * model.wheel.width,
         worn_depth: wheel.worn().deepest(),
         worn_depth_rail: rail.worn().deepest(),
@@ -164,4 +165,13 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
 /// `a/b`, zero where b is not positive.
 fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
+}
+
+/// Elements of the contact between the samples of the tread: as many as the contact resolves.
+const SAMPLING: f64 = 2.0;
+
+/// Present profile of the wheel: positions around the tread and heights over the circle \[m], that is `wheel.profile` less the
+/// depth that yielding and wear have taken off.
+pub fn tread(model: &Model, state: &State) -> Vec<[f64; 2]> {
+    model.contact.surfaces.tread(&state.flattening[0], SAMPLING * element_length(&model.config))
 }

@@ -1,4 +1,4 @@
-//! Where the output profiles across the contact are sampled.
+//! Sample points of the output profiles.
 
 /// Number of points of the output profiles, spread evenly over the candidate contact zone.
 pub const PROFILE_POINTS: usize = 61;

@@ -1,12 +1,13 @@
 //! All data that a restart needs, and nothing else. Per metre of width.
 
 use super::support::BaseMotion;
-use crate::contact::{ContactState, Flattening, Heating};
+use crate::contact::{ContactState, Heating};
 use crate::damage::Damage;
 use crate::heat::{HeatFlows, HeatState, Temperatures};
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
 use crate::piecewise::Piecewise;
+use crate::surface::Flattening;
 use serde::{Deserialize, Serialize};
 
 /// State of a wheel on its rail.

@@ -2,7 +2,7 @@
 
 use super::audit;
 use super::brake;
-use super::contact_model::{ContactStep, friction_law};
+use super::contact_model::ContactStep;
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
@@ -12,7 +12,7 @@ use super::thermal::{self, HeatStep};
 use super::wear;
 use super::zones;
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, Friction, Heating};
+use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative, formula, position, settled};
 
@@ -166,7 +166,7 @@ impl Plan {
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
         let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-        let (law, traction) = (friction_law(demand.tuning), &state.contact.traction);
+        let (law, traction) = (FrictionLaw::from(demand.tuning), &state.contact.traction);
         let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
         let friction = Friction::local(law, available, heating, ratio);
         let friction = friction.after(dt, traction.friction.coefficient, traction.friction.tread_slip, heating);
@@ -231,7 +231,7 @@ fn solve_and_commit(
     next.hub.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     next.available_friction = demand.target.friction;
     next.clock.last_step = *dt;
-    flattening::press(model, state, place, next);
+    flattening::indent(model, state, place, next);
     wear::wear(model, state, *dt, next);
     next.clock.restarted = plan.restarted;
     Ok(())

@@ -1,13 +1,28 @@
-//! Where the results of a run begin to lose their meaning although every step succeeds.
+//! Limits beyond which the results of a run begin to lose their meaning although every step succeeds.
+
+mod texts;
 
 use super::Simulation;
+use crate::contact::FrictionLaw;
 use crate::material::INDENTATION;
-use crate::mechanics::nominal_half_width;
-use crate::rolling::contact_model::memory_length;
+use crate::mechanics::{element_length, nominal_half_width};
 
-/// A limit of what the meshes resolve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
+/// Makes the enumeration and the list of its items.
+macro_rules! limits {
+    ($($(#[$doc:meta])* $name:ident,)*) => {
+        /// A limit of the meshes, the steps or the model.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Limit {
+            $($(#[$doc])* $name,)*
+        }
+
+        impl Limit {
+            const ALL: &[Self] = &[$(Self::$name),*];
+        }
+    };
+}
+
+limits! {
     /// Speed for which the thermal boundary layers are resolved.
     Speed,
     /// Load above which the patch is thermally resolved.
@@ -40,28 +55,26 @@ pub enum Limit {
     End,
 }
 
-impl Limit {
-    /// All of them.
-    const ALL: [Self; 15] = {
-        use Limit::*;
-        [
-            Speed,
-            ThermalLoad,
-            Patch,
-            Zone,
-            Reach,
-            Yield,
-            Softening,
-            Melting,
-            StickSlip,
-            Chatter,
-            Waves,
-            Sampling,
-            Energy,
-            Effort,
-            End,
-        ]
-    };
+/// Bound within which a value keeps its meaning; a value of zero is always within.
+#[derive(Clone, Copy)]
+enum Bound {
+    AtMost(f64),
+    AtLeast(f64),
+}
+
+impl Bound {
+    fn is_exceeded_by(self, value: f64) -> bool {
+        match self {
+            Self::AtMost(bound) => value > bound,
+            Self::AtLeast(bound) => value > 0.0 && value < bound,
+        }
+    }
+
+    fn number(self) -> f64 {
+        match self {
+            Self::AtMost(bound) | Self::AtLeast(bound) => bound,
+        }
+    }
 }
 
 /// Elements per half-width of the patch below which traction profiles are no more than a hint.
@@ -72,7 +85,7 @@ const FEWEST_PER_WAVE: f64 = 4.0;
 /// within an element, and a hole that does not change the height of the wheel takes about a tenth of its squared length off the force.
 /// Measured: `docs/theory/profiles.md`, section 6.
 const HOLE: f64 = 0.2;
-/// Load that the candidate zone carries in any case, over the nominal load.
+/// Load that the candidate zone carries in any case, over the nominal load \[1].
 pub(super) const ZONE_LOAD: f64 = 2.0;
 /// Share of the zone in which contact is looked for from which on its end is near \[1].
 const NEAR_END: f64 = 0.8;
@@ -90,69 +103,65 @@ const MANY_STEPS: f64 = 2000.0;
 impl Simulation {
     /// Limits that the present state is beyond.
     pub fn exceeded_limits(&self) -> impl Iterator<Item = Limit> {
-        Limit::ALL.into_iter().filter(|limit| {
+        Limit::ALL.iter().copied().filter(|limit| {
             let (value, bound) = self.against(*limit);
-            match limit {
-                Limit::ThermalLoad | Limit::Patch | Limit::Softening | Limit::Chatter | Limit::Waves => {
-                    value > 0.0 && value < bound
-                }
-                _ => value > bound,
-            }
+            bound.is_exceeded_by(value)
         })
     }
 
-    /// The value that a limit is about, and its bound: speeds [m/s], loads \[N], elements \[1], pressures \[Pa], temperatures
+    /// Value of a limit, and its bound: speeds [m/s], loads \[N], lengths \[m], elements \[1], pressures \[Pa], temperatures
     /// \[K] or phases \[rad]. The value is 0 without contact, and that of heat without heat.
-    fn against(&self, limit: Limit) -> (f64, f64) {
+    fn against(&self, limit: Limit) -> (f64, Bound) {
+        use Bound::{AtLeast, AtMost};
         let (outputs, config) = (self.outputs(), self.model().config());
         let heat = if config.thermal.enabled { 1.0 } else { 0.0 };
-        let speed = outputs.wheel_velocity.abs().max((config.wheel.radius * outputs.wheel_omega).abs());
         let (load, nominal) = (outputs.contact_force_y, config.model.nominal_load);
         match limit {
-            Limit::Speed => (heat * speed, config.thermal.max_speed),
-            Limit::ThermalLoad => (heat * load, config.thermal.smallest_load_ratio * nominal),
-            Limit::Patch => {
-                let element = nominal_half_width(config) / config.mesh.elements_per_half_width as f64;
-                (outputs.contact_half_width / element, FEWEST_ELEMENTS)
-            }
-            Limit::Zone => (load, ZONE_LOAD * nominal),
-            Limit::Reach => {
-                let extent = self.state().contact.traction.extent();
-                (extent.map_or(0.0, |patch| f64::max(-patch.low, patch.high)), NEAR_END * self.model().rolling.reach)
-            }
+            Limit::Speed => (heat * self.speed(), AtMost(config.thermal.max_speed)),
+            Limit::ThermalLoad => (heat * load, AtLeast(config.thermal.smallest_load_ratio * nominal)),
+            Limit::Patch => (outputs.contact_half_width / element_length(config), AtLeast(FEWEST_ELEMENTS)),
+            Limit::Zone => (load, AtMost(ZONE_LOAD * nominal)),
+            Limit::Reach => (self.touching_reach(), AtMost(NEAR_END * self.model().rolling.reach)),
             Limit::Yield => {
                 let elastic = if config.physics.yielding { 0.0 } else { 1.0 };
-                (elastic * outputs.contact_pressure_max, INDENTATION * config.material.yield_strength)
+                (elastic * outputs.contact_pressure_max, AtMost(INDENTATION * config.material.yield_strength))
             }
             Limit::Softening => {
                 let [softest, least] = self.model().rolling.contact.softest(self.state());
-                (softest, least)
+                (softest, AtLeast(least))
             }
             Limit::Melting => {
                 let stays_solid = if config.material.latent_heat > 0.0 { 0.0 } else { 1.0 };
                 let hottest = outputs.temperature_wheel_max.max(outputs.temperature_rail_max);
-                (stays_solid * hottest, config.material.solidus)
+                (stays_solid * hottest, AtMost(config.material.solidus))
             }
-            Limit::StickSlip => (self.unresolved_phase(), RESOLVED_PHASE),
-            Limit::Chatter => (self.state().clock.last_step, self.indefinite_step()),
-            Limit::Waves => {
-                let element = nominal_half_width(config) / config.mesh.elements_per_half_width as f64;
-                (self.shortest_wave(), FEWEST_PER_WAVE * element)
-            }
+            Limit::StickSlip => (self.unresolved_phase(), AtMost(RESOLVED_PHASE)),
+            Limit::Chatter => (self.state().clock.last_step, AtLeast(self.indefinite_step())),
+            Limit::Waves => (self.shortest_wave(), AtLeast(FEWEST_PER_WAVE * element_length(config))),
             Limit::Sampling => {
                 let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
-                (mean.max(speed * self.state().clock.last_step), self.shortest_wave() / FEWEST_PER_WAVE)
+                let way = mean.max(self.speed() * self.state().clock.last_step);
+                (way, AtMost(self.shortest_wave() / FEWEST_PER_WAVE))
             }
-            Limit::Energy => (outputs.energy_residual.abs(), UNBALANCED),
-            Limit::Effort => (outputs.internal_steps as f64, MANY_STEPS),
+            Limit::Energy => (outputs.energy_residual.abs(), AtMost(UNBALANCED)),
+            Limit::Effort => (outputs.internal_steps as f64, AtMost(MANY_STEPS)),
             Limit::End => {
-                let forward = outputs.wheel_velocity >= 0.0;
-                let end = self.model().rolling.contact.surfaces.rail.as_ref().and_then(|rail| rail.end(forward));
-                let (place, end) =
-                    (outputs.wheel_distance, end.unwrap_or(if forward { f64::INFINITY } else { -f64::INFINITY }));
-                if forward { (place, end) } else { (-place, -end) }
+                let sign = if outputs.wheel_velocity >= 0.0 { 1.0 } else { -1.0 };
+                let end = self.model().rolling.contact.surfaces.rail.end(sign > 0.0);
+                (sign * outputs.wheel_distance, AtMost(end.map_or(f64::INFINITY, |end| sign * end)))
             }
         }
+    }
+
+    /// Larger one of the speeds of wheel centre and tread [m/s].
+    fn speed(&self) -> f64 {
+        let (outputs, radius) = (self.outputs(), self.model().config().wheel.radius);
+        outputs.wheel_velocity.abs().max((radius * outputs.wheel_omega).abs())
+    }
+
+    /// Largest distance from the contact point at which the surfaces touch \[m].
+    fn touching_reach(&self) -> f64 {
+        self.state().contact.traction.extent().map_or(0.0, |patch| f64::max(-patch.low, patch.high))
     }
 
     /// Shortest wavelength of the surfaces that have been in the contact zone since the last communication point \[m]; infinite on
@@ -162,10 +171,10 @@ impl Simulation {
         let mut middle = self.state().place(rolling.wheel.radius);
         middle.iter_mut().zip(way).for_each(|(place, way)| *place -= 0.5 * way);
         let patch = 2.0 * nominal_half_width(self.model().config());
-        rolling.contact.surfaces.wavelength(middle, rolling.zone + 0.5 * self.latest_way(), patch)
+        rolling.contact.surfaces.shortest_wavelength(middle, rolling.zone + 0.5 * self.latest_way(), patch)
     }
 
-    /// Ways of tread and wheel centre in the last communication step \[m]; none at the start.
+    /// Ways of tread and wheel centre in the last communication step \[m]; zero at the start.
     fn latest_ways(&self) -> [f64; 2] {
         let (outputs, radius) = (self.outputs(), self.model().config().wheel.radius);
         match self.checkpoint.before.first() {
@@ -176,28 +185,26 @@ impl Simulation {
         }
     }
 
-    /// The longer of both \[m].
+    /// Longer one of these ways \[m].
     fn latest_way(&self) -> f64 {
         self.latest_ways().into_iter().fold(0.0, |longest, way| way.abs().max(longest))
     }
 
-    /// Largest error of the force over a sharp hole \[m] that the grid makes, over the load \[1].
+    /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
     fn error_over_a_hole(&self, length: f64) -> f64 {
         let config = self.model().config();
-        let half_width = nominal_half_width(config);
-        let element = half_width / config.mesh.elements_per_half_width as f64;
+        let (half_width, element) = (nominal_half_width(config), element_length(config));
         HOLE * element * (length + element) / (half_width * half_width)
     }
 
     /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding contact
     /// whose friction falls with the slip.
     fn unresolved_phase(&self) -> f64 {
-        let tuning = self.tuning();
-        let falls = tuning.falling_ratio < 1.0 && tuning.falling_decay > 0.0;
+        let falls = FrictionLaw::from(self.tuning()).slip.falls();
         if falls && self.slides() { self.model().rolling.torsion * self.state().clock.last_step } else { 0.0 }
     }
 
-    /// Whether nothing sticks in a loaded contact.
+    /// Full sliding in a loaded contact.
     fn slides(&self) -> bool {
         let outputs = self.outputs();
         outputs.contact_tread_slip != 0.0 && outputs.contact_stick_fraction == 0.0
@@ -206,135 +213,18 @@ impl Simulation {
     /// Internal step up to which several coefficients of friction fit \[s], 0 where one does: the tread has no mass of its own and
     /// answers a lower friction with a slip that lowers it further, unless a memory holds it. Estimated.
     fn indefinite_step(&self) -> f64 {
-        let (tuning, config, state) = (self.tuning(), self.model().config(), self.state());
+        let (law, config, state) = (FrictionLaw::from(self.tuning()), self.model().config(), self.state());
         if !self.slides() {
             return 0.0;
         }
         let outputs = self.outputs();
-        let (slip, decay) = (outputs.contact_tread_slip.abs(), tuning.falling_decay);
-        let slope = state.available_friction * (1.0 - tuning.falling_ratio) * decay * (-decay * slip).exp();
+        let slip = outputs.contact_tread_slip.abs();
+        let fall = law.fall(state.available_friction, slip);
         let half_width = nominal_half_width(config);
         let load = outputs.contact_force_y / config.model.nominal_load;
         let shift = TREAD_SHIFT * load * half_width * half_width / config.wheel.radius;
-        let length = memory_length(tuning);
+        let length = law.memory_length;
         let memory = if length > 0.0 { 0.5 * state.clock.last_step * slip / length } else { 1.0 };
-        slope.max(0.0) * shift * memory.min(1.0)
-    }
-
-    /// What a limit means for the present state, with both numbers and what to change.
-    pub fn describe_limit(&self, limit: Limit) -> String {
-        let (value, bound) = self.against(limit);
-        match limit {
-            Limit::Speed => format!(
-                "speed {value:.1} m/s ({:.0} km/h) is above thermal.max_speed = {bound:.1} m/s: the thermal boundary layer is \
-                 thinner than the mesh, and temperatures are inexact; raise thermal.max_speed, or check the unit of the speed",
-                3.6 * value
-            ),
-            Limit::ThermalLoad => format!(
-                "contact load {value:.0} N is below thermal.smallest_load_ratio x model.nominal_load = {bound:.0} N: the \
-                 patch is shorter than the thermal mesh resolves, and temperatures are inexact; lower \
-                 thermal.smallest_load_ratio"
-            ),
-            Limit::Patch => format!(
-                "half-width of the patch is {value:.2} elements, fewer than {bound:.0}: tractions are inexact; raise \
-                 mesh.elements_per_half_width, or lower model.nominal_load and set drive.load"
-            ),
-            Limit::Zone => format!(
-                "contact load {value:.0} N is above {ZONE_LOAD:.0} x model.nominal_load = {bound:.0} N, for which the \
-                 contact zone is laid out: the patch may reach its end; raise model.nominal_load and set drive.load, \
-                 which follows it unless set"
-            ),
-            Limit::Reach => format!(
-                "the surfaces touch {:.1} mm from the contact point, and steps in which they touch beyond {:.1} mm are refused: a wider \
-                 flat, patch or hole has no room; set mesh.reach (now {:?} m) to {:.3} m or more",
-                1e3 * value,
-                1e3 * bound / NEAR_END,
-                self.model().config().mesh.reach,
-                2.0 * value
-            ),
-            Limit::Yield => format!(
-                "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
-                 stay elastic, and patch, forces and temperatures are not those of steel that flows; set \
-                 physics.yielding, or check drive.load and model.contact_width",
-                value * 1e-6,
-                bound * 1e-6
-            ),
-            Limit::Softening => format!(
-                "steel under the contact is so hot that it would yield at {:.0} MPa, and the patch would outgrow the contact \
-                 zone; it is held together at {:.0} MPa: half-width, pressure and flattening further on are no more than a \
-                 hint; end the slide earlier",
-                value * 1e-6,
-                bound * 1e-6
-            ),
-            Limit::Melting => format!(
-                "contact temperature {value:.0} K is above material.solidus = {bound:.0} K: nothing melts without \
-                 material.latent_heat, and temperatures further on are too high; set it, end the slide earlier, or let \
-                 the friction fall with friction.softening or friction.falling_ratio"
-            ),
-            Limit::StickSlip => format!(
-                "friction falls with the slip of a sliding wheel, and its torsion of {:.0} rad/s turns by {value:.2} rad \
-                 in an internal step, more than {bound:.1}: stick-slip that may arise is damped by the time formula; \
-                 lower solver.max_step to {:.1e} s to see it",
-                self.model().rolling.torsion,
-                0.9 * bound / self.model().rolling.torsion
-            ),
-            Limit::Chatter => format!(
-                "friction falls with the slip so steeply that in internal steps below about {:.1} us, now {:.1} us, several \
-                 coefficients fit and friction may jump from step to step; set friction.memory_length (now {:?} m) to 2.5e-5 m",
-                1e6 * bound,
-                1e6 * value,
-                self.tuning().memory_length
-            ),
-            Limit::Energy | Limit::Effort => self.describe_numerics(limit, value),
-            Limit::Waves | Limit::Sampling | Limit::End => self.describe_profile(limit, value, bound),
-        }
-    }
-
-    /// The same of limits that profiles of wheel and rail have.
-    fn describe_profile(&self, limit: Limit, value: f64, bound: f64) -> String {
-        match limit {
-            Limit::Waves => format!(
-                "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
-                 contact, {:.2} mm: forces are inexact, over a hole of half that length by up to {:.2} % of the load; raise \
-                 mesh.elements_per_half_width, or leave such waves out, which the patch evens out",
-                1e3 * value,
-                1e3 * bound,
-                1e2 * self.error_over_a_hole(0.5 * value)
-            ),
-            Limit::Sampling => format!(
-                "an internal step takes the wheel {:.2} mm on, more than a quarter, {:.2} mm, of the shortest wave of \
-                 wheel.profile and rail.profile here: forces are inexact; lower solver.max_step, or set it to 0, which \
-                 chooses it by the profile",
-                1e3 * value,
-                1e3 * bound
-            ),
-            _ => format!(
-                "the contact has passed the last sample of rail.profile at {:.3} m, behind which the rail keeps its last height; \
-                 repeat it with file(\"...\", every = length), or give a longer file",
-                if self.outputs().wheel_velocity >= 0.0 { bound } else { -bound }
-            ),
-        }
-    }
-
-    /// The same of limits of what has been computed.
-    fn describe_numerics(&self, limit: Limit, value: f64) -> String {
-        match limit {
-            Limit::Energy => format!(
-                "energy of {:.1} % of what has been dissipated or is stored is missing (solver.energy_residual): the contact is made, lost \
-                 or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond what the model is made \
-                 for; forces are inexact, too; lower solver.tolerance (now {:?}) or solver.max_step (now {:?} s)",
-                1e2 * value,
-                self.state().clock.last_step,
-                self.tuning().tolerance,
-                self.tuning().max_step
-            ),
-            _ => format!(
-                "the last communication step took {value:.0} internal steps, the last one of {:.1e} s, and such steps take long to \
-                 compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) ask for them",
-                self.state().clock.last_step,
-                self.tuning().tolerance,
-                self.tuning().max_step
-            ),
-        }
+        fall.max(0.0) * shift * memory.min(1.0)
     }
 }

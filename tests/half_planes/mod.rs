@@ -4,16 +4,16 @@
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
-use std::sync::Arc;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::{ContactGrid, LineState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Flattening, Friction,
-    LineProblem, Placement, RigidMotion, SolverState, SteelLimits, SurfaceResponse, Surfaces,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
+    RigidMotion, SolverState, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
+use wheelrail::surface::{Flattening, Placement, Profile, Surfaces};
 
 /// Radius of the cylinder [m].
 pub const RADIUS: f64 = 0.5;
@@ -73,7 +73,7 @@ impl HalfPlanes {
     pub fn with_gap(mut self, gap: impl Fn(f64) -> f64) -> Self {
         let circle = |x: f64| x * x / (RADIUS + (RADIUS * RADIUS - x * x).sqrt());
         let value = self.grid.x.iter().map(|&x| circle(x) - gap(x)).collect();
-        self.surfaces.rail = Some(Arc::new(Piecewise { x: self.grid.x.clone(), value }));
+        self.surfaces.rail = Profile::from_samples(Piecewise { x: self.grid.x.clone(), value });
         self
     }
 

@@ -49,10 +49,10 @@ impl SeriesSolver {
     fn check(&self, problem: &ContactProblem, before: &SeriesState) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (problem.line.surfaces, &problem.line.placement, &problem.line.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
-        if surfaces.wheel.is_some() || surfaces.rail.is_some() {
+        if !surfaces.is_smooth() {
             return refuse("the surfaces have profiles");
         }
-        if placement.flattening.iter().any(|flattening| !flattening.is_empty()) {
+        if surfaces.is_uneven(placement) {
             return refuse("the surfaces are flattened");
         }
         if problem.rigid.iter().any(|motion| matches!(motion.drive, AxisDrive::Braked { .. })) {

@@ -6,7 +6,7 @@ use crate::fmi::presets;
 use crate::fmi::settings::{Settings, of_preset, start_value};
 use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Access, Causality, Kind, Reference, Value, Variable};
-use crate::simulation::plausibility::{cold, unusual};
+use crate::simulation::mistaken_units::{cold, unusual};
 use crate::simulation::validity::Limit;
 use crate::simulation::{Inputs, Outputs, Rotation, Simulation};
 use wheelrail_slave::{Life, Log, Status};

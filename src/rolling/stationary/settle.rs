@@ -1,7 +1,7 @@
 //! The stationary contact at given temperatures.
 
 use super::super::audit;
-use super::super::contact_model::{ContactStep, friction_law};
+use super::super::contact_model::ContactStep;
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::model::{Model, Workspace};
@@ -91,8 +91,8 @@ pub(super) fn settle(
 /// Friction at given temperatures. A wheel at rest does not slip, although its contact is that of slow rolling.
 fn friction(tuning: &Tuning, goal: &Goal, state: &State) -> Friction {
     let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-    let falling_ratio = if goal.moving { tuning.falling_ratio } else { 1.0 };
-    let law = FrictionLaw { falling_ratio, ..friction_law(tuning) };
+    let law = FrictionLaw::from(tuning);
+    let law = if goal.moving { law } else { law.at_rest() };
     Friction::local(law, goal.drive.friction, heating, 0.0)
 }
 

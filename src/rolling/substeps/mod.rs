@@ -125,7 +125,7 @@ fn resolving_step(model: &Model, state: &State, h: f64) -> f64 {
     let (radius, [velocity, _, omega]) = (model.wheel.radius, state.motion.values());
     let speed = velocity.abs().max((radius * omega).abs());
     let patch = 2.0 * model.contact.nominal_half_width();
-    let wave = model.contact.surfaces.wavelength(state.place(radius), model.zone + speed * h, patch);
+    let wave = model.contact.surfaces.shortest_wavelength(state.place(radius), model.zone + speed * h, patch);
     (wave / (STEPS_PER_WAVE * speed)).min(AUTOMATIC)
 }
 

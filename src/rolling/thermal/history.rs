@@ -2,7 +2,7 @@
 
 use super::exchange::ThermalContact;
 use crate::config::{Config, Tuning};
-use crate::damage::{Criteria, Damage, HotSpots, Moment, SpotLayout};
+use crate::damage::{Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 use crate::heat::{HeatModel, HeatState, Observation};
 use crate::piecewise::interpolate;
 use crate::rolling::state::State;
@@ -63,7 +63,7 @@ impl MaterialHistory {
     ) {
         let temperatures = &seen.observation.temperatures;
         let patch = contact.traction.extent();
-        let moment = Moment {
+        let moment = TreadStep {
             dt,
             angle: next.motion.angle,
             omega: next.motion.omega.now,

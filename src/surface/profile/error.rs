@@ -1,4 +1,4 @@
-//! What can be wrong with the text of a profile or with its file.
+//! Errors in the text of a profile or in its file.
 
 /// A profile that has no meaning.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -9,17 +9,17 @@ pub enum ProfileError {
          hole(position = 2, length = 0.005, depth = 0.001), joined by +, or the name of a .csv file alone; within a sum that is file(\"name.csv\")"
     )]
     Syntax {
-        /// Where in the text, from 1.
+        /// Column in the text, from 1.
         column: usize,
-        /// What should stand there.
+        /// Text that is expected.
         expected: &'static str,
-        /// What stands there.
+        /// Text that is found.
         found: String,
     },
     /// A name that no feature has.
     #[error("profile, column {column}: feature {name} is unknown; nearest: {nearest}")]
     Feature {
-        /// Where in the text, from 1.
+        /// Column in the text, from 1.
         column: usize,
         /// The unknown name.
         name: String,
@@ -63,7 +63,7 @@ pub enum ProfileError {
         name: &'static str,
         /// Its value in words.
         value: String,
-        /// Its range in words, and what it depends on.
+        /// Its range in words, with the values on which it depends.
         range: String,
     },
     /// A feature that the other body cannot have.
@@ -71,9 +71,9 @@ pub enum ProfileError {
     Owner {
         /// The feature.
         feature: &'static str,
-        /// Whose it is.
+        /// Body that can have it.
         owner: &'static str,
-        /// Where it was put.
+        /// Body of the profile.
         body: &'static str,
         /// Features for that body.
         instead: &'static str,
@@ -81,21 +81,21 @@ pub enum ProfileError {
     /// A file that cannot be read.
     #[error("profile: file {path} cannot be read ({reason}); give a path that is absolute or relative to {folder}")]
     Unreadable {
-        /// The path as it was looked for.
+        /// Path after it was joined to the folder.
         path: String,
-        /// Why not.
+        /// Reason.
         reason: String,
-        /// Where relative paths begin.
+        /// Folder in which relative paths begin.
         folder: String,
     },
     /// A file whose content is no profile.
     #[error("profile: file {path}, line {line}: {problem}")]
     File {
-        /// The path as it was looked for.
+        /// Path after it was joined to the folder.
         path: String,
         /// Line of the file, from 1.
         line: u64,
-        /// What is wrong there, and what to do.
+        /// Problem and remedy.
         problem: String,
     },
 }

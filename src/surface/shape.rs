@@ -1,49 +1,33 @@
 //! Shapes of the surfaces: the gap between the bodies before they deform.
 
 use super::flattening::Flattening;
+use super::profile::{Body, Profile, ProfileError};
+use crate::config::Config;
 use crate::piecewise::Piecewise;
-use std::fmt::Debug;
-use std::sync::Arc;
+use std::path::Path;
 
-/// A deviation from the ideal shape that is fixed to the material.
-pub trait Relief: Debug + Send + Sync {
-    /// Height \[m] of the material added at the position `s` \[m] along the surface.
-    fn height(&self, s: f64) -> f64;
-
-    /// Shortest wavelength \[m] of what lies between two positions \[m]; infinite where nothing is known of it.
-    fn wavelength(&self, _low: f64, _high: f64) -> f64 {
-        f64::INFINITY
-    }
-
-    /// Whether the surface jumps somewhere between two positions \[m].
-    fn jumps(&self, _low: f64, _high: f64) -> bool {
-        false
-    }
-
-    /// Position \[m] beyond which nothing is known of it, in the direction of travel; `None` if it goes on.
-    fn end(&self, _forward: bool) -> Option<f64> {
-        None
-    }
+/// Parameter that describes no surface.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{parameter}: {source}")]
+pub struct SurfaceError {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Reason.
+    pub source: ProfileError,
 }
 
-impl Relief for Piecewise {
-    fn height(&self, s: f64) -> f64 {
-        self.at(s)
-    }
-}
-
-/// Undeformed surfaces of wheel and rail.
+/// Undeformed surfaces of wheel and rail as they are made.
 #[derive(Clone, Debug, Default)]
 pub struct Surfaces {
     /// Radius of the round wheel \[m].
     pub radius: f64,
-    /// Deviation of the wheel from the circle over angle times radius \[m]; none: round.
-    pub wheel: Option<Arc<dyn Relief>>,
-    /// Deviation of the rail from the plane over the distance \[m]; none: plane.
-    pub rail: Option<Arc<dyn Relief>>,
+    /// Deviation of the wheel from the circle over angle times radius.
+    pub wheel: Profile,
+    /// Deviation of the rail from the plane over the distance.
+    pub rail: Profile,
 }
 
-/// Where the wheel stands on its surfaces, and how heat has changed them.
+/// Position of the wheel on the surfaces, and what heat, yielding and wear have changed of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement<'a> {
     /// Distance travelled by the wheel centre \[m].
@@ -56,7 +40,7 @@ pub struct Placement<'a> {
     pub growth: f64,
     /// Swelling of the hot layers of wheel and rail under the contact \[m].
     pub swelling: [&'a Piecewise; 2],
-    /// Permanent flattening of wheel and rail.
+    /// Depths that yielding and wear have taken off wheel and rail.
     pub flattening: [&'a Flattening; 2],
 }
 
@@ -64,6 +48,22 @@ impl Surfaces {
     /// A round wheel on a plane rail.
     pub fn smooth(radius: f64) -> Self {
         Self { radius, ..Self::default() }
+    }
+
+    /// Surfaces that the parameters describe; files of profiles are looked for in `folder`.
+    ///
+    /// # Errors
+    /// A profile without meaning, with the name of its parameter.
+    pub fn from_config(config: &Config, folder: Option<&Path>) -> Result<Self, SurfaceError> {
+        let radius = config.wheel.radius;
+        let profile = |parameter, text: &str, body| {
+            Profile::parse(text, folder, body).map_err(|source| SurfaceError { parameter, source })
+        };
+        Ok(Self {
+            radius,
+            wheel: profile("wheel.profile", &config.wheel.profile, Body::Wheel { radius })?,
+            rail: profile("rail.profile", &config.rail.profile, Body::Rail)?,
+        })
     }
 
     /// Distance \[m] at `x` \[m] from the contact point between the bodies, undeformed and with the hub at the height at which
@@ -74,7 +74,7 @@ impl Surfaces {
         self.round_gap(x, at) - swelling + wheel + rail
     }
 
-    /// The same between circle and plane, as elevation leaves them, without the swelling of the layers.
+    /// Gap \[m] between circle and plane at `x` \[m], less thermal growth of the radius and elevation of the rail.
     pub fn round_gap(&self, x: f64, at: &Placement) -> f64 {
         // The form of r − √(r² − x²) without cancellation.
         let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
@@ -86,35 +86,51 @@ impl Surfaces {
     /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below its
     /// centre at the start) and the distance `distance + x` of the rail.
     pub fn depth(&self, x: f64, at: &Placement) -> [f64; 2] {
-        let place = [at.angle * self.radius + x, at.distance + x];
-        let [wheel, rail] = self.heights(place);
-        let depth = |flattening: &Flattening, s: f64| if flattening.is_empty() { 0.0 } else { flattening.depth(s) };
-        [depth(at.flattening[0], place[0]) - wheel, depth(at.flattening[1], place[1]) - rail]
+        let positions = [at.angle * self.radius + x, at.distance + x];
+        let [wheel, rail] = self.heights(positions);
+        let depth = |body: usize| match at.flattening[body] {
+            flattening if flattening.is_empty() => 0.0,
+            flattening => flattening.depth(positions[body]),
+        };
+        [depth(0) - wheel, depth(1) - rail]
     }
 
-    /// Heights \[m] of the reliefs of wheel and rail at positions \[m] along their surfaces.
-    pub fn heights(&self, place: [f64; 2]) -> [f64; 2] {
-        let height = |relief: &Option<Arc<dyn Relief>>, s: f64| relief.as_ref().map_or(0.0, |relief| relief.height(s));
-        [height(&self.wheel, place[0]), height(&self.rail, place[1])]
+    /// Heights \[m] of the profiles of wheel and rail at positions \[m] along their surfaces.
+    pub fn heights(&self, positions: [f64; 2]) -> [f64; 2] {
+        [self.wheel.height(positions[0]), self.rail.height(positions[1])]
     }
 
     /// Shortest wavelength \[m] within `reach` \[m] of positions \[m] along the surfaces of wheel and rail; infinite without any.
     /// A jump counts as a wave of the length `patch` \[m] of the contact, through which it passes.
-    pub fn wavelength(&self, place: [f64; 2], reach: f64, patch: f64) -> f64 {
-        let shortest = |relief: &Option<Arc<dyn Relief>>, s: f64| {
-            let Some(relief) = relief else { return f64::INFINITY };
-            let jump = if relief.jumps(s - reach, s + reach) { patch } else { f64::INFINITY };
-            relief.wavelength(s - reach, s + reach).min(jump)
+    pub fn shortest_wavelength(&self, positions: [f64; 2], reach: f64, patch: f64) -> f64 {
+        let shortest = |profile: &Profile, s: f64| {
+            let (low, high) = (s - reach, s + reach);
+            let jump = if profile.jumps_between(low, high) { patch } else { f64::INFINITY };
+            profile.shortest_wavelength_between(low, high).min(jump)
         };
-        shortest(&self.wheel, place[0]).min(shortest(&self.rail, place[1]))
+        shortest(&self.wheel, positions[0]).min(shortest(&self.rail, positions[1]))
     }
 
-    /// Whether both are circle and plane while nothing has flattened them.
+    /// Present profile of the wheel with what `flattening` has taken off it: positions around the tread and heights over the
+    /// circle \[m], `spacing` \[m] apart or a little more. Samples on level stretches are left out.
+    pub fn tread(&self, flattening: &Flattening, spacing: f64) -> Vec<[f64; 2]> {
+        let circumference = std::f64::consts::TAU * self.radius;
+        let count = (circumference / spacing).floor().max(3.0) as usize;
+        let sample = |k: usize| {
+            let s = circumference * k as f64 / count as f64;
+            [s, self.wheel.height(s) - flattening.depth(s)]
+        };
+        let samples: Vec<_> = (0..count).map(sample).collect();
+        let level = |k: usize| k > 0 && k + 1 < count && (k - 1..k + 2).all(|i| samples[i][1] == samples[k][1]);
+        (0..count).filter(|&k| !level(k)).map(|k| samples[k]).collect()
+    }
+
+    /// Absence of profiles: circle and plane, while nothing has flattened them.
     pub fn is_smooth(&self) -> bool {
-        self.wheel.is_none() && self.rail.is_none()
+        self.wheel.is_smooth() && self.rail.is_smooth()
     }
 
-    /// Whether wheel or rail departs from circle and plane anywhere.
+    /// Presence of profiles or flattening on wheel or rail.
     pub fn is_uneven(&self, at: &Placement) -> bool {
         !self.is_smooth() || at.flattening.iter().any(|flattening| !flattening.is_empty())
     }
@@ -156,14 +172,14 @@ mod tests {
     fn a_bump_is_met_where_its_material_lies() {
         let bump = |at: f64| Piecewise { x: vec![at - 0.01, at, at + 0.01], value: vec![0.0, 1e-4, 0.0] };
         let none = Piecewise::default();
-        let rail = Surfaces { rail: Some(Arc::new(bump(2.0))), ..Surfaces::smooth(0.5) };
+        let rail = Surfaces { rail: Profile::from_samples(bump(2.0)), ..Surfaces::smooth(0.5) };
         assert!((rail.gap(0.0, &place(2.0, 0.0, 0.0, &none)) + 1e-4).abs() < 1e-15);
         assert!(
             (rail.gap(0.005, &place(1.995, 0.0, 0.0, &none)) - rail.gap(0.005, &place(0.0, 0.0, 0.0, &none))).abs()
                 > 9e-5
         );
         assert_eq!(rail.gap(0.0, &place(1.9, 0.0, 0.0, &none)), 0.0);
-        let wheel = Surfaces { wheel: Some(Arc::new(bump(0.5))), ..Surfaces::smooth(0.5) };
+        let wheel = Surfaces { wheel: Profile::from_samples(bump(0.5)), ..Surfaces::smooth(0.5) };
         assert!((wheel.gap(0.0, &place(0.0, 1.0, 0.0, &none)) + 1e-4).abs() < 1e-12);
         assert_eq!(wheel.gap(0.0, &place(0.0, 2.0, 0.0, &none)), 0.0);
         assert!((wheel.gap(0.01, &place(0.0, 0.98, 0.0, &none)) + 1e-4 - 0.01 * 0.01).abs() < 1e-7);

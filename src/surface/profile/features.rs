@@ -1,22 +1,30 @@
 //! One summand of a profile.
 
-use super::defect::Defect;
-use super::wave::Cover;
+use super::defect::{Defect, Repetition};
+use super::forms::Form;
+use super::samples::HeightSamples;
+use super::undulation::Undulation;
 
 /// One summand of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Feature {
-    /// Something that covers the surface.
-    Cover(Cover),
-    /// Something local, perhaps repeated.
+    /// Waves or roughness on the whole surface or a stretch of it.
+    Undulation(Undulation),
+    /// A local feature, perhaps repeated.
     Defect(Defect),
 }
 
 impl Feature {
+    /// Samples at the positions that they name.
+    pub fn sampled(samples: HeightSamples) -> Self {
+        let repetition = Repetition { position: 0.0, every: 1.0, count: 1.0, turn: None };
+        Self::Defect(Defect { form: Form::Samples(samples), repetition })
+    }
+
     /// Height at a position \[m].
     pub fn height(&self, position: f64) -> f64 {
         match self {
-            Self::Cover(cover) => cover.height(position),
+            Self::Undulation(undulation) => undulation.height(position),
             Self::Defect(defect) => defect.height(position),
         }
     }
@@ -24,7 +32,7 @@ impl Feature {
     /// Slope at a position.
     pub fn slope(&self, position: f64) -> f64 {
         match self {
-            Self::Cover(cover) => cover.slope(position),
+            Self::Undulation(undulation) => undulation.slope(position),
             Self::Defect(defect) => defect.slope(position),
         }
     }
@@ -32,7 +40,7 @@ impl Feature {
     /// Shortest wavelength \[m].
     pub fn wavelength(&self) -> f64 {
         match self {
-            Self::Cover(cover) => cover.pattern.wavelength(),
+            Self::Undulation(undulation) => undulation.texture.wavelength(),
             Self::Defect(defect) => defect.form.wavelength(),
         }
     }
@@ -40,41 +48,41 @@ impl Feature {
     /// Lowest and highest point \[m].
     pub fn range(&self) -> [f64; 2] {
         match self {
-            Self::Cover(cover) => cover.pattern.range(),
+            Self::Undulation(undulation) => undulation.texture.range(),
             Self::Defect(defect) => defect.form.range(),
         }
     }
 
-    /// Whether it covers the surface.
-    pub fn is_cover(&self) -> bool {
-        matches!(self, Self::Cover(_))
+    /// Distinction of undulations, which may lie under all other features.
+    pub fn is_undulation(&self) -> bool {
+        matches!(self, Self::Undulation(_))
     }
 
-    /// Whether it lies, in part at least, between two positions \[m].
+    /// Overlap with the stretch between two positions \[m].
     pub fn meets(&self, low: f64, high: f64) -> bool {
         match self {
-            Self::Cover(cover) => cover.meets(low, high),
+            Self::Undulation(undulation) => undulation.meets(low, high),
             Self::Defect(defect) => defect.meets(low, high),
         }
     }
 
-    /// Whether it jumps somewhere between two positions \[m].
+    /// Presence of a jump between two positions \[m].
     pub fn jumps(&self, low: f64, high: f64) -> bool {
         match self {
-            Self::Cover(_) => false,
+            Self::Undulation(_) => false,
             Self::Defect(defect) => defect.jumps(low, high),
         }
     }
 
-    /// Last position \[m] of samples that go on nowhere, in the direction of travel.
+    /// Last position \[m] of samples in the direction of travel, behind which nothing is known of the rail.
     pub fn end(&self, forward: bool) -> Option<f64> {
         match self {
-            Self::Cover(_) => None,
+            Self::Undulation(_) => None,
             Self::Defect(defect) => defect.end(forward),
         }
     }
 
-    /// Whether both may lie on the same spot.
+    /// Possibility of an overlap with another feature; `false` is certain.
     pub fn may_overlap(&self, other: &Self) -> bool {
         match (self.only_stretch(), other.only_stretch()) {
             (Some([low, high]), _) => other.meets(low, high),
@@ -83,11 +91,11 @@ impl Feature {
         }
     }
 
-    /// Positions between which it lies, if there is one such stretch.
+    /// First and last position of a feature that lies on a single stretch.
     fn only_stretch(&self) -> Option<[f64; 2]> {
         match self {
-            Self::Defect(Defect { form, place }) if place.count == 1.0 => {
-                Some(form.reach().map(|end| place.position + end))
+            Self::Defect(Defect { form, repetition }) if repetition.count == 1.0 => {
+                Some(form.reach().map(|end| repetition.position + end))
             }
             _ => None,
         }

@@ -1,8 +1,8 @@
-//! Whose surface it is.
+//! Bodies that carry a profile.
 
 use std::f64::consts::TAU;
 
-/// What carries a profile.
+/// Body that carries a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
     /// The rail: positions are distances along it, without end.

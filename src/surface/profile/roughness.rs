@@ -27,7 +27,7 @@ const SAMPLES_PER_WAVE: f64 = 16.0;
 /// Largest number of samples of a table.
 pub const LARGEST_TABLE: usize = 1 << 21;
 
-/// What a realisation is made from.
+/// Levels, seed and period of a realisation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// Number of the band with the longest waves: 10 lg of its mid-band wavelength over 1 m.
@@ -36,7 +36,7 @@ pub struct Spectrum {
     pub levels: Vec<f64>,
     /// Seed of the phases.
     pub seed: u64,
-    /// Length after which all repeats \[m].
+    /// Period \[m].
     pub period: f64,
 }
 
@@ -53,7 +53,7 @@ impl Spectrum {
         few.max(1)..many.max(1)
     }
 
-    /// Samples that the table needs.
+    /// Number of samples of the table.
     pub fn samples(&self) -> usize {
         let most = self.waves(self.levels.len().saturating_sub(1)).end;
         ((SAMPLES_PER_WAVE * most as f64) as usize).next_power_of_two()

@@ -384,7 +384,7 @@ fn files_without_meaning_are_refused_by_line_and_value() {
 
 #[test]
 fn examples_of_the_documentation_are_profiles_and_it_names_every_feature() {
-    let text = include_str!("../../docs/profiles.md");
+    let text = include_str!("../../../docs/profiles.md");
     let mut parsed = 0;
     for block in text.split("```profile").skip(1) {
         let (kind, rest) = block.split_once('\n').unwrap();

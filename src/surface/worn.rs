@@ -1,12 +1,12 @@
-//! Depth that wear has taken off a surface, and where it lies on the material.
+//! Depth that wear has taken off a surface, on cells that are fixed to the material.
 
 use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// Way in a step, over the length on which wear is spread, below which it counts as taken off in its middle \[1]: the difference
-/// of two integrals would lose digits.
-const STANDS: f64 = 1e-3;
+/// Path of a step over the length on which wear is distributed \[1], below which all of it is taken off at the middle of the path:
+/// the difference of two integrals would lose digits.
+const SHORT_PATH: f64 = 1e-3;
 
 /// Mean depths over cells of one length that are fixed to the material, around a wheel or along an open surface. The surface is
 /// linear between the middles of cells, so that its volume is the sum of those of the cells.
@@ -16,22 +16,22 @@ pub struct Worn {
     circumference: f64,
     /// Length of a cell [m]; zero while nothing is worn.
     spacing: f64,
-    /// Number of the first cell; cell k has its middle at k · spacing.
+    /// Number of the first cell; the middle of cell k is at k · spacing.
     first: i64,
     /// Depth of the cells [m].
     depth: VecDeque<f64>,
 }
 
-/// Wear of a step: how much, where on the material it begins and ends, and how it is spread about these places.
-pub struct Loss<'a> {
-    /// Positions on the material about which it is spread, at the beginning and at the end of the step \[m].
-    pub way: [f64; 2],
-    /// How it is spread, over x; zero outside its ends.
-    pub spread: &'a Piecewise,
+/// Wear of a step: a volume, and its distribution about a contact point that moves along the material.
+pub struct WearIncrement<'a> {
+    /// Positions of the contact point on the material at the beginning and at the end of the step \[m].
+    pub path: [f64; 2],
+    /// Distribution of wear about the contact point, over x, of any scale; zero outside its ends.
+    pub distribution: &'a Piecewise,
     /// Volume per width \[m²].
     pub volume: f64,
-    /// Length over which it is evened out \[m].
-    pub even: f64,
+    /// Length over which the depth of the step is smoothed \[m]; zero: not at all.
+    pub smoothing: f64,
 }
 
 impl Worn {
@@ -40,7 +40,7 @@ impl Worn {
         Self { circumference, ..Self::default() }
     }
 
-    /// Whether nothing is worn.
+    /// Absence of wear.
     pub fn is_empty(&self) -> bool {
         self.depth.is_empty()
     }
@@ -50,8 +50,8 @@ impl Worn {
         if self.is_empty() {
             return 0.0;
         }
-        let place = s / self.spacing;
-        let (whole, share) = (place.floor(), place - place.floor());
+        let index = s / self.spacing;
+        let (whole, share) = (index.floor(), index - index.floor());
         let [here, next] = [whole as i64, (whole as i64).saturating_add(1)].map(|k| self.cell(k));
         here + share * (next - here)
     }
@@ -66,18 +66,20 @@ impl Worn {
         self.spacing * self.depth.iter().sum::<f64>()
     }
 
-    /// Takes off the wear of a step; the first one decides on cells of at most `spacing` \[m] around a wheel, of `spacing` on an
-    /// open surface.
-    pub fn take(&mut self, loss: &Loss, spacing: f64) {
-        let (Some(&low), Some(&high)) = (loss.spread.x.first(), loss.spread.x.last()) else { return };
+    /// Takes off the wear of a step. The first one fixes the length of the cells: at most `spacing` \[m] around a wheel, `spacing` on
+    /// an open surface.
+    pub fn remove(&mut self, increment: &WearIncrement, spacing: f64) {
+        let (Some(&low), Some(&high)) = (increment.distribution.x.first(), increment.distribution.x.last()) else {
+            return;
+        };
         let mut integral = [0.0, 0.0];
-        integrals(loss.spread, high, &mut integral);
-        if integral[0] <= 0.0 || loss.volume <= 0.0 {
+        integrals(increment.distribution, high, &mut integral);
+        if integral[0] <= 0.0 || increment.volume <= 0.0 {
             return;
         }
-        self.lay_out(spacing);
-        let [from, mut to] = loss.way;
-        let mut volume = loss.volume;
+        self.allocate_cells(spacing);
+        let [from, mut to] = increment.path;
+        let mut volume = increment.volume;
         if self.circumference > 0.0 {
             // Whole turns wear evenly.
             let turns = ((to - from) / self.circumference).trunc();
@@ -86,7 +88,7 @@ impl Worn {
             self.depth.iter_mut().filter(|_| each > 0.0).for_each(|depth| *depth += each);
             (to, volume) = (to - turns * self.circumference, volume - even);
         }
-        let rest = Loss { way: [from, to], volume, ..*loss };
+        let rest = WearIncrement { path: [from, to], volume, ..*increment };
         let cells = [from.min(to) + low, from.max(to) + high].map(|s| (s / self.spacing).round() as i64);
         let shares = rest.shares(self.spacing, cells, integral[0]);
         let beyond = shares.1;
@@ -107,7 +109,7 @@ impl Worn {
         }
     }
 
-    /// Whether all numbers are finite and the cells are sound.
+    /// Finiteness of all numbers, and cells that close around a wheel.
     pub fn is_sound(&self) -> bool {
         let cells = self.depth.len() as f64 * self.spacing;
         let closed = self.circumference == 0.0 || (cells - self.circumference).abs() <= 1e-9 * self.circumference;
@@ -119,7 +121,7 @@ impl Worn {
                 && self.depth.iter().all(|depth| depth.is_finite()))
     }
 
-    fn lay_out(&mut self, spacing: f64) {
+    fn allocate_cells(&mut self, spacing: f64) {
         if !self.is_empty() {
             return;
         }
@@ -159,18 +161,18 @@ impl Worn {
     }
 }
 
-impl Loss<'_> {
-    /// Shares of the volume that fall on the cells of a length `spacing` \[m] from the first to the last of `cells`, and on as
-    /// many further ones on both sides as the second number says; they add up to one. `total` is the integral of the spread.
+impl WearIncrement<'_> {
+    /// Shares of the volume on the cells of a length `spacing` \[m] from the first to the last of `cells`, and on further ones on
+    /// both sides, whose number is returned besides; they add up to one. `total` is the integral of the distribution.
     fn shares(&self, spacing: f64, cells: [i64; 2], total: f64) -> (Vec<f64>, i64) {
-        let [from, to] = self.way;
-        let beyond = if self.even > 0.0 { (6.0 * self.even / spacing).ceil() as i64 } else { 0 };
+        let [from, to] = self.path;
+        let beyond = if self.smoothing > 0.0 { (6.0 * self.smoothing / spacing).ceil() as i64 } else { 0 };
         let edge = |k: i64| (k as f64 + 0.5) * spacing;
-        let stands = (to - from).abs() <= STANDS * (cells[1] - cells[0] + 1) as f64 * spacing;
+        let stands = (to - from).abs() <= SHORT_PATH * (cells[1] - cells[0] + 1) as f64 * spacing;
         let worn = |s: f64| {
             let at = |place: f64| {
                 let mut integral = [0.0; 2];
-                integrals(self.spread, s - place, &mut integral);
+                integrals(self.distribution, s - place, &mut integral);
                 integral
             };
             let sum = if stands { at(0.5 * (from + to))[0] } else { (at(from)[1] - at(to)[1]) / (to - from) };
@@ -183,8 +185,8 @@ impl Loss<'_> {
             shares[(k - cells[0] + beyond) as usize] = up_to - before;
             before = up_to;
         }
-        if self.even > 0.0 {
-            even_out(&mut shares, (self.even / spacing).powi(2));
+        if self.smoothing > 0.0 {
+            smooth(&mut shares, (self.smoothing / spacing).powi(2));
         }
         (shares, beyond)
     }
@@ -209,9 +211,9 @@ fn integrals(function: &Piecewise, x: f64, found: &mut [f64; 2]) {
     }
 }
 
-/// Solves `(1 − α d²) u = given` on cells between which `d` is the difference, and through whose ends nothing passes: the sum
-/// stays, and what is shorter than `√α` cells is evened out.
-fn even_out(values: &mut [f64], alpha: f64) {
+/// Solves `(1 − α d²) u = given` on cells, with `d` the difference of neighbours and no flux through the ends: the sum of all
+/// values stays, and waves shorter than `√α` cells are smoothed out.
+fn smooth(values: &mut [f64], alpha: f64) {
     let last = values.len().saturating_sub(1);
     let mut factor = vec![0.0; values.len()];
     for i in 0..=last {
@@ -251,7 +253,10 @@ mod tests {
                     [4e5, 4e5 - 2e-3],
                 ];
                 for (count, way) in (1..).zip(ways.into_iter().take(if circumference > 0.0 { 7 } else { 6 })) {
-                    worn.take(&Loss { way, spread: &spread, volume: 2e-6, even }, 3.1e-4);
+                    worn.remove(
+                        &WearIncrement { path: way, distribution: &spread, volume: 2e-6, smoothing: even },
+                        3.1e-4,
+                    );
                     let volume = f64::from(count) * 2e-6;
                     assert!((worn.volume() / volume - 1.0).abs() < 1e-12, "{circumference} {way:?}: {}", worn.volume());
                     assert!(worn.depth.iter().all(|depth| *depth >= -1e-18) && worn.is_sound());
@@ -269,7 +274,10 @@ mod tests {
             let place = |k: i32| 2.0 + way * f64::from(k) / f64::from(steps);
             for k in 0..steps {
                 let volume = volume / f64::from(steps);
-                worn.take(&Loss { way: [place(k), place(k + 1)], spread: &spread, volume, even: 0.0 }, 3e-4);
+                worn.remove(
+                    &WearIncrement { path: [place(k), place(k + 1)], distribution: &spread, volume, smoothing: 0.0 },
+                    3e-4,
+                );
             }
             for s in [2.01, 2.025, 2.04] {
                 assert!((worn.depth(s) / (volume / way) - 1.0).abs() < 1e-9, "{steps} {s} {}", worn.depth(s));
@@ -279,10 +287,10 @@ mod tests {
     }
 
     #[test]
-    fn evening_out_keeps_the_sum_and_takes_the_roughness() {
+    fn smoothing_keeps_the_sum_and_takes_the_roughness() {
         let mut values: Vec<f64> =
             (0..200).map(|k| if (80..120).contains(&k) { f64::from(k % 2) } else { 0.0 }).collect();
-        even_out(&mut values, 16.0);
+        smooth(&mut values, 16.0);
         assert!((values.iter().sum::<f64>() - 20.0).abs() < 1e-12 && values.iter().all(|value| *value > 0.0));
         assert!((values[100] - values[101]).abs() < 0.02 && (values[100] - 0.5).abs() < 0.02, "{}", values[100]);
     }
@@ -290,7 +298,7 @@ mod tests {
     #[test]
     fn an_open_surface_forgets_what_is_far() {
         let (spread, mut worn) = (hat(), Worn::none(0.0));
-        worn.take(&Loss { way: [1.0, 2.0], spread: &spread, volume: 1e-6, even: 0.0 }, 1e-3);
+        worn.remove(&WearIncrement { path: [1.0, 2.0], distribution: &spread, volume: 1e-6, smoothing: 0.0 }, 1e-3);
         worn.forget_beyond(2.0, 0.5);
         assert!(worn.depth(1.4) == 0.0 && worn.depth(1.6) > 0.0 && worn.is_sound());
         worn.forget_beyond(9.0, 0.5);

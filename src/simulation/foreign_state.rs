@@ -1,11 +1,11 @@
-//! States from outside: what no run can have left behind is refused before it can do harm.
+//! States from outside: one that no run can have left behind is refused before it can do harm.
 
 use crate::rolling::State;
 use crate::rolling::substeps::{LONGEST_STEP, SHORTEST_STEP};
 
-/// Whether times and step sizes of a state are such as a run leaves behind. Others could make a step endless; wrong values
+/// Times and step sizes of a state as a run leaves them behind. Others could make a step endless; wrong values
 /// of the fields only make it fail.
-pub(super) fn plausible(state: &State) -> bool {
+pub(super) fn is_plausible(state: &State) -> bool {
     let [velocity, height, omega] = state.motion.values();
     let motions = [velocity, omega, height, state.motion.distance, state.motion.angle];
     state.clock.time.is_finite()

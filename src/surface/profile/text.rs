@@ -2,25 +2,25 @@
 
 use super::error::ProfileError;
 
-/// Longest text [characters]: what is longer belongs into a file. It bounds what looking at all features costs.
+/// Longest text [characters]: longer profiles belong into a file. It bounds the cost of evaluating all features.
 const LONGEST: usize = 20_000;
 
-/// A feature as it is written: its name and what it is given.
+/// A feature as it is written: its name and its arguments.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Call {
+pub struct FeatureCall {
     /// Name of the feature.
     pub name: String,
-    /// Where it stands in the text, from 1.
+    /// Column in the text, from 1.
     pub column: usize,
-    /// What stands between its brackets: name, none for a text that stands alone, and value.
-    pub given: Vec<(Option<String>, Given)>,
+    /// Arguments: name, none for a text that stands alone, and value.
+    pub given: Vec<(Option<String>, ArgumentValue)>,
 }
 
-impl Call {
-    /// The number that is given under a name.
+impl FeatureCall {
+    /// Number that is given under a name.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.given.iter().find_map(|(given, value)| match value {
-            Given::Number(number) if given.as_deref() == Some(name) => Some(*number),
+            ArgumentValue::Number(number) if given.as_deref() == Some(name) => Some(*number),
             _ => None,
         })
     }
@@ -28,7 +28,7 @@ impl Call {
 
 /// A value as it is written.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Given {
+pub enum ArgumentValue {
     /// `5e-3`
     Number(f64),
     /// `fresh`
@@ -49,14 +49,14 @@ enum Token {
 }
 
 /// The features of a text; none if it is blank. A bare name of a file is `file("name")`.
-pub fn calls(text: &str) -> Result<Vec<Call>, ProfileError> {
+pub fn calls(text: &str) -> Result<Vec<FeatureCall>, ProfileError> {
     let bare = text.trim();
     if bare.is_empty() {
         return Ok(Vec::new());
     }
     if bare.to_lowercase().ends_with(".csv") {
-        let given = vec![(None, Given::Text(bare.to_owned()))];
-        return Ok(vec![Call { name: "file".to_owned(), column: 1, given }]);
+        let given = vec![(None, ArgumentValue::Text(bare.to_owned()))];
+        return Ok(vec![FeatureCall { name: "file".to_owned(), column: 1, given }]);
     }
     if let Some((at, _)) = text.char_indices().nth(LONGEST) {
         let found = text[at..].chars().next().unwrap_or_default();
@@ -110,7 +110,7 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ProfileError> {
     Ok(found)
 }
 
-/// Whether a number starts here: a digit, a point, or a minus before one.
+/// Beginning of a number: a digit, a point, or a minus before one.
 fn number_starts(chars: &[char], at: usize) -> bool {
     let digit = |i: usize| chars.get(i).is_some_and(|c| c.is_ascii_digit() || *c == '.');
     digit(at) || (chars[at] == '-' && digit(at + 1))
@@ -163,7 +163,7 @@ impl Reader {
     }
 
     /// `name(parameter = value, …)`
-    fn call(&mut self) -> Result<Call, ProfileError> {
+    fn call(&mut self) -> Result<FeatureCall, ProfileError> {
         let (column, name) = match self.take() {
             Some((column, Token::Word(name))) => (column, name),
             other => return self.wrong(other, "the name of a feature"),
@@ -177,13 +177,13 @@ impl Reader {
             given.push(self.parameter()?);
         }
         self.next += 1;
-        Ok(Call { name, column, given })
+        Ok(FeatureCall { name, column, given })
     }
 
     /// `name = value`, or a text alone.
-    fn parameter(&mut self) -> Result<(Option<String>, Given), ProfileError> {
+    fn parameter(&mut self) -> Result<(Option<String>, ArgumentValue), ProfileError> {
         match self.take() {
-            Some((_, Token::Text(text))) => Ok((None, Given::Text(text))),
+            Some((_, Token::Text(text))) => Ok((None, ArgumentValue::Text(text))),
             Some((_, Token::Word(name))) => {
                 self.expect('=', "= after the name of the parameter")?;
                 Ok((Some(name), self.value()?))
@@ -192,18 +192,18 @@ impl Reader {
         }
     }
 
-    fn value(&mut self) -> Result<Given, ProfileError> {
+    fn value(&mut self) -> Result<ArgumentValue, ProfileError> {
         match self.take() {
-            Some((_, Token::Number(number))) => Ok(Given::Number(number)),
-            Some((_, Token::Word(word))) => Ok(Given::Word(word)),
-            Some((_, Token::Text(text))) => Ok(Given::Text(text)),
+            Some((_, Token::Number(number))) => Ok(ArgumentValue::Number(number)),
+            Some((_, Token::Word(word))) => Ok(ArgumentValue::Word(word)),
+            Some((_, Token::Text(text))) => Ok(ArgumentValue::Text(text)),
             Some((_, Token::Sign('['))) => self.list(),
             other => self.wrong(other, "a value"),
         }
     }
 
     /// Numbers up to the closing bracket.
-    fn list(&mut self) -> Result<Given, ProfileError> {
+    fn list(&mut self) -> Result<ArgumentValue, ProfileError> {
         let mut numbers = Vec::new();
         while !self.is_sign(']') {
             if !numbers.is_empty() {
@@ -215,6 +215,6 @@ impl Reader {
             }
         }
         self.next += 1;
-        Ok(Given::List(numbers))
+        Ok(ArgumentValue::List(numbers))
     }
 }

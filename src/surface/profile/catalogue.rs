@@ -1,14 +1,15 @@
 //! The features that a text can name, with their parameters, ranges and defaults.
 
-use super::arguments::Arguments;
+use super::arguments::FeatureArguments;
 use super::body::Body;
-use super::defect::{Defect, Form, Place};
+use super::defect::{Defect, Repetition};
 use super::error::ProfileError;
 use super::features::Feature;
+use super::forms::Form;
 use super::roughness::{self, EN_ISO_3095, LARGEST_TABLE, LONGEST_LIMIT, Spectrum};
-use super::samples::{ROUNDED_PERIOD, Samples};
-use super::text::Call;
-use super::wave::{Cover, Pattern, Wave, Window};
+use super::samples::{HeightSamples, ROUNDED_PERIOD};
+use super::text::FeatureCall;
+use super::undulation::{Sinusoid, Texture, Undulation, Window};
 
 use crate::config::{display_number, nearest};
 use std::cell::Cell;
@@ -24,15 +25,15 @@ const DEPTH: [f64; 2] = [0.0, 0.02];
 const PHASE: [f64; 2] = [-10.0, 10.0];
 /// Levels of roughness [dB re 1 µm].
 const LEVEL: [f64; 2] = [-100.0, 60.0];
-/// How far the circumference may be from a whole number of waves or distances, which are then made to fit.
+/// Largest distance of the circumference from a whole number of waves or distances \[1], which are then made to fit.
 const MISFIT: f64 = 1e-3;
 /// Half-length of the bands that a wavelength may name, as share of 1/10 of a decade.
 const OFF_BAND: f64 = 0.1;
 
-/// Makes a feature of what it is given.
-type Maker = fn(&mut Arguments, &Site) -> Result<Feature, ProfileError>;
+/// Builder of a feature from its arguments.
+type Maker = fn(&mut FeatureArguments, &Site) -> Result<Feature, ProfileError>;
 
-/// Whose surface it is, where its files lie, and what is left of the memory for roughness.
+/// Body of a surface, folder of its files, and memory that is left for its roughness.
 pub struct Site<'a> {
     body: Body,
     folder: Option<&'a Path>,
@@ -66,19 +67,19 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Makes the feature that a call names.
-pub fn build(call: Call, site: &Site) -> Result<Feature, ProfileError> {
+pub fn build(call: FeatureCall, site: &Site) -> Result<Feature, ProfileError> {
     let Some((name, make)) = CATALOGUE.iter().find(|(name, _)| *name == call.name) else {
         let nearest = nearest(&call.name, names());
         return Err(ProfileError::Feature { column: call.column, name: call.name, nearest });
     };
-    let mut given = Arguments::new(name, call, "name")?;
+    let mut given = FeatureArguments::new(name, call, "name")?;
     let feature = make(&mut given, site)?;
     given.finish()?;
     Ok(feature)
 }
 
 /// The radius of the wheel, of a feature that the rail cannot have.
-fn wheel_only(given: &Arguments, site: &Site) -> Result<f64, ProfileError> {
+fn wheel_only(given: &FeatureArguments, site: &Site) -> Result<f64, ProfileError> {
     match site.body {
         Body::Wheel { radius } => Ok(radius),
         Body::Rail => Err(given.owner("wheel", "rail", "sinusoid, hole or file")),
@@ -86,7 +87,7 @@ fn wheel_only(given: &Arguments, site: &Site) -> Result<f64, ProfileError> {
 }
 
 /// Refuses the wheel, of a feature that only the rail can have.
-fn rail_only(given: &Arguments, site: &Site) -> Result<(), ProfileError> {
+fn rail_only(given: &FeatureArguments, site: &Site) -> Result<(), ProfileError> {
     match site.body {
         Body::Rail => Ok(()),
         Body::Wheel { .. } => Err(given.owner("rail", "wheel", "flat, hole or file")),
@@ -94,7 +95,7 @@ fn rail_only(given: &Arguments, site: &Site) -> Result<(), ProfileError> {
 }
 
 /// A length that fits a whole number of times around the wheel; any length on the rail.
-fn fitting(given: &Arguments, site: &Site, name: &'static str, length: f64) -> Result<f64, ProfileError> {
+fn fitting(given: &FeatureArguments, site: &Site, name: &'static str, length: f64) -> Result<f64, ProfileError> {
     let Some(turn) = site.body.circumference() else { return Ok(length) };
     let times = (turn / length).round().max(1.0);
     if (turn / length - times).abs() > MISFIT {
@@ -108,8 +109,8 @@ fn fitting(given: &Arguments, site: &Site, name: &'static str, length: f64) -> R
     Ok(turn / times)
 }
 
-/// A pattern on the stretch that is given; on the wheel everywhere.
-fn cover(pattern: Pattern, given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+/// A texture on the stretch that is given; on the wheel everywhere.
+fn undulation(texture: Texture, given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let mut window = Window { from: f64::NEG_INFINITY, to: f64::INFINITY, blend: 0.0 };
     if site.body == Body::Rail {
         window.from = given.optional("from", "m", POSITION)?.unwrap_or(window.from);
@@ -117,11 +118,11 @@ fn cover(pattern: Pattern, given: &mut Arguments, site: &Site) -> Result<Feature
         let half = if window.from.is_finite() && window.to.is_finite() { 0.5 * (window.to - window.from) } else { 1e4 };
         window.blend = given.optional("blend", "m", [0.0, half])?.unwrap_or(0.0);
     }
-    Ok(Feature::Cover(Cover { pattern, window }))
+    Ok(Feature::Undulation(Undulation { texture, window }))
 }
 
 /// A form at the position that is given, repeated if asked for.
-fn defect(mut form: Form, given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn defect(mut form: Form, given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let [begin, end] = form.reach();
     let length = end - begin;
     let turn = site.body.circumference();
@@ -154,29 +155,29 @@ fn defect(mut form: Form, given: &mut Arguments, site: &Site) -> Result<Feature,
     if let (Form::Samples(samples), true) = (&mut form, turn.is_some() || count > 1.0) {
         samples.close(every).map_err(|problem| given.outside("every", format!("{every} m"), problem))?;
     }
-    Ok(Feature::Defect(Defect { form, place: Place { position, every, count, turn } }))
+    Ok(Feature::Defect(Defect { form, repetition: Repetition { position, every, count, turn } }))
 }
 
-fn sinusoid(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn sinusoid(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let amplitude = given.number("amplitude", "m", DEPTH)?;
     let wavelength = given.number("wavelength", "m", LENGTH)?;
     let wavelength = fitting(given, site, "wavelength", wavelength)?;
     let phase = given.optional("phase", "rad", PHASE)?.unwrap_or(0.0);
-    cover(Pattern::Wave(Wave { amplitude, wavelength, phase }), given, site)
+    undulation(Texture::Sinusoid(Sinusoid { amplitude, wavelength, phase }), given, site)
 }
 
-fn polygon(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn polygon(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let radius = wheel_only(given, site)?;
     let range = [1.0, 30.0];
     let order = given.whole("order", range)?.ok_or_else(|| given.missing("order", "whole, 1 to 30"))?;
     let amplitude = given.number("amplitude", "m", DEPTH)?;
     let phase = given.optional("phase", "rad", PHASE)?.unwrap_or(0.0);
     let wavelength = std::f64::consts::TAU * radius / order;
-    cover(Pattern::Wave(Wave { amplitude, wavelength, phase }), given, site)
+    undulation(Texture::Sinusoid(Sinusoid { amplitude, wavelength, phase }), given, site)
 }
 
 /// Number of the one-third octave of a wavelength, if it is given.
-fn band(given: &mut Arguments, name: &'static str, range: [f64; 2]) -> Result<Option<i32>, ProfileError> {
+fn band(given: &mut FeatureArguments, name: &'static str, range: [f64; 2]) -> Result<Option<i32>, ProfileError> {
     let Some(wavelength) = given.optional(name, "m", range)? else { return Ok(None) };
     let number = 10.0 * libm::log10(wavelength);
     if (number - number.round()).abs() > OFF_BAND {
@@ -187,7 +188,7 @@ fn band(given: &mut Arguments, name: &'static str, range: [f64; 2]) -> Result<Op
     Ok(Some(number.round() as i32))
 }
 
-fn rough(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn rough(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let seed = given.whole("seed", [0.0, 2f64.powi(53)])?.unwrap_or(1.0) as u64;
     let offset = given.optional("offset", "dB", LEVEL)?.unwrap_or(0.0);
     let limit = given.word("spectrum", &["EN_ISO_3095"])?;
@@ -215,11 +216,11 @@ fn rough(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
     let levels = levels.iter().map(|level| level + offset).collect();
     let spectrum = Spectrum { longest, levels, seed, period };
     check_table(&spectrum, given, site)?;
-    cover(Pattern::Roughness(spectrum.realise()), given, site)
+    undulation(Texture::Roughness(spectrum.realise()), given, site)
 }
 
 /// Refuses bands without a wave, and tables that are too long, alone or together.
-fn check_table(spectrum: &Spectrum, given: &Arguments, site: &Site) -> Result<(), ProfileError> {
+fn check_table(spectrum: &Spectrum, given: &FeatureArguments, site: &Site) -> Result<(), ProfileError> {
     let mid = |i: usize| roughness::band_wavelength(f64::from(spectrum.longest) - i as f64);
     let period = display_number(spectrum.period);
     if let Some(i) = (0..spectrum.levels.len()).find(|&i| spectrum.waves(i).is_empty()) {
@@ -241,12 +242,12 @@ fn check_table(spectrum: &Spectrum, given: &Arguments, site: &Site) -> Result<()
     Ok(())
 }
 
-fn hole(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn hole(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let (length, depth) = (given.number("length", "m", LENGTH)?, given.number("depth", "m", DEPTH)?);
     defect(Form::Plateau { reach: [-0.5 * length, 0.5 * length], height: -depth }, given, site)
 }
 
-fn step(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn step(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let height = given.number("height", "m", [-DEPTH[1], DEPTH[1]])?;
     let length = given.optional("length", "m", LENGTH)?;
     if length.is_none() && site.body != Body::Rail {
@@ -256,7 +257,7 @@ fn step(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
     defect(Form::Plateau { reach: [0.0, length], height }, given, site)
 }
 
-fn joint(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn joint(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     rail_only(given, site)?;
     let angle = given.optional("angle", "rad", [0.0, 0.1])?.unwrap_or(0.0);
     let length = given.optional("length", "m", [0.01, 10.0])?.unwrap_or(1.0);
@@ -268,12 +269,12 @@ fn joint(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
     defect(Form::Joint { length, dip: 0.125 * angle * length, gap, depth }, given, site)
 }
 
-fn squat(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn squat(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let (length, depth) = (given.number("length", "m", LENGTH)?, given.number("depth", "m", DEPTH)?);
     defect(Form::Trough { length, depth }, given, site)
 }
 
-fn flat(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn flat(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let radius = wheel_only(given, site)?;
     let length = given.number("length", "m", [1e-3, 0.5 * radius])?;
     let form = match given.word("shape", &["fresh", "rounded"])? {
@@ -283,8 +284,8 @@ fn flat(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
     defect(form, given, site)
 }
 
-fn file(given: &mut Arguments, site: &Site) -> Result<Feature, ProfileError> {
+fn file(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let name = given.text("name")?.ok_or_else(|| given.missing("name", "the path of a .csv file"))?;
     let factor = given.optional("factor", "1", [-1e6, 1e6])?.unwrap_or(1.0);
-    defect(Form::Samples(Samples::read(&name, site.folder, factor)?), given, site)
+    defect(Form::Samples(HeightSamples::read(&name, site.folder, factor)?), given, site)
 }

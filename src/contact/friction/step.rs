@@ -1,45 +1,7 @@
-//! Laws of the friction coefficient. Within a step the friction cone is exact, whatever law gave its coefficient.
+//! Friction in one contact problem.
 
-use serde::{Deserialize, Serialize};
-
-/// Coefficient that falls with the slip velocity of the tread and with the temperature of the contact:
-///
-/// `μ(s, T) = μ₀ · (A + (1 − A) e^{−B |s|}) · max(m, 1 − K (T − T_ref))`
-///
-/// with the available coefficient `μ₀`, the mean slip velocity s of the surfaces in the patch and their mean temperature T, both
-/// weighted with the pressure (O. Polach, *Wear* 258 (2005) 992–1000, for the falling part). With a memory the coefficient follows this local law
-/// over a sliding distance `d`: `dμ/dt = (μ(s, T) − μ) |s|/d` (after E. A. H. Vollebregt, H. M. Schuttelaars, *J. Sound
-/// Vib.* 331 (2012) 2141–2155).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionLaw {
-    /// `A`: share of the coefficient that remains at high slip velocity \[1]; 1: constant; above 1 friction rises.
-    pub falling_ratio: f64,
-    /// `B`: decay with the slip velocity [s/m].
-    pub falling_decay: f64,
-    /// `K`: decay with the contact temperature [1/K]; 0: constant.
-    pub softening: f64,
-    /// `m`: share of the coefficient that remains in a hot contact \[1].
-    pub softening_floor: f64,
-    /// `d`: sliding distance over which the coefficient follows the law \[m]; 0: at once.
-    pub memory_length: f64,
-}
-
-/// Rise of the mean contact temperature per unit of friction coefficient \[K], at the end of the last step and of the one
-/// before.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Heating {
-    /// At the end of the last step.
-    pub now: f64,
-    /// One step earlier.
-    pub before: f64,
-}
-
-impl Heating {
-    /// Extrapolated linearly over the coming step, whose length is `ratio` times that of the last one.
-    fn predicted(&self, ratio: f64) -> f64 {
-        (self.now + ratio * (self.now - self.before)).clamp(0.0, 2.0 * self.now.max(0.0))
-    }
-}
+use super::heating::Heating;
+use super::law::FrictionLaw;
 
 /// Friction in one contact problem: the coefficient as a function of the slip that the contact finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +14,7 @@ pub struct Friction {
     memory: Option<Memory>,
 }
 
-/// What a law with a memory knows of the beginning of the step.
+/// Data of the beginning of the step for a law with a memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Memory {
     /// Length of the step over the memory length [s/m].
@@ -61,24 +23,12 @@ struct Memory {
     slip: f64,
     /// Coefficient [1].
     coefficient: f64,
-    /// What the law gives at this slip and at the temperature of this coefficient [1].
+    /// Coefficient of the local law at this slip and at the temperature of this coefficient [1].
     local: f64,
 }
 
-impl FrictionLaw {
-    /// Share e of its change over which the heating θ may be extrapolated \[1] in steps too short for the temperature to
-    /// follow friction.
-    ///
-    /// There θ falls by what μ rises, and a θ extrapolated in full feeds on itself where friction has lost most of its value.
-    /// With `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, no deviation of θ grows if `G (1 + 2e) ≤ 1`.
-    pub fn extrapolated(&self, available: f64, heating: Heating) -> f64 {
-        let softened = available * self.softening * heating.now.max(0.0);
-        if softened > 0.5 { 0.5 / softened } else { 1.0 }
-    }
-}
-
 impl Friction {
-    /// The coefficient follows the law at once: `available` on the rail \[1], `heating` at the end of the step, whose length
+    /// A coefficient that follows the law at once: `available` on the rail \[1], `heating` at the end of the step, whose length
     /// is `ratio` times that of the one before (0 if that says nothing).
     ///
     /// The flash temperature follows the friction within microseconds, `T − T_ref = θ μ`. Solving `μ = cold (1 − K θ μ)`
@@ -90,46 +40,33 @@ impl Friction {
 
     /// A coefficient that nothing changes \[1].
     pub fn constant(coefficient: f64) -> Self {
-        let law = FrictionLaw {
-            falling_ratio: 1.0,
-            falling_decay: 0.0,
-            softening: 0.0,
-            softening_floor: 1.0,
-            memory_length: 0.0,
-        };
-        Self::local(law, coefficient, Heating::default(), 0.0)
+        Self::local(FrictionLaw::CONSTANT, coefficient, Heating::default(), 0.0)
     }
 
-    /// The same in a step of `dt` seconds from a contact with the `coefficient` \[1] and the mean `slip` velocity [m/s],
-    /// under the `heating` of that time; they matter if the law has a memory.
+    /// This friction in a step of `dt` seconds from a contact with the `coefficient` \[1] and the mean `slip` velocity [m/s], under
+    /// the `heating` of that time; they matter if the law has a memory.
     pub fn after(mut self, dt: f64, coefficient: f64, slip: f64, heating: Heating) -> Self {
         if self.law.memory_length > 0.0 {
             let FrictionLaw { softening, softening_floor, .. } = self.law;
             let hot = (1.0 - softening * heating.now.max(0.0) * coefficient).max(softening_floor);
-            let local = self.available * self.falling(slip) * hot;
+            let local = self.available * self.law.slip.factor(slip) * hot;
             self.memory = Some(Memory { reach: dt / self.law.memory_length, slip: slip.abs(), coefficient, local });
         }
         self
     }
 
-    /// Whether the coefficient depends on the slip at the end of the step.
+    /// Dependence of the coefficient on the slip at the end of the step.
     pub fn varies(&self) -> bool {
-        self.memory.is_some() || self.law.falling_ratio != 1.0 && self.law.falling_decay > 0.0 && self.available > 0.0
+        self.memory.is_some() || self.law.slip.varies() && self.available > 0.0
     }
 
     /// Coefficient \[1] at the mean `slip` velocity [m/s] at the end of the step.
     pub fn coefficient(&self, slip: f64) -> f64 {
         let [weight, rest] = self.memory.map_or([1.0, 0.0], |memory| memory.weights(slip.abs()));
-        self.softened(weight * self.available * self.falling(slip), rest)
+        self.softened(weight * self.available * self.law.slip.factor(slip), rest)
     }
 
-    /// Share of the cold coefficient at the mean `slip` velocity.
-    fn falling(&self, slip: f64) -> f64 {
-        let FrictionLaw { falling_ratio, falling_decay, .. } = self.law;
-        falling_ratio + (1.0 - falling_ratio) * (-falling_decay * slip.abs()).exp()
-    }
-
-    /// The solution of `μ = cold · max(m, 1 − K θ μ) + rest`: of both branches the larger one.
+    /// Solution of `μ = cold · max(m, 1 − K θ μ) + rest`: of both branches the larger one.
     fn softened(&self, cold: f64, rest: f64) -> f64 {
         let hot = (cold + rest) / (1.0 + cold * self.law.softening * self.heating);
         hot.max(cold * self.law.softening_floor + rest)
@@ -137,7 +74,7 @@ impl Friction {
 
     /// Smallest and largest coefficient at any slip \[1].
     pub fn bounds(&self) -> [f64; 2] {
-        let ends = [1.0, self.law.falling_ratio].map(|falling| self.softened(self.available * falling, 0.0));
+        let ends = self.law.slip.ends().map(|factor| self.softened(self.available * factor, 0.0));
         let memory = self.memory.map_or(ends, |memory| [memory.coefficient, memory.local]);
         let all = ends.into_iter().chain(memory);
         [all.clone().fold(f64::INFINITY, f64::min), all.fold(0.0, f64::max)]
@@ -160,11 +97,11 @@ impl Memory {
 
 #[cfg(test)]
 mod tests {
+    use super::super::slip::SlipDependence;
     use super::*;
 
     const LAW: FrictionLaw = FrictionLaw {
-        falling_ratio: 0.4,
-        falling_decay: 1.5,
+        slip: SlipDependence::Exponential { remaining: 0.4, decay: 1.5 },
         softening: 1e-3,
         softening_floor: 0.1,
         memory_length: 0.0,
@@ -191,14 +128,6 @@ mod tests {
     }
 
     #[test]
-    fn heating_is_extrapolated_but_never_below_zero_or_beyond_twice_its_value() {
-        assert_eq!(Heating { now: 300.0, before: 200.0 }.predicted(1.0), 400.0);
-        assert_eq!(Heating { now: 300.0, before: -900.0 }.predicted(1.0), 600.0);
-        assert_eq!(Heating { now: 300.0, before: 900.0 }.predicted(2.0), 0.0);
-        assert_eq!(Heating { now: -5.0, before: -5.0 }.predicted(0.0), 0.0);
-    }
-
-    #[test]
     fn a_deviation_of_the_heating_does_not_feed_on_itself_in_short_steps() {
         // The temperature stays, θ = T/μ: the extreme of a short step.
         for temperature in [50.0, 300.0, 700.0, 850.0] {
@@ -218,15 +147,16 @@ mod tests {
     fn only_a_law_that_changes_with_the_slip_says_so() {
         let varies = |law: FrictionLaw| Friction::local(law, 0.3, steady(100.0), 0.0).varies();
         assert!(varies(LAW));
-        assert!(!varies(FrictionLaw { falling_ratio: 1.0, ..LAW }));
-        assert!(!varies(FrictionLaw { falling_decay: 0.0, ..LAW }));
+        assert!(!varies(LAW.at_rest()));
+        assert!(!varies(FrictionLaw { slip: SlipDependence::Exponential { remaining: 0.4, decay: 0.0 }, ..LAW }));
         assert!(!Friction::constant(0.3).varies());
     }
 
     #[test]
     fn every_coefficient_lies_within_the_bounds() {
         for (ratio, length, theta) in [(0.4, 0.0, 0.0), (0.4, 1e-3, 900.0), (1.6, 1e-3, 3e4), (0.0, 0.0, 3e4)] {
-            let law = FrictionLaw { falling_ratio: ratio, memory_length: length, ..LAW };
+            let slip = SlipDependence::Exponential { remaining: ratio, decay: 1.5 };
+            let law = FrictionLaw { slip, memory_length: length, ..LAW };
             for before in [0.05, 0.3, 0.5] {
                 let friction = Friction::local(law, 0.3, steady(theta), 0.0).after(1e-3, before, 0.7, steady(theta));
                 let [low, high] = friction.bounds();
@@ -259,7 +189,8 @@ mod tests {
 
     #[test]
     fn memory_decays_exponentially_over_the_sliding_distance_and_keeps_in_stick() {
-        let law = FrictionLaw { falling_ratio: 0.5, falling_decay: 1e3, softening: 0.0, memory_length: 0.01, ..LAW };
+        let falling = SlipDependence::Exponential { remaining: 0.5, decay: 1e3 };
+        let law = FrictionLaw { slip: falling, softening: 0.0, memory_length: 0.01, ..LAW };
         let (mut mu, slip, dt) = (0.3, 2.0, 1e-3);
         for _ in 0..10 {
             mu = Friction::local(law, 0.3, Heating::default(), 0.0)

@@ -10,7 +10,7 @@ const COLDEST: f64 = 200.0;
 const FREEZING: f64 = 273.15;
 /// Factor from which a unit is a multiple of another one, as kN of N: nobody mistakes m/s and km/h by size alone.
 const MULTIPLE: f64 = 100.0;
-/// How far a value is off the usual size if it is of another unit, and how near it is then to it in that unit \[1].
+/// Factor between a value of a mistaken unit and the usual size, at least, and between both in the right unit, at most \[1].
 const FAR: f64 = 200.0;
 const NEAR: f64 = 10.0;
 /// Speed \[m/s] that no wheel on a rail has: it is one in km/h.
@@ -20,7 +20,7 @@ const FASTEST: f64 = 100.0;
 const STICKIEST: f64 = 2.0;
 const SLIDES: [f64; 2] = [0.5, 1.9];
 
-/// What is wrong with an absolute temperature that is too low.
+/// Message about an absolute temperature that is too low.
 pub fn cold(name: &str, kind: Kind, value: f64) -> Option<String> {
     let absolute = matches!(kind, Kind::Real { measure: Measure { unit: "K", display: Some(_) }, .. });
     (absolute && value < COLDEST).then(|| {
@@ -33,7 +33,7 @@ pub fn cold(name: &str, kind: Kind, value: f64) -> Option<String> {
     })
 }
 
-/// What is wrong with a value that is not of the size which is `usual`, and would be in the unit that people like to read.
+/// Message about a value whose size is far from the `usual` one, and near it in the unit in which people read it.
 pub fn unusual(name: &str, kind: Kind, value: f64, usual: f64) -> Option<String> {
     let Kind::Real { measure: Measure { unit, display }, .. } = kind else { return None };
     let percent = match name {

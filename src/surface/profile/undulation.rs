@@ -1,4 +1,4 @@
-//! What covers a whole surface: sinusoids and roughness, or a stretch of them that begins and ends gently.
+//! Undulations: sinusoids and roughness on the whole surface, or on a stretch with smooth ends.
 
 use super::roughness::Roughness;
 use std::f64::consts::TAU;
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 ///
 /// The sine is the portable one of the crate `libm`, so that the same profile has the same bits on every machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wave {
+pub struct Sinusoid {
     /// Amplitude \[m].
     pub amplitude: f64,
     /// Wavelength \[m].
@@ -16,7 +16,7 @@ pub struct Wave {
     pub phase: f64,
 }
 
-impl Wave {
+impl Sinusoid {
     fn angle(&self, position: f64) -> f64 {
         TAU * (position / self.wavelength).fract() + self.phase
     }
@@ -30,20 +30,20 @@ impl Wave {
     }
 }
 
-/// The stretch on which a pattern lies: it rises within `blend` after `from` and falls within `blend` before `to`.
+/// Stretch of an undulation, which rises within `blend` after `from` and falls within `blend` before `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// Where it begins \[m].
+    /// First position \[m].
     pub from: f64,
-    /// Where it ends \[m].
+    /// Last position \[m].
     pub to: f64,
     /// Length over which it rises and falls \[m].
     pub blend: f64,
 }
 
 impl Window {
-    /// Share of the pattern at a position, and its slope \[1/m]: `3t² − 2t³` within the blends.
-    fn share(&self, position: f64) -> [f64; 2] {
+    /// Weight of the undulation \[1] at a position, and its slope \[1/m]: `3t² − 2t³` within the blends.
+    fn weight(&self, position: f64) -> [f64; 2] {
         let (after, before) = (position - self.from, self.to - position);
         if after < 0.0 || before < 0.0 {
             return [0.0, 0.0];
@@ -57,55 +57,55 @@ impl Window {
     }
 }
 
-/// What covers a surface.
+/// Height of an undulation over the position.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Pattern {
+pub enum Texture {
     /// A sinusoid.
-    Wave(Wave),
+    Sinusoid(Sinusoid),
     /// Random roughness.
     Roughness(Roughness),
 }
 
-/// A pattern and the stretch on which it lies.
+/// A texture on a stretch of the surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cover {
-    /// What it looks like.
-    pub pattern: Pattern,
-    /// Where it lies.
+pub struct Undulation {
+    /// Height over the position.
+    pub texture: Texture,
+    /// Stretch of the surface.
     pub window: Window,
 }
 
-impl Cover {
+impl Undulation {
     /// Height at a position \[m].
     pub fn height(&self, position: f64) -> f64 {
-        self.window.share(position)[0] * self.pattern.height(position)
+        self.window.weight(position)[0] * self.texture.height(position)
     }
 
     /// Slope at a position.
     pub fn slope(&self, position: f64) -> f64 {
-        match self.window.share(position) {
-            [share, 0.0] => share * self.pattern.slope(position),
-            [share, slope] => share * self.pattern.slope(position) + slope * self.pattern.height(position),
+        match self.window.weight(position) {
+            [weight, 0.0] => weight * self.texture.slope(position),
+            [weight, slope] => weight * self.texture.slope(position) + slope * self.texture.height(position),
         }
     }
 
-    /// Whether it lies, in part at least, between two positions \[m].
+    /// Overlap with the stretch between two positions \[m].
     pub fn meets(&self, low: f64, high: f64) -> bool {
         high >= self.window.from && low <= self.window.to
     }
 }
 
-impl Pattern {
+impl Texture {
     fn height(&self, position: f64) -> f64 {
         match self {
-            Self::Wave(wave) => wave.height(position),
+            Self::Sinusoid(wave) => wave.height(position),
             Self::Roughness(roughness) => roughness.height(position),
         }
     }
 
     fn slope(&self, position: f64) -> f64 {
         match self {
-            Self::Wave(wave) => wave.slope(position),
+            Self::Sinusoid(wave) => wave.slope(position),
             Self::Roughness(roughness) => roughness.slope(position),
         }
     }
@@ -113,7 +113,7 @@ impl Pattern {
     /// Shortest wavelength \[m].
     pub fn wavelength(&self) -> f64 {
         match self {
-            Self::Wave(wave) => wave.wavelength,
+            Self::Sinusoid(wave) => wave.wavelength,
             Self::Roughness(roughness) => roughness.wavelength(),
         }
     }
@@ -121,7 +121,7 @@ impl Pattern {
     /// Lowest and highest point \[m].
     pub fn range(&self) -> [f64; 2] {
         match self {
-            Self::Wave(wave) => [-wave.amplitude, wave.amplitude],
+            Self::Sinusoid(wave) => [-wave.amplitude, wave.amplitude],
             Self::Roughness(roughness) => roughness.range(),
         }
     }

@@ -6,13 +6,13 @@ use crate::files;
 use crate::piecewise::Piecewise;
 use std::path::{Path, PathBuf};
 
-/// Linear between samples, constant before the first and after the last.
+/// Heights over positions: linear between samples, constant before the first and after the last.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Samples {
+pub struct HeightSamples {
     points: Piecewise,
 }
 
-/// The file of samples (position, height) \[m], which reads back to the same numbers.
+/// Text of a CSV file of samples (position, height) \[m], which reads back to the same numbers.
 pub fn csv(samples: &[[f64; 2]]) -> String {
     let rows = samples.iter().map(|[position, height]| format!("{position:?},{height:?}\n"));
     std::iter::once(format!("{}\n", COLUMNS.join(","))).chain(rows).collect()
@@ -27,7 +27,12 @@ pub const ROUNDED_PERIOD: f64 = 1e-9;
 /// Columns of a file.
 const COLUMNS: [&str; 2] = ["position", "height"];
 
-impl Samples {
+impl HeightSamples {
+    /// At least one sample at ascending positions \[m].
+    pub fn new(points: Piecewise) -> Self {
+        Self { points }
+    }
+
     /// Reads a file; `factor` multiplies its heights.
     pub fn read(path: &str, folder: Option<&Path>, factor: f64) -> Result<Self, ProfileError> {
         let found = folder.map_or_else(|| PathBuf::from(path), |folder| folder.join(path));
@@ -84,8 +89,8 @@ impl Samples {
         }
     }
 
-    /// Repeats them after `period` \[m]: the line from the last sample leads back to the first. The error says what is
-    /// wrong with the period.
+    /// Closes the samples into one period \[m]: the line from the last sample leads back to the first. The error says what is wrong
+    /// with the period.
     pub fn close(&mut self, period: f64) -> Result<(), String> {
         let last = self.points.x.len() - 1;
         let (x, height) = (self.points.x[0] + period, self.points.value[0]);

@@ -1,20 +1,20 @@
-//! What a feature is given: taken by name, checked against a range.
+//! Arguments of a feature: taken by name, checked against a range.
 
 use super::error::ProfileError;
-use super::text::{Call, Given};
+use super::text::{ArgumentValue, FeatureCall};
 use crate::config::{display_number, display_outside, display_range, nearest};
 
-/// What stands between the brackets of a feature. Every parameter is taken once; whatever is left at the end is unknown.
-pub struct Arguments {
+/// Arguments between the brackets of a feature. Every parameter is taken once; an argument that is left at the end is unknown.
+pub struct FeatureArguments {
     feature: &'static str,
-    given: Vec<(String, Given)>,
+    given: Vec<(String, ArgumentValue)>,
     known: Vec<&'static str>,
 }
 
-impl Arguments {
-    /// Of a feature; a text without a name is the parameter `first`.
-    pub fn new(feature: &'static str, call: Call, first: &str) -> Result<Self, ProfileError> {
-        let mut given: Vec<(String, Given)> = Vec::new();
+impl FeatureArguments {
+    /// Arguments of a call; a text without a name is the parameter `first`.
+    pub fn new(feature: &'static str, call: FeatureCall, first: &str) -> Result<Self, ProfileError> {
+        let mut given: Vec<(String, ArgumentValue)> = Vec::new();
         for (name, value) in call.given {
             let name = name.unwrap_or_else(|| first.to_owned());
             if given.iter().any(|(other, _)| *other == name) {
@@ -26,30 +26,30 @@ impl Arguments {
     }
 
     /// The value of a parameter, if it is given.
-    fn take(&mut self, name: &'static str) -> Option<Given> {
+    fn take(&mut self, name: &'static str) -> Option<ArgumentValue> {
         self.known.push(name);
         let at = self.given.iter().position(|(given, _)| given == name)?;
         Some(self.given.swap_remove(at).1)
     }
 
-    /// Whether a parameter is given and not yet taken.
+    /// Presence of a parameter that is not yet taken.
     pub fn has(&self, name: &str) -> bool {
         self.given.iter().any(|(given, _)| given == name)
     }
 
-    /// A value that is not allowed.
+    /// Error of a value that is not allowed.
     pub fn outside(&self, name: &'static str, value: impl ToString, range: impl ToString) -> ProfileError {
         ProfileError::Range { feature: self.feature, name, value: value.to_string(), range: range.to_string() }
     }
 
-    /// A parameter that is needed.
+    /// Error of a parameter that is needed and not given.
     pub fn missing(&self, name: &'static str, range: impl ToString) -> ProfileError {
         let given: Vec<_> = self.given.iter().map(|(name, _)| name.as_str()).collect();
         let given = if given.is_empty() { String::new() } else { format!("; beside it stands {}", given.join(", ")) };
         ProfileError::Missing { feature: self.feature, name, range: range.to_string() + &given }
     }
 
-    /// A feature on the wrong body.
+    /// Error of a feature on the wrong body.
     pub fn owner(&self, owner: &'static str, body: &'static str, instead: &'static str) -> ProfileError {
         ProfileError::Owner { feature: self.feature, owner, body, instead }
     }
@@ -58,8 +58,8 @@ impl Arguments {
     pub fn optional(&mut self, name: &'static str, unit: &str, range: [f64; 2]) -> Result<Option<f64>, ProfileError> {
         match self.take(name) {
             None => Ok(None),
-            Some(Given::Number(value)) if value >= range[0] && value <= range[1] => Ok(Some(value)),
-            Some(Given::Number(value)) => {
+            Some(ArgumentValue::Number(value)) if value >= range[0] && value <= range[1] => Ok(Some(value)),
+            Some(ArgumentValue::Number(value)) => {
                 let shown = if unit == "1" { String::new() } else { format!(" {unit}") };
                 let value = display_outside(value, range) + &shown;
                 Err(self.outside(name, value, display_range(range, unit)))
@@ -87,7 +87,7 @@ impl Arguments {
     pub fn text(&mut self, name: &'static str) -> Result<Option<String>, ProfileError> {
         match self.take(name) {
             None => Ok(None),
-            Some(Given::Text(text)) => Ok(Some(text)),
+            Some(ArgumentValue::Text(text)) => Ok(Some(text)),
             Some(other) => Err(self.outside(name, shown(&other), "a text between \" and \"")),
         }
     }
@@ -96,7 +96,7 @@ impl Arguments {
     pub fn word(&mut self, name: &'static str, words: &[&str]) -> Result<Option<usize>, ProfileError> {
         let given = match self.take(name) {
             None => return Ok(None),
-            Some(Given::Word(word) | Given::Text(word)) => word,
+            Some(ArgumentValue::Word(word) | ArgumentValue::Text(word)) => word,
             Some(other) => shown(&other),
         };
         match words.iter().position(|word| *word == given) {
@@ -110,16 +110,20 @@ impl Arguments {
         let words = || format!("a list such as [3, 2, 1], each {}", display_range(range, unit));
         match self.take(name) {
             None => Ok(None),
-            Some(Given::List(list)) if list.is_empty() => Err(self.outside(name, "[]", words())),
-            Some(Given::List(list)) => match list.iter().find(|value| !(range[0]..=range[1]).contains(*value)) {
-                None => Ok(Some(list)),
-                Some(value) => Err(self.outside(name, format!("[… {} …]", display_outside(*value, range)), words())),
-            },
+            Some(ArgumentValue::List(list)) if list.is_empty() => Err(self.outside(name, "[]", words())),
+            Some(ArgumentValue::List(list)) => {
+                match list.iter().find(|value| !(range[0]..=range[1]).contains(*value)) {
+                    None => Ok(Some(list)),
+                    Some(value) => {
+                        Err(self.outside(name, format!("[… {} …]", display_outside(*value, range)), words()))
+                    }
+                }
+            }
             Some(other) => Err(self.outside(name, shown(&other), words())),
         }
     }
 
-    /// Refuses what was given and not taken.
+    /// Refuses arguments that nobody has taken.
     pub fn finish(self) -> Result<(), ProfileError> {
         match self.given.into_iter().next() {
             None => Ok(()),
@@ -132,11 +136,11 @@ impl Arguments {
 }
 
 /// A value as it was written.
-fn shown(given: &Given) -> String {
+fn shown(given: &ArgumentValue) -> String {
     match given {
-        Given::Number(number) => display_number(*number),
-        Given::Word(word) => word.clone(),
-        Given::Text(text) => format!("\"{text}\""),
-        Given::List(list) => format!("{list:?}"),
+        ArgumentValue::Number(number) => display_number(*number),
+        ArgumentValue::Word(word) => word.clone(),
+        ArgumentValue::Text(text) => format!("\"{text}\""),
+        ArgumentValue::List(list) => format!("{list:?}"),
     }
 }

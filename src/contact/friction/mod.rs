@@ -1,0 +1,19 @@
+//! Friction coefficient: the only place of its law, with slope and bounds. Within a step the friction cone is exact, whatever law
+//! gave its coefficient.
+//!
+//! | file | content |
+//! |---|---|
+//! | `slip` | factor by which the coefficient depends on the slip, one variant for each law |
+//! | `law` | the whole law, from its parameters: factors of slip and temperature, and a memory |
+//! | `heating` | temperature per friction coefficient, extrapolated over a step |
+//! | `step` | the coefficient in one contact problem: memory, bounds |
+
+mod heating;
+mod law;
+mod slip;
+mod step;
+
+pub use heating::Heating;
+pub use law::FrictionLaw;
+pub use slip::SlipDependence;
+pub use step::Friction;

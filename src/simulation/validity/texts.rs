@@ -1,0 +1,172 @@
+//! Messages of the limits, with value, bound and what to change.
+
+use super::{FEWEST_PER_WAVE, Limit, NEAR_END, ZONE_LOAD};
+use crate::contact::FrictionLaw;
+use crate::simulation::Simulation;
+
+impl Simulation {
+    /// Message of a limit for the present state, with both numbers and what to change.
+    pub fn describe_limit(&self, limit: Limit) -> String {
+        let (value, bound) = self.against(limit);
+        let bound = bound.number();
+        match limit {
+            Limit::Speed => speed(value, bound),
+            Limit::ThermalLoad => thermal_load(value, bound),
+            Limit::Patch => patch(value, bound),
+            Limit::Zone => zone(value, bound),
+            Limit::Reach => reach(self, value, bound),
+            Limit::Yield => yielding(value, bound),
+            Limit::Softening => softening(value, bound),
+            Limit::Melting => melting(value, bound),
+            Limit::StickSlip => stick_slip(self, value, bound),
+            Limit::Chatter => chatter(self, value, bound),
+            Limit::Waves => waves(self, value, bound),
+            Limit::Sampling => sampling(value, bound),
+            Limit::Energy => energy(self, value),
+            Limit::Effort => effort(self, value),
+            Limit::End => end(self, bound),
+        }
+    }
+}
+
+fn speed(value: f64, bound: f64) -> String {
+    format!(
+        "speed {value:.1} m/s ({:.0} km/h) is above thermal.max_speed = {bound:.1} m/s: the thermal boundary layer is \
+         thinner than the mesh, and temperatures are inexact; raise thermal.max_speed, or check the unit of the speed",
+        3.6 * value
+    )
+}
+
+fn thermal_load(value: f64, bound: f64) -> String {
+    format!(
+        "contact load {value:.0} N is below thermal.smallest_load_ratio x model.nominal_load = {bound:.0} N: the \
+         patch is shorter than the thermal mesh resolves, and temperatures are inexact; lower \
+         thermal.smallest_load_ratio"
+    )
+}
+
+fn patch(value: f64, bound: f64) -> String {
+    format!(
+        "half-width of the patch is {value:.2} elements, fewer than {bound:.0}: tractions are inexact; raise \
+         mesh.elements_per_half_width, or lower model.nominal_load and set drive.load"
+    )
+}
+
+fn zone(value: f64, bound: f64) -> String {
+    format!(
+        "contact load {value:.0} N is above {ZONE_LOAD:.0} x model.nominal_load = {bound:.0} N, for which the \
+         contact zone is laid out: the patch may reach its end; raise model.nominal_load and set drive.load, \
+         which follows it unless set"
+    )
+}
+
+fn reach(simulation: &Simulation, value: f64, bound: f64) -> String {
+    format!(
+        "the surfaces touch {:.1} mm from the contact point, and steps in which they touch beyond {:.1} mm are refused: a wider \
+         flat, patch or hole has no room; set mesh.reach (now {:?} m) to {:.3} m or more",
+        1e3 * value,
+        1e3 * bound / NEAR_END,
+        simulation.model().config().mesh.reach,
+        2.0 * value
+    )
+}
+
+fn yielding(value: f64, bound: f64) -> String {
+    format!(
+        "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
+         stay elastic, and patch, forces and temperatures are not those of steel that flows; set \
+         physics.yielding, or check drive.load and model.contact_width",
+        value * 1e-6,
+        bound * 1e-6
+    )
+}
+
+fn softening(value: f64, bound: f64) -> String {
+    format!(
+        "steel under the contact is so hot that it would yield at {:.0} MPa, and the patch would outgrow the contact \
+         zone; it is held together at {:.0} MPa: half-width, pressure and flattening further on are no more than a \
+         hint; end the slide earlier",
+        value * 1e-6,
+        bound * 1e-6
+    )
+}
+
+fn melting(value: f64, bound: f64) -> String {
+    format!(
+        "contact temperature {value:.0} K is above material.solidus = {bound:.0} K: nothing melts without \
+         material.latent_heat, and temperatures further on are too high; set it, end the slide earlier, or let \
+         the friction fall with friction.softening or friction.falling_ratio"
+    )
+}
+
+fn stick_slip(simulation: &Simulation, value: f64, bound: f64) -> String {
+    format!(
+        "friction falls with the slip of a sliding wheel, and its torsion of {:.0} rad/s turns by {value:.2} rad \
+         in an internal step, more than {bound:.1}: stick-slip that may arise is damped by the time formula; \
+         lower solver.max_step to {:.1e} s to see it",
+        simulation.model().rolling.torsion,
+        0.9 * bound / simulation.model().rolling.torsion
+    )
+}
+
+fn chatter(simulation: &Simulation, value: f64, bound: f64) -> String {
+    format!(
+        "friction falls with the slip so steeply that in internal steps below about {:.1} us, now {:.1} us, several \
+         coefficients fit and friction may jump from step to step; set friction.memory_length (now {:?} m) to {:?} m",
+        1e6 * bound,
+        1e6 * value,
+        simulation.tuning().memory_length,
+        FrictionLaw::MEMORY
+    )
+}
+
+fn waves(simulation: &Simulation, value: f64, bound: f64) -> String {
+    format!(
+        "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
+         contact, {:.2} mm: forces are inexact, over a hole of half that length by up to {:.2} % of the load; raise \
+         mesh.elements_per_half_width, or leave such waves out, which the patch evens out",
+        1e3 * value,
+        1e3 * bound,
+        1e2 * simulation.error_over_a_hole(0.5 * value)
+    )
+}
+
+fn sampling(value: f64, bound: f64) -> String {
+    format!(
+        "an internal step takes the wheel {:.2} mm on, more than a quarter, {:.2} mm, of the shortest wave of \
+         wheel.profile and rail.profile here: forces are inexact; lower solver.max_step, or set it to 0, which \
+         chooses it by the profile",
+        1e3 * value,
+        1e3 * bound
+    )
+}
+
+fn energy(simulation: &Simulation, value: f64) -> String {
+    format!(
+        "energy of {:.1} % of what has been dissipated or is stored is missing (solver.energy_residual): the contact is made, lost \
+         or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond what the model is made \
+         for; forces are inexact, too; lower solver.tolerance (now {:?}) or solver.max_step (now {:?} s)",
+        1e2 * value,
+        simulation.state().clock.last_step,
+        simulation.tuning().tolerance,
+        simulation.tuning().max_step
+    )
+}
+
+fn effort(simulation: &Simulation, value: f64) -> String {
+    format!(
+        "the last communication step took {value:.0} internal steps, the last one of {:.1e} s, and such steps take long to \
+         compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) ask for them",
+        simulation.state().clock.last_step,
+        simulation.tuning().tolerance,
+        simulation.tuning().max_step
+    )
+}
+
+fn end(simulation: &Simulation, bound: f64) -> String {
+    format!(
+        "the contact has passed the last sample of rail.profile at {:.3} m, behind which the rail keeps its last height; \
+         repeat it with file(\"...\", every = length), or give a longer file",
+        if simulation.outputs().wheel_velocity >= 0.0 { bound } else { -bound }
+    )
+}
