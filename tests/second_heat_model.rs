@@ -6,7 +6,6 @@ mod common;
 use common::preset;
 use std::f64::consts::PI;
 use wheelrail::config::{Config, Response, StartTemperature};
-use wheelrail::contact::Surfaces;
 use wheelrail::heat::{
     Exchange, HeatConfig, HeatError, HeatFlows, HeatModel, HeatScratch, HeatState, Observation, TemperatureField,
     Temperatures,
@@ -16,6 +15,7 @@ use wheelrail::piecewise::{Interval, Piecewise};
 use wheelrail::rolling::outputs::observe;
 use wheelrail::rolling::{Inputs, Model, Rotation, State, Translation, Workspace, stationary, substeps};
 use wheelrail::simulation::Outputs;
+use wheelrail::surface::Surfaces;
 
 /// Surface positions at which flashes are known, on each side of the contact point.
 const POINTS: usize = 400;

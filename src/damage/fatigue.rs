@@ -1,11 +1,12 @@
 //! Fatigue of the surface by the present contact.
 
-/// Surface fatigue index `FI_surf = μ_util − k/p₀` \[1], not below −1: fatigue of the surface is to be expected where it is
-/// positive.
+/// Surface fatigue index `FI_surf = μ_util − k/p₀` \[1], not below −1: fatigue of the surface is to be expected where
+/// it is positive.
 ///
-/// `utilised` is the tangential over the normal force \[1], `shear_yield` k the yield strength in shear \[Pa] and `peak` p₀ the
-/// peak pressure \[Pa]; −1 without contact. Source: A. Ekberg, E. Kabo, H. Andersson, *Fatigue Fract. Eng. Mater. Struct.* 25 (2002)
-/// 899–909, `μ_util − 2πabk/3F_z` for an ellipse with the half-axes a and b, of which `3F_z/2πab` is the peak pressure.
+/// `utilised` is the tangential over the normal force \[1], `shear_yield` k the yield strength in shear \[Pa] and
+/// `peak` p₀ the peak pressure \[Pa]; −1 without contact. Source: A. Ekberg, E. Kabo, H. Andersson, *Fatigue Fract.
+/// Eng. Mater. Struct.* 25 (2002) 899–909, `μ_util − 2πabk/3F_z` for an ellipse with the half-axes a and b, of which
+/// `3F_z/2πab` is the peak pressure.
 pub fn surface_fatigue(utilised: f64, shear_yield: f64, peak: f64) -> f64 {
     if peak > 0.0 { (utilised - shear_yield / peak).max(-1.0) } else { -1.0 }
 }

@@ -7,7 +7,8 @@ use std::f64::consts::PI;
 const FIRST: f64 = 1e-5;
 const GROWTH: f64 = 1.15;
 const DEPTH: f64 = 0.04;
-/// Arc of an element in the middle, in half-widths of the nominal contact, growth beyond it, and how far it reaches [m].
+/// Arc of an element in the middle, in half-widths of the nominal contact, growth beyond it, and how far it reaches
+/// [m].
 const MIDDLE: f64 = 0.1;
 const GROWTH_ALONG: f64 = 1.2;
 const BEYOND: f64 = 0.04;

@@ -1,11 +1,11 @@
-//! Metallurgy of hot treads: histories of places that were heated while they stood in the contact, and of the points of the
-//! tread that passed through it.
+//! Metallurgy of hot treads: histories of places that were heated while they stood in the contact, and of the points of
+//! the tread that passed through it.
 //!
-//! The temperature fields of [`crate::heat`] live on meshes that stand with the contact, on which heat that turns out of it is
-//! smeared. A wheel that is locked, or nearly so, heats one place of its tread. Here a *spot*, a fine mesh over arc and depth that
-//! is fixed to the material, takes over the field while the place lies under the contact, and conducts the heat on by
-//! itself when the wheel has turned it away. Every node records what metallurgy asks for: peak, time above Ac1, cooling rate, martensite. Derivation and limits:
-//! `docs/theory/material-history.md`.
+//! The temperature fields of [`crate::heat`] live on meshes that stand with the contact, on which heat that turns out
+//! of it is smeared. A wheel that is locked, or nearly so, heats one place of its tread. Here a *spot*, a fine mesh
+//! over arc and depth that is fixed to the material, takes over the field while the place lies under the contact, and
+//! conducts the heat on by itself when the wheel has turned it away. Every node records what metallurgy asks for: peak,
+//! time above Ac1, cooling rate, martensite. Derivation and limits: `docs/theory/material-history.md`.
 //!
 //! Temperatures given to this room are excess temperatures over the reference \[K], those it reports are absolute.
 
@@ -145,7 +145,8 @@ impl HotSpots {
         }
     }
 
-    /// Opens a spot at the contact point. Beyond the zone of the contact its temperatures are those of spots that lie there.
+    /// Opens a spot at the contact point. Beyond the zone of the contact its temperatures are those of spots that lie
+    /// there.
     fn open(&self, damage: &mut Damage, now: &TreadStep, sample: ColumnSampler) {
         let (mesh, record) = (&self.mesh, self.recorder(now));
         let layers = mesh.depth.len();

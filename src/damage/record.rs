@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 /// Between these temperatures cooling rates of steel are taken: 800 and 500 °C [K].
 const COOLING: [f64; 2] = [1073.15, 773.15];
-/// Martensite per kelvin below its start, `1 − exp(−α (Ms − T))` (Koistinen & Marburger, *Acta Metall.* 7 (1959)) [1/K].
+/// Martensite per kelvin below its start, `1 − exp(−α (Ms − T))` (Koistinen & Marburger, *Acta Metall.* 7 (1959))
+/// [1/K].
 const KOISTINEN_MARBURGER: f64 = 0.011;
 /// Share of martensite that counts as martensitic [1].
 const MARTENSITIC: f64 = 0.5;
@@ -30,8 +31,8 @@ pub struct MaterialPoint {
     pub peak: f64,
     /// Time above Ac1 so far \[s].
     pub above_ac1: f64,
-    /// Time at which it fell below 800 °C, or below Ac1 if it had not reached 800 °C, and that temperature [s, K]; none unless it is
-    /// between them and 500 °C.
+    /// Time at which it fell below 800 °C, or below Ac1 if it had not reached 800 °C, and that temperature [s, K]; none
+    /// unless it is between them and 500 °C.
     pub left: Option<[f64; 2]>,
     /// Mean cooling rate from there to 500 °C; zero before [K/s].
     pub cooling_rate: f64,
@@ -86,8 +87,8 @@ pub struct Findings {
     pub peak: f64,
     /// Longest time of a point above Ac1 \[s].
     pub above_ac1: f64,
-    /// Mean cooling rate of that point from 800 to 500 °C, zero while it is hotter [K/s]. The hottest point may be one that was hot
-    /// for milliseconds, somewhere at an edge; which one depends on the mesh.
+    /// Mean cooling rate of that point from 800 to 500 °C, zero while it is hotter [K/s]. The hottest point may be one
+    /// that was hot for milliseconds, somewhere at an edge; which one depends on the mesh.
     pub cooling_rate: f64,
     /// Depth to which Ac1 was exceeded \[m].
     pub ac1_depth: f64,

@@ -7,14 +7,15 @@ use super::shared;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones take.
+/// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones
+/// take.
 const FIRST_STEP: f64 = 2e-5;
 const STEP_SHARE: f64 = 0.03;
 /// Temperature below which the heat that a place brought along is forgotten [K].
 const NEGLIGIBLE: f64 = 1.0;
 
-/// Function that fills a column with the excess temperatures \[K] at the depths of the mesh, at a distance along the tread \[m] from the
-/// contact point.
+/// Function that fills a column with the excess temperatures \[K] at the depths of the mesh, at a distance along the
+/// tread \[m] from the contact point.
 pub type ColumnSampler<'a> = &'a dyn Fn(f64, &mut [f64]);
 
 /// A step of a place under the contact.
@@ -40,7 +41,8 @@ impl Visit {
 /// A place of the tread that was heated in one piece, once or several times.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spot {
-    /// Position of its middle in the material: distance along the tread, backwards from the point that touched at angle 0 \[m].
+    /// Position of its middle in the material: distance along the tread, backwards from the point that touched at angle
+    /// 0 \[m].
     pub arc: f64,
     /// Heating by the contact, from which it then takes its temperatures.
     pub following: bool,
@@ -95,8 +97,8 @@ impl Spot {
         self.field.as_deref()
     }
 
-    /// Step under the contact: in its zone the temperatures are those of the sample and the heat that the place brought along;
-    /// beyond, where the sample is coarse, the place conducts by itself.
+    /// Step under the contact: in its zone the temperatures are those of the sample and the heat that the place brought
+    /// along; beyond, where the sample is coarse, the place conducts by itself.
     pub(super) fn follow(&mut self, mesh: &SpotMesh, visit: &Visit, sample: ColumnSampler, recorder: &Recorder) {
         let back = !std::mem::replace(&mut self.following, true);
         let dt = visit.dt + std::mem::take(&mut self.pending);
@@ -133,8 +135,8 @@ impl Spot {
         self.judge(mesh, recorder);
     }
 
-    /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle, and returns `true`, within the mesh of a hot
-    /// place.
+    /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle, and returns `true`, within the
+    /// mesh of a hot place.
     pub(super) fn column(&self, mesh: &SpotMesh, arc: f64, column: &mut [f64]) -> bool {
         let (Some(field), layers) = (self.field(), mesh.depth.len()) else { return false };
         let after = mesh.arc.partition_point(|place| *place <= arc);

@@ -30,8 +30,9 @@ impl Tread {
         self.longest
     }
 
-    /// Adds the time during which points lie where a surface, given by positions \[m] and values there, exceeds `level`. In
-    /// the step of `dt` \[s] the tread turns by `turned` metres, forward positive, to the distance `to` \[m].
+    /// Adds the time during which points lie where a surface, given by positions \[m] and values there, exceeds
+    /// `level`. In the step of `dt` \[s] the tread turns by `turned` metres, forward positive, to the distance `to`
+    /// \[m].
     pub fn pass(&mut self, (x, values): (&[f64], &[f64]), level: f64, to: f64, turned: f64, dt: f64) {
         let mut hot: Option<[f64; 2]> = None;
         for (x, v) in x.windows(2).zip(values.windows(2)) {

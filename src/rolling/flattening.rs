@@ -1,8 +1,9 @@
 //! Permanent flattening: the overlap of yielding surfaces in a step becomes part of their shape.
 //!
-//! Pressure at its limit lets the surfaces overlap, and the softer one gives way. Steel that stands under the contact, or moves
-//! slowly through it, keeps the overlap as a dent. Steel that rolls through keeps none: it flows forward at the leading edge and
-//! back at the trailing one, and since its volume stays, the same depth all around the wheel would be no dent.
+//! Pressure at its limit lets the surfaces overlap, and the softer one gives way. Steel that stands under the contact,
+//! or moves slowly through it, keeps the overlap as a dent. Steel that rolls through keeps none: it flows forward at
+//! the leading edge and back at the trailing one, and since its volume stays, the same depth all around the wheel would
+//! be no dent.
 
 use super::model::Model;
 use super::standing;
@@ -18,8 +19,8 @@ pub fn none(model: &Model) -> [Flattening; 2] {
     [Flattening::none(std::f64::consts::TAU * model.contact.surfaces.radius), Flattening::none(0.0)]
 }
 
-/// Adds the overlap of the contact in `next` to the dents of the material at `place` (distance \[m], angle of the rim \[rad])
-/// and notes the work.
+/// Adds the overlap of the contact in `next` to the dents of the material at `place` (distance \[m], angle of the rim
+/// \[rad]) and notes the work.
 pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening.clone_from(&state.flattening);
     let traction = &mut next.contact.traction;

@@ -170,8 +170,8 @@ fn ratio(a: f64, b: f64) -> f64 {
 /// Elements of the contact between the samples of the tread: as many as the contact resolves.
 const SAMPLING: f64 = 2.0;
 
-/// Present profile of the wheel: positions around the tread and heights over the circle \[m], that is `wheel.profile` less the
-/// depth that yielding and wear have taken off.
+/// Present profile of the wheel: positions around the tread and heights over the circle \[m], that is `wheel.profile`
+/// less the depth that yielding and wear have taken off.
 pub fn tread(model: &Model, state: &State) -> Vec<[f64; 2]> {
     model.contact.surfaces.tread(&state.flattening[0], SAMPLING * element_length(&model.config))
 }

@@ -1,8 +1,8 @@
 //! Wear that changes the surfaces: what friction takes off wheel and rail in a step.
 //!
-//! The mass follows from the energy that friction dissipates per distance and area of the contact ([`WearLaw`]); it is taken off
-//! where friction dissipates, from the material that has passed there in the step. The wheel keeps all of it. The rail, from
-//! which one passage takes a negligible depth, keeps it where the contact stays.
+//! The mass follows from the energy that friction dissipates per distance and area of the contact ([`WearLaw`]); it is
+//! taken off where friction dissipates, from the material that has passed there in the step. The wheel keeps all of it.
+//! The rail, from which one passage takes a negligible depth, keeps it where the contact stays.
 
 use super::control::{STANDSTILL, per_metre};
 use super::flattening;
@@ -17,11 +17,12 @@ use crate::surface::{WearIncrement, WearLaw};
 /// Smoothing length of a step, in cells, below which nothing is smoothed \[1].
 const SHORTEST_SMOOTHING: f64 = 0.1;
 
-/// Smallest cell in which wear is counted \[m]: the cells of a way of metres have room in memory, however small the contact.
+/// Smallest cell in which wear is counted \[m]: the cells of a way of metres have room in memory, however small the
+/// contact.
 const FINEST: f64 = 1e-5;
 
-/// Takes off what friction wears in the step of `dt` seconds from `state` to `next`, whose motion and contact are complete, and
-/// notes mass and work.
+/// Takes off what friction wears in the step of `dt` seconds from `state` to `next`, whose motion and contact are
+/// complete, and notes mass and work.
 pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     next.worn = state.worn;
     match model.config.damage.wear {
@@ -57,9 +58,9 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     next.contact.traction.yielding.plastic_work += work;
 }
 
-/// Length over which the wear of a step is smoothed \[m], so that the wear under a wave of the pressure does not exceed that wave:
-/// wear per load `dh/dp` \[m/Pa], stiffness `½E*k` of the half-planes under a wave k, and of the waves that pass the filter
-/// `1/(1 + (k ℓ)²)` the stiffest, kℓ = 1. It vanishes with the step.
+/// Length over which the wear of a step is smoothed \[m], so that the wear under a wave of the pressure does not exceed
+/// that wave: wear per load `dh/dp` \[m/Pa], stiffness `½E*k` of the half-planes under a wave k, and of the waves that
+/// pass the filter `1/(1 + (k ℓ)²)` the stiffest, kℓ = 1. It vanishes with the step.
 fn smoothing_length(model: &Model, wear: f64) -> f64 {
     Isotropic::from(&model.config.material).contact_modulus() * wear
 }

@@ -1,9 +1,9 @@
 //! How much of the surfaces the contact sees: a narrow zone while patches are ordinary, a wide one while they are not.
 //!
-//! Softened steel carries its load on a patch several times as wide as a cold one. The wide zone costs time, and only while
-//! it is needed: a step whose patch reaches the end of the narrow zone is repeated in the wide one, and the state returns
-//! when its patch fits again. Which zone it is in follows from the state alone. The coordinates of the bodies are the same
-//! in both.
+//! Softened steel carries its load on a patch several times as wide as a cold one. The wide zone costs time, and only
+//! while it is needed: a step whose patch reaches the end of the narrow zone is repeated in the wide one, and the state
+//! returns when its patch fits again. Which zone it is in follows from the state alone. The coordinates of the bodies
+//! are the same in both.
 
 use super::bodies::ports;
 use super::model::Model;

@@ -116,7 +116,11 @@ fn unsettled(otherwise: String, config: &Config) -> String {
 
 /// The advice `otherwise`, and what helps where the run has flattened the wheel beyond the zone.
 fn flattened(zone: f64, config: &Config, otherwise: String) -> String {
-    if config.physics.yielding || config.damage.wear != Wear::Off {
+    let wears = match config.damage.wear {
+        Wear::Off => false,
+        Wear::TGamma => true,
+    };
+    if config.physics.yielding || wears {
         format!("{otherwise}; where wear or yielding has flattened the wheel, {}", wider(zone, config))
     } else {
         otherwise

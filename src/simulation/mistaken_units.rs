@@ -10,13 +10,14 @@ const COLDEST: f64 = 200.0;
 const FREEZING: f64 = 273.15;
 /// Factor from which a unit is a multiple of another one, as kN of N: nobody mistakes m/s and km/h by size alone.
 const MULTIPLE: f64 = 100.0;
-/// Factor between a value of a mistaken unit and the usual size, at least, and between both in the right unit, at most \[1].
+/// Factor between a value of a mistaken unit and the usual size, at least, and between both in the right unit, at most
+/// \[1].
 const FAR: f64 = 200.0;
 const NEAR: f64 = 10.0;
 /// Speed \[m/s] that no wheel on a rail has: it is one in km/h.
 const FASTEST: f64 = 100.0;
-/// Friction coefficient \[1] that steel on steel does not have, and the smallest creepage of a wheel that nearly stands still while
-/// it travels: both look like percentages.
+/// Friction coefficient \[1] that steel on steel does not have, and the smallest creepage of a wheel that nearly stands
+/// still while it travels: both look like percentages.
 const STICKIEST: f64 = 2.0;
 const SLIDES: [f64; 2] = [0.5, 1.9];
 

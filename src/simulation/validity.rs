@@ -81,23 +81,25 @@ impl Bound {
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Elements, and internal steps, per wavelength of a surface below which it is not resolved.
 const FEWEST_PER_WAVE: f64 = 4.0;
-/// Error of the force over a sharp hole, over load, element and hole, one element added to it, in half-widths \[1]: the edges are found to
-/// within an element, and a hole that does not change the height of the wheel takes about a tenth of its squared length off the force.
-/// Measured: `docs/theory/profiles.md`, section 6.
+/// Error of the force over a sharp hole, over load, element and hole, one element added to it, in half-widths \[1]: the
+/// edges are found to within an element, and a hole that does not change the height of the wheel takes about a tenth of
+/// its squared length off the force. Measured: `docs/theory/profiles.md`, section 6.
 const HOLE: f64 = 0.2;
 /// Load that the candidate zone carries in any case, over the nominal load \[1].
 pub(super) const ZONE_LOAD: f64 = 2.0;
 /// Share of the zone in which contact is looked for from which on its end is near \[1].
 const NEAR_END: f64 = 0.8;
-/// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the second-order
-/// formula damps it by a ratio of a quarter of its cube, 2e-3.
+/// Internal step times the torsional frequency of the wheel, up to which falling friction may excite it: the
+/// second-order formula damps it by a ratio of a quarter of its cube, 2e-3.
 const RESOLVED_PHASE: f64 = 0.2;
-/// Displacement of the tread that answers friction without delay, per friction coefficient under the nominal load, over `a²/R` \[1].
-/// Estimated: with it, steps of up to 25 µs are indefinite in `railway_dry`, where those of 20 µs chatter and those of 50 µs do not.
+/// Displacement of the tread that answers friction without delay, per friction coefficient under the nominal load, over
+/// `a²/R` \[1]. Estimated: with it, steps of up to 25 µs are indefinite in `railway_dry`, where those of 20 µs chatter
+/// and those of 50 µs do not.
 const TREAD_SHIFT: f64 = 1.5;
 /// Residual of the energy balance beyond which a run is told of it \[1].
 const UNBALANCED: f64 = 0.05;
-/// Internal steps in one communication step beyond which a run is told that it takes long \[1]: with heat about half a second.
+/// Internal steps in one communication step beyond which a run is told that it takes long \[1]: with heat about half a
+/// second.
 const MANY_STEPS: f64 = 2000.0;
 
 impl Simulation {
@@ -109,8 +111,8 @@ impl Simulation {
         })
     }
 
-    /// Value of a limit, and its bound: speeds [m/s], loads \[N], lengths \[m], elements \[1], pressures \[Pa], temperatures
-    /// \[K] or phases \[rad]. The value is 0 without contact, and that of heat without heat.
+    /// Value of a limit, and its bound: speeds [m/s], loads \[N], lengths \[m], elements \[1], pressures \[Pa],
+    /// temperatures \[K] or phases \[rad]. The value is 0 without contact, and that of heat without heat.
     fn against(&self, limit: Limit) -> (f64, Bound) {
         use Bound::{AtLeast, AtMost};
         let (outputs, config) = (self.outputs(), self.model().config());
@@ -164,8 +166,8 @@ impl Simulation {
         self.state().contact.traction.extent().map_or(0.0, |patch| f64::max(-patch.low, patch.high))
     }
 
-    /// Shortest wavelength of the surfaces that have been in the contact zone since the last communication point \[m]; infinite on
-    /// smooth ones. A jump counts as one of the length of the nominal patch.
+    /// Shortest wavelength of the surfaces that have been in the contact zone since the last communication point \[m];
+    /// infinite on smooth ones. A jump counts as one of the length of the nominal patch.
     fn shortest_wave(&self) -> f64 {
         let (rolling, way) = (&self.model().rolling, self.latest_ways());
         let mut middle = self.state().place(rolling.wheel.radius);
@@ -197,8 +199,8 @@ impl Simulation {
         HOLE * element * (length + element) / (half_width * half_width)
     }
 
-    /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding contact
-    /// whose friction falls with the slip.
+    /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding
+    /// contact whose friction falls with the slip.
     fn unresolved_phase(&self) -> f64 {
         let falls = FrictionLaw::from(self.tuning()).slip.falls();
         if falls && self.slides() { self.model().rolling.torsion * self.state().clock.last_step } else { 0.0 }
@@ -210,8 +212,8 @@ impl Simulation {
         outputs.contact_tread_slip != 0.0 && outputs.contact_stick_fraction == 0.0
     }
 
-    /// Internal step up to which several coefficients of friction fit \[s], 0 where one does: the tread has no mass of its own and
-    /// answers a lower friction with a slip that lowers it further, unless a memory holds it. Estimated.
+    /// Internal step up to which several coefficients of friction fit \[s], 0 where one does: the tread has no mass of
+    /// its own and answers a lower friction with a slip that lowers it further, unless a memory holds it. Estimated.
     fn indefinite_step(&self) -> f64 {
         let (law, config, state) = (FrictionLaw::from(self.tuning()), self.model().config(), self.state());
         if !self.slides() {

@@ -43,9 +43,11 @@ impl Dents {
         self.dents.iter().flat_map(|dent| &dent.depth).copied().fold(0.0, f64::max)
     }
 
-    /// Adds the depth `added` over x \[m], not empty and zero outside its ends, to the material that lies at `position` + x.
+    /// Adds the depth `added` over x \[m], not empty and zero outside its ends, to the material that lies at `position`
+    /// + x.
     ///
-    /// A depth that meets no dent starts one with lattice points `spacing` \[m] apart, some of them at the nodes of `added`.
+    /// A depth that meets no dent starts one with lattice points `spacing` \[m] apart, some of them at the nodes of
+    /// `added`.
     pub fn add(&mut self, position: f64, added: &Piecewise, spacing: f64) {
         let (Some(&low), Some(&high)) = (added.x.first(), added.x.last()) else { return };
         let circumference = self.circumference;
@@ -81,7 +83,8 @@ impl Dent {
         self.first + self.spacing * self.depth.len().saturating_sub(1) as f64
     }
 
-    /// Whole circumferences \[m] between the dent and the position `s`, so that `s` less them is the nearest one to the dent.
+    /// Whole circumferences \[m] between the dent and the position `s`, so that `s` less them is the nearest one to the
+    /// dent.
     fn turns(&self, s: f64, circumference: f64) -> f64 {
         if circumference == 0.0 {
             return 0.0;

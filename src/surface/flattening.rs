@@ -40,8 +40,8 @@ impl Flattening {
         &self.worn
     }
 
-    /// Adds the depth `added` over x \[m], not empty and zero outside its ends, to the dents of the material at `position` + x; a
-    /// new dent has lattice points `spacing` \[m] apart.
+    /// Adds the depth `added` over x \[m], not empty and zero outside its ends, to the dents of the material at
+    /// `position` + x; a new dent has lattice points `spacing` \[m] apart.
     pub fn indent(&mut self, position: f64, added: &Piecewise, spacing: f64) {
         self.dents.add(position, added, spacing);
     }

@@ -66,8 +66,8 @@ impl Surfaces {
         })
     }
 
-    /// Distance \[m] at `x` \[m] from the contact point between the bodies, undeformed and with the hub at the height at which
-    /// the cold, smooth bodies just touch: `r − √(r² − x²)` less everything that has grown into it.
+    /// Distance \[m] at `x` \[m] from the contact point between the bodies, undeformed and with the hub at the height
+    /// at which the cold, smooth bodies just touch: `r − √(r² − x²)` less everything that has grown into it.
     pub fn gap(&self, x: f64, at: &Placement) -> f64 {
         let [wheel, rail] = self.depth(x, at);
         let swelling = at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>();
@@ -83,8 +83,8 @@ impl Surfaces {
 
     /// Depths \[m] by which the material of wheel and rail that lies at `x` \[m] is missing from circle and plane.
     ///
-    /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below its
-    /// centre at the start) and the distance `distance + x` of the rail.
+    /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below
+    /// its centre at the start) and the distance `distance + x` of the rail.
     pub fn depth(&self, x: f64, at: &Placement) -> [f64; 2] {
         let positions = [at.angle * self.radius + x, at.distance + x];
         let [wheel, rail] = self.heights(positions);
@@ -100,8 +100,8 @@ impl Surfaces {
         [self.wheel.height(positions[0]), self.rail.height(positions[1])]
     }
 
-    /// Shortest wavelength \[m] within `reach` \[m] of positions \[m] along the surfaces of wheel and rail; infinite without any.
-    /// A jump counts as a wave of the length `patch` \[m] of the contact, through which it passes.
+    /// Shortest wavelength \[m] within `reach` \[m] of positions \[m] along the surfaces of wheel and rail; infinite
+    /// without any. A jump counts as a wave of the length `patch` \[m] of the contact, through which it passes.
     pub fn shortest_wavelength(&self, positions: [f64; 2], reach: f64, patch: f64) -> f64 {
         let shortest = |profile: &Profile, s: f64| {
             let (low, high) = (s - reach, s + reach);
@@ -111,8 +111,8 @@ impl Surfaces {
         shortest(&self.wheel, positions[0]).min(shortest(&self.rail, positions[1]))
     }
 
-    /// Present profile of the wheel with what `flattening` has taken off it: positions around the tread and heights over the
-    /// circle \[m], `spacing` \[m] apart or a little more. Samples on level stretches are left out.
+    /// Present profile of the wheel with what `flattening` has taken off it: positions around the tread and heights
+    /// over the circle \[m], `spacing` \[m] apart or a little more. Samples on level stretches are left out.
     pub fn tread(&self, flattening: &Flattening, spacing: f64) -> Vec<[f64; 2]> {
         let circumference = std::f64::consts::TAU * self.radius;
         let count = (circumference / spacing).floor().max(3.0) as usize;

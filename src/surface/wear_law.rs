@@ -2,12 +2,12 @@
 
 use crate::config::Config;
 
-/// Mass that a wheel loses per distance rolled, as a function of the energy that friction dissipates per distance and area, Tγ/A,
-/// in three regimes that need not join.
+/// Mass that a wheel loses per distance rolled, as a function of the energy that friction dissipates per distance and
+/// area, Tγ/A, in three regimes that need not join.
 ///
-/// Source of the form and of the usual numbers, twin-disc tests of the steel R8T against rails of grade 900A: F. Braghin, R. Lewis,
-/// R. S. Dwyer-Joyce, S. Bruni, *Wear* 261 (2006) 1253–1264, as they are quoted from memory: 5.3 µg/(m mm²) per N/mm², 55 µg/(m mm²)
-/// from 10.4 N/mm², and 61.9 µg/(m mm²) more per N/mm² from 77.2 N/mm².
+/// Source of the form and of the usual numbers, twin-disc tests of the steel R8T against rails of grade 900A: F.
+/// Braghin, R. Lewis, R. S. Dwyer-Joyce, S. Bruni, *Wear* 261 (2006) 1253–1264, as they are quoted from memory: 5.3
+/// µg/(m mm²) per N/mm², 55 µg/(m mm²) from 10.4 N/mm², and 61.9 µg/(m mm²) more per N/mm² from 77.2 N/mm².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WearLaw {
     /// Mild wear: mass over energy [kg/J].
@@ -36,8 +36,8 @@ impl From<&Config> for WearLaw {
 }
 
 impl WearLaw {
-    /// Mass per distance [kg/m] where the energy `t_gamma` \[N], Tγ, is dissipated per distance over the contact area `area` \[m²].
-    /// All three may be per metre of width.
+    /// Mass per distance [kg/m] where the energy `t_gamma` \[N], Tγ, is dissipated per distance over the contact area
+    /// `area` \[m²]. All three may be per metre of width.
     pub fn rate(&self, t_gamma: f64, area: f64) -> f64 {
         if area <= 0.0 {
             return 0.0;

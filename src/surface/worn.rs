@@ -4,12 +4,12 @@ use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// Path of a step over the length on which wear is distributed \[1], below which all of it is taken off at the middle of the path:
-/// the difference of two integrals would lose digits.
+/// Path of a step over the length on which wear is distributed \[1], below which all of it is taken off at the middle
+/// of the path: the difference of two integrals would lose digits.
 const SHORT_PATH: f64 = 1e-3;
 
-/// Mean depths over cells of one length that are fixed to the material, around a wheel or along an open surface. The surface is
-/// linear between the middles of cells, so that its volume is the sum of those of the cells.
+/// Mean depths over cells of one length that are fixed to the material, around a wheel or along an open surface. The
+/// surface is linear between the middles of cells, so that its volume is the sum of those of the cells.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worn {
     /// Circumference [m]; zero: the surface is open.
@@ -66,8 +66,8 @@ impl Worn {
         self.spacing * self.depth.iter().sum::<f64>()
     }
 
-    /// Takes off the wear of a step. The first one fixes the length of the cells: at most `spacing` \[m] around a wheel, `spacing` on
-    /// an open surface.
+    /// Takes off the wear of a step. The first one fixes the length of the cells: at most `spacing` \[m] around a
+    /// wheel, `spacing` on an open surface.
     pub fn remove(&mut self, increment: &WearIncrement, spacing: f64) {
         let (Some(&low), Some(&high)) = (increment.distribution.x.first(), increment.distribution.x.last()) else {
             return;
@@ -162,8 +162,9 @@ impl Worn {
 }
 
 impl WearIncrement<'_> {
-    /// Shares of the volume on the cells of a length `spacing` \[m] from the first to the last of `cells`, and on further ones on
-    /// both sides, whose number is returned besides; they add up to one. `total` is the integral of the distribution.
+    /// Shares of the volume on the cells of a length `spacing` \[m] from the first to the last of `cells`, and on
+    /// further ones on both sides, whose number is returned besides; they add up to one. `total` is the integral of the
+    /// distribution.
     fn shares(&self, spacing: f64, cells: [i64; 2], total: f64) -> (Vec<f64>, i64) {
         let [from, to] = self.path;
         let beyond = if self.smoothing > 0.0 { (6.0 * self.smoothing / spacing).ceil() as i64 } else { 0 };
@@ -211,8 +212,8 @@ fn integrals(function: &Piecewise, x: f64, found: &mut [f64; 2]) {
     }
 }
 
-/// Solves `(1 − α d²) u = given` on cells, with `d` the difference of neighbours and no flux through the ends: the sum of all
-/// values stays, and waves shorter than `√α` cells are smoothed out.
+/// Solves `(1 − α d²) u = given` on cells, with `d` the difference of neighbours and no flux through the ends: the sum
+/// of all values stays, and waves shorter than `√α` cells are smoothed out.
 fn smooth(values: &mut [f64], alpha: f64) {
     let last = values.len().saturating_sub(1);
     let mut factor = vec![0.0; values.len()];

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Rise of the mean contact temperature per unit of friction coefficient \[K], at the end of the last step and of the one
-/// before.
+/// Rise of the mean contact temperature per unit of friction coefficient \[K], at the end of the last step and of the
+/// one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Heating {
     /// At the end of the last step.

@@ -8,10 +8,10 @@ use crate::config::Tuning;
 ///
 /// `μ(s, T) = μ₀ · f(s) · max(m, 1 − K (T − T_ref))`
 ///
-/// with the available coefficient `μ₀`, the mean slip velocity s of the surfaces in the patch and their mean temperature T, both
-/// weighted with the pressure, and the factor f of [`SlipDependence`]. With a memory the coefficient follows this local law over
-/// a sliding distance `d`: `dμ/dt = (μ(s, T) − μ) |s|/d` (after E. A. H. Vollebregt, H. M. Schuttelaars, *J. Sound Vib.* 331
-/// (2012) 2141–2155).
+/// with the available coefficient `μ₀`, the mean slip velocity s of the surfaces in the patch and their mean
+/// temperature T, both weighted with the pressure, and the factor f of [`SlipDependence`]. With a memory the
+/// coefficient follows this local law over a sliding distance `d`: `dμ/dt = (μ(s, T) − μ) |s|/d` (after E. A. H.
+/// Vollebregt, H. M. Schuttelaars, *J. Sound Vib.* 331 (2012) 2141–2155).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionLaw {
     /// `f`: factor that depends on the slip.
@@ -48,8 +48,9 @@ impl FrictionLaw {
     pub const CONSTANT: Self =
         Self { slip: SlipDependence::Constant, softening: 0.0, softening_floor: 1.0, memory_length: 0.0 };
 
-    /// Sliding distance over which friction that falls with the slip follows its law unless another one is given \[m]: of the size of
-    /// a contact of asperities. The tread has no mass of its own and answers a lower friction with a slip that lowers it further.
+    /// Sliding distance over which friction that falls with the slip follows its law unless another one is given \[m]:
+    /// of the size of a contact of asperities. The tread has no mass of its own and answers a lower friction with a
+    /// slip that lowers it further.
     pub const MEMORY: f64 = 25e-6;
 
     /// The law of a wheel at rest, which does not slip.
@@ -57,16 +58,17 @@ impl FrictionLaw {
         Self { slip: SlipDependence::Constant, ..self }
     }
 
-    /// Fall of the coefficient with the slip velocity in a cold contact, `−∂μ/∂|s|` [s/m], where `available` is that on the rail.
+    /// Fall of the coefficient with the slip velocity in a cold contact, `−∂μ/∂|s|` [s/m], where `available` is that on
+    /// the rail.
     pub fn fall(&self, available: f64, slip: f64) -> f64 {
         available * self.slip.fall(slip)
     }
 
-    /// Share e of its change over which the heating θ may be extrapolated \[1] in steps too short for the temperature to
-    /// follow friction.
+    /// Share e of its change over which the heating θ may be extrapolated \[1] in steps too short for the temperature
+    /// to follow friction.
     ///
-    /// There θ falls by what μ rises, and a θ extrapolated in full feeds on itself where friction has lost most of its value.
-    /// With `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, no deviation of θ grows if `G (1 + 2e) ≤ 1`.
+    /// There θ falls by what μ rises, and a θ extrapolated in full feeds on itself where friction has lost most of its
+    /// value. With `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, no deviation of θ grows if `G (1 + 2e) ≤ 1`.
     pub fn extrapolated(&self, available: f64, heating: Heating) -> f64 {
         let softened = available * self.softening * heating.now.max(0.0);
         if softened > 0.5 { 0.5 / softened } else { 1.0 }

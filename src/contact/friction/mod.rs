@@ -1,5 +1,5 @@
-//! Friction coefficient: the only place of its law, with slope and bounds. Within a step the friction cone is exact, whatever law
-//! gave its coefficient.
+//! Friction coefficient: the only place of its law, with slope and bounds. Within a step the friction cone is exact,
+//! whatever law gave its coefficient.
 //!
 //! | file | content |
 //! |---|---|

@@ -28,12 +28,12 @@ struct Memory {
 }
 
 impl Friction {
-    /// A coefficient that follows the law at once: `available` on the rail \[1], `heating` at the end of the step, whose length
-    /// is `ratio` times that of the one before (0 if that says nothing).
+    /// A coefficient that follows the law at once: `available` on the rail \[1], `heating` at the end of the step,
+    /// whose length is `ratio` times that of the one before (0 if that says nothing).
     ///
-    /// The flash temperature follows the friction within microseconds, `T − T_ref = θ μ`. Solving `μ = cold (1 − K θ μ)`
-    /// with θ extrapolated to the end of the step keeps the law stable in long steps and second order in short ones, and
-    /// sees slip and temperature at the same time.
+    /// The flash temperature follows the friction within microseconds, `T − T_ref = θ μ`. Solving
+    /// `μ = cold (1 − K θ μ)` with θ extrapolated to the end of the step keeps the law stable in long steps and second
+    /// order in short ones, and sees slip and temperature at the same time.
     pub fn local(law: FrictionLaw, available: f64, heating: Heating, ratio: f64) -> Self {
         Self { law, available, heating: heating.predicted(ratio), memory: None }
     }
@@ -43,8 +43,8 @@ impl Friction {
         Self::local(FrictionLaw::CONSTANT, coefficient, Heating::default(), 0.0)
     }
 
-    /// This friction in a step of `dt` seconds from a contact with the `coefficient` \[1] and the mean `slip` velocity [m/s], under
-    /// the `heating` of that time; they matter if the law has a memory.
+    /// This friction in a step of `dt` seconds from a contact with the `coefficient` \[1] and the mean `slip` velocity
+    /// [m/s], under the `heating` of that time; they matter if the law has a memory.
     pub fn after(mut self, dt: f64, coefficient: f64, slip: f64, heating: Heating) -> Self {
         if self.law.memory_length > 0.0 {
             let FrictionLaw { softening, softening_floor, .. } = self.law;
@@ -84,9 +84,10 @@ impl Friction {
 impl Memory {
     /// `[w, c]` of the coefficient `w L + c` after a step that ends with the slip velocity `slip` and the local law L.
     ///
-    /// Over the sliding distance the law is `dμ/dx = (L − μ)/d`. This is its exact solution for an L that changes linearly
-    /// over the distance slid, which is that of the trapezoidal rule: of second order, and a mean of the old coefficient,
-    /// the old and the new L with weights that are never negative, so that it cannot overshoot in long steps.
+    /// Over the sliding distance the law is `dμ/dx = (L − μ)/d`. This is its exact solution for an L that changes
+    /// linearly over the distance slid, which is that of the trapezoidal rule: of second order, and a mean of the old
+    /// coefficient, the old and the new L with weights that are never negative, so that it cannot overshoot in long
+    /// steps.
     fn weights(&self, slip: f64) -> [f64; 2] {
         let z = 0.5 * self.reach * (self.slip + slip);
         let kept = (-z).exp();

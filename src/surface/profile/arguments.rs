@@ -4,7 +4,8 @@ use super::error::ProfileError;
 use super::text::{ArgumentValue, FeatureCall};
 use crate::config::{display_number, display_outside, display_range, nearest};
 
-/// Arguments between the brackets of a feature. Every parameter is taken once; an argument that is left at the end is unknown.
+/// Arguments between the brackets of a feature. Every parameter is taken once; an argument that is left at the end is
+/// unknown.
 pub struct FeatureArguments {
     feature: &'static str,
     given: Vec<(String, ArgumentValue)>,

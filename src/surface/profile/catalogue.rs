@@ -112,7 +112,7 @@ fn fitting(given: &FeatureArguments, site: &Site, name: &'static str, length: f6
 /// A texture on the stretch that is given; on the wheel everywhere.
 fn undulation(texture: Texture, given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let mut window = Window { from: f64::NEG_INFINITY, to: f64::INFINITY, blend: 0.0 };
-    if site.body == Body::Rail {
+    if site.body.circumference().is_none() {
         window.from = given.optional("from", "m", POSITION)?.unwrap_or(window.from);
         window.to = given.optional("to", "m", [window.from.max(POSITION[0]), POSITION[1]])?.unwrap_or(window.to);
         let half = if window.from.is_finite() && window.to.is_finite() { 0.5 * (window.to - window.from) } else { 1e4 };
@@ -250,7 +250,7 @@ fn hole(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileErr
 fn step(given: &mut FeatureArguments, site: &Site) -> Result<Feature, ProfileError> {
     let height = given.number("height", "m", [-DEPTH[1], DEPTH[1]])?;
     let length = given.optional("length", "m", LENGTH)?;
-    if length.is_none() && site.body != Body::Rail {
+    if length.is_none() && site.body.circumference().is_some() {
         return Err(given.missing("length", "on a wheel, where it ends again"));
     }
     let length = length.unwrap_or(f64::INFINITY);

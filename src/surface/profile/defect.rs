@@ -25,8 +25,8 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// Last position \[m] of samples in the direction of travel, behind which nothing is known of the rail. Samples that are given a
-    /// position and begin and end at height zero have none: behind them the smooth rail goes on.
+    /// Last position \[m] of samples in the direction of travel, behind which nothing is known of the rail. Samples
+    /// that are given a position and begin and end at height zero have none: behind them the smooth rail goes on.
     pub fn end(&self, forward: bool) -> Option<f64> {
         let (Form::Samples(samples), Repetition { position, every, count, turn: None }) =
             (&self.form, &self.repetition)
@@ -73,8 +73,8 @@ impl Defect {
             .any(|at| self.overlaps([at, at], [low, high]))
     }
 
-    /// Overlap of the part from `begin` to `end` of one of the forms, distances from its middle \[m], with the stretch between two
-    /// positions \[m].
+    /// Overlap of the part from `begin` to `end` of one of the forms, distances from its middle \[m], with the stretch
+    /// between two positions \[m].
     fn overlaps(&self, [begin, end]: [f64; 2], [low, high]: [f64; 2]) -> bool {
         let Repetition { position: first, every, count, turn } = self.repetition;
         let once = |low: f64, high: f64| {

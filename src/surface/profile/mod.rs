@@ -1,8 +1,9 @@
 //! Irregular surfaces: heights that rail and wheel carry on top of their ideal shapes, fixed in the material.
 //!
-//! A [`Profile`] is a height over the position: the distance along the rail, or angle times radius along the tread, where
-//! it repeats after the circumference. Positive heights add material: a bump of the rail, a larger radius of the wheel. It
-//! is read from a text, which is either the name of a file of samples or a sum of features, see [`Profile::parse`].
+//! A [`Profile`] is a height over the position: the distance along the rail, or angle times radius along the tread,
+//! where it repeats after the circumference. Positive heights add material: a bump of the rail, a larger radius of the
+//! wheel. It is read from a text, which is either the name of a file of samples or a sum of features, see
+//! [`Profile::parse`].
 //!
 //! | file | content |
 //! |---|---|
@@ -45,8 +46,8 @@ impl Profile {
     ///
     /// An empty text is a smooth surface. A text that ends in `.csv` is a file with the columns `position,height` \[m];
     /// its path is relative to `folder` unless it is absolute. Any other text is a sum of features such as
-    /// `sinusoid(amplitude = 5e-6, wavelength = 0.05) + hole(position = 2, length = 5e-3, depth = 1e-3)`, every number in
-    /// SI units.
+    /// `sinusoid(amplitude = 5e-6, wavelength = 0.05) + hole(position = 2, length = 5e-3, depth = 1e-3)`, every number
+    /// in SI units.
     ///
     /// # Errors
     /// Texts and files without meaning: the error names feature or line, value, allowed range and what to do.
@@ -57,8 +58,8 @@ impl Profile {
         Ok(Self { features })
     }
 
-    /// Profile through given samples, position and height \[m]: linear between them, constant beyond the first and the last.
-    /// Positions ascend.
+    /// Profile through given samples, position and height \[m]: linear between them, constant beyond the first and the
+    /// last. Positions ascend.
     pub fn from_samples(samples: Piecewise) -> Self {
         Self { features: vec![Feature::sampled(HeightSamples::new(samples))] }
     }
@@ -76,8 +77,8 @@ impl Profile {
         self.features.iter().map(|feature| feature.slope(position)).sum()
     }
 
-    /// Shortest wavelength \[m]; infinite if the surface is smooth. A jump has none of its own: between two of them lies
-    /// half a wave.
+    /// Shortest wavelength \[m]; infinite if the surface is smooth. A jump has none of its own: between two of them
+    /// lies half a wave.
     pub fn shortest_wavelength(&self) -> f64 {
         self.features.iter().map(Feature::wavelength).fold(f64::INFINITY, f64::min)
     }
@@ -99,8 +100,8 @@ impl Profile {
         if forward { ends.reduce(f64::min) } else { ends.reduce(f64::max) }
     }
 
-    /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached where
-    /// features do not overlap.
+    /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached
+    /// where features do not overlap.
     pub fn range(&self) -> [f64; 2] {
         let (undulations, local): (Vec<_>, Vec<_>) = self.features.iter().partition(|feature| feature.is_undulation());
         let bound = |side: usize, worse: fn(f64, f64) -> f64| {

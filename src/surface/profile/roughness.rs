@@ -1,9 +1,9 @@
 //! Random roughness of a given spectrum: one-third octave levels in wavelength, made of sinusoids with seeded phases.
 //!
 //! A realisation is periodic: it repeats after the circumference of the wheel, or after a length of rail. Every whole
-//! number of waves in that period that belongs to a band becomes a sinusoid; those of one band are equally high, so that
-//! their mean square is exactly that of the level, and their phases are random. The sum is tabulated once with height and
-//! slope and read by cubic interpolation.
+//! number of waves in that period that belongs to a band becomes a sinusoid; those of one band are equally high, so
+//! that their mean square is exactly that of the level, and their phases are random. The sum is tabulated once with
+//! height and slope and read by cubic interpolation.
 //!
 //! The same seed gives the same bits on every machine: phases come from the generator SplitMix64 (Steele, Lea, Flood,
 //! *Fast splittable pseudorandom number generators*, OOPSLA 2014), functions from the crate `libm`, and nothing depends on
@@ -22,7 +22,8 @@ pub const EN_ISO_3095: [f64; 35] = [
     17.1, 17.1, 17.1, 17.1, 17.1, 17.1, 17.1, 17.1, 15.0, 13.0, 11.0, 9.0, 7.0, 4.9, 2.9, 0.9, -1.1, -3.2, -5.0, -5.6,
     -6.2, -6.8, -7.4, -8.0, -8.6, -9.2, -9.8, -10.4, -11.0, -11.6, -12.2, -12.8, -13.4, -14.0, -14.0,
 ];
-/// Samples of the table for one of the shortest waves; cubic interpolation then errs by less than 1e-4 of its amplitude.
+/// Samples of the table for one of the shortest waves; cubic interpolation then errs by less than 1e-4 of its
+/// amplitude.
 const SAMPLES_PER_WAVE: f64 = 16.0;
 /// Largest number of samples of a table.
 pub const LARGEST_TABLE: usize = 1 << 21;

@@ -89,8 +89,8 @@ impl HeightSamples {
         }
     }
 
-    /// Closes the samples into one period \[m]: the line from the last sample leads back to the first. The error says what is wrong
-    /// with the period.
+    /// Closes the samples into one period \[m]: the line from the last sample leads back to the first. The error says
+    /// what is wrong with the period.
     pub fn close(&mut self, period: f64) -> Result<(), String> {
         let last = self.points.x.len() - 1;
         let (x, height) = (self.points.x[0] + period, self.points.value[0]);

@@ -203,8 +203,8 @@ fn files_are_linear_between_samples_and_level_outside() {
     });
 }
 
-/// Levels of the one-third octaves with mid-band wavelengths 10^(number/10) m \[dB re 1 µm]: Fourier sums of heights over
-/// one period, taken at places that have nothing to do with the table inside.
+/// Levels of the one-third octaves with mid-band wavelengths 10^(number/10) m \[dB re 1 µm]: Fourier sums of heights
+/// over one period, taken at places that have nothing to do with the table inside.
 fn levels(profile: &Profile, period: f64, numbers: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     let edge = |number: f64| period / 10f64.powf(0.1 * number);
     let most = edge(f64::from(*numbers.start()) - 0.5);
