@@ -1,5 +1,8 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
 # make test      every test, Rust and fmpy
+# make quick     what tells most after an edit: architecture, documents, unit tests and fast programs
+# make loop TEST=brake  one test program after an edit; ARGS=name runs the tests of that name in it
+# make test-times  every test, one program after the other, with its CPU time: target/test-times.md
 # make fmu       target/wheelrail.fmu
 #                make fmu PROFILES=no leaves the points of profiles out of its description (target/wheelrail-slim.fmu)
 # make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
@@ -58,7 +61,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check house docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -75,6 +78,28 @@ test-rust:
 
 test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
+
+# Programs that take less than a second each, from every room of the house.
+QUICK := architecture documents model_description fmi_lifecycle contact_two_patches second_contact_solver \
+	opposed_rolling heat_closed_forms reversible_heating energy_in_the_air
+# Unit tests of more than two seconds of CPU, which only `make test` runs.
+LONG_UNITS := modes_of_long_low_rails_are_found_although_they_crowd energy_that_dashpots_take_is_what_the_body_loses \
+	damped_reduced_and_full_bodies_answer_alike reduced_and_full_bodies_move_alike \
+	production_mesh_is_small_enough_and_has_the_torsion_frequency_of_the_annulus \
+	trapezoidal_rule_conserves_the_energy_of_free_vibration a_damped_mode_decays_as_its_closed_form
+
+# Compiled by the profile `edit` of .cargo/config.toml; unit tests run at once, so that a failure shows early.
+quick:
+	@echo "quick: unit tests (lib) and the programs $(QUICK)"
+	$(CARGO) test --profile edit --locked --lib -- $(addprefix --skip ,$(LONG_UNITS))
+	$(CARGO) test --profile edit --locked $(addprefix --test ,$(QUICK))
+
+loop:
+	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
+	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
+
+test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
 
 fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
 

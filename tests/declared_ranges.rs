@@ -2,6 +2,7 @@
 //! where the refusal names another parameter, together with that.
 
 mod common;
+mod heap;
 
 use rayon::prelude::*;
 use std::path::Path;
@@ -156,7 +157,7 @@ fn shipped_presets_say_only_what_differs_from_the_default() {
 /// Two bodies that ranges allow, but no memory: metres of rail in cells that a small wheel prescribes; a heat model for a
 /// twentieth of the load on the finest mesh.
 #[test]
-fn models_too_large_for_memory_are_refused_in_milliseconds_and_by_name() {
+fn models_too_large_for_memory_are_refused_by_name_before_memory_is_taken() {
     let mut rail = Config::default();
     (rail.wheel.radius, rail.wheel.hub_radius) = (0.1, 0.01);
     (rail.rail.length, rail.rail.height) = (2.0, 2.0);
@@ -167,9 +168,12 @@ fn models_too_large_for_memory_are_refused_in_milliseconds_and_by_name() {
     heat.thermal.smallest_load_ratio = 0.05;
     for (config, name) in [(rail, "rail.height"), (heat, "thermal.smallest_load_ratio")] {
         assert!(config.thermal.enabled && config.validate().is_ok());
-        let start = std::time::Instant::now();
-        let error = Model::prepare(config, &BasisStore::none(), &mut |_, _| {}).err().unwrap().to_string();
-        assert!(start.elapsed().as_millis() < 50);
+        let before = heap::requested_bytes();
+        let computed = &mut |activity: &str, share: f64| assert!(share == 0.0, "{activity}");
+        let error = Model::prepare(config, &BasisStore::none(), computed).err().unwrap().to_string();
+        let taken = heap::requested_bytes() - before;
+        println!("{name}: {taken} bytes before the refusal");
+        assert!(taken < 1_000_000, "{taken} bytes");
         assert!(error.contains(name) && error.contains("mesh.elements_per_half_width"), "{error}");
     }
 }

@@ -2,7 +2,6 @@
 
 mod heat_common;
 use heat_common::*;
-use std::time::Instant;
 use wheelrail::config::Hub;
 use wheelrail::heat::*;
 
@@ -20,15 +19,11 @@ fn compare(name: &str, pairs: &[(&str, f64, f64, f64)]) {
 }
 
 fn stationary(name: &str, config: &HeatConfig, v: f64, omega: f64, exchange: &Exchange) -> (Temperatures, HeatFlows) {
-    let start = Instant::now();
     let heat = heat(config);
-    let built = start.elapsed();
-    let start = Instant::now();
     let (state, flows) = heat.stationary(v, omega, exchange).unwrap();
     println!(
-        "{name}: {} unknowns, built in {built:.2?}, solved in {:.2?} with {} iterations, balance {:.1e}",
+        "{name}: {} unknowns, {} iterations, balance {:.1e}",
         heat.unknowns(),
-        start.elapsed(),
         flows.iterations,
         flows.relative_imbalance()
     );

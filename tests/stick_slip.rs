@@ -93,10 +93,17 @@ fn quarter(model: &Model) -> f64 {
 
 /// Slip of the tread of the sliding wheel in steps of `h`, after a short dip of the friction available to the share `dip`.
 fn rings(model: &Arc<Model>, tuning: &Tuning, h: f64, time: f64, dip: f64) -> Vec<f64> {
+    rings_after(model, tuning, h, time, |quarters| if quarters < 1.0 { dip } else { 1.0 })
+}
+
+/// Slip of the tread of the sliding wheel in steps of `h`, with this share of the friction available after so many quarters
+/// of a period.
+fn rings_after(model: &Arc<Model>, tuning: &Tuning, h: f64, time: f64, share: impl Fn(f64) -> f64) -> Vec<f64> {
     let (mut simulation, inputs) = sliding(model, tuning);
+    let quarter = quarter(model);
     let slip = |k: usize| {
         let mut now = inputs;
-        now.drive.friction *= if (k as f64) * h < quarter(model) { dip } else { 1.0 };
+        now.drive.friction *= share(k as f64 * h / quarter);
         simulation.advance(&now, h).unwrap();
         simulation.outputs().contact_tread_slip
     };
@@ -176,13 +183,17 @@ fn stick_slip_sets_in_where_the_slope_of_friction_equals_the_modal_damping() {
     assert!(rate < -7.0, "{rate}");
 }
 
-/// Smallest and largest slip, and frequency [rad/s], of the last quarter of stick–slip that has grown for 0.8 s from a moment
-/// without friction.
+/// Periods of the torsion during which friction comes and goes.
+const DRIVEN: f64 = 10.0;
+
+/// Smallest and largest slip, and frequency [rad/s], of stick–slip that friction that comes and goes has driven to its full
+/// size.
 fn limit_cycle(h: f64) -> [f64; 3] {
     let config = heavy_hub().config().clone();
     let model = damped(0.2 * ratio_of_onset(&config, -0.4));
-    let slips = rings(&model, &law_of_slope(&config, -0.4), h, 0.8, 0.0);
-    let last = &slips[slips.len() * 3 / 4..];
+    let drive = |quarters: f64| if quarters < 4.0 * DRIVEN && quarters % 4.0 < 2.0 { 0.0 } else { 1.0 };
+    let slips = rings_after(&model, &law_of_slope(&config, -0.4), h, 0.25, drive);
+    let last = &slips[slips.len() - (0.05 / h) as usize..];
     let (low, high) = range(last);
     let [rate, frequency] = <[f64; 2]>::from(growth(last, h));
     println!("h {h:.0e}: slip {low:.5} to {high:.5} m/s, {frequency:.2} rad/s, growth {rate:+.4} 1/s");

@@ -4,7 +4,7 @@
     tools/test_times.py                       the programs of the product and of the thesis, and compiling them
     tools/test_times.py --test heat_steps     arguments are handed to cargo test
     tools/test_times.py --each --test brake   every test in a process of its own: CPU seconds per test
-    tools/test_times.py --python .venv/bin/python --out docs/test-times.md
+    tools/test_times.py --python .venv/bin/python --out target/test-times.md
                                               pytest as well, and the table as a page
 
 Times are those of the process and of all the processes that it waited for. Cargo starts each program through this script
