@@ -187,8 +187,8 @@ fn models(start: StartTemperature) -> [Model; 2] {
     let mut config = preset("railway", 20);
     config.solver.response = Response::Reduced;
     config.initial.temperature = start;
-    // The flash model has no swelling.
-    config.physics.thermal_expansion = false;
+    // The flash model has no swelling, and a friction that follows the flash varies from step to step.
+    (config.physics.thermal_expansion, config.tuning.softening) = (false, 0.0);
     let basis = common::store().find(&config).unwrap();
     let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let [flash, tensor] = [(); 2].map(|()| {
@@ -255,7 +255,7 @@ fn stationary_flash_of_a_sliding_patch_is_that_of_an_elliptical_source() {
         let expected = flux / effusivity * (a / (PI * speed)).sqrt() * peak;
         let rise = highest - model.config.thermal.reference;
         println!("rise {rise:.3} K, ellipse {expected:.3} K ({:+.2} %)", 100.0 * (rise / expected - 1.0));
-        assert!(rise > 100.0 && (rise / expected - 1.0).abs() < 0.03);
+        assert!(rise > 100.0 && (rise / expected - 1.0).abs() < 0.01);
     }
 }
 
@@ -269,7 +269,7 @@ fn flashes_of_both_models_agree_while_the_bodies_share_the_heat_in_equal_parts()
         println!("flash {rise:.3} K under {:.3e} W", seen.heat_to_wheel + seen.heat_to_rail);
         rise / (seen.heat_to_wheel + seen.heat_to_rail)
     });
-    assert!(rises[0] > 0.0 && (rises[0] / rises[1] - 1.0).abs() < 0.05, "{rises:?}");
+    assert!(rises[0] > 0.0 && (rises[0] / rises[1] - 1.0).abs() < 0.02, "{rises:?}");
 }
 
 #[test]
@@ -289,7 +289,7 @@ fn a_lumped_wheel_keeps_the_heat_of_its_friction() {
 #[test]
 fn states_do_not_pass_from_one_heat_model_to_the_other() {
     let [flash, tensor] = models(StartTemperature::Stationary);
-    let inputs = sliding(&flash.config, CREEPAGE);
+    let inputs = sliding(&flash.config, 0.01);
     let (ours, theirs) = (start(&flash, &inputs).0, start(&tensor, &inputs).0);
     assert!(flash.fits(&ours) && tensor.fits(&theirs));
     assert!(!flash.fits(&theirs) && !tensor.fits(&ours));

@@ -41,17 +41,17 @@ impl Heat {
 
     /// Number of unknown temperatures.
     pub fn unknowns(&self) -> usize {
-        self.layout.unknowns()
+        self.layout.bodies().map(|body| body.line.len() * body.modes.shapes.nrows()).iter().sum()
     }
 
     /// Heat contents of wheel and rail over the reference temperature [J/m], over the width of the contact.
     pub fn heat_content(&self, state: &HeatState) -> Result<[f64; 2], HeatError> {
         self.check_state(state)?;
-        let [wheel, rail] = self.layout.split(&state.values);
-        Ok([(&self.layout.wheel, wheel), (&self.layout.rail, rail)].map(|(body, field)| {
+        let (bodies, fields) = (self.layout.bodies(), self.layout.split(&state.values));
+        Ok([0, 1].map(|i| {
             let mut sums = Vec::new();
-            body.integrate(field, &mut sums);
-            body.heat_capacity * dot(&sums, &body.modes.content)
+            bodies[i].integrate(fields[i], &mut sums);
+            bodies[i].heat_capacity * dot(&sums, &bodies[i].modes.content)
         }))
     }
 

@@ -11,7 +11,8 @@ use crate::heat::state::HeatState;
 impl Heat {
     /// Surface temperatures of wheel and rail at x \[m] within the contact zone, linear between nodes \[K].
     pub fn surface_temperatures(&self, state: &HeatState, x: f64) -> Result<[f64; 2], HeatError> {
-        Ok([self.wheel_temperature(state, x, 0.0)?, self.rail_temperature(state, x, 0.0)?])
+        self.check_state(state)?;
+        Ok([0, 1].map(|body| self.temperature(body, state, x, 0.0)))
     }
 
     /// Temperature of the wheel at the distance `s` along the tread from the contact point and the depth `z` below it,
@@ -19,12 +20,6 @@ impl Heat {
     pub fn wheel_temperature(&self, state: &HeatState, s: f64, z: f64) -> Result<f64, HeatError> {
         self.check_state(state)?;
         Ok(self.temperature(0, state, s, z))
-    }
-
-    /// Temperature of the rail at `x` and the depth `z`, both in \[m], over the reference \[K].
-    pub fn rail_temperature(&self, state: &HeatState, x: f64, z: f64) -> Result<f64, HeatError> {
-        self.check_state(state)?;
-        Ok(self.temperature(1, state, x, z))
     }
 
     /// Temperature of a body (0: wheel, 1: rail) at one point.

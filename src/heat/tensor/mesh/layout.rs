@@ -93,11 +93,6 @@ impl HeatLayout {
         field.split_at_mut(self.wheel.size()).into()
     }
 
-    /// Number of unknown temperatures.
-    pub fn unknowns(&self) -> usize {
-        self.bodies().map(|body| body.line.len() * body.modes.shapes.nrows()).iter().sum()
-    }
-
     /// Surface positions of the common nodes in the contact zone \[m], ascending.
     pub fn zone_positions(&self) -> &[f64] {
         &self.rail.line.nodes[self.zone_nodes(&self.rail)]
