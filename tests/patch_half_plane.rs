@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::series::{HalfPlaneKernel, SeriesSolver};
+use wheelrail::contact::series::{Fallback, HalfPlaneKernel, SeriesSolver};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
     RigidMotion, SolverState, SteelLimits, SurfaceResponse,
@@ -43,7 +43,7 @@ impl HalfPlanes {
         let grid = ActiveSetSolver::new(grid);
         let none =
             [DMatrix::zeros(PORTS, PORTS), DMatrix::zeros(PORTS, 3), DMatrix::zeros(3, PORTS), DMatrix::zeros(3, 3)];
-        Self { solver: SeriesSolver::new(grid, half_plane, 0.02, true), none, still: DVector::zeros(PORTS) }
+        Self { solver: SeriesSolver::new(grid, half_plane, 0.02, Fallback::Refuse), none, still: DVector::zeros(PORTS) }
     }
 
     /// Rolling at mean speed `speed` with prescribed creepage, in a step with the time formula `time`.

@@ -114,7 +114,7 @@ impl Traction {
         hull(&self.patches)
     }
 
-    /// Friction force on the wheel [N/m]: what acts along the round wheel and the plane rail, slopes of the rail apart.
+    /// Friction force on the wheel [N/m], along the round wheel and the plane rail; slopes of the rail apart.
     pub fn friction_force(&self) -> f64 {
         self.port_forces.iter().step_by(2).sum()
     }
@@ -143,7 +143,7 @@ impl Traction {
         self.work_of(|x| self.yielding.overlap.at(x))
     }
 
-    /// Takes away all slip and what it dissipates: the state of a wheel at rest.
+    /// Takes away all slip and its dissipation: the state of a wheel at rest.
     pub fn rest(&mut self) {
         self.friction.rest();
         self.slip.value.fill(0.0);

@@ -12,7 +12,7 @@ use crate::config::{Config, ContactMethod, TimeScheme};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::kernel::KernelCorrection;
-use crate::contact::series::{HalfPlaneKernel, SeriesSolver};
+use crate::contact::series::{Fallback, HalfPlaneKernel, SeriesSolver};
 use crate::contact::{self, ContactSolver};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
@@ -77,16 +77,19 @@ impl Model {
         }
         let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies, &surfaces) {
             Some((half_plane, reach)) => {
-                let only = config.solver.contact == ContactMethod::Patch;
-                Box::new(SeriesSolver::new(solver, half_plane, reach, only))
+                let fallback = match config.solver.contact {
+                    ContactMethod::Patch => Fallback::Refuse,
+                    ContactMethod::Auto | ContactMethod::Grid => Fallback::ActiveSet,
+                };
+                Box::new(SeriesSolver::new(solver, half_plane, reach, fallback))
             }
             None => Box::new(solver),
         };
         Self::with_solver(config, bodies, surfaces, solver, Some(correction))
     }
 
-    /// What the solver on a single patch needs to know of the bodies, where it is asked for and no parameter rules it out: the
-    /// half-plane that they lack, and how far they are known \[m].
+    /// Half-plane that the bodies lack, and the distance up to which they are known \[m], where the series are asked for and no
+    /// parameter rules them out.
     fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlaneKernel, f64)> {
         // Reversible heating needs the strains of the surfaces.
         let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;

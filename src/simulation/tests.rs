@@ -3,7 +3,7 @@
 use super::*;
 use std::path::Path;
 
-/// Linear problems of the contact that 200 steps of 0.1 ms solve by turns, and all equations together.
+/// Linear problems of the contact that 200 steps of 0.1 ms solve by alternation, and all equations together.
 fn solved(profile: &str, moment: f64) -> [u64; 2] {
     let store = BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
     let mut config = Config::default();
@@ -26,11 +26,14 @@ fn solved(profile: &str, moment: f64) -> [u64; 2] {
 }
 
 #[test]
-fn ordinary_steps_are_solved_by_turns() {
+fn ordinary_steps_are_solved_by_alternation() {
     let rough = "roughness(spectrum = EN_ISO_3095)";
     for (profile, moment, most) in [("", 0.0, 220), ("", -7000.0, 300), (rough, 0.0, 300), (rough, -7000.0, 450)] {
-        let [by_turns, together] = solved(profile, moment);
-        println!("{profile}, {moment} N m: {by_turns} by turns, {together} together");
-        assert!(together == 0 && (200..most).contains(&by_turns), "{profile}, {moment} N m: {by_turns}, {together}");
+        let [alternated, together] = solved(profile, moment);
+        println!("{profile}, {moment} N m: {alternated} by alternation, {together} together");
+        assert!(
+            together == 0 && (200..most).contains(&alternated),
+            "{profile}, {moment} N m: {alternated}, {together}"
+        );
     }
 }

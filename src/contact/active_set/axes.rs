@@ -1,15 +1,15 @@
 //! Rigid axes of the wheel: their balances, and the motions that are sought.
 
+use super::brake::{self, BrakeState};
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::rows::AffineRow;
-use crate::contact::line::state::NodeStatus;
-use crate::contact::problem::RigidMotion;
+use crate::contact::problem::{AxisDrive, RigidMotion};
 
 /// The three rigid motions, and the states of their brakes.
 pub(super) struct Axes<'a> {
-    pub rigid: &'a [RigidMotion; 3],
-    /// States of the brakes: stuck ones hold; without meaning where there is none.
-    pub brakes: [NodeStatus; 3],
+    rigid: &'a [RigidMotion; 3],
+    /// States of the brakes; without meaning where there is none.
+    brakes: [BrakeState; 3],
 }
 
 /// A linear equation without its coefficients of the port forces, which stand beside it.
@@ -21,7 +21,33 @@ pub(super) struct Equation {
     pub constant: f64,
 }
 
-impl Axes<'_> {
+impl<'a> Axes<'a> {
+    /// Axes whose brakes are in the states of the motions that are expected.
+    pub fn new(rigid: &'a [RigidMotion; 3]) -> Self {
+        Self { rigid, brakes: brake::founding(rigid) }
+    }
+
+    /// True if a brake holds an axis at rest.
+    pub fn holds(&self, axis: usize) -> bool {
+        matches!((self.rigid[axis].drive, self.brakes[axis]), (AxisDrive::Braked { .. }, BrakeState::Holding))
+    }
+
+    /// Takes new states of the brakes from motions and reactions; returns whether any changed. A brake keeps its hold
+    /// within a `tolerance` [N/m], at the rim; `forces` is memory for all ports.
+    pub fn update_brakes(&mut self, line: &ContactLine, forces: &mut [f64], tolerance: f64) -> bool {
+        let mut changed = false;
+        for axis in 0..3 {
+            let AxisDrive::Braked { load, limit } = self.rigid[axis].drive else { continue };
+            let arm = if axis == 2 { line.problem.radius() } else { 1.0 };
+            let (before, speed) = (self.brakes[axis], line.traction.rigid[axis]);
+            let reaction = || self.reaction(axis, line, forces);
+            let new = brake::next(before, [load, limit], reaction, speed, tolerance * arm);
+            changed |= new != before;
+            self.brakes[axis] = new;
+        }
+        changed
+    }
+
     /// True if the motion of an axis is sought.
     pub fn seeks(&self, axis: usize) -> bool {
         self.rigid[axis].target().is_none()
@@ -63,7 +89,7 @@ impl Axes<'_> {
             return Equation { motions: std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 }), constant: 0.0 };
         }
         let [load, limit] = self.rigid[axis].drive.loads().unwrap_or_default();
-        self.balance(axis, load + self.brakes[axis].friction_direction() * limit, line, forces)
+        self.balance(axis, load + self.brakes[axis].direction() * limit, line, forces)
     }
 
     /// Balance of momentum of an axis under an external `load`; lever arms are those of the present iterate. Writes the
@@ -104,7 +130,7 @@ impl Axes<'_> {
 
     /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate; `forces` is memory for all
     /// ports.
-    pub fn reaction(&self, axis: usize, line: &ContactLine, forces: &mut [f64]) -> f64 {
+    fn reaction(&self, axis: usize, line: &ContactLine, forces: &mut [f64]) -> f64 {
         let balance = self.balance(axis, 0.0, line, forces);
         let of_contact: f64 = forces.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum();
         let of_motion: f64 = balance.motions.iter().zip(line.traction.rigid).map(|(c, v)| c * v).sum();

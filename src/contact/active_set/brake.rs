@@ -5,47 +5,55 @@
 //! a slipping one has the balance with the known force. A brake that holds slips where more than `L` is needed to hold
 //! it; one whose force no longer opposes the motion holds, so that a reversal passes through rest.
 
-use super::axes::Axes;
-use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::state::NodeStatus;
-use crate::contact::problem::{AxisDrive, RigidMotion};
+use crate::contact::problem::RigidMotion;
 
-impl<'a> Axes<'a> {
-    /// Axes whose brakes are in the states of the motions that are expected.
-    pub fn new(rigid: &'a [RigidMotion; 3]) -> Self {
-        let brakes = rigid.map(|motion| match motion.guess {
-            speed if speed > 0.0 => NodeStatus::SlipBackward,
-            speed if speed < 0.0 => NodeStatus::SlipForward,
-            _ => NodeStatus::Stick,
-        });
-        Self { rigid, brakes }
-    }
+/// State of the brake of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BrakeState {
+    /// It holds the axis at rest.
+    Holding,
+    /// It slips with a force towards `+`.
+    Forward,
+    /// It slips with a force towards `−`.
+    Backward,
+}
 
-    /// True if a brake holds an axis at rest.
-    pub fn holds(&self, axis: usize) -> bool {
-        matches!((self.rigid[axis].drive, self.brakes[axis]), (AxisDrive::Braked { .. }, NodeStatus::Stick))
-    }
-
-    /// Takes new states of the brakes from motions and reactions; returns whether any changed. A brake keeps its hold
-    /// within a `tolerance` [N/m], at the rim; `forces` is memory for all ports.
-    pub fn update_brakes(&mut self, line: &ContactLine, forces: &mut [f64], tolerance: f64) -> bool {
-        let mut changed = false;
-        for axis in 0..3 {
-            let AxisDrive::Braked { load, limit } = self.rigid[axis].drive else { continue };
-            let arm = if axis == 2 { line.problem.radius() } else { 1.0 };
-            let (old, speed) = (self.brakes[axis], line.traction.rigid[axis]);
-            let new = match old {
-                NodeStatus::Stick => match self.reaction(axis, line, forces) - load {
-                    held if held.abs() <= limit + tolerance * arm => NodeStatus::Stick,
-                    held if held > 0.0 => NodeStatus::SlipForward,
-                    _ => NodeStatus::SlipBackward,
-                },
-                slipping if slipping.friction_direction() * speed > 0.0 => NodeStatus::Stick,
-                slipping => slipping,
-            };
-            changed |= new != old;
-            self.brakes[axis] = new;
+impl BrakeState {
+    /// Direction of its force: ±1 where it slips, 0 where it holds.
+    pub fn direction(self) -> f64 {
+        match self {
+            BrakeState::Holding => 0.0,
+            BrakeState::Forward => 1.0,
+            BrakeState::Backward => -1.0,
         }
-        changed
+    }
+}
+
+/// States of the brakes at which the search begins: those of the motions that are expected.
+pub(super) fn founding(rigid: &[RigidMotion; 3]) -> [BrakeState; 3] {
+    rigid.map(|motion| match motion.guess {
+        speed if speed > 0.0 => BrakeState::Backward,
+        speed if speed < 0.0 => BrakeState::Forward,
+        _ => BrakeState::Holding,
+    })
+}
+
+/// State of a brake of strength `limit` beside an external `load` after a solution with the `reaction` that the motion
+/// takes [N/m, N] and the `speed` of the axis. A brake keeps its hold within a `tolerance`.
+pub(super) fn next(
+    before: BrakeState,
+    [load, limit]: [f64; 2],
+    reaction: impl FnOnce() -> f64,
+    speed: f64,
+    tolerance: f64,
+) -> BrakeState {
+    match before {
+        BrakeState::Holding => match reaction() - load {
+            held if held.abs() <= limit + tolerance => BrakeState::Holding,
+            held if held > 0.0 => BrakeState::Forward,
+            _ => BrakeState::Backward,
+        },
+        BrakeState::Forward | BrakeState::Backward if before.direction() * speed > 0.0 => BrakeState::Holding,
+        BrakeState::Forward | BrakeState::Backward => before,
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct CoefficientSearch {
     /// True for the ends of it that were evaluated. The bounds of the law are solutions themselves where the contact
     /// sticks.
     tried: [bool; 2],
-    /// The evaluation before: coefficient and what it exceeds that of the law by [1].
+    /// The evaluation before: coefficient, and its excess over that of the law \[1].
     before: Option<[f64; 2]>,
     /// Width of the bracket when secants were last given a chance, and evaluations since.
     width: f64,

@@ -140,7 +140,7 @@ pub(super) fn founding_state(line: &ContactLine) -> NodeStatus {
 /// Gives all stuck nodes the state of founding ones.
 pub(super) fn found_anew(line: &mut ContactLine) {
     let founding = founding_state(line);
-    line.state.status.iter_mut().filter(|s| **s == NodeStatus::Stick).for_each(|s| *s = founding);
+    line.state.status.iter_mut().filter(|s| s.is_stuck()).for_each(|s| *s = founding);
 }
 
 /// Closes the nearest node of a line without any; returns whether it did.
@@ -161,7 +161,7 @@ pub(super) fn support(line: &mut ContactLine) -> bool {
 fn is_overloaded(line: &ContactLine) -> bool {
     let nodes = 0..line.grid.len();
     let limit: f64 = nodes.clone().map(|i| line.normal(i).max(0.0)).sum::<f64>() * line.traction.friction.coefficient;
-    let stuck = nodes.filter(|&i| line.state.status[i] == NodeStatus::Stick).map(|i| line.tangential(i).abs());
+    let stuck = nodes.filter(|&i| line.state.status[i].is_stuck()).map(|i| line.tangential(i).abs());
     stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction.coefficient > 0.0
 }
 
@@ -170,7 +170,7 @@ fn is_overloaded(line: &ContactLine) -> bool {
 pub(super) fn sticks(line: &ContactLine) -> bool {
     let rate = line.problem.time.a0 * line.traction.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
     let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[1] * rate + SLIP_ROUND_OFF[2];
-    let stuck = line.state.status.iter().zip(&line.state.slip).filter(|(status, _)| **status == NodeStatus::Stick);
+    let stuck = line.state.status.iter().zip(&line.state.slip).filter(|(status, _)| status.is_stuck());
     stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= round_off
 }
 
@@ -182,7 +182,7 @@ pub(super) fn mean_slip(line: &ContactLine) -> f64 {
         let weight = line.normal(i).max(0.0);
         load += weight;
         // The rest of the slip at stuck nodes is round-off.
-        sum += if *status == NodeStatus::Stick { 0.0 } else { weight * line.state.slip[i] };
+        sum += if status.is_stuck() { 0.0 } else { weight * line.state.slip[i] };
     }
     if load > 0.0 { sum / load } else { 0.0 }
 }

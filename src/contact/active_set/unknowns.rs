@@ -4,7 +4,6 @@
 use super::axes::{Axes, Equation};
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::state::NodeStatus;
 use std::ops::Range;
 
 /// Unknowns of given states.
@@ -27,7 +26,7 @@ impl Unknowns {
         let status = &line.state.status;
         self.list_closed(line);
         self.stuck.clear();
-        self.stuck.extend(self.closed.iter().filter(|&&i| status[i] == NodeStatus::Stick));
+        self.stuck.extend(self.closed.iter().filter(|&&i| status[i].is_stuck()));
         self.axes.clear();
         self.axes.extend(axes.sought());
         self.friction.clear();

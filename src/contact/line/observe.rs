@@ -222,7 +222,7 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
 /// Length of the stick zone of one run [m]; its boundary between stick and slip is found below grid scale from
 /// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
 fn stick_length(grid: &ContactGrid, status: &[NodeStatus], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
-    let mut stuck = run.clone().filter(|&i| status[i] == NodeStatus::Stick);
+    let mut stuck = run.clone().filter(|&i| status[i].is_stuck());
     let Some(low) = stuck.next() else { return 0.0 };
     let high = stuck.next_back().unwrap_or(low);
     let beyond = |edge: usize, inward: isize| {

@@ -2,7 +2,7 @@
 //!
 //! Betti's theorem, on which the lever arms rest, holds between forces and the displacement that they cause themselves.
 //! The displacement of a [`RetardedSurface`] belongs to the elastic part of the forces; the part that runs ahead of it
-//! does work on its slope, which nobody dissipates. Derivation: `docs/theory/lever-arms.md`, section 4a.
+//! does work on its slope, which is not dissipated. Derivation: `docs/theory/lever-arms.md`, section 4a.
 
 use super::grid::ContactGrid;
 use super::vectors::copy;

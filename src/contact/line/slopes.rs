@@ -1,7 +1,7 @@
 //! Slopes of gap and surfaces as the balances of forces and moments see them.
 //!
 //! Slopes are differences over both neighbours of a node. Beside a sharp edge one neighbour is open, and how deep the
-//! ground lies below it is none of the contact's business: only what bulges into the hole counts. Derivation:
+//! ground lies below it does not matter to the contact: only the part that bulges into the hole counts. Derivation:
 //! `docs/theory/profiles.md`, section 6.
 
 use super::grid::ContactGrid;

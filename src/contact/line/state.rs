@@ -19,7 +19,18 @@ pub enum NodeStatus {
 impl NodeStatus {
     /// True if the pair is closed.
     pub fn is_active(self) -> bool {
-        self != NodeStatus::Open
+        match self {
+            NodeStatus::Open => false,
+            NodeStatus::Stick | NodeStatus::SlipForward | NodeStatus::SlipBackward => true,
+        }
+    }
+
+    /// True if the pair is closed and does not slip.
+    pub fn is_stuck(self) -> bool {
+        match self {
+            NodeStatus::Stick => true,
+            NodeStatus::Open | NodeStatus::SlipForward | NodeStatus::SlipBackward => false,
+        }
     }
 
     /// Direction of the friction force on the wheel: ±1 in slip, 0 otherwise.

@@ -1,10 +1,10 @@
 //! Hot layers of the surfaces under a patch: they swell, and their membrane forces pull along the bodies.
 //!
-//! Bodies exchange heat under the patch only, so that what a layer holds is constant ahead of it and behind it. On the
-//! patch of the last step, `x = c + b cos θ`, it is `base + turn θ + Σ n_k sin kθ`: heat that flows on contact rises
-//! like a root at the edges, as these functions do. The membrane force N pulls with `−N′` at a half-plane, which it
-//! displaces by `κ [∫ n/(x − s) ds − π turn ln(b/2)]` with the part n of the sines. The layers move with the edges of
-//! the patch.
+//! Bodies exchange heat under the patch only, so that the content of a layer is constant ahead of it and behind it. On
+//! the patch of the last step, `x = c + b cos θ`, it is `base + turn θ + Σ n_k sin kθ`: heat that flows on contact
+//! rises like a root at the edges, as these functions do. The membrane force N pulls with `−N′` at a half-plane, which
+//! it displaces by `κ [∫ n/(x − s) ds − π turn ln(b/2)]` with the part n of the sines. The layers move with the edges
+//! of the patch.
 
 use super::chebyshev::{Arch, HalfPlaneKernel, TERMS};
 use super::constants::{Constants, LayerSamples, LayerTables, PARTS};
@@ -16,12 +16,12 @@ use crate::piecewise::Piecewise;
 use nalgebra::Complex;
 use std::f64::consts::PI;
 
-/// How far from the middle what a layer holds ahead of the patch and behind it is taken, in half-widths \[1]: elements
-/// and the depth of the heat round off the root at the edges themselves.
+/// Distance from the middle at which the content of a layer ahead of the patch and behind it is taken, in half-widths
+/// \[1]: elements and the depth of the heat round off the root at the edges themselves.
 const BESIDE: f64 = 1.1;
-/// Depth of the heat, in half-widths \[1]. It smooths what the pulls do, as a Poisson kernel does. Without any, the
-/// strain would have a root at the leading edge whose other side, ahead of the patch, the sticking surfaces never meet;
-/// with any, however thin, they meet it. Its size hardly matters: this one is what a series of the shear still
+/// Depth of the heat, in half-widths \[1]. It smooths the effect of the pulls, as a Poisson kernel does. Without any,
+/// the strain would have a root at the leading edge whose other side, ahead of the patch, the sticking surfaces never
+/// meet; with any, however thin, they meet it. Its size hardly matters: this one is what a series of the shear still
 /// resolves.
 const DEPTH: f64 = 0.03;
 /// Smallest `sin θ` that slopes are taken at: nearer to the edges they grow without bound, and there is next to no

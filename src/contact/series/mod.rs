@@ -1,9 +1,10 @@
 //! Contact on a single smooth patch: tractions as series that fit the patch and the part of it that sticks.
 //!
 //! [`chebyshev`] has the series and their effect on a half-plane, [`tables`] and [`constants`] their constants,
-//! [`surface`] what the bodies add, [`hot_layers`] what hot layers do, [`normal`] solves the normal problem, [`slip`] a
-//! given stretch of stick, [`stick`] finds where slip begins, [`finish`] takes traction and power, [`transfer`] leads
-//! to the grid and back, and [`solver`] decides between the two. Theory: `docs/theory/patch-contact.md`.
+//! [`surface`] the smooth part of the bodies, [`hot_layers`] the effect of hot layers, [`normal`] solves the normal
+//! problem, [`slip`] a given stretch of stick, [`stick`] finds where slip begins, [`finish`] takes traction and power,
+//! [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
+//! `docs/theory/patch-contact.md`.
 
 pub mod chebyshev;
 mod constants;
@@ -20,5 +21,5 @@ mod tables;
 mod transfer;
 
 pub use chebyshev::{Arch, HalfPlaneKernel};
-pub use solver::SeriesSolver;
+pub use solver::{Fallback, SeriesSolver};
 pub use state::{Past, SeriesState, Tractions};

@@ -190,7 +190,8 @@ impl<'a> SeriesLine<'a> {
             arm += place.force * (radius * radius - place.x * place.x).sqrt();
         }
         sum += self.over_pressure(|layers, _| layers.along[0]);
-        // The work of the pressure on what the shear does is that of the shear on what the pressure does.
+        // Betti: the work of the pressure on the displacements by the shear is that of the shear on those by the
+        // pressure.
         sum -= kernel * self.stuck.iter().map(|place| place.force * place.logarithm).sum::<f64>();
         self.rim_angle = sum / arm;
     }

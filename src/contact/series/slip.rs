@@ -55,7 +55,7 @@ impl StickEquations {
 
 impl SeriesLine<'_> {
     /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`,
-    /// under the pressure, the friction of slip and, if `sticks`, what sticking takes away from it.
+    /// under the pressure, the friction of slip and, if `sticks`, the part that sticking takes away from it.
     pub fn slip<const N: usize>(&self, x: &[f64; N], surface: &SmoothSurfaces, sticks: bool) -> [f64; N] {
         let Constants { points, half_plane, .. } = self.constants;
         let ([v, _, omega], rim, radius) = (self.rigid, self.rim_velocity(), self.problem.line.surfaces.radius);

@@ -21,31 +21,46 @@ use nalgebra::DVector;
 const SHORTEST_WAY: f64 = 0.01;
 
 /// Largest difference of the velocities of both surfaces over their mean \[1]: beyond, the wheel slides, and its heat
-/// changes within a step what the series take from the step before.
+/// changes the data within a step that the series take from the step before.
 const MOST_SLIDING: f64 = 0.05;
 
 /// Largest half-width of a start over the reach of the bodies \[1].
 const LARGEST_START: f64 = 0.9;
+
+/// Answer of the solver to a contact that is no single smooth patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fallback {
+    /// The active set on the grid solves it.
+    ActiveSet,
+    /// The solver refuses it.
+    Refuse,
+}
 
 /// Contact as series on a single patch, and on a grid where there is none.
 #[derive(Clone, Debug)]
 pub struct SeriesSolver {
     grid: ActiveSetSolver,
     constants: Constants,
-    /// True if the grid is never used.
-    only: bool,
+    fallback: Fallback,
 }
 
 impl SeriesSolver {
-    /// Patches within `reach` \[m] of the contact point on bodies that lack a half-plane each, beside a `grid`; `only`:
-    /// which is never used.
-    pub fn new(grid: ActiveSetSolver, half_plane: HalfPlaneKernel, reach: f64, only: bool) -> Self {
+    /// Patches within `reach` \[m] of the contact point on bodies that lack a half-plane each, beside a `grid`.
+    pub fn new(grid: ActiveSetSolver, half_plane: HalfPlaneKernel, reach: f64, fallback: Fallback) -> Self {
         let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
         let constants = Constants { half_plane, points, tables, layers };
-        Self { grid, constants, only }
+        Self { grid, constants, fallback }
     }
 
-    /// Refuses problems in which a patch is not smooth, or whose past is not what the series can carry.
+    /// True if the active set solves contacts that are no single smooth patch.
+    fn falls_back(&self) -> bool {
+        match self.fallback {
+            Fallback::ActiveSet => true,
+            Fallback::Refuse => false,
+        }
+    }
+
+    /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
     fn check(&self, problem: &ContactProblem, before: &SeriesState) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (problem.line.surfaces, &problem.line.placement, &problem.line.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
@@ -69,7 +84,7 @@ impl SeriesSolver {
         }
         let [travel, rim] = [problem.rigid[0].start(), problem.line.radius() * problem.rigid[2].start()];
         let speed = travel.abs() + rim.abs();
-        if !self.only && (travel - rim).abs() > 0.5 * MOST_SLIDING * speed {
+        if self.falls_back() && (travel - rim).abs() > 0.5 * MOST_SLIDING * speed {
             return refuse("the wheel slides");
         }
         let slow = 0.5 * speed < SHORTEST_WAY * before.tractions.pressure.half_width * problem.line.time.a0;
@@ -92,7 +107,7 @@ impl SeriesSolver {
 impl ContactSolver for SeriesSolver {
     fn touching(&self, half_width: f64) -> ContactState {
         let reach = self.constants.points.reach;
-        if half_width >= reach && !self.only {
+        if half_width >= reach && self.falls_back() {
             return self.grid.touching(half_width);
         }
         let half_width = half_width.min(LARGEST_START * reach);
@@ -166,7 +181,7 @@ impl ContactSolver for SeriesSolver {
 
     fn widened(&self, state: &ContactState) -> Option<ContactState> {
         match &state.solver {
-            SolverState::Series(_) if self.only => None,
+            SolverState::Series(_) if !self.falls_back() => None,
             SolverState::Series(series) => {
                 let target = self.grid.touching(series.tractions.pressure.half_width);
                 let grid = self.grid.grid(target.ports)?;

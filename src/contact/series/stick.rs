@@ -118,7 +118,7 @@ impl StickSearch {
         let peak = it.friction * it.tractions.pressure.terms[0];
         let next = share - root / self.slope;
         if next >= 1.0 && share >= 1.0 {
-            // Sticking everywhere asks for slip in the other direction; the shear stays what it is.
+            // Sticking everywhere asks for slip in the other direction; the shear stays as it is.
             let Tractions { pressure, slide, stick } = &mut it.tractions;
             stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
             *slide = -*slide;

@@ -95,8 +95,8 @@ fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
     let closed: Vec<NodeStatus> = state.status.iter().copied().filter(|s| s.is_active()).collect();
     let first = state.status.iter().position(|s| s.is_active())?;
     let last = state.status.iter().rposition(|s| s.is_active())?;
-    let stuck = closed.iter().filter(|s| **s == NodeStatus::Stick).count();
-    let from_edge = |s: &&NodeStatus| **s == NodeStatus::Stick;
+    let stuck = closed.iter().filter(|s| s.is_stuck()).count();
+    let from_edge = |s: &&NodeStatus| s.is_stuck();
     let at_edge = match upstream_right {
         true => closed.iter().rev().take_while(from_edge).count(),
         false => closed.iter().take_while(from_edge).count(),

@@ -175,7 +175,7 @@ mod tests {
     const CLOSED: usize = 12;
     const STUCK: usize = 7;
 
-    /// A made-up patch whose shear opens the gap by `share` of what pressure does: a free velocity, a free height.
+    /// A made-up patch whose shear opens the gap by `share` of the effect of pressure: a free velocity, a free height.
     /// Beside its equations those of all unknowns together.
     fn patch(share: f64) -> (PressureShear, [DMatrix<f64>; 2], DMatrix<f64>, Vec<f64>) {
         let wave = |i: usize, j: usize| ((3 * i + 5 * j) as f64).sin();
