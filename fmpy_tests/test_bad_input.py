@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from wheelrail import Refused
+from wheelrail import Refused, Wheel
 
 NAN, INF = math.nan, math.inf
 
@@ -112,3 +112,8 @@ def test_a_load_beyond_the_contact_zone_names_the_parameter_to_raise(start):
     wheel.set({"drive.displacement": height})
     wheel.step(1e-3)
     assert wheel.get("contact.force_y") == pytest.approx(1e5, rel=0.05)
+
+
+def test_retired_parameters_are_refused_by_name_with_the_version_that_had_them(fmu):
+    with pytest.raises(Refused, match=r"solver.theta was retired in 0.2.0 \(last in 0.1.1\)"):
+        Wheel(fmu, {"solver.theta": 0.5})

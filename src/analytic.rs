@@ -7,6 +7,27 @@ pub fn contact_modulus(youngs_modulus: f64, poissons_ratio: f64) -> f64 {
     0.5 * youngs_modulus / (1.0 - poissons_ratio * poissons_ratio)
 }
 
+/// Surface of an elastic half-plane in plane strain under line forces (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPlane {
+    /// `κ = 2 (1 − ν²)/(πE)`: a line force displaces the surface along itself by `−κ ln|x|` [m/(N/m)].
+    pub kernel: f64,
+    /// `g = (1 − 2ν)(1 + ν)/E`: a pressure strains the surface by `−g p` [1/Pa].
+    pub coupling: f64,
+}
+
+impl HalfPlane {
+    /// Displacement `component` (0: x, 1: y) at the distance `x` \[m] from a unit line force in direction `force`, of a body
+    /// that lies above its surface (`side` 1) or below it (−1), but for a constant [m/(N/m)].
+    pub fn displacement(&self, component: usize, force: usize, x: f64, side: f64) -> f64 {
+        match (component, force) {
+            (0, 1) => -0.5 * side * self.coupling * x.signum(),
+            (1, 0) => 0.5 * side * self.coupling * x.signum(),
+            _ => -self.kernel * x.abs().ln(),
+        }
+    }
+}
+
 /// Half-width of the Hertzian line contact `a = √(4PR/(πE*))` \[m]; `load` [N/m] (Johnson, 4.43).
 pub fn hertz_half_width(load: f64, radius: f64, contact_modulus: f64) -> f64 {
     (4.0 * load * radius / (PI * contact_modulus)).sqrt()
@@ -60,17 +81,17 @@ pub struct Torsion {
     pub frequency: f64,
     /// Share of the moment of inertia about the axle that moves with it \[1].
     pub inertia_share: f64,
-    /// Its modal mass referred to the motion of the rim, over the density \[m²]: `∫u² dA/u_rim²`. A force at the rim meets the
-    /// mass per width `density · rim_area`.
+    /// Its modal mass referred to the motion of the rim, over the density \[m²]: `∫u² dA/u_rim²`. A force at the rim
+    /// meets the mass per width `density · rim_area`.
     pub rim_area: f64,
 }
 
-/// Lowest torsional vibration of an annulus in plane strain, held at its inner radius, free at the outer one; radii in \[m],
-/// the inner one at most 0.9 of the outer one, speed of shear waves `c_S` in [m/s].
+/// Lowest torsional vibration of an annulus in plane strain, held at its inner radius, free at the outer one; radii in
+/// \[m], the inner one at most 0.9 of the outer one, speed of shear waves `c_S` in [m/s].
 ///
-/// The tangential displacement `C₁(kr) = J₁(kr) Y₁(k r_i) − Y₁(kr) J₁(k r_i)` vanishes at the hub; the rim is free of shear
-/// stress where `C₂(k r_o) = 0`; the frequency is `k c_S` (Love, *Mathematical Theory of Elasticity*, 4th ed., section 200,
-/// for the solid cylinder). `inertia_share` is `(∫ C₁ r² dr)²/(∫ C₁² r dr ∫ r³ dr)`, in closed form with
+/// The tangential displacement `C₁(kr) = J₁(kr) Y₁(k r_i) − Y₁(kr) J₁(k r_i)` vanishes at the hub; the rim is free of
+/// shear stress where `C₂(k r_o) = 0`; the frequency is `k c_S` (Love, *Mathematical Theory of Elasticity*, 4th ed.,
+/// section 200, for the solid cylinder). `inertia_share` is `(∫ C₁ r² dr)²/(∫ C₁² r dr ∫ r³ dr)`, in closed form with
 /// `C₂(k r_i) = 2/(π k r_i)`.
 pub fn hub_torsion(outer: f64, inner: f64, shear_wave_speed: f64) -> Torsion {
     let combination = |order: i32, k: f64, r: f64| {
@@ -136,8 +157,8 @@ fn bessel_y(order: i32, x: f64) -> f64 {
     (2.0 * half.ln() * bessel_j(order, x) - sum - singular) / PI
 }
 
-/// Temperature rise \[K] of the surface of a half-space at `x` \[m] under the flux `flux` [W/m²] on `|x| ≤ half_width` that
-/// moves fast towards +x with `speed` [m/s]; `effusivity` is `√(k ρc)` [W s^½/(m² K)].
+/// Temperature rise \[K] of the surface of a half-space at `x` \[m] under the flux `flux` [W/m²] on `|x| ≤ half_width`
+/// that moves fast towards +x with `speed` [m/s]; `effusivity` is `√(k ρc)` [W s^½/(m² K)].
 ///
 /// `T(x) = 1/√(π k ρc V) ∫ₓ^a q(x′)/√(x′ − x) dx′`, the limit of large Péclet number (Jaeger 1942; Carslaw & Jaeger,
 /// *Conduction of Heat in Solids*, 2nd ed., 10.7).
@@ -154,7 +175,8 @@ pub fn moving_source(x: f64, half_width: f64, speed: f64, effusivity: f64, flux:
     2.0 * integral / (effusivity * (PI * speed).sqrt())
 }
 
-/// Flash temperature: largest [`moving_source`] \[K] of the heat `heat` [W/m] spread like a Hertzian pressure (Blok 1937).
+/// Flash temperature: largest [`moving_source`] \[K] of the heat `heat` [W/m] spread like a Hertzian pressure (Blok
+/// 1937).
 pub fn flash_temperature(heat: f64, half_width: f64, speed: f64, effusivity: f64) -> f64 {
     let flux = |x: f64| 2.0 * heat / (PI * half_width) * (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();
     let rise = |share: f64| moving_source(share * half_width, half_width, speed, effusivity, &flux);
@@ -193,8 +215,8 @@ mod tests {
         }
     }
 
-    /// The equation of the shape itself, `R″ + R′/r − R/r² + k² R = 0` from the hub outwards (Runge–Kutta), with the integrals
-    /// of the inertia share along it.
+    /// The equation of the shape itself, `R″ + R′/r − R/r² + k² R = 0` from the hub outwards (Runge–Kutta), with the
+    /// integrals of the inertia share along it.
     #[test]
     fn torsion_on_the_hub_leaves_the_rim_free_of_stress() {
         for inner in [0.02, 0.1, 0.5, 0.9] {

@@ -1,6 +1,6 @@
 //! Constants that follow from the parameters of the material, each in one place.
 
-use crate::analytic;
+use crate::analytic::{self, HalfPlane};
 use crate::config::Material;
 
 /// An isotropic, linear elastic, heat-conducting material in plane strain.
@@ -50,15 +50,13 @@ impl Isotropic {
         analytic::contact_modulus(self.youngs_modulus, self.poissons_ratio)
     }
 
-    /// `2 (1 − ν²)/(πE)`: a line force on a half-plane displaces its surface along itself by this times `−ln|x|` [m/(N/m)].
-    pub fn surface_kernel(&self) -> f64 {
-        2.0 / (std::f64::consts::PI * self.plane_strain_modulus())
-    }
-
-    /// `(1 − 2ν)(1 + ν)/E`: a pressure on a half-plane shortens its surface by this share per pascal [1/Pa].
-    pub fn surface_coupling(&self) -> f64 {
+    /// Surface of a half-plane of this material.
+    pub fn half_plane(&self) -> HalfPlane {
         let nu = self.poissons_ratio;
-        (1.0 - 2.0 * nu) * (1.0 + nu) / self.youngs_modulus
+        HalfPlane {
+            kernel: 2.0 / (std::f64::consts::PI * self.plane_strain_modulus()),
+            coupling: (1.0 - 2.0 * nu) * (1.0 + nu) / self.youngs_modulus,
+        }
     }
 
     /// Speed of pressure waves `√((λ + 2μ)/ρ)` [m/s].
@@ -97,15 +95,15 @@ impl Isotropic {
         self.youngs_modulus * self.expansion / (1.0 - self.poissons_ratio)
     }
 
-    /// Gough–Joule factor `T₀ β/(ρc)` with `β = α(3λ + 2μ) = αE/(1 − 2ν)` \[K]: warming per compressive volume strain at
-    /// the absolute temperature `reference` \[K] (Draganis, thesis eq. 3.6).
+    /// Gough–Joule factor `T₀ β/(ρc)` with `β = α(3λ + 2μ) = αE/(1 − 2ν)` \[K]: warming per compressive volume strain
+    /// at the absolute temperature `reference` \[K] (Draganis, thesis eq. 3.6).
     pub fn gough_joule(&self, reference: f64) -> f64 {
         reference * self.expansion * self.youngs_modulus / (1.0 - 2.0 * self.poissons_ratio) / self.heat_capacity()
     }
 }
 
-/// Largest mean pressure of a plastic indentation of a half-plane over the yield strength in tension: Prandtl's `2 + π` times
-/// the yield strength in shear, which is that in tension over `√3` (von Mises) \[1].
+/// Largest mean pressure of a plastic indentation of a half-plane over the yield strength in tension: Prandtl's `2 + π`
+/// times the yield strength in shear, which is that in tension over `√3` (von Mises) \[1].
 pub const INDENTATION: f64 = (2.0 + std::f64::consts::PI) / SQRT_3;
 /// Yield strength in shear over that in tension (von Mises) \[1].
 pub const YIELD_IN_SHEAR: f64 = 1.0 / SQRT_3;
@@ -113,8 +111,8 @@ const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
 /// Share of its cold yield strength that steel keeps over the temperature \[K].
 ///
-/// Reduction factors for structural steel at 2 % strain, EN 1993-1-2:2005, table 3.1, linear between the given temperatures
-/// and constant beyond the last one; taken for wheel and rail steels, for which no such table was found.
+/// Reduction factors for structural steel at 2 % strain, EN 1993-1-2:2005, table 3.1, linear between the given
+/// temperatures and constant beyond the last one; taken for wheel and rail steels, for which no such table was found.
 pub fn yield_share(temperature: f64) -> f64 {
     const CELSIUS: [f64; 9] = [400.0, 500.0, 600.0, 700.0, 800.0, 900.0, 1000.0, 1100.0, 1180.0];
     const SHARE: [f64; 9] = [1.0, 0.78, 0.47, 0.23, 0.11, 0.06, 0.04, 0.02, 0.004];
@@ -127,14 +125,15 @@ const CELSIUS_ZERO: f64 = 273.15;
 /// Temperature up to which steel keeps its yield strength \[K].
 pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 
-/// Share of the friction coefficient on a surface that may melt \[1], whose temperature is `rest` \[K] and the share times
-/// `heating` \[K].
+/// Share of the friction coefficient on a surface that may melt \[1], whose temperature is `rest` \[K] and the share
+/// times `heating` \[K].
 ///
-/// The share falls from 1 at the solidus to `material.film_friction` at the liquidus and to nothing [`FILM_GROWS`] above it,
-/// linear between; what is returned is the one that belongs to its own temperature. Molten steel of the asperities and then
-/// of a whole film is sheared instead of solid steel. With its viscosity of about 6 mPa s (literature), a film of 1 µm and
-/// 20 m/s carry 0.1 MPa, less than a thousandth of the contact pressure: what remains is a small number, and its size is
-/// judgement. A film that gets hotter melts more steel and thickens until its own friction no longer heats it.
+/// The share falls from 1 at the solidus to `material.film_friction` at the liquidus and to nothing [`FILM_GROWS`]
+/// above it, linear between; what is returned is the one that belongs to its own temperature. Molten steel of the
+/// asperities and then of a whole film is sheared instead of solid steel. With its viscosity of about 6 mPa s
+/// (literature), a film of 1 µm and 20 m/s carry 0.1 MPa, less than a thousandth of the contact pressure: what remains
+/// is a small number, and its size is judgement. A film that gets hotter melts more steel and thickens until its own
+/// friction no longer heats it.
 pub fn melted_share(heating: f64, rest: f64, material: &Material) -> f64 {
     let &Material { solidus, liquidus, film_friction, .. } = material;
     let heating = heating.max(0.0);

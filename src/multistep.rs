@@ -1,9 +1,8 @@
 //! The time formula: how the new value of a quantity, its history and its time derivative are linked in one step.
 //!
-//! All balances of momentum and the slip are discretised by the same formula ([`TimeDerivative`]); which one a step takes
-//! follows from the chosen scheme and the step before ([`formula`]).
+//! All balances of momentum and the slip are discretised by the same formula ([`TimeDerivative`]); its weights follow
+//! from the length of the step and of the step before ([`formula`]).
 
-use crate::config::{SolverParameters, TimeScheme};
 use serde::{Deserialize, Serialize};
 
 /// Step ratio up to which two-step backward differences are used (they lose zero-stability at 1 + √2).
@@ -36,18 +35,18 @@ impl TimeDerivative {
     /// Impulse [N s] that the formula attributes to the force `now` \[N] at the end of a step.
     ///
     /// `before` is the force at its beginning and `last` the impulse of the step before [N s]. Derivation: the formula
-    /// turns the balance `d_t p = f` of a momentum `p` into `a0 p_{n+1} + a1 p_n + a2 p_{n−1} + b1 f_n = f_{n+1}`, since
-    /// the derivative known from the last step is the force that acted at its end. With `a1 = −a0 − a2` and the impulses
-    /// `J_{n+1} = p_{n+1} − p_n` this is `a0 J_{n+1} − a2 J_n + b1 f_n = f_{n+1}`, a recursion that is linear in the
-    /// force. It therefore holds for each force by itself: every one gets its own impulse, and the impulses of all forces
-    /// add up to the change of momentum exactly, whatever the size of the steps. Backward Euler gives `f_{n+1} Δt`, the
-    /// trapezoidal rule `½ (f_n + f_{n+1}) Δt`.
+    /// turns the balance `d_t p = f` of a momentum `p` into `a0 p_{n+1} + a1 p_n + a2 p_{n−1} + b1 f_n = f_{n+1}`,
+    /// since the derivative known from the last step is the force that acted at its end. With `a1 = −a0 − a2` and the
+    /// impulses `J_{n+1} = p_{n+1} − p_n` this is `a0 J_{n+1} − a2 J_n + b1 f_n = f_{n+1}`, a recursion that is linear
+    /// in the force. It therefore holds for each force by itself: every one gets its own impulse, and the impulses of
+    /// all forces add up to the change of momentum exactly, whatever the size of the steps. Backward Euler gives
+    /// `f_{n+1} Δt`, the trapezoidal rule `½ (f_n + f_{n+1}) Δt`.
     pub fn impulse(&self, now: f64, before: f64, last: f64) -> f64 {
         (now - self.b1 * before + self.a2 * last) / self.a0
     }
 
-    /// Force \[N] that has the impulse `now` [N s] over a step: the inverse of [`Self::impulse`], for forces that are held or
-    /// vary linearly during the step, so that their impulse is known.
+    /// Force \[N] that has the impulse `now` [N s] over a step: the inverse of [`Self::impulse`], for forces that are
+    /// held or vary linearly during the step, so that their impulse is known.
     pub fn force(&self, now: f64, before: f64, last: f64) -> f64 {
         self.a0 * now + self.b1 * before - self.a2 * last
     }
@@ -64,34 +63,29 @@ pub fn settled(dt: f64, before: f64) -> f64 {
     if (dt - before).abs() <= ROUNDING * dt { before } else { dt }
 }
 
-/// Formula for a step `dt` after a step `before` (0: none, e.g. at the start or after a discontinuity).
-pub fn formula(solver: &SolverParameters, dt: f64, before: f64) -> TimeDerivative {
-    match solver.time_scheme {
-        TimeScheme::Bdf2 if before > 0.0 && dt <= LARGEST_RATIO * before => {
-            let ratio = dt / before;
-            TimeDerivative {
-                a0: (1.0 + 2.0 * ratio) / (dt * (1.0 + ratio)),
-                a1: -(1.0 + ratio) / dt,
-                a2: ratio * ratio / (dt * (1.0 + ratio)),
-                b1: 0.0,
-            }
+/// Formula for a step `dt` after a step `before` \[s] (0: none, e.g. at the start or after a discontinuity):
+/// second-order backward differences, and backward Euler where there is no step before or the step more than doubles.
+pub fn formula(dt: f64, before: f64) -> TimeDerivative {
+    if before > 0.0 && dt <= LARGEST_RATIO * before {
+        let ratio = dt / before;
+        TimeDerivative {
+            a0: (1.0 + 2.0 * ratio) / (dt * (1.0 + ratio)),
+            a1: -(1.0 + ratio) / dt,
+            a2: ratio * ratio / (dt * (1.0 + ratio)),
+            b1: 0.0,
         }
-        TimeScheme::Theta if before > 0.0 => {
-            let theta = solver.theta;
-            let a0 = 1.0 / (theta * dt);
-            TimeDerivative { a0, a1: -a0, a2: 0.0, b1: -(1.0 - theta) / theta }
-        }
-        _ => TimeDerivative { a0: 1.0 / dt, a1: -1.0 / dt, a2: 0.0, b1: 0.0 },
+    } else {
+        TimeDerivative { a0: 1.0 / dt, a1: -1.0 / dt, a2: 0.0, b1: 0.0 }
     }
 }
 
 /// Formula for the position of a free mass whose velocity follows `td` in a step `dt`.
 ///
-/// A second-order scheme that starts afresh takes one step of backward Euler for the velocity. The position then follows the
-/// mean velocity, so that a constant force does in that step the work which the mass receives. With backward Euler the
-/// position would be ahead by `½ a Δt²` after this step and, since differences of it go on, by `¾ a Δt²` for ever.
-pub fn position(solver: &SolverParameters, td: &TimeDerivative, dt: f64, before: f64) -> TimeDerivative {
-    if before > 0.0 || solver.time_scheme == TimeScheme::BackwardEuler {
+/// After a start the velocity takes one step of backward Euler. The position then follows the mean velocity, so that a
+/// constant force does in that step the work which the mass receives. With backward Euler the position would be ahead
+/// by `½ a Δt²` after this step and, since differences of it go on, by `¾ a Δt²` for ever.
+pub fn position(td: &TimeDerivative, dt: f64, before: f64) -> TimeDerivative {
+    if before > 0.0 {
         return *td;
     }
     TimeDerivative { a0: 2.0 / dt, a1: -2.0 / dt, a2: 0.0, b1: -1.0 }
@@ -130,12 +124,6 @@ impl History {
 mod tests {
     use super::*;
 
-    fn solver(time_scheme: TimeScheme) -> SolverParameters {
-        let response = crate::config::Response::Reduced;
-        let contact = crate::config::ContactMethod::Grid;
-        SolverParameters { contact, response, modes_wheel: 1, modes_rail: 1, time_scheme, theta: 0.5 }
-    }
-
     #[test]
     fn steps_that_differ_by_rounding_are_one_step() {
         let differences = (1..500).map(|k| f64::from(k + 1) * 1e-3 - f64::from(k) * 1e-3);
@@ -146,14 +134,13 @@ mod tests {
         }
     }
 
-    /// Error of `ẏ = −y` at `t = 1` with `n` steps of alternating length.
-    fn decay_error(scheme: TimeScheme, n: usize) -> f64 {
-        let solver = solver(scheme);
+    /// Error of `ẏ = −y` at `t = 1` with `n` steps of alternating length, each of which starts afresh or goes on.
+    fn decay_error(afresh: bool, n: usize) -> f64 {
         let mut y = History { now: 1.0, before: 1.0, rate: -1.0 };
         let mut before = 0.0;
         for k in 0..n {
             let dt = if k % 2 == 0 { 0.8 } else { 1.2 } / n as f64;
-            let td = formula(&solver, dt, before);
+            let td = formula(dt, if afresh { 0.0 } else { before });
             let value = -y.offset(&td) / (td.a0 + 1.0);
             y.push(&td, value);
             before = dt;
@@ -162,57 +149,52 @@ mod tests {
     }
 
     #[test]
-    fn formulas_converge_with_their_order_under_variable_steps() {
-        for (scheme, order) in [(TimeScheme::BackwardEuler, 1.0), (TimeScheme::Bdf2, 2.0), (TimeScheme::Theta, 2.0)] {
-            let observed = (decay_error(scheme, 100) / decay_error(scheme, 200)).log2();
-            assert!((observed - order).abs() < 0.1, "{scheme:?}: observed order {observed:.3}");
+    fn steps_that_go_on_are_of_second_order_and_steps_that_start_afresh_of_first() {
+        for (afresh, order) in [(true, 1.0), (false, 2.0)] {
+            let observed = (decay_error(afresh, 100) / decay_error(afresh, 200)).log2();
+            assert!((observed - order).abs() < 0.1, "afresh {afresh}: observed order {observed:.3}");
         }
     }
 
     /// A mass at rest falls freely in steps of any length, of which the first starts afresh.
     #[test]
     fn a_free_fall_is_exact_in_steps_of_any_length() {
-        for scheme in [TimeScheme::Bdf2, TimeScheme::Theta] {
-            let (solver, acceleration) = (solver(scheme), -9.0);
-            let (mut height, mut velocity) = (History::constant(2.0), History::constant(0.0));
-            let (mut before, mut t) = (0.0, 0.0);
-            for dt in [1e-2, 2e-2, 5e-3, 1e-2, 1.5e-2] {
-                let td = formula(&solver, dt, before);
-                let of_height = position(&solver, &td, dt, before);
-                let speed = match before {
-                    0.0 => velocity.now + dt * acceleration,
-                    _ => (acceleration - velocity.offset(&td)) / td.a0,
-                };
-                let value = (speed - height.offset(&of_height)) / of_height.a0;
-                height.push(&of_height, value);
-                velocity.push(&td, height.rate);
-                (before, t) = (dt, t + dt);
-                let exact = 2.0 + 0.5 * acceleration * t * t;
-                assert!((height.now - exact).abs() < 1e-14, "{scheme:?}, {t} s: {} for {exact}", height.now);
-            }
+        let acceleration = -9.0;
+        let (mut height, mut velocity) = (History::constant(2.0), History::constant(0.0));
+        let (mut before, mut t) = (0.0, 0.0);
+        for dt in [1e-2, 2e-2, 5e-3, 1e-2, 1.5e-2] {
+            let td = formula(dt, before);
+            let of_height = position(&td, dt, before);
+            let speed = match before {
+                0.0 => velocity.now + dt * acceleration,
+                _ => (acceleration - velocity.offset(&td)) / td.a0,
+            };
+            let value = (speed - height.offset(&of_height)) / of_height.a0;
+            height.push(&of_height, value);
+            velocity.push(&td, height.rate);
+            (before, t) = (dt, t + dt);
+            let exact = 2.0 + 0.5 * acceleration * t * t;
+            assert!((height.now - exact).abs() < 1e-14, "{t} s: {} for {exact}", height.now);
         }
     }
 
-    /// A mass under two forces in steps of alternating length.
+    /// A mass under two forces in steps of alternating length, of which every seventh starts afresh.
     #[test]
     fn impulses_of_all_forces_add_up_to_the_change_of_momentum() {
-        for scheme in [TimeScheme::BackwardEuler, TimeScheme::Bdf2, TimeScheme::Theta] {
-            let solver = solver(scheme);
-            let forces = |t: f64| [3.0 + t * t, -(5.0 * t).sin()];
-            let mut momentum = History { now: 2.0, before: 2.0, rate: forces(0.0).iter().sum() };
-            let (mut before, mut last, mut present, mut t, mut total) = (0.0, [0.0; 2], forces(0.0), 0.0, 0.0);
-            for k in 0..40 {
-                let dt = if k % 2 == 0 { 0.02 } else { 0.03 };
-                let td = formula(&solver, dt, before);
-                t += dt;
-                let new = forces(t);
-                let impulse = [0, 1].map(|i| td.impulse(new[i], present[i], last[i]));
-                let value = (new.iter().sum::<f64>() - momentum.offset(&td)) / td.a0;
-                momentum.push(&td, value);
-                total += impulse.iter().sum::<f64>();
-                (before, last, present) = (dt, impulse, new);
-                assert!((momentum.now - 2.0 - total).abs() < 1e-13, "{scheme:?}: {} and {total}", momentum.now - 2.0);
-            }
+        let forces = |t: f64| [3.0 + t * t, -(5.0 * t).sin()];
+        let mut momentum = History { now: 2.0, before: 2.0, rate: forces(0.0).iter().sum() };
+        let (mut before, mut last, mut present, mut t, mut total) = (0.0, [0.0; 2], forces(0.0), 0.0, 0.0);
+        for k in 0..40 {
+            let dt = if k % 2 == 0 { 0.02 } else { 0.03 };
+            let td = formula(dt, if k % 7 == 0 { 0.0 } else { before });
+            t += dt;
+            let new = forces(t);
+            let impulse = [0, 1].map(|i| td.impulse(new[i], present[i], last[i]));
+            let value = (new.iter().sum::<f64>() - momentum.offset(&td)) / td.a0;
+            momentum.push(&td, value);
+            total += impulse.iter().sum::<f64>();
+            (before, last, present) = (dt, impulse, new);
+            assert!((momentum.now - 2.0 - total).abs() < 1e-13, "{} and {total}", momentum.now - 2.0);
         }
     }
 }

@@ -33,7 +33,7 @@ pub mod validity;
 
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 
-use crate::config::{Config, ConfigError, Response, Tuning};
+use crate::config::{Config, ConfigError, Tuning};
 use crate::heat::HeatError;
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, ModelError, fields, outputs, sensitivity, stationary, substeps};
@@ -111,7 +111,7 @@ impl Model {
         rolling::Model::check_size(&config)?;
         let surfaces = Surfaces::from_config(&config, store.resources()).map_err(ModelError::from)?;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
-        if config.solver.response == Response::Reduced {
+        if config.solver.response.is_reduced() {
             let (found, bytes) = match store.find(&config)? {
                 Some(stored) => stored,
                 None => {

@@ -335,7 +335,6 @@ impl<'a> Master<'a> {
             ("thermal.conductance", 0.0, 1e9),
             ("thermal.reference", 200.0, 400.0),
             ("thermal.wheel_excess", -50.0, 300.0),
-            ("solver.theta", 0.5, 1.0),
             ("solver.max_step", 1e-3, 0.1),
             ("solver.tolerance", 0.01, 0.1),
         ];
@@ -350,9 +349,9 @@ impl<'a> Master<'a> {
         let on = self.random.below(2) == 0;
         let status = self.slave.set_boolean(flag, on);
         self.check(format!("SetBoolean({flag} = {on})"), status, expected, false);
-        let scheme = 1 + self.random.below(3) as i32;
-        let status = self.slave.set_integer("solver.time_scheme", scheme);
-        self.check(format!("SetInteger(solver.time_scheme = {scheme})"), status, expected, false);
+        let hub = 1 + self.random.below(2) as i32;
+        let status = self.slave.set_integer("thermal.hub", hub);
+        self.check(format!("SetInteger(thermal.hub = {hub})"), status, expected, false);
     }
 
     /// Things that cannot be set at any time.

@@ -15,7 +15,6 @@ mod common;
 use common::{model, prescribed, preset};
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_full_slip, contact_modulus, hertz_half_width};
-use wheelrail::config::TimeScheme;
 use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
 
 /// Distances rolled over half-width.
@@ -116,7 +115,6 @@ fn rolled(load: f64, share: f64) -> Vec<f64> {
     let mut config = preset("paper_d", 20);
     config.physics.centrifugal = false;
     config.thermal.enabled = false;
-    config.solver.time_scheme = TimeScheme::BackwardEuler;
     let model = model(config);
     let config = model.config();
     let (radius, friction) = (config.wheel.radius, config.friction.coefficient);

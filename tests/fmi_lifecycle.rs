@@ -149,13 +149,13 @@ fn explicit_parameters_override_the_preset_in_any_order() {
     assert_eq!(slave.set_real("wheel.hub_mass", 77.0), fmi2OK);
     assert_eq!(slave.set_boolean("physics.centrifugal", false), fmi2OK);
     assert_eq!(slave.set_string("preset", "paper_d"), fmi2OK);
-    assert_eq!(slave.set_integer("solver.time_scheme", 2), fmi2OK);
+    assert_eq!(slave.set_integer("thermal.hub", 2), fmi2OK);
     assert_eq!(slave.enter(), fmi2OK);
     assert_eq!(slave.string("preset"), "paper_d");
     assert_eq!(slave.real("wheel.hub_mass"), 77.0);
     assert_eq!(slave.real("wheel.radius"), 0.5);
     assert_eq!(slave.integer("mesh.elements_per_half_width"), 4);
-    assert_eq!(slave.integer("solver.time_scheme"), 2);
+    assert_eq!(slave.integer("thermal.hub"), 2);
     assert!(!slave.boolean("physics.centrifugal"));
     // inputs follow until they are set
     assert_eq!((slave.real("drive.load"), slave.real("rail.friction")), (100e3, 0.4));
@@ -198,6 +198,19 @@ fn bad_values_are_refused_by_name_value_and_range() {
     assert_eq!(slave.set_real("wheel.radius", 0.46), fmi2OK);
     assert_eq!(slave.set_real("wheel.hub_radius", 0.046), fmi2OK);
     assert_eq!(slave.exit(), fmi2OK);
+}
+
+#[test]
+fn value_references_of_retired_parameters_are_refused_by_name_and_nothing_is_set() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    let load = variable("drive.load").reference;
+    slave.refused(
+        slave.set_reals(&[load, 1094], &[7e4, 0.5]),
+        &["1094", "solver.theta was retired in 0.2.0 (last in 0.1.1)"],
+    );
+    assert_eq!(slave.enter(), fmi2OK);
+    assert_eq!(slave.real("drive.load"), 100e3);
 }
 
 #[test]

@@ -3,13 +3,15 @@
 use std::collections::HashSet;
 use std::path::Path;
 use wheelrail::config::Config;
+use wheelrail::config::retired::RETIRED;
+use wheelrail::fmi::documentation::index_html;
 use wheelrail::fmi::presets;
-use wheelrail::fmi::reference::markdown;
+use wheelrail::fmi::reference::{SECTIONS, markdown};
 use wheelrail::fmi::settings::start_value;
 use wheelrail::fmi::table::table;
 use wheelrail::fmi::units::UNITS;
 use wheelrail::fmi::v2::description::{Extent, model_description};
-use wheelrail::fmi::v2::variables::variables;
+use wheelrail::fmi::v2::variables::{find, variables};
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
 use wheelrail::simulation::{Outputs, PROFILE_POINTS};
 
@@ -48,6 +50,39 @@ fn names_and_references_are_unique() {
     let names: HashSet<_> = variables().iter().map(|v| &v.name).collect();
     let references: HashSet<_> = variables().iter().map(|v| v.reference).collect();
     assert_eq!((names.len(), references.len()), (variables().len(), variables().len()));
+}
+
+#[test]
+fn references_and_names_of_retired_parameters_belong_to_no_variable_and_are_listed_with_their_refusals() {
+    let xml = model_description(Extent::Full).unwrap();
+    for gone in RETIRED {
+        assert!(find(gone.number).is_none() && variables().iter().all(|v| v.name != gone.name), "{gone}");
+        let note = format!("<Retired name=\"{}\" valueReference=\"{}\" refusal=\"{gone}\"/>", gone.name, gone.number);
+        assert!(xml.contains(&note), "{note}");
+    }
+}
+
+/// All parameters are listed once, the basic ones first, whatever the order of their references.
+#[test]
+fn reference_pages_show_some_thirty_basic_parameters_before_the_expert_ones() {
+    let titles = SECTIONS.each_ref().map(|section| section.title);
+    assert_eq!(titles, ["Inputs", "Outputs", "Basic parameters", "Expert parameters"]);
+    let [.., basic, expert] = SECTIONS.each_ref().map(|section| section.rows().map(|row| row.name).collect::<Vec<_>>());
+    assert!((25..=40).contains(&basic.len()), "{} basic parameters", basic.len());
+    assert_eq!(basic.len() + expert.len(), with_causality(Causality::Parameter).count());
+    for name in ["preset", "wheel.radius", "model.nominal_load", "friction.coefficient", "material.density"] {
+        assert!(basic.contains(&name), "{name}");
+    }
+    assert!(expert.contains(&"solver.modes_wheel"));
+    for page in [markdown(), index_html()] {
+        let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text} is missing"));
+        let [first, second, retired] = ["Basic parameters", "Expert parameters", "Retired parameters"].map(at);
+        assert!(first < second && second < retired);
+        let row =
+            |name: &&str| page.find(&format!("`{name}`")).or_else(|| page.find(&format!("<code>{name}</code></td>")));
+        assert!(basic.iter().all(|name| (first..second).contains(&row(name).unwrap())));
+        assert!(expert.iter().all(|name| (second..retired).contains(&row(name).unwrap())));
+    }
 }
 
 #[test]

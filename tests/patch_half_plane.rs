@@ -1,10 +1,12 @@
 //! The contact on a single patch between two elastic half-planes, where Hertz and Carter have closed forms.
 
 use nalgebra::{DMatrix, DVector};
-use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
+use wheelrail::analytic::{
+    HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure,
+};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::series::{Fallback, HalfPlaneKernel, SeriesSolver};
+use wheelrail::contact::series::{Fallback, SeriesSolver};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
     RigidMotion, SolverState, SteelLimits, SurfaceResponse,
@@ -35,7 +37,7 @@ struct HalfPlanes {
 impl HalfPlanes {
     /// With Poisson's `coupling` between pressure and strain, or without, as Carter has it.
     fn new(coupling: bool) -> Self {
-        let half_plane = HalfPlaneKernel {
+        let half_plane = HalfPlane {
             kernel: 1.0 / (std::f64::consts::PI * modulus()),
             coupling: if coupling { (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG } else { 0.0 },
         };

@@ -8,7 +8,7 @@ use common::*;
 use nalgebra::{Complex, Matrix2, Vector2};
 use std::f64::consts::PI;
 use waves::{Push, deviation, plate, steel, system};
-use wheelrail::config::{RailEnds, TimeScheme};
+use wheelrail::config::RailEnds;
 use wheelrail::fem::DofMap;
 use wheelrail::linalg::CsrMatrix;
 use wheelrail::material::Isotropic;
@@ -110,17 +110,16 @@ fn bounce(ends: RailEnds, speed: f64) -> (Vec<f64>, [f64; 2]) {
     config.thermal.enabled = false;
     config.rail.ends = ends;
     (config.rail.length, config.rail.height, config.damping.modal) = (3.0, 2.0, true);
-    (config.solver.time_scheme, config.solver.theta) = (TimeScheme::Theta, 0.5);
     let model = model(config);
     let mut inputs = prescribed(&model, speed, 0.0);
     inputs.drive.friction = 0.0;
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     inputs.drive.load *= 1.2;
     let advance = |_| {
-        simulation.advance(&inputs, 1e-4).unwrap();
+        simulation.advance(&inputs, 5e-5).unwrap();
         simulation.outputs().contact_force_y / inputs.drive.load
     };
-    let history = (0..100).map(advance).collect();
+    let history = (0..200).map(advance).collect();
     let outputs = simulation.outputs();
     let (gain, taken) = (outputs.hub_work - outputs.stored_energy, outputs.damping_energy);
     (history, [taken, gain - taken - outputs.friction_energy])

@@ -313,7 +313,7 @@ fn locked(inputs: &mut Inputs) {
 
 /// Values inside the declared ranges that once led to −7.4e8 K under error control.
 #[rustfmt::skip]
-const ONCE_UNPHYSICAL: [(&str, Value); 36] = [
+const ONCE_UNPHYSICAL: [(&str, Value); 34] = [
     ("wheel.hub_mass", Value::Real(19991.98310772364)),
     ("wheel.hub_inertia", Value::Real(4.021364887751837)),
     ("vehicle.mass", Value::Real(1000000000.0)),
@@ -344,8 +344,6 @@ const ONCE_UNPHYSICAL: [(&str, Value); 36] = [
     ("physics.thermal_expansion", Value::Boolean(false)),
     ("physics.thermoelastic_heating", Value::Boolean(false)),
     ("physics.centrifugal", Value::Boolean(false)),
-    ("solver.time_scheme", Value::Integer(3)),
-    ("solver.theta", Value::Real(0.717532229161668)),
     ("solver.max_step", Value::Real(0.07512109154422084)),
     ("solver.tolerance", Value::Real(0.011606516610588783)),
     ("initial.velocity", Value::Real(47.22406652459799)),

@@ -3,7 +3,6 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::TimeScheme;
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
 
 /// Creepage ramp from 0 to −8e-4 in 70 % of `duration`, held to its end: `F/μP` at tenths of the duration.
@@ -83,17 +82,11 @@ fn controlled_braking_matches_the_reference() {
     config.physics.centrifugal = false;
     config.initial.velocity = 50.0 * KMH;
     config.initial.creepage = Some(0.0);
-    let bdf2 = model(config.clone());
-    let (speed, creepage, utilisation) = controlled_braking(&bdf2, 0.01);
-    println!("BDF2 10 ms: end speed {speed:.4} km/h, peak creepage {creepage:.4e}, peak utilisation {utilisation:.4}");
+    let (speed, creepage, utilisation) = controlled_braking(&model(config), 0.01);
+    println!("10 ms: end speed {speed:.4} km/h, peak creepage {creepage:.4e}, peak utilisation {utilisation:.4}");
     assert!((speed - 10.191).abs() <= 0.02, "end speed {speed} km/h");
     assert!((creepage / 1.91e-4 - 1.0).abs() <= 0.02, "peak creepage {creepage}");
     assert!((utilisation / 0.5312 - 1.0).abs() <= 0.005, "peak utilisation {utilisation}");
-
-    config.solver.time_scheme = TimeScheme::BackwardEuler;
-    let (speed, ..) = controlled_braking(&model(config), 0.1);
-    println!("backward Euler 0.1 s: end speed {speed:.4} km/h");
-    assert!((speed - 10.209).abs() <= 0.02, "end speed {speed} km/h");
 }
 
 #[test]
@@ -134,7 +127,6 @@ fn controlled_fast_ramp_matches_the_reference() {
     let mut config = preset("paper_d", 20);
     config.physics.centrifugal = false;
     config.initial.velocity = 50.0 * KMH;
-    config.solver.time_scheme = TimeScheme::BackwardEuler;
     let model = model(config);
     let held = Simulation::new(model.clone(), &prescribed(&model, 50.0 * KMH, 0.0)).unwrap();
     let (force, moment) = (held.outputs().hub_force_x, held.outputs().hub_moment);
@@ -151,27 +143,10 @@ fn controlled_fast_ramp_matches_the_reference() {
         creepage = creepage.max(simulation.outputs().contact_creepage);
     }
     println!("peak utilisation {utilisation:.4}, peak creepage {creepage:.4e}");
-    assert!((utilisation - 0.5477).abs() <= 0.01, "{utilisation}");
-    // The reference was not checked against the mesh.
-    assert!((creepage / 2.939e-4 - 1.0).abs() <= 0.04, "{creepage}");
-}
-
-#[test]
-fn time_schemes_agree_on_a_resolved_ramp() {
-    let run = |scheme: TimeScheme, theta: f64| {
-        let mut config = preset("paper_d", 10);
-        config.solver.time_scheme = scheme;
-        config.solver.theta = theta;
-        creepage_ramp(&model(config), 1e-2, 1000)
-    };
-    let reference = run(TimeScheme::Bdf2, 1.0);
-    for (scheme, theta, tolerance) in
-        [(TimeScheme::BackwardEuler, 1.0, 3e-3), (TimeScheme::Theta, 1.0, 3e-3), (TimeScheme::Theta, 0.55, 5e-4)]
-    {
-        let worst = run(scheme, theta).iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        println!("{scheme:?} theta = {theta}: largest difference {worst:.2e}");
-        assert!(worst <= tolerance, "{scheme:?} theta = {theta}: {worst}");
-    }
+    assert!((utilisation - 0.5477).abs() <= 0.002, "{utilisation}");
+    // The reference was not checked against the mesh, and backward Euler, with which it was computed, damps the ringing of
+    // the wheel's torsion on top of the ramp: its peak is lower.
+    assert!((0.98..=1.08).contains(&(creepage / 2.939e-4)), "{creepage}");
 }
 
 #[test]

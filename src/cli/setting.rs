@@ -1,7 +1,7 @@
 //! Variables by name and their values as text.
 
 use super::Failure;
-use wheelrail::config::nearest;
+use wheelrail::config::{nearest, retired};
 use wheelrail::fmi::units::Measure;
 use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Enumeration, Kind, Value, Variable};
@@ -40,6 +40,9 @@ pub fn find(name: &str, allowed: impl Fn(&Variable) -> bool) -> Result<&'static 
     if let Some(variable) = variables().iter().find(|v| v.name == name) {
         let what = format!("{:?}", variable.causality()).to_lowercase();
         return Err(Failure::Usage(format!("{name} is of causality {what} and has no place here")));
+    }
+    if let Some(retired) = retired::named(name) {
+        return Err(Failure::Usage(retired.to_string()));
     }
     // Points of profiles would crowd out everything else.
     let listed = candidates().filter(|v| !v.name.contains('[') || name.contains('['));
@@ -105,6 +108,12 @@ mod tests {
             let message = find(wrong, |_| true).err().unwrap().to_string();
             assert!(message.contains(wrong) && message.contains(right), "{message}");
         }
+    }
+
+    #[test]
+    fn retired_names_are_refused_with_the_version_that_had_them() {
+        let message = Setting::parse("solver.theta=0.5").err().unwrap().to_string();
+        assert!(message.contains("solver.theta was retired in 0.2.0 (last in 0.1.1)"), "{message}");
     }
 
     #[test]

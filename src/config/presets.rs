@@ -25,8 +25,7 @@ fn apply<T>(config: &mut T, rows: &'static [Row<T>], json: &Json) -> Result<(), 
         for (field, given) in object(&content, &group)? {
             let name = format!("{group}.{field}");
             let Some(row) = rows.iter().find(|row| row.name == name) else {
-                let near = super::nearest(&name, rows.iter().map(|row| row.name));
-                return Err(format!("is invalid (parameter {name} is unknown; nearest: {near})"));
+                return Err(format!("is invalid ({})", no_such_parameter(&name, rows.iter().map(|row| row.name))));
             };
             let value = value(row.kind, &given).ok_or_else(|| {
                 let range = possible(row.kind);
@@ -37,6 +36,12 @@ fn apply<T>(config: &mut T, rows: &'static [Row<T>], json: &Json) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// The refusal of a name that no parameter has: a retired one, or one with its nearest neighbours.
+fn no_such_parameter(name: &str, names: impl Iterator<Item = &'static str>) -> String {
+    let near = || format!("parameter {name} is unknown; nearest: {}", super::nearest(name, names));
+    super::retired::named(name).map_or_else(near, ToString::to_string)
 }
 
 /// A JSON value as value of a row; `None` if it is of another type.
@@ -83,6 +88,7 @@ mod tests {
             (r#"{"wheel": 3}"#, &["malformed", "wheel"]),
             (r#"{"wheel": {"radios": 1}}"#, &["wheel.radios", "unknown", "wheel.radius"]),
             (r#"{"whel": {"radius": 1}}"#, &["whel.radius", "wheel.radius"]),
+            (r#"{"solver": {"theta": 0.5}}"#, &["solver.theta was retired in 0.2.0 (last in 0.1.1)", "remove it"]),
             (r#"{"tuning": {"softening": 0}}"#, &["tuning.softening", "friction.softening"]),
             (r#"{"wheel": {"radius": 50}}"#, &["wheel.radius = 50", "0.01 to 10 m"]),
             (r#"{"wheel": {"radius": "big"}}"#, &["wheel.radius = \"big\"", "0.01 to 10 m"]),

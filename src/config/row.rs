@@ -2,16 +2,27 @@
 
 use super::value::{Kind, Value};
 
+/// Group of readers for which a parameter is meant. Reference pages show the basic ones first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Parameters that describe a vehicle, its wheel and track, and a run: what an engineer sets.
+    Basic,
+    /// Parameters whose defaults are meant to be kept, unless one knows the theory behind them.
+    Expert,
+}
+
 /// A row of the table of parameters of `T`: what anyone may ask about one parameter, and its value.
 #[derive(Debug)]
 pub struct Row<T: 'static> {
     /// Fixed number of the parameter, which survives new ones: programs may know it.
     pub number: u32,
+    /// Readers for whom it is meant.
+    pub level: Level,
     /// Name in the form `group.name`.
     pub name: &'static str,
     /// Kind, unit and range of the values.
     pub kind: Kind,
-    /// Whether the value may change during a run.
+    /// True if the value may change during a run.
     pub tunable: bool,
     /// Meaning, plain text.
     pub text: &'static str,
@@ -25,16 +36,19 @@ pub struct Row<T: 'static> {
 ///
 /// ```text
 /// group: Group fixed {              // `tunable` if its parameters may change during a run
-///     1020 radius: f64 = 0.46, of "wheel", in "m" as "mm", from 0.01 to 10.0, "Outer radius of the wheel";
+///     1020 basic radius: f64 = 0.46, of "wheel", in "m" as "mm", from 0.01 to 10.0, "Outer radius of the wheel";
 /// }
 /// ```
 ///
-/// A row has number, field, type, default and meaning. Between them may stand: `of`, the group in the name if it is not
-/// that of the struct; `in`, the SI unit, and `as`, the unit in which people like to read it; `from … to`, the range; and
-/// `nominal`, the usual size. Types are `f64`, `Option<f64>` (unset until written), `usize`, `bool`, `String` and those that `choice!` defines.
+/// A row has number, level (`basic` or `expert`), field, type, default and meaning. Between them may stand: `of`, the
+/// group in the name if it is not that of the struct; `in`, the SI unit, and `as`, the unit in which people like to
+/// read it; `from … to`, the range; and `nominal`, the usual size. Types are `f64`, `Option<f64>` (unset until
+/// written), `usize`, `bool`, `String` and those that `choice!` defines.
 macro_rules! parameters {
     (@group $group:ident) => { stringify!($group) };
     (@group $group:ident, $of:literal) => { $of };
+    (@level basic) => { $crate::config::row::Level::Basic };
+    (@level expert) => { $crate::config::row::Level::Expert };
     (@tunable fixed) => { false };
     (@tunable tunable) => { true };
     (@display) => { None };
@@ -46,7 +60,7 @@ macro_rules! parameters {
                 $(#[$doc:meta])*
                 $group:ident: $Group:ident $access:ident {
                     $(
-                        $number:literal $field:ident: $type:ty = $default:expr
+                        $number:literal $level:ident $field:ident: $type:ty = $default:expr
                             $(, of $of:literal)?
                             $(, in $unit:literal $(as $display:literal)?)?
                             $(, from $low:literal to $high:literal)?
@@ -85,7 +99,7 @@ macro_rules! parameters {
             #[allow(clippy::needless_update)] // A row may give all its limits.
             pub fn rows() -> &'static [$crate::config::row::Row<$Config>] {
                 use $crate::config::units::Measure;
-                use $crate::config::value::{Field, Limits};
+                use $crate::config::value::{RowValue, ValueLimits};
                 // An array: a vector would be lost when the library is unloaded, for statics are never dropped.
                 type Rows = [$crate::config::row::Row<$Config>; $Config::COUNT];
                 static ROWS: std::sync::OnceLock<Rows> = std::sync::OnceLock::new();
@@ -93,17 +107,18 @@ macro_rules! parameters {
                     let mut rows = [$($(
                         $crate::config::row::Row {
                             number: $number,
+                            level: parameters!(@level $level),
                             name: concat!(parameters!(@group $group $(, $of)?), ".", stringify!($field)),
-                            kind: <$type as Field>::kind(Limits {
+                            kind: <$type as RowValue>::kind(ValueLimits {
                                 $( measure: Measure { unit: $unit, display: parameters!(@display $($display)?) }, )?
                                 $( low: f64::from($low), high: f64::from($high), )?
                                 $( nominal: $nominal, )?
-                                ..Limits::default()
+                                ..ValueLimits::default()
                             }),
                             tunable: parameters!(@tunable $access),
                             text: $text,
-                            read: |config: &$Config| Field::read(&config.$group.$field),
-                            write: |config: &mut $Config, value| Field::write(&mut config.$group.$field, value),
+                            read: |config: &$Config| RowValue::read(&config.$group.$field),
+                            write: |config: &mut $Config, value| RowValue::write(&mut config.$group.$field, value),
                         },
                     )*)*];
                     rows.sort_by_key(|row| row.number);
@@ -118,6 +133,7 @@ pub(crate) use parameters;
 #[cfg(test)]
 mod tests {
     use super::super::value::{Kind, Value, choice};
+    use super::Level;
 
     choice! {
         /// A choice.
@@ -132,14 +148,14 @@ mod tests {
         pub struct Local {
             /// Fixed ones.
             head: Head fixed {
-                7 profile: String = "cone".to_owned(), "Name of a profile";
-                3 shape: Shape = Shape::Round, "Form of the head";
-                5 count: usize = 2, from 1 to 4, "How many there are";
-                4 on: bool = true, "Whether it is there";
+                7 basic profile: String = "cone".to_owned(), "Name of a profile";
+                3 basic shape: Shape = Shape::Round, "Form of the head";
+                5 expert count: usize = 2, from 1 to 4, "How many there are";
+                4 basic on: bool = true, "Whether it is there";
             }
             /// One that may change.
             tuning: Tuned tunable {
-                6 width: f64 = 0.07, of "head", in "m" as "mm", from -1.5 to 2.0, nominal 0.1, "Width of the head";
+                6 expert width: f64 = 0.07, of "head", in "m" as "mm", from -1.5 to 2.0, nominal 0.1, "Width of the head";
             }
         }
     }
@@ -156,6 +172,8 @@ mod tests {
             (7, "head.profile", false),
         ];
         assert_eq!(names, expected);
+        let basic: Vec<_> = rows.iter().filter(|row| row.level == Level::Basic).map(|row| row.number).collect();
+        assert_eq!(basic, [3, 4, 7]);
         let local = Local::default();
         assert_eq!((local.head.profile.as_str(), local.tuning.width), ("cone", 0.07));
         assert!(

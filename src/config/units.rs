@@ -10,7 +10,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Whether it measures differences: of temperatures, those that are not shown in degrees Celsius.
+    /// True for differences: temperatures that are not shown in degrees Celsius.
     pub fn is_relative(self) -> bool {
         self.unit == "K" && self.display.is_none()
     }
@@ -23,7 +23,7 @@ pub struct Display {
     pub name: &'static str,
     /// How many of it make one SI unit.
     pub factor: f64,
-    /// What zero of the SI unit is in it.
+    /// Value in it of the zero of the SI unit.
     pub offset: f64,
 }
 
@@ -41,7 +41,7 @@ pub struct Unit {
     pub quantity: &'static str,
     /// Exponents of [`BASE_UNITS`].
     pub exponents: [i32; 5],
-    /// What people like to read instead.
+    /// Units that people like to read instead.
     pub displays: &'static [Display],
 }
 

@@ -52,7 +52,7 @@ impl std::fmt::Display for Value {
 pub struct Enumeration {
     /// Name of the list.
     pub name: &'static str,
-    /// What is chosen.
+    /// Meaning of the choice.
     pub description: &'static str,
     /// Name and meaning of every item.
     pub items: &'static [(&'static str, &'static str)],
@@ -71,7 +71,7 @@ impl Enumeration {
     }
 }
 
-/// What values a row admits. Infinite bounds are open.
+/// Kind of the values that a row admits. Infinite bounds are open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Numbers with a unit; `nominal` is their usual size.
@@ -188,9 +188,9 @@ fn plain(value: f64) -> String {
     if ordinary { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// What a row says about its values besides their type; a kind takes from it what it knows.
+/// Unit and range that a row gives for its values; a [`Kind`] without them ignores them.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct ValueLimits {
     /// Unit of numbers.
     pub measure: Measure,
     /// Smallest value.
@@ -201,7 +201,7 @@ pub struct Limits {
     pub nominal: f64,
 }
 
-impl Default for Limits {
+impl Default for ValueLimits {
     fn default() -> Self {
         let measure = Measure { unit: "1", display: None };
         Self { measure, low: f64::NEG_INFINITY, high: f64::INFINITY, nominal: 1.0 }
@@ -209,17 +209,17 @@ impl Default for Limits {
 }
 
 /// A type that a row can have.
-pub trait Field {
+pub trait RowValue {
     /// Kind of its values.
-    fn kind(limits: Limits) -> Kind;
+    fn kind(limits: ValueLimits) -> Kind;
     /// The present value.
     fn read(&self) -> Value;
     /// Takes a value; one of another type changes nothing.
     fn write(&mut self, value: &Value);
 }
 
-impl Field for f64 {
-    fn kind(Limits { measure, low: min, high: max, nominal }: Limits) -> Kind {
+impl RowValue for f64 {
+    fn kind(ValueLimits { measure, low: min, high: max, nominal }: ValueLimits) -> Kind {
         Kind::Real { measure, min, max, nominal }
     }
     fn read(&self) -> Value {
@@ -233,8 +233,8 @@ impl Field for f64 {
 }
 
 /// A number that may be left unset, which reads as zero.
-impl Field for Option<f64> {
-    fn kind(limits: Limits) -> Kind {
+impl RowValue for Option<f64> {
+    fn kind(limits: ValueLimits) -> Kind {
         f64::kind(limits)
     }
     fn read(&self) -> Value {
@@ -247,8 +247,8 @@ impl Field for Option<f64> {
     }
 }
 
-impl Field for usize {
-    fn kind(limits: Limits) -> Kind {
+impl RowValue for usize {
+    fn kind(limits: ValueLimits) -> Kind {
         Kind::Integer { min: limits.low.max(0.0) as i32, max: limits.high as i32 }
     }
     fn read(&self) -> Value {
@@ -261,8 +261,8 @@ impl Field for usize {
     }
 }
 
-impl Field for bool {
-    fn kind(_: Limits) -> Kind {
+impl RowValue for bool {
+    fn kind(_: ValueLimits) -> Kind {
         Kind::Boolean
     }
     fn read(&self) -> Value {
@@ -275,8 +275,8 @@ impl Field for bool {
     }
 }
 
-impl Field for String {
-    fn kind(_: Limits) -> Kind {
+impl RowValue for String {
+    fn kind(_: ValueLimits) -> Kind {
         Kind::String
     }
     fn read(&self) -> Value {
@@ -289,7 +289,7 @@ impl Field for String {
     }
 }
 
-/// Defines an enumeration with the names and meanings of its items, once: the type and its [`Field`].
+/// Defines an enumeration with the names and meanings of its items, once: the type and its [`RowValue`].
 macro_rules! choice {
     (
         $(#[$about:meta])*
@@ -303,8 +303,8 @@ macro_rules! choice {
             $( #[doc = concat!("`", $item, "`: ", $meaning, ".")] #[serde(rename = $item)] $Item, )*
         }
 
-        impl $crate::config::value::Field for $Name {
-            fn kind(_: $crate::config::value::Limits) -> $crate::config::value::Kind {
+        impl $crate::config::value::RowValue for $Name {
+            fn kind(_: $crate::config::value::ValueLimits) -> $crate::config::value::Kind {
                 const LIST: $crate::config::value::Enumeration = $crate::config::value::Enumeration {
                     name: $name,
                     description: $text,

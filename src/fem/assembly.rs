@@ -1,6 +1,6 @@
 //! From element matrices to sparse ones; fixed degrees of freedom are left out.
 
-use super::element::{self, EdgePoint, Point};
+use super::element::{self, CellPoint, EdgePoint};
 use super::{FemError, Mesh};
 use crate::linalg::CsrMatrix;
 use nalgebra::DVector;
@@ -40,7 +40,7 @@ impl DofMap {
         self.len
     }
 
-    /// Whether every component is fixed.
+    /// True if every component is fixed.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -55,7 +55,7 @@ impl DofMap {
     }
 }
 
-/// The same scalar bilinear form for both displacement components.
+/// Matrix of a scalar bilinear form that is equal for both displacement components and does not couple them.
 pub fn both_components(scalar: &[[f64; 4]; 4]) -> ElementMatrix {
     std::array::from_fn(|i| std::array::from_fn(|j| if i % 2 == j % 2 { scalar[i / 2][j / 2] } else { 0.0 }))
 }
@@ -73,7 +73,7 @@ fn scatter(dofs: &[Option<usize>; 8], matrix: &ElementMatrix, triplets: &mut Vec
 }
 
 /// Which unknowns share a cell: where the entries of element matrices go, the same for every matrix of a mesh.
-pub struct Pattern<'a> {
+pub struct AssemblyPattern<'a> {
     mesh: &'a Mesh,
     /// Rows of the matrix: place of the first entry of each, and of the end of the last.
     starts: Vec<usize>,
@@ -83,7 +83,7 @@ pub struct Pattern<'a> {
     corners: Vec<[Option<usize>; 4]>,
 }
 
-impl<'a> Pattern<'a> {
+impl<'a> AssemblyPattern<'a> {
     /// Nodes next to each other on a mesh.
     pub fn new(mesh: &'a Mesh, dofs: &DofMap) -> Self {
         let corners: Vec<[Option<usize>; 4]> =
@@ -110,7 +110,7 @@ impl<'a> Pattern<'a> {
     }
 
     /// Sums element matrices over all cells.
-    pub fn assemble(&self, element: impl Fn(&[Point; 4]) -> ElementMatrix) -> Result<CsrMatrix, FemError> {
+    pub fn assemble(&self, element: impl Fn(&[CellPoint; 4]) -> ElementMatrix) -> Result<CsrMatrix, FemError> {
         let mut values = vec![0.0; self.columns.len()];
         for (cell, corners) in self.corners.iter().enumerate() {
             let matrix = element(&element::points(&self.mesh.corners(cell))?);
@@ -139,9 +139,9 @@ impl<'a> Pattern<'a> {
 pub fn assemble(
     mesh: &Mesh,
     dofs: &DofMap,
-    element: impl Fn(&[Point; 4]) -> ElementMatrix,
+    element: impl Fn(&[CellPoint; 4]) -> ElementMatrix,
 ) -> Result<CsrMatrix, FemError> {
-    Pattern::new(mesh, dofs).assemble(element)
+    AssemblyPattern::new(mesh, dofs).assemble(element)
 }
 
 /// Sums boundary matrices over the mesh's open ends.
@@ -162,7 +162,7 @@ pub fn assemble_faces(
 pub fn assemble_vector(
     mesh: &Mesh,
     dofs: &DofMap,
-    element: impl Fn(&[Point; 4]) -> ElementMatrix,
+    element: impl Fn(&[CellPoint; 4]) -> ElementMatrix,
     field: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Result<DVector<f64>, FemError> {
     let mut vector = DVector::zeros(dofs.len());

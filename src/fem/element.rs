@@ -9,7 +9,7 @@ const GAUSS: f64 = 0.577_350_269_189_625_8;
 
 /// Shape functions and their gradients at one quadrature point.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct CellPoint {
     /// Position \[m].
     pub position: [f64; 2],
     /// `N_i` \[1].
@@ -39,7 +39,7 @@ pub fn shape(xi: f64, eta: f64) -> [f64; 4] {
 }
 
 /// Position, shape functions, gradients and `|J|` (as `dv`) at `(ξ, η)`.
-pub fn point_at(corners: &[[f64; 2]; 4], xi: f64, eta: f64) -> Result<Point, FemError> {
+pub fn point_at(corners: &[[f64; 2]; 4], xi: f64, eta: f64) -> Result<CellPoint, FemError> {
     let shape = shape(xi, eta);
     let reference = CORNERS.map(|c| [0.25 * c[0] * (1.0 + c[1] * eta), 0.25 * c[1] * (1.0 + c[0] * xi)]);
     let mut position = [0.0; 2];
@@ -60,11 +60,11 @@ pub fn point_at(corners: &[[f64; 2]; 4], xi: f64, eta: f64) -> Result<Point, Fem
         return Err(FemError::InvertedCell { x, y, determinant });
     }
     let gradient = reference.map(|[gx, gy]| [(d * gx - c * gy) / determinant, (a * gy - b * gx) / determinant]);
-    Ok(Point { position, shape, gradient, dv: determinant })
+    Ok(CellPoint { position, shape, gradient, dv: determinant })
 }
 
 /// The four Gauss points of a cell.
-pub fn points(corners: &[[f64; 2]; 4]) -> Result<[Point; 4], FemError> {
+pub fn points(corners: &[[f64; 2]; 4]) -> Result<[CellPoint; 4], FemError> {
     let [a, b, c, d] = CORNERS.map(|c| point_at(corners, GAUSS * c[0], GAUSS * c[1]));
     Ok([a?, b?, c?, d?])
 }

@@ -22,7 +22,7 @@ pub enum FemError {
         half_width: f64,
         /// Largest half-length that fits \[m].
         limit: f64,
-        /// What it has to fit into.
+        /// Length that it has to fit into.
         what: &'static str,
     },
     /// A length that must be positive and finite.

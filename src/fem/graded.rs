@@ -1,8 +1,8 @@
 //! Streamline-aligned graded meshes: polar in the wheel, rectangular in the rail, fine at the contact.
 //!
-//! Surface nodes of both bodies lie at `x_i = i h` in and around the contact zone and are paired one to one. Beyond, in the
-//! wings of the zone, they are still paired, at distances that grow slowly: there is room for patches much wider than those
-//! for which the mesh is laid out. Away from both the cell size grows by a constant factor per cell.
+//! Surface nodes of both bodies lie at `x_i = i h` in and around the contact zone and are paired one to one. Beyond, in
+//! the wings of the zone, they are still paired, at distances that grow slowly: there is room for patches much wider
+//! than those for which the mesh is laid out. Away from both the cell size grows by a constant factor per cell.
 
 use super::grading::Grading;
 use super::{Face, FemError, Mesh};
@@ -14,8 +14,8 @@ const ZONE: f64 = 1.5;
 pub const GUARDS: usize = 3;
 /// Growth of the cell size per cell along the surface and into the depth.
 const GROWTH: f64 = 1.2;
-/// Growth of the cells in the wings by this many uniform ones per half-width, `h(s) = h (1 + 2 s/a)`, so that finer meshes
-/// are finer everywhere; but no more than by [`GROWTH`] per cell, nor less than by 7 %: very fine meshes stay
+/// Growth of the cells in the wings by this many uniform ones per half-width, `h(s) = h (1 + 2 s/a)`, so that finer
+/// meshes are finer everywhere; but no more than by [`GROWTH`] per cell, nor less than by 7 %: very fine meshes stay
 /// affordable.
 const WING_SLOPE: f64 = 2.0;
 const LEAST_WING_GROWTH: f64 = 1.07;

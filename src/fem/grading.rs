@@ -1,8 +1,8 @@
 //! Grading of one-dimensional meshes: positions of nodes on a line whose cells grow from one end or from both.
 //!
-//! Two families serve different purposes. [`Grading`] places a given density of cells, grows from both ends and leaves no
-//! jump of size in between: for meshes that vibrate. [`graded`] grows by an exact factor from one end: for thermal layers,
-//! whose size is known at the surface. Both meet the ends of the line exactly.
+//! Two families serve different purposes. [`Grading`] places a given density of cells, grows from both ends and leaves
+//! no jump of size in between: for meshes that vibrate. [`graded`] grows by an exact factor from one end: for thermal
+//! layers, whose size is known at the surface. Both meet the ends of the line exactly.
 
 /// Cell size along a line: `min(first + α s, largest, last + β (length − s))`.
 ///
@@ -52,7 +52,8 @@ impl Grading {
         Pieces { first, last, alpha, beta, rising, rise, flat, fall }
     }
 
-    /// Number of cells on a line of the given length, without placing them; a float, since it may be beyond all integers.
+    /// Number of cells on a line of the given length, without placing them; a float, since it may be beyond all
+    /// integers.
     pub fn cells(&self, length: f64) -> f64 {
         let Pieces { rise, flat, fall, .. } = self.pieces(length);
         (rise + flat + fall - 1e-9).ceil().max(1.0)
@@ -82,8 +83,8 @@ impl Grading {
     }
 }
 
-/// Positions from zero to `length` whose cells have the sizes `first·growth^k`, at most `largest`, all shrunk by one factor
-/// so that they fill `length` \[m].
+/// Positions from zero to `length` whose cells have the sizes `first·growth^k`, at most `largest`, all shrunk by one
+/// factor so that they fill `length` \[m].
 pub fn graded(first: f64, growth: f64, largest: f64, length: f64) -> Vec<f64> {
     let mut positions = vec![0.0];
     let (mut size, mut end) = (first.min(largest), 0.0);

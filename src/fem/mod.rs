@@ -7,8 +7,8 @@ pub mod graded;
 pub mod grading;
 pub mod mesh;
 
-pub use assembly::{DofMap, Pattern, assemble, assemble_faces, assemble_vector};
-pub use element::Point;
+pub use assembly::{AssemblyPattern, DofMap, assemble, assemble_faces, assemble_vector};
+pub use element::CellPoint;
 pub use error::FemError;
 pub use graded::ContactZone;
 pub use mesh::{Face, Mesh};

@@ -3,10 +3,11 @@
 
 use super::pages::{Page, escaped, pages};
 use super::presets;
-use super::reference::{self, Cells};
-use super::table::{enumerations, table};
+use super::reference::{self, Cells, RETIREMENT, SECTIONS};
+use super::table::enumerations;
 use super::v2::description;
-use super::variable::{Causality, Variable};
+use super::variable::Variable;
+use crate::config::retired::{RETIRED, Retired};
 use std::fmt::Write;
 
 /// Text before the tables.
@@ -26,28 +27,36 @@ pub fn index_html() -> String {
         .replace("{guides}", &links(|page| !page.is_theory()))
         .replace("{mit}", &escaped(include_str!("../../LICENSE-MIT")))
         .replace("{apache}", &escaped(include_str!("../../LICENSE-APACHE")));
-    for (title, causality) in
-        [("Inputs", Causality::Input), ("Outputs", Causality::Output), ("Parameters", Causality::Parameter)]
-    {
-        let _ = write!(
-            html,
-            "<h3>{title}</h3>\n<div class=\"wide\"><table>\n<tr><th>name</th><th>reference</th><th>unit</th>"
-        );
-        let _ = writeln!(html, "<th>range</th><th>default</th><th>meaning</th></tr>");
-        table().iter().filter(|v| v.causality() == causality).for_each(|variable| row(&mut html, variable));
+    for section in &SECTIONS {
+        heading(&mut html, section.title, section.about, &["name", "reference", "unit", "range", "default", "meaning"]);
+        section.rows().for_each(|variable| row(&mut html, variable));
         html.push_str("</table></div>\n");
     }
-    html.push_str(
-        "<h3>Enumerations</h3>\n<table>\n<tr><th>type</th><th>value</th><th>item</th><th>meaning</th></tr>\n",
-    );
+    heading(&mut html, "Enumerations", "", &["type", "value", "item", "meaning"]);
     for list in enumerations() {
         for (value, (item, text)) in (1..).zip(list.items) {
             let value: i32 = value;
             let _ = writeln!(html, "<tr><td>{}</td><td>{value}</td><td>{item}</td><td>{text}</td></tr>", list.name);
         }
     }
-    html.push_str("</table>\n</body>\n</html>\n");
+    html.push_str("</table></div>\n");
+    heading(&mut html, "Retired parameters", RETIREMENT, &["name", "reference", "last in", "instead"]);
+    for Retired { name, number, last, instead, .. } in RETIRED {
+        let _ = writeln!(
+            html,
+            "<tr><td><code>{name}</code></td><td>{number}</td><td>{last}</td><td>{}</td></tr>",
+            escaped(instead)
+        );
+    }
+    html.push_str("</table></div>\n</body>\n</html>\n");
     html
+}
+
+/// Title of a table, a sentence about it, and its head.
+fn heading(html: &mut String, title: &str, about: &str, columns: &[&str]) {
+    let about = if about.is_empty() { String::new() } else { format!("<p>{about}</p>\n") };
+    let columns: String = columns.iter().map(|column| format!("<th>{column}</th>")).collect();
+    let _ = writeln!(html, "<h3>{title}</h3>\n{about}<div class=\"wide\"><table>\n<tr>{columns}</tr>");
 }
 
 fn row(html: &mut String, variable: &Variable) {

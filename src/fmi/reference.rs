@@ -3,8 +3,10 @@
 use super::settings::start_value;
 use super::table::{enumerations, table};
 use super::units::Measure;
-use super::variable::{Causality, Kind, Reference, Value, Variable};
+use super::variable::{Access, Causality, Kind, Reference, Value, Variable};
 use crate::config::display_number;
+use crate::config::retired::{RETIRED, Retired};
+use crate::config::row::Level;
 use std::fmt::Write;
 
 /// Cells about a variable in a table for people.
@@ -60,6 +62,10 @@ pub fn cells(variable: &Variable) -> Cells {
     Cells { name, reference, unit, range, start, tunable, text }
 }
 
+/// Sentence below the heading of retired parameters.
+pub const RETIREMENT: &str =
+    "Earlier versions had them; they are refused by name, and their references are never used again.";
+
 /// Text before the tables.
 const INTRODUCTION: &str = "# Reference of all variables
 
@@ -68,19 +74,65 @@ Values cross the interface in SI units. x points in travel direction, y up, `ome
 act on the wheel. Tunable parameters may change during a run, the others only before its start.
 ";
 
-/// Title, causality and columns of the tables.
-const TABLES: [(&str, Causality, &[&str]); 3] = [
-    ("Inputs", Causality::Input, &["name", "reference", "unit", "default", "range", "meaning"]),
-    ("Outputs", Causality::Output, &["name", "reference", "unit", "range", "meaning"]),
-    ("Parameters", Causality::Parameter, &["name", "reference", "unit", "default", "range", "tunable", "meaning"]),
+/// A table of some of the variables.
+pub struct ReferenceTable {
+    /// Its heading.
+    pub title: &'static str,
+    /// Sentence below the heading; may be empty.
+    pub about: &'static str,
+    /// Causality and, of parameters, level of its rows.
+    shows: (Causality, Option<Level>),
+}
+
+impl ReferenceTable {
+    /// The rows of the section, in the order of the table.
+    pub fn rows(&self) -> impl Iterator<Item = &'static Variable> {
+        let (causality, level) = self.shows;
+        let listed = move |v: &&Variable| v.causality() == causality && level.is_none_or(|level| level_of(v) == level);
+        table().iter().filter(listed)
+    }
+
+    /// Columns of the section in `docs/reference.md`.
+    fn columns(&self) -> &'static [&'static str] {
+        match self.shows.0 {
+            Causality::Input => &["name", "reference", "unit", "default", "range", "meaning"],
+            Causality::Output => &["name", "reference", "unit", "range", "meaning"],
+            Causality::Parameter => &["name", "reference", "unit", "default", "range", "tunable", "meaning"],
+        }
+    }
+}
+
+/// Readers for whom a variable is meant: all of them but for the expert parameters.
+fn level_of(variable: &Variable) -> Level {
+    match variable.access {
+        Access::Parameter(row) => row.level,
+        Access::Preset | Access::RealInput(_) | Access::ChoiceInput(..) | Access::Output(_) => Level::Basic,
+    }
+}
+
+/// The tables of all variables, in the order in which people read them: basic parameters before expert ones.
+pub const SECTIONS: [ReferenceTable; 4] = [
+    ReferenceTable { title: "Inputs", about: "", shows: (Causality::Input, None) },
+    ReferenceTable { title: "Outputs", about: "", shows: (Causality::Output, None) },
+    ReferenceTable {
+        title: "Basic parameters",
+        about: "They describe wheel, vehicle, track, material and run.",
+        shows: (Causality::Parameter, Some(Level::Basic)),
+    },
+    ReferenceTable {
+        title: "Expert parameters",
+        about: "Their defaults are meant to be kept, unless one knows the theory behind them.",
+        shows: (Causality::Parameter, Some(Level::Expert)),
+    },
 ];
 
 /// The reference as Markdown.
 pub fn markdown() -> String {
     let mut text = INTRODUCTION.to_owned();
-    for (title, causality, columns) in TABLES {
-        heading(&mut text, title, columns);
-        for variable in table().iter().filter(|v| v.causality() == causality) {
+    for section in &SECTIONS {
+        let columns = section.columns();
+        heading(&mut text, section.title, section.about, columns);
+        for variable in section.rows() {
             let cells = cells(variable);
             let cell = |column: &&str| match *column {
                 "name" => format!("`{}`", cells.name),
@@ -94,7 +146,7 @@ pub fn markdown() -> String {
             line(&mut text, columns.iter().map(cell));
         }
     }
-    heading(&mut text, "Enumerations", &["type", "value", "item", "meaning"]);
+    heading(&mut text, "Enumerations", "", &["type", "value", "item", "meaning"]);
     for list in enumerations() {
         for (value, (item, meaning)) in (1..).zip(list.items) {
             let value: i32 = value;
@@ -102,12 +154,19 @@ pub fn markdown() -> String {
             line(&mut text, cells);
         }
     }
+    heading(&mut text, "Retired parameters", RETIREMENT, &["name", "reference", "last in", "instead"]);
+    for Retired { name, number, last, instead, .. } in RETIRED {
+        line(&mut text, [format!("`{name}`"), number.to_string(), (*last).to_owned(), (*instead).to_owned()]);
+    }
     text
 }
 
-/// Title and head of a table.
-fn heading(text: &mut String, title: &str, columns: &[&str]) {
+/// Title of a table, a sentence about it, and its head.
+fn heading(text: &mut String, title: &str, about: &str, columns: &[&str]) {
     let _ = writeln!(text, "\n## {title}\n");
+    if !about.is_empty() {
+        let _ = writeln!(text, "{about}\n");
+    }
     line(text, columns.iter().map(|column| (*column).to_owned()));
     line(text, columns.iter().map(|_| "---".to_owned()));
 }

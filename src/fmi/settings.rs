@@ -3,7 +3,7 @@
 use super::presets;
 use super::table::{find, named, table};
 use super::variable::{Access, Causality, Reference, Value, Variable};
-use crate::config::{Config, Given};
+use crate::config::Config;
 use crate::simulation::{Drive, Inputs};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -77,7 +77,7 @@ impl Settings {
             }
         };
         self.parameters.iter().for_each(|set| write(&mut config, set));
-        let all = config.initial.given == Given::Written;
+        let all = config.initial.given.counts_start_values();
         config.clone_from(&self.base);
         let says_more = |(reference, value): &(&Reference, &Value)| {
             all || find(**reference).is_none_or(|row| row.parameter("", &self.base).as_ref() != Some(*value))
@@ -90,7 +90,7 @@ impl Settings {
     /// The inputs that count under `config`: all that are set; of those set before the end of initialization (`early`)
     /// only what says more than the declared start values do, unless `initial.given` is `written`.
     pub fn given(&self, config: &Config, early: bool) -> Cow<'_, SetValues> {
-        if !early || config.initial.given == Given::Written {
+        if !early || config.initial.given.counts_start_values() {
             return Cow::Borrowed(&self.inputs);
         }
         let mut given = self.inputs.clone();

@@ -7,8 +7,8 @@ const MEMORY: usize = 6;
 /// Regularisation of the small least-squares problem, relative to its trace [1].
 const REGULARISATION: f64 = 1e-12;
 
-/// Mixing after D. G. Anderson, *J. ACM* 12 (1965): the next point is that of the remembered combination whose change is
-/// smallest. Memory is kept from one problem to the next.
+/// Mixing after D. G. Anderson, *J. ACM* 12 (1965): the next point is that of the remembered combination whose change
+/// is smallest. Memory is kept from one problem to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Anderson {
     point: Vec<f64>,
@@ -97,8 +97,9 @@ mod tests {
 
     #[test]
     fn mixing_finds_the_fixed_point_of_a_slow_contraction_with_kinks_within_a_few_iterations() {
-        // Symmetric like the diffusion behind the fixed points of this program; iteration alone takes 120 steps. A rotation
-        // of the unknowns, whose eigenvalues lie on a circle, would be the worst case of any short memory: 128 steps.
+        // Symmetric like the diffusion behind the fixed points of this program; iteration alone takes 120 steps. A
+        // rotation of the unknowns, whose eigenvalues lie on a circle, would be the worst case of any short memory: 128
+        // steps.
         let source = |i: usize| 0.05 + 0.5 * (i as f64).sin();
         let map = |x: &[f64]| -> Vec<f64> {
             let n = x.len();

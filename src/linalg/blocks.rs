@@ -40,8 +40,8 @@ impl Weighted<MatRef<'_, f64>> {
 
 /// Block Gram–Schmidt against the orthonormal vectors `old`, then within the block, all of it twice.
 ///
-/// The first time only the last `recent` of the old ones count: those along which `w` has more than round-off. Returns the
-/// new `M`-orthonormal vectors (fewer if dependent) and the coefficients of `w` in old and new vectors.
+/// The first time only the last `recent` of the old ones count: those along which `w` has more than round-off. Returns
+/// the new `M`-orthonormal vectors (fewer if dependent) and the coefficients of `w` in old and new vectors.
 pub(super) fn orthonormalise(
     mass: &CsrMatrix,
     old: Weighted<MatRef<'_, f64>>,
@@ -65,8 +65,8 @@ pub(super) fn orthonormalise(
     (next, coefficients)
 }
 
-/// Modified Gram–Schmidt within a block, `w = q r`; vectors that are shorter after projection than the share `smallest` of
-/// their length before, of which the square `removed` is gone already, are dropped.
+/// Modified Gram–Schmidt within a block, `w = q r`; vectors that are shorter after projection than the share `smallest`
+/// of their length before, of which the square `removed` is gone already, are dropped.
 fn orthonormalise_block(
     mass: &CsrMatrix,
     w: &Mat<f64>,

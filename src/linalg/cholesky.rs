@@ -31,7 +31,7 @@ impl CholeskyPattern {
         Self::analyse(a, &[], SymmetricOrdering::Amd, SupernodalThreshold::AUTO)
     }
 
-    /// The same with an order in which the unknowns `last` come last, one after the other. They must be different.
+    /// Pattern with an order in which the unknowns `last` come last, one after the other. They must be different.
     pub fn with_last(a: &CsrMatrix, last: &[usize]) -> Result<Self, LinalgError> {
         let order = order_with_last(a, last)?;
         let mut inverse = vec![0; order.len()];
@@ -113,7 +113,7 @@ impl Cholesky {
         CholeskyPattern::new(a)?.factorise(a)
     }
 
-    /// The same with the unknowns `last` at the end of the elimination.
+    /// Factor of `a` with the unknowns `last` at the end of the elimination.
     pub fn with_last(a: &CsrMatrix, last: &[usize]) -> Result<Self, LinalgError> {
         CholeskyPattern::with_last(a, last)?.factorise(a)
     }
@@ -164,8 +164,8 @@ impl Cholesky {
         self.solve_in_place(x.as_mut_slice());
     }
 
-    /// The block of `A⁻¹` that belongs to the unknowns that were asked to come last: `(L_ss L_ssᵀ)⁻¹` with their triangle
-    /// `L_ss` at the end of the factor. `None` if no order was asked for.
+    /// The block of `A⁻¹` that belongs to the unknowns that were asked to come last: `(L_ss L_ssᵀ)⁻¹` with their
+    /// triangle `L_ss` at the end of the factor. `None` if no order was asked for.
     pub fn last_block_of_inverse(&self) -> Option<DMatrix<f64>> {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.pattern.symbolic.raw() else { return None };
         let count = self.pattern.last.len();

@@ -6,8 +6,8 @@ use faer::linalg::lu::partial_pivoting::factor::{self, PartialPivLuParams};
 use faer::{Auto, MatMut, Par, Spec};
 use nalgebra::DMatrix;
 
-/// Factorises column by column, without products of blocks: those keep a buffer with a destructor in the thread that asks
-/// for them, which would hold a library of an FMU loaded as long as the thread of its master lives.
+/// Factorises column by column, without products of blocks: those keep a buffer with a destructor in the thread that
+/// asks for them, which would hold a library of an FMU loaded as long as the thread of its master lives.
 fn by_columns() -> Spec<PartialPivLuParams, f64> {
     Spec::new(PartialPivLuParams { recursion_threshold: usize::MAX, ..<PartialPivLuParams as Auto<f64>>::auto() })
 }

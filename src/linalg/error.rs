@@ -28,7 +28,7 @@ pub enum LinalgError {
     NotPositiveDefinite {
         /// Number of unknowns.
         size: usize,
-        /// What the factorisation says.
+        /// Reason that the factorisation gives.
         reason: String,
     },
     /// The fill-in analysis failed (memory, index range).
@@ -36,7 +36,7 @@ pub enum LinalgError {
     Symbolic {
         /// Number of unknowns.
         size: usize,
-        /// What the factorisation says.
+        /// Reason that the factorisation gives.
         reason: String,
     },
     /// A dense symmetric eigenproblem failed.

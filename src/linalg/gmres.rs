@@ -41,8 +41,8 @@ pub struct Gmres {
 impl Gmres {
     /// Replaces `b` by `A⁻¹ b`; returns the number of iterations (0: the preconditioner alone was enough).
     ///
-    /// Right-preconditioned and restarted (Saad, *Iterative Methods for Sparse Linear Systems*, 2nd ed., 9.3.2). Stops at
-    /// `|residual| ≤ tolerance |b|`, or where round-off stops it below `accepted |b|`. On error `b` is untouched.
+    /// Right-preconditioned and restarted (Saad, *Iterative Methods for Sparse Linear Systems*, 2nd ed., 9.3.2). Stops
+    /// at `|residual| ≤ tolerance |b|`, or where round-off stops it below `accepted |b|`. On error `b` is untouched.
     pub fn solve(
         &mut self,
         system: &mut dyn LinearSystem,

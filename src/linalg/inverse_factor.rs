@@ -7,9 +7,9 @@ const BLOCK: usize = 4;
 
 /// The lower triangular factor `W` of an inverse, `A⁻¹ = WᵀW`.
 ///
-/// Its first n rows are the factor of the first n rows and columns of `A`. So one factor serves all leading parts, and a row more
-/// costs n² operations. A row is computed from those before it, always in the same way: whatever came before, the same matrix
-/// has the same bits.
+/// Its first n rows are the factor of the first n rows and columns of `A`. So one factor serves all leading parts, and
+/// a row more costs n² operations. A row is computed from those before it, always in the same way: whatever came
+/// before, the same matrix has the same bits.
 #[derive(Clone, Debug, Default)]
 pub struct InverseFactor {
     size: usize,
@@ -38,8 +38,8 @@ impl InverseFactor {
         self.rows.truncate(start(self.size));
     }
 
-    /// Adds a row and a column: the entries `beside` the diagonal, one for each row before, and the `diagonal` one. `None`, and
-    /// nothing added, if the matrix is not positive definite.
+    /// Adds a row and a column: the entries `beside` the diagonal, one for each row before, and the `diagonal` one.
+    /// `None`, and nothing added, if the matrix is not positive definite.
     pub fn append(&mut self, beside: impl Iterator<Item = f64>, diagonal: f64) -> Option<()> {
         let n = self.size;
         let Self { rows, row, product, .. } = self;
@@ -61,8 +61,8 @@ impl InverseFactor {
         Some(())
     }
 
-    /// `x ← A⁻¹ x` with the first rows and columns of `A`, as many as `x` has entries, which are at most all. `product` is memory
-    /// for this.
+    /// `x ← A⁻¹ x` with the first rows and columns of `A`, as many as `x` has entries, which are at most all. `product`
+    /// is memory for this.
     pub fn solve(&self, x: &mut Vec<f64>, product: &mut Vec<f64>) {
         let n = x.len().min(self.size);
         x.resize(n.next_multiple_of(BLOCK), 0.0);

@@ -10,17 +10,17 @@ const BLOCK: usize = 4;
 /// Accepted residual `‖T φ − θ φ‖_M / θ` before the final inverse iteration.
 const TOLERANCE: f64 = 1e-9;
 
-/// Number of vectors in the Krylov space that suffices for `count` modes of bodies as long as they are high, or ten times
-/// as long.
+/// Number of vectors in the Krylov space that suffices for `count` modes of bodies as long as they are high, or ten
+/// times as long.
 pub fn usual_space(count: usize) -> usize {
     6 * count + 60
 }
 
 /// Largest number of vectors in the Krylov space for `count` modes.
 ///
-/// A long body on a fixed base has a cut-off frequency, above which its modes crowd: their distance falls with the square of
-/// the length, and the space has to grow with the length to tell them apart, however few of them are wanted. A rail of
-/// 100 m with a height of 0.1 m took 384 vectors for one mode and 848 for 200.
+/// A long body on a fixed base has a cut-off frequency, above which its modes crowd: their distance falls with the
+/// square of the length, and the space has to grow with the length to tell them apart, however few of them are wanted.
+/// A rail of 100 m with a height of 0.1 m took 384 vectors for one mode and 848 for 200.
 pub fn largest_space(count: usize) -> usize {
     usual_space(count) + 800
 }
@@ -69,8 +69,8 @@ impl<'a> Krylov<'a> {
         Self { oscillator, basis, size: 0, last: 0, next, projected: DMatrix::zeros(0, 0), restarts: 0 }
     }
 
-    /// Enlarges the space until its `count` largest Ritz pairs have residuals below [`TOLERANCE`]; `report` receives the
-    /// number of vectors.
+    /// Enlarges the space until its `count` largest Ritz pairs have residuals below [`TOLERANCE`]; `report` receives
+    /// the number of vectors.
     pub fn converge(&mut self, count: usize, report: &mut dyn FnMut(usize)) -> Result<RitzPairs, LinalgError> {
         let n = self.oscillator.factor.size();
         let limit = largest_space(count).min(n);
@@ -164,8 +164,8 @@ impl<'a> Krylov<'a> {
 
 /// Eigenvalues (ascending) and eigenvectors of a dense symmetric matrix.
 ///
-/// nalgebra's QR iteration: on the projected operators the divide and conquer of faer 0.24.4 leaves relative residuals of
-/// 1e-6, nine digits more than round-off (see also faer-rs issue 273).
+/// nalgebra's QR iteration: on the projected operators the divide and conquer of faer 0.24.4 leaves relative residuals
+/// of 1e-6, nine digits more than round-off (see also faer-rs issue 273).
 pub(super) fn dense_eigen(a: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), LinalgError> {
     let size = a.nrows();
     let dense = DMatrix::from_fn(size, size, |i, j| a[(i, j)]);
@@ -223,8 +223,8 @@ mod tests {
             .fold(0.0, f64::max)
     }
 
-    /// Why [`dense_eigen`] is nalgebra's: on the projected operator of a rail faer loses digits. Once this test fails because
-    /// faer is accurate, its own eigenvalue solver can take over.
+    /// Why [`dense_eigen`] is nalgebra's: on the projected operator of a rail faer loses digits. Once this test fails
+    /// because faer is accurate, its own eigenvalue solver can take over.
     #[test]
     fn dense_eigenpairs_are_accurate_to_round_off_where_divide_and_conquer_loses_digits() {
         let system = rail_system(&paper_d(5)).unwrap();

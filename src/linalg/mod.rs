@@ -1,11 +1,11 @@
 //! Linear algebra: sparse matrices with a Cholesky factorisation (over faer), the lowest modes of a pencil,
 //! small dense systems, GMRES and Anderson mixing.
 //!
-//! Two libraries share the work. faer factorises and multiplies large matrices; substitutions with its sparse factors are ours,
-//! for several columns side by side. nalgebra holds the small dense ones of the
-//! bodies and solves the dense symmetric eigenproblems of the modes, because the divide and conquer of faer 0.24.4 loses
-//! nine digits there (also faer-rs issue 273); a test in [`krylov`] tells when that has changed. Loops that take most of the time of
-//! a step are written for the vector registers at hand ([`vectorised`], over pulp).
+//! Two libraries share the work. faer factorises and multiplies large matrices; substitutions with its sparse factors
+//! are ours, for several columns side by side. nalgebra holds the small dense ones of the bodies and solves the dense
+//! symmetric eigenproblems of the modes, because the divide and conquer of faer 0.24.4 loses nine digits there (also
+//! faer-rs issue 273); a test in [`krylov`] tells when that has changed. Loops that take most of the time of a step are
+//! written for the vector registers at hand ([`vectorised`], over pulp).
 
 pub mod anderson;
 mod blocks;
@@ -29,6 +29,6 @@ pub use inverse_factor::InverseFactor;
 pub use krylov::Oscillator;
 pub use lagrange::{Lagrange, POINTS};
 pub use modes::{VibrationModes, lowest_modes, lowest_modes_of_parts};
-pub use parity::{Parity, Part, Reflection};
+pub use parity::{Parity, ParityPart, Reflection};
 pub use sparse::CsrMatrix;
 pub(crate) use vectorised::{Update, multiply_transposed};

@@ -169,10 +169,10 @@ mod tests {
         assert!((identity - DMatrix::identity(20, 20)).amax() < 1e-12);
     }
 
-    /// Close to the cut-off frequency of a long body on a fixed base, modes crowd. That they are modes shows in the residual of
-    /// the pencil, that the lowest is there in the Cholesky factorisation of `K − σM`, which exists below it only, and that
-    /// none is left out in the same frequencies from a larger space (a high column is so soft that its lowest frequency carries
-    /// the round-off of the stiffest cells).
+    /// Close to the cut-off frequency of a long body on a fixed base, modes crowd. That they are modes shows in the
+    /// residual of the pencil, that the lowest is there in the Cholesky factorisation of `K − σM`, which exists below
+    /// it only, and that none is left out in the same frequencies from a larger space (a high column is so soft that
+    /// its lowest frequency carries the round-off of the stiffest cells).
     #[test]
     fn modes_of_long_low_rails_are_found_although_they_crowd() {
         for (length, height) in [(0.12, 2.0), (5.0, 0.1), (20.0, 0.02), (100.0, 0.02)] {
@@ -199,7 +199,7 @@ mod tests {
         }
     }
 
-    /// What `rail.length` and `solver.modes_rail` allow; prints the time.
+    /// Longest and highest rails and most modes that the parameters allow; prints the time.
     #[test]
     #[ignore = "minutes; run by hand after changes to the iteration"]
     fn any_number_of_modes_is_found_for_rails_of_any_size() {

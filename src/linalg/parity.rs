@@ -1,8 +1,8 @@
 //! Bodies that are their own mirror images: their fields split into even and odd ones, which do not know of each other.
 //!
-//! A reflection `R` (`R² = 1`) takes each unknown to another one, or to itself, with a sign. Whatever commutes with it maps
-//! even fields (`R x = x`) on even ones and odd fields (`R x = −x`) on odd ones, so that a problem falls into two of half
-//! the size; whatever changes its sign (`R A = −A R`) maps one kind on the other.
+//! A reflection `R` (`R² = 1`) takes each unknown to another one, or to itself, with a sign. Whatever commutes with it
+//! maps even fields (`R x = x`) on even ones and odd fields (`R x = −x`) on odd ones, so that a problem falls into two
+//! of half the size; whatever changes its sign (`R A = −A R`) maps one kind on the other.
 
 use super::CsrMatrix;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -14,7 +14,7 @@ pub struct Reflection {
     pub images: Vec<(usize, f64)>,
 }
 
-/// What a reflection does to a matrix.
+/// Behaviour of a matrix under a reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parity {
     /// Both commute.
@@ -25,14 +25,14 @@ pub enum Parity {
 
 /// A subspace with an orthonormal basis of single unknowns and pairs of them: even fields, odd ones, or all.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct ParityPart {
     /// One unknown of each basis vector.
     unknowns: Vec<usize>,
     /// Of each unknown: the basis vector that contains it and its weight there, which is zero if there is none.
     places: Vec<(usize, f64)>,
 }
 
-impl Part {
+impl ParityPart {
     /// All fields of `n` unknowns.
     pub fn whole(n: usize) -> Self {
         Self { unknowns: (0..n).collect(), places: (0..n).map(|i| (i, 1.0)).collect() }
@@ -112,15 +112,15 @@ mod tests {
     }
 
     /// Basis of a part, a vector per column.
-    fn basis(part: &Part) -> DMatrix<f64> {
+    fn basis(part: &ParityPart) -> DMatrix<f64> {
         let unit = |j: usize| (0..part.size()).map(|k| f64::from(u8::from(k == j))).collect::<Vec<_>>();
         DMatrix::from_fn(5, part.size(), |i, j| part.value(&unit(j), i))
     }
 
     #[test]
     fn even_and_odd_fields_are_orthonormal_and_together_all() {
-        let [even, odd] = Part::halves(&reflection());
-        assert_eq!((even.size(), odd.size(), Part::whole(5).size()), (2, 3, 5));
+        let [even, odd] = ParityPart::halves(&reflection());
+        assert_eq!((even.size(), odd.size(), ParityPart::whole(5).size()), (2, 3, 5));
         let q = DMatrix::from_columns(
             &[basis(&even), basis(&odd)]
                 .iter()
@@ -138,7 +138,7 @@ mod tests {
         let images = reflection().images;
         let mirror = DMatrix::from_fn(5, 5, |i, j| if images[j].0 == i { images[j].1 } else { 0.0 });
         let any = DMatrix::from_fn(5, 5, |i, j| ((3 * i + 7 * j) % 5) as f64 - 1.5);
-        let halves = Part::halves(&reflection());
+        let halves = ParityPart::halves(&reflection());
         for (sign, flip) in [(1.0, 0), (-1.0, 1)] {
             let matrix = &any + &mirror * &any * &mirror * sign;
             let triplets: Vec<_> = (0..25).map(|k| (k / 5, k % 5, matrix[(k / 5, k % 5)])).collect();
@@ -148,7 +148,7 @@ mod tests {
                 let exact = basis(part).tr_mul(&(&matrix * basis(other)));
                 assert!((dense(&part.fold(&sparse, other)) - exact).amax() < 1e-14);
             }
-            let whole = Part::whole(5);
+            let whole = ParityPart::whole(5);
             assert_eq!(dense(&whole.fold(&sparse, &whole)), matrix);
         }
     }

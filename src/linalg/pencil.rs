@@ -1,7 +1,8 @@
 //! All eigenpairs of a small dense symmetric pencil with 32 digits.
 //!
 //! For pencils whose eigenvalues span so many decades that the smallest drown in the round-off of the largest. Only the
-//! scalar type is that of faer: its routines multiply matrices in blocks, and version 0.24.4 panics there for this type.
+//! scalar type is that of faer: its routines multiply matrices in blocks, and version 0.24.4 panics there for this
+//! type.
 
 use super::LinalgError;
 use super::vectorised::vectorised;
@@ -31,8 +32,8 @@ pub struct WideModes {
 
 /// All eigenpairs of `K φ = λ M φ`: `mass` is positive definite, both are symmetric, row-major and of `size` rows.
 ///
-/// With the Cholesky factor `M = L Lᵀ` they are those of `L⁻¹ K L⁻ᵀ`. Fails for an indefinite mass, and if the iteration
-/// does not converge.
+/// With the Cholesky factor `M = L Lᵀ` they are those of `L⁻¹ K L⁻ᵀ`. Fails for an indefinite mass, and if the
+/// iteration does not converge.
 pub fn wide_modes(mass: &[Wide], stiffness: &[Wide], size: usize) -> Result<WideModes, LinalgError> {
     let factor = cholesky(mass, size)?;
     let mut matrix = stiffness.to_vec();
@@ -105,7 +106,7 @@ fn solve_upper(factor: &[Wide], matrix: &mut [Wide], size: usize) {
 }
 
 /// Rows of numbers of 32 digits: their leading parts and the rest, each as long as fills whole vector registers.
-struct Rows {
+struct WideRows {
     stride: usize,
     high: Vec<f64>,
     low: Vec<f64>,
@@ -114,7 +115,7 @@ struct Rows {
 /// Length of rows is a multiple of this.
 const PADDED: usize = 8;
 
-impl Rows {
+impl WideRows {
     /// `count` rows of as many zeros.
     fn square(count: usize) -> Self {
         let stride = count.next_multiple_of(PADDED);
@@ -143,7 +144,8 @@ impl Rows {
 }
 
 vectorised! {
-    /// `(x, y) ← (c x − s y, s x + c y)` for the rotation `[c, s]`; the leading parts of both rows, and the rest of both.
+    /// `(x, y) ← (c x − s y, s x + c y)` for the rotation `[c, s]`; the leading parts of both rows, and the rest of
+    /// both.
     fn rotate<'a, S>(simd, rotation: [Wide; 2], rows: [[&'a mut [f64]; 2]; 2]) {
         let [c, s] = rotation.map(|value| Wide(simd.splat_f64s(value.0), simd.splat_f64s(value.1)));
         let [[x, y], [x_low, y_low]] = rows.map(|pair| pair.map(|row| S::as_mut_simd_f64s(row).0));
@@ -160,7 +162,7 @@ vectorised! {
 /// diagonal of `matrix` and returns the eigenvectors as columns; `None` without convergence.
 fn jacobi(matrix: &mut [Wide], n: usize) -> Option<Vec<Wide>> {
     const SWEEPS: usize = 60;
-    let (mut a, mut vectors) = (Rows::square(n), Rows::square(n));
+    let (mut a, mut vectors) = (WideRows::square(n), WideRows::square(n));
     for i in 0..n {
         vectors.set(i, i, Wide::ONE);
         (0..n).for_each(|j| a.set(i, j, matrix[i * n + j]));
@@ -192,8 +194,9 @@ fn jacobi(matrix: &mut [Wide], n: usize) -> Option<Vec<Wide>> {
     None
 }
 
-/// Turns the rows and columns `p` and `q` of a symmetric matrix until their common entry is zero; `[c, s]` of the rotation.
-fn annihilate(a: &mut Rows, p: usize, q: usize) -> [Wide; 2] {
+/// Turns the rows and columns `p` and `q` of a symmetric matrix until their common entry is zero; `[c, s]` of the
+/// rotation.
+fn annihilate(a: &mut WideRows, p: usize, q: usize) -> [Wide; 2] {
     let theta = (a.get(q, q) - a.get(p, p)) / (wide(2.0) * a.get(p, q));
     let root = (theta * theta + Wide::ONE).sqrt();
     let t = if theta.0 >= 0.0 { Wide::ONE / (theta + root) } else { Wide::ONE / (theta - root) };

@@ -37,8 +37,8 @@ impl CsrMatrix {
         Ok(Self::from_rows(rows, columns, |i, row| row.extend_from_slice(&sorted[ends[i]..ends[i + 1]])))
     }
 
-    /// A matrix whose rows are given one after the other: `fill` appends the entries of a row to an empty list, in any order;
-    /// equal columns add up in the order given.
+    /// A matrix whose rows are given one after the other: `fill` appends the entries of a row to an empty list, in any
+    /// order; equal columns add up in the order given.
     pub(super) fn from_rows(rows: usize, columns: usize, mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>)) -> Self {
         let (mut starts, mut indices, mut values) = (vec![0], Vec::<usize>::new(), Vec::<f64>::new());
         let mut row = Vec::new();

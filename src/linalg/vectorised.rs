@@ -1,6 +1,7 @@
 //! Loops for the vector registers of the machine that runs them.
 
-/// Defines a function whose body is compiled for every kind of vector registers; in it `$simd` are those of the machine.
+/// Defines a function whose body is compiled for every kind of vector registers; in it `$simd` are those of the
+/// machine.
 macro_rules! vectorised {
     (
         $(#[$meta:meta])*
@@ -74,7 +75,8 @@ vectorised! {
 }
 
 vectorised! {
-    /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, whose first entries are `apart` entries apart.
+    /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, whose first entries are `apart` entries
+    /// apart.
     fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
         let n = out.len();
         if n == 0 {
@@ -110,7 +112,7 @@ vectorised! {
 /// Columns that are added at a time.
 const COLUMNS: usize = 4;
 
-/// What a product does to its target.
+/// Effect of a product on its target.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Update {
     /// It takes its place.
@@ -123,10 +125,11 @@ pub enum Update {
 const TILE: [usize; 2] = [2, 4];
 
 vectorised! {
-    /// The product `A Bᵀ` of two matrices with rows of `width` numbers, a multiple of four; `target` starts with its first entry
-    /// and has rows that are `stride` apart.
+    /// The product `A Bᵀ` of two matrices with rows of `width` numbers, a multiple of four; `target` starts with its
+    /// first entry and has rows that are `stride` apart.
     ///
-    /// Not by a library: those at hand keep buffers of the thread, which hold a shared library in memory, or need columns.
+    /// Not by a library: those at hand keep buffers of the thread, which hold a shared library in memory, or need
+    /// columns.
     fn multiply_transposed<'a, S>(
         simd,
         a: &'a [f64],

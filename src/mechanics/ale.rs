@@ -5,7 +5,7 @@
 //! `S = ρ ∫ ∂w·∂u dA` and the in/outflow (Robin) term `B = ρ ∮ (v̄·n/s) w·∂u ds` on ends that cross the stream
 //! (Paper B, eq. 12). Source: Paper D, eq. 9 and appendix A.
 
-use crate::fem::Point;
+use crate::fem::CellPoint;
 use crate::fem::assembly::{ElementMatrix, both_components};
 use crate::fem::element::EdgePoint;
 
@@ -34,7 +34,7 @@ impl Stream {
     }
 
     /// `C = ρ ∫ w·∂u dA`.
-    pub fn gyroscopic(self, points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn gyroscopic(self, points: &[CellPoint; 4], density: f64) -> ElementMatrix {
         let mut matrix = [[0.0; 4]; 4];
         for p in points {
             let derivative = self.derivative(p.position, &p.gradient);
@@ -49,7 +49,7 @@ impl Stream {
 
     /// `T = ρ ∫ w·(∂u − W u) dA`: the streamline derivative as the material sees it. `W a = (a_y, −a_x)` turns a vector
     /// with the wheel; a field that only turns with the wheel has `∂u = W u`. Nothing turns in the rail.
-    pub fn transport(self, points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn transport(self, points: &[CellPoint; 4], density: f64) -> ElementMatrix {
         let mut matrix = self.gyroscopic(points, density);
         if self == Self::Rotation {
             for p in points {
@@ -66,7 +66,7 @@ impl Stream {
     }
 
     /// `ρ ∫ (∂w − W w)·(∂u − W u) dA` of the wheel: `n²` times the mass for a field with `n` nodal diameters.
-    pub fn squared_diameters(points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn squared_diameters(points: &[CellPoint; 4], density: f64) -> ElementMatrix {
         const TURN: [[f64; 2]; 2] = [[0.0, 1.0], [-1.0, 0.0]];
         let mut matrix = [[0.0; 8]; 8];
         for p in points {
@@ -86,7 +86,7 @@ impl Stream {
     }
 
     /// `ρ ∫ (w·t)(u·t) dA` of the wheel with the unit vector `t` along the circles.
-    pub fn circumferential_mass(points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn circumferential_mass(points: &[CellPoint; 4], density: f64) -> ElementMatrix {
         let mut matrix = [[0.0; 8]; 8];
         for p in points {
             let v = Self::Rotation.direction(p.position);
@@ -102,7 +102,7 @@ impl Stream {
     }
 
     /// `S = ρ ∫ ∂w·∂u dA`.
-    pub fn ale_inertia(self, points: &[Point; 4], density: f64) -> ElementMatrix {
+    pub fn ale_inertia(self, points: &[CellPoint; 4], density: f64) -> ElementMatrix {
         let mut matrix = [[0.0; 4]; 4];
         for p in points {
             let derivative = self.derivative(p.position, &p.gradient);

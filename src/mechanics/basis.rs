@@ -60,8 +60,8 @@ pub enum BasisError {
 
 /// Name of the basis for a configuration: UUID version 5 of the parameters it depends on.
 ///
-/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load and numbers of modes, whether stiffness damps, and the code; not masses, friction or time
-/// scheme.
+/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load and numbers of modes, whether stiffness
+/// damps, and the code; not masses, friction or time scheme.
 pub fn key(config: &Config) -> String {
     let Config { model, wheel, rail, material, mesh, solver, .. } = config;
     let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
@@ -92,8 +92,8 @@ fn reduced(
 }
 
 impl Basis {
-    /// Meshes, assembles and reduces both bodies, each on a thread of its own (about a second); `progress` receives the activity and
-    /// its share done.
+    /// Meshes, assembles and reduces both bodies, each on a thread of its own (about a second); `progress` receives the
+    /// activity and its share done.
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
         check_size(config)?;
         let streaming = config.damping.rayleigh_stiffness > 0.0;
@@ -123,7 +123,7 @@ impl Basis {
         })
     }
 
-    /// Whether this basis belongs to a configuration.
+    /// True if this basis belongs to a configuration.
     pub fn fits(&self, config: &Config) -> bool {
         let ports = 2 * contact_zone(config).surface_x().len();
         self.key == key(config) && self.wheel.is_consistent(ports) && self.rail.is_consistent(ports)

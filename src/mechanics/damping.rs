@@ -2,8 +2,8 @@
 //!
 //! Both act on the rate of the deformation *of the material*, `ẏ + Ω L y` with `L = M⁻¹ T` and the transport matrix `T`
 //! of [`super::BodySystem`]: a wheel that rolls with a constant dent is strained anew with every turn. For deformation
-//! without nodal diameters (torsion on the hub, growth of the radius) `T y = 0`. The part of the stream is taken of the kept
-//! modes alone. Theory: `docs/theory/damping.md`.
+//! without nodal diameters (torsion on the hub, growth of the radius) `T y = 0`. The part of the stream is taken of the
+//! kept modes alone. Theory: `docs/theory/damping.md`.
 
 use super::MechanicsError;
 use super::shapes::{Shapes, StaticPart};
@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What damps one body.
+/// Damping of one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyDamping {
     /// Damping ratios of the vibration modes, by [`ModeCharacter::group`] \[1].
@@ -58,7 +58,7 @@ impl BodyDamping {
         Self { ratios, mass: damping.rayleigh_mass, stiffness: damping.rayleigh_stiffness }
     }
 
-    /// Whether nothing is damped.
+    /// True if nothing is damped.
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
@@ -103,7 +103,7 @@ impl ModeCharacter {
         }
     }
 
-    /// Whether the arrays belong to `m` modes and hold finite numbers.
+    /// True if the arrays belong to `m` modes and hold finite numbers.
     pub(super) fn is_consistent(&self, m: usize) -> bool {
         let Self { transport, diameters, circumferential } = self;
         transport.shape() == (m, m)
@@ -150,8 +150,8 @@ mod tests {
         TimeDerivative { a0: 2.0 / dt, a1: -2.0 / dt, a2: 0.0, b1: -1.0 }
     }
 
-    /// On the graded mesh: numbers of diameters are integers, every pair has two modes, and the stream of the material turns
-    /// one into the other.
+    /// On the graded mesh: numbers of diameters are integers, every pair has two modes, and the stream of the material
+    /// turns one into the other.
     #[test]
     fn modes_of_the_wheel_have_whole_numbers_of_diameters_and_come_in_pairs() {
         let config = paper_d(8);
@@ -199,8 +199,8 @@ mod tests {
         }
     }
 
-    /// Free decay of one mode after a unit displacement: `e^{−ζωt}` in `n` periods. While it turns, the two modes of a pair
-    /// with one diameter make a wave that rests in the material; its decay is not that of the frame.
+    /// Free decay of one mode after a unit displacement: `e^{−ζωt}` in `n` periods. While it turns, the two modes of a
+    /// pair with one diameter make a wave that rests in the material; its decay is not that of the frame.
     #[test]
     fn single_modes_decay_with_their_ratio_standing_and_turning() {
         let config = paper_d(6);
@@ -242,7 +242,8 @@ mod tests {
         }
     }
 
-    /// Operators and a rolling run under a ramped load; with few modes in the reduced body, but the same in both dampings.
+    /// Operators and a rolling run under a ramped load; with few modes in the reduced body, but the same in both
+    /// dampings.
     #[test]
     fn damped_reduced_and_full_bodies_answer_alike() {
         let config = paper_d(5);

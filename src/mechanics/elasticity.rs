@@ -1,7 +1,7 @@
 //! Linear elasticity in plane strain: stiffness and mass of one cell.
 
 use crate::config::Material;
-use crate::fem::Point;
+use crate::fem::CellPoint;
 use crate::fem::assembly::{ElementMatrix, both_components};
 use crate::material::Isotropic;
 
@@ -31,7 +31,7 @@ impl Lame {
 }
 
 /// `∫ ε(w) : σ(u) dA` [N/m per m].
-pub fn stiffness(points: &[Point; 4], lame: Lame) -> ElementMatrix {
+pub fn stiffness(points: &[CellPoint; 4], lame: Lame) -> ElementMatrix {
     let mut matrix = [[0.0; 8]; 8];
     for p in points {
         for (i, gi) in p.gradient.iter().enumerate() {
@@ -53,7 +53,7 @@ pub fn stiffness(points: &[Point; 4], lame: Lame) -> ElementMatrix {
 }
 
 /// Consistent mass `ρ ∫ w·u dA` [kg/m].
-pub fn mass(points: &[Point; 4], density: f64) -> ElementMatrix {
+pub fn mass(points: &[CellPoint; 4], density: f64) -> ElementMatrix {
     let mut matrix = [[0.0; 4]; 4];
     for p in points {
         for (row, ni) in matrix.iter_mut().zip(p.shape) {
@@ -85,7 +85,7 @@ mod tests {
     fn solve(mesh: &mut Mesh, boundary: fn([f64; 2]) -> [f64; 2], force: fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
         mesh.fixed = square_boundary(mesh);
         let dofs = DofMap::new(mesh);
-        let stiff = |p: &[Point; 4]| stiffness(p, lame());
+        let stiff = |p: &[CellPoint; 4]| stiffness(p, lame());
         let on_edge = |x: [f64; 2]| x.iter().any(|v| v.abs() < 1e-12 || (v - 1.0).abs() < 1e-12);
         let lifted = |x| if on_edge(x) { boundary(x) } else { [0.0; 2] };
         let k = assemble(mesh, &dofs, stiff).unwrap();

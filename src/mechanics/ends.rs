@@ -1,8 +1,9 @@
-//! What the ends of the modelled rail do to the stream of material and to waves.
+//! Ends of the modelled rail, at which material streams in and out and waves are reflected or absorbed.
 //!
-//! The balance that [`BodySystem::assemble`] makes has no term of the ends: so it holds for ends that do not move. Free ends
-//! get the in/outflow (Robin) term of Paper B, eq. 12. Non-reflecting ones get dashpots that swallow plane waves at right
-//! angles (Lysmer & Kuhlemeyer, *J. Eng. Mech. Div. ASCE* 95 (1969) 859–877). Derivation: `docs/theory/rail-ends.md`.
+//! The balance of [`BodySystem::assemble`] has no term of the ends, so it holds for ends that do not move. Free ends
+//! get the in/outflow (Robin) term of Paper B, eq. 12. Non-reflecting ones get dashpots that absorb plane waves at
+//! right angles (Lysmer & Kuhlemeyer, *J. Eng. Mech. Div. ASCE* 95 (1969) 859–877). Derivation:
+//! `docs/theory/rail-ends.md`.
 
 use super::ale::Stream;
 use super::system::BodySystem;
@@ -14,17 +15,17 @@ use crate::linalg::CsrMatrix;
 use crate::material::Isotropic;
 
 impl BodySystem {
-    /// The same body with free ends through which the material streams in and out.
+    /// This body with free ends through which the material streams in and out.
     pub fn with_free_ends(self, mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
         let ends = assemble_faces(mesh, &DofMap::new(mesh), |p| stream.outflow(p, material.density))?;
         Ok(Self { ale_inertia: CsrMatrix::combination(1.0, &self.ale_inertia, -1.0, &ends)?, ..self })
     }
 
-    /// The same body with ends that swallow waves: `ρ (c ± V)` times the velocity in the frame, with the speed of pressure
-    /// waves along the end's normal and that of shear waves across it.
+    /// This body with ends that absorb waves: dashpots of `ρ (c ± V)` times the velocity in the frame, where `c` is the
+    /// speed of pressure waves along the end's normal and that of shear waves across it.
     ///
-    /// The dashpots hold `ρ c`. The part `± ρ V` is what the symmetric half of the gyroscopic matrix, which lives on the ends
-    /// alone, would otherwise undo: it is left out there.
+    /// The dashpots hold `ρ c`. The symmetric half of the gyroscopic matrix, which acts on the ends alone, would cancel
+    /// the part `± ρ V`; it is left out there.
     pub fn with_quiet_ends(self, mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
         let (isotropic, density, dofs) = (Isotropic::from(material), material.density, DofMap::new(mesh));
         let impedance = [isotropic.pressure_wave_speed(), isotropic.shear_wave_speed()].map(|speed| density * speed);

@@ -55,7 +55,7 @@ pub enum MechanicsError {
         body: &'static str,
         /// Why.
         source: FemError,
-        /// What may help.
+        /// Advice that names parameters.
         advice: &'static str,
     },
     /// A cell or an assembled matrix without meaning.

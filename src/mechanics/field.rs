@@ -105,7 +105,7 @@ fn nodal_gradient(mesh: &Mesh, displacement: &[[f64; 2]]) -> Result<Vec<Gradient
     let mut sums = vec![[0.0; 4]; mesh.nodes.len()];
     let mut patches = vec![0.0; mesh.nodes.len()];
     for (node, cells) in around.iter().enumerate().filter(|(_, cells)| cells.len() == INNER) {
-        let samples: [Sample; INNER] = std::array::from_fn(|k| centres[cells[k]]);
+        let samples: [CellSample; INNER] = std::array::from_fn(|k| centres[cells[k]]);
         let fit = LinearFit::new(mesh.nodes[node], &samples);
         let outer = cells.iter().flat_map(|&cell| mesh.cells[cell]).filter(|&n| around[n].len() < INNER);
         for target in std::iter::once(node).chain(outer) {
@@ -118,7 +118,7 @@ fn nodal_gradient(mesh: &Mesh, displacement: &[[f64; 2]]) -> Result<Vec<Gradient
 
 type Gradient = [[f64; 2]; 2];
 /// Position and values.
-type Sample = ([f64; 2], [f64; 4]);
+type CellSample = ([f64; 2], [f64; 4]);
 /// Number of cells at an inner node.
 const INNER: usize = 4;
 
@@ -129,7 +129,7 @@ struct LinearFit {
 }
 
 impl LinearFit {
-    fn new(origin: [f64; 2], samples: &[Sample; INNER]) -> Self {
+    fn new(origin: [f64; 2], samples: &[CellSample; INNER]) -> Self {
         let row = |k: usize| samples[k].0;
         let size = (0..INNER).map(|k| (row(k)[0] - origin[0]).hypot(row(k)[1] - origin[1])).fold(0.0, f64::max);
         let basis = Matrix4x3::from_fn(|k, j| if j == 0 { size } else { row(k)[j - 1] - origin[j - 1] });

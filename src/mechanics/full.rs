@@ -29,7 +29,7 @@ struct FullDamping {
     rayleigh: [f64; 2],
     /// The modes that ratios damp, and through which the stream carries strain.
     modes: Arc<DampedModes>,
-    /// What the contact adds to the surface, with stiffness-proportional damping.
+    /// Flexibility that the contact adds to the surface, with stiffness-proportional damping only.
     layer: Option<Arc<RetardedLayer>>,
 }
 
@@ -50,7 +50,7 @@ impl FullBody {
         Ok(Self { system, pattern, centrifugal, damping: None })
     }
 
-    /// The same with damping, for which the lowest `modes` vibration modes are computed.
+    /// Body with damping, for which the lowest `modes` vibration modes are computed.
     pub fn damped(
         system: BodySystem,
         centrifugal: bool,
@@ -69,7 +69,7 @@ impl FullBody {
         Ok(body)
     }
 
-    /// The same body with only the surface components `ports`.
+    /// This body with only the surface components `ports`.
     pub fn cut(&self, ports: Range<usize>) -> Self {
         let mut system = self.system.clone();
         system.surface = system.surface[ports.clone()].to_vec();
@@ -87,8 +87,8 @@ impl FullBody {
 }
 
 impl FullDamping {
-    /// What the damping of modes by ratios adds to the inverse of the matrix `A` of the step, whose `factor` does not have
-    /// it: `L W Lᵀ`.
+    /// Correction `L W Lᵀ` of the inverse of the matrix `A` of the step by the damping of modes by ratios, which its
+    /// `factor` does not contain.
     fn correction(&self, system: &BodySystem, factor: &Cholesky, a0: f64) -> Result<Correction, MechanicsError> {
         match system.damping {
             None => Ok(self.uncoupled(a0)),
@@ -108,7 +108,8 @@ impl FullDamping {
         Correction { shapes: shapes.clone(), weights: DMatrix::from_diagonal(&weights) }
     }
 
-    /// Dashpots couple the modes: `L = A⁻¹ M Φ R`, `W = −a0 (1 + a0 R Φᵀ M A⁻¹ M Φ R)⁻¹` with `R² = diag(2ζω)` (Woodbury).
+    /// Dashpots couple the modes: `L = A⁻¹ M Φ R`, `W = −a0 (1 + a0 R Φᵀ M A⁻¹ M Φ R)⁻¹` with `R² = diag(2ζω)`
+    /// (Woodbury).
     fn coupled(&self, system: &BodySystem, factor: &Cholesky, a0: f64) -> Result<Correction, MechanicsError> {
         let DampedModes { rates, shapes, .. } = &*self.modes;
         let loads = scale_columns(&system.mass.multiply_columns(shapes), &rates.map(f64::sqrt));

@@ -1,4 +1,4 @@
-//! What follows from the parameters without a mesh: patch, fine zone, cells, masses.
+//! Patch, fine zone, cells and masses, as they follow from the parameters without a mesh.
 
 use crate::analytic;
 use crate::config::Config;
@@ -20,11 +20,11 @@ pub fn element_length(config: &Config) -> f64 {
     nominal_half_width(config) / config.mesh.elements_per_half_width as f64
 }
 
-/// Distance from the contact point up to which surface nodes are paired, in nominal half-widths: patches of softened steel
-/// grow to about 3.5 of them within two seconds of sliding, and thermal expansion may move them.
+/// Distance from the contact point up to which surface nodes are paired, in nominal half-widths: patches of softened
+/// steel grow to about 3.5 of them within two seconds of sliding, and thermal expansion may move them.
 const REACH: f64 = 6.0;
-/// The same at most, in radii of the wheel, thicknesses of its rim, lengths and heights of the rail: the heat model has room
-/// for it.
+/// Largest such distance, in radii of the wheel, thicknesses of its rim, lengths and heights of the rail: the heat
+/// model has room for it.
 const SHARES: [f64; 4] = [0.19, 1.5, 0.22, 1.5];
 
 /// Half-widths beyond the edges of flats, on which a patch may lie.
@@ -44,8 +44,8 @@ pub(super) fn winged_zone(config: &Config) -> ContactZone {
     zone
 }
 
-/// Distance from the contact point up to which contact is to be looked for at least \[m]: what the parameters ask for, and the
-/// edges of the longest flat of the wheel.
+/// Distance from the contact point up to which contact is to be looked for at least \[m]: what the parameters ask for,
+/// and the edges of the longest flat of the wheel.
 fn wanted_reach(config: &Config) -> f64 {
     let flat = surface::longest_flat(&config.wheel.profile);
     let of_flat = if flat > 0.0 { 0.5 * flat + BEYOND_FLAT * nominal_half_width(config) } else { 0.0 };

@@ -21,8 +21,9 @@ pub fn rail_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
     let rail = &config.rail;
     let mesh = graded::rail(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
     let mut mesh = mesh.map_err(|source| unmeshable("rail", source))?;
-    if rail.ends == RailEnds::Fixed {
-        mesh.fix_ends();
+    match rail.ends {
+        RailEnds::Fixed => mesh.fix_ends(),
+        RailEnds::Free | RailEnds::Nonreflecting => {}
     }
     Ok(mesh)
 }

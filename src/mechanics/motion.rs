@@ -14,14 +14,14 @@ pub(super) trait Equations {
     /// `load ← −M a`.
     fn set_inertia(&self, acceleration: &DVector<f64>, load: &mut DVector<f64>);
 
-    /// Whether there is a damping matrix at all.
+    /// True if there is a damping matrix.
     fn is_damped(&self) -> bool;
 
-    /// `load ← load − D (v + s L y)` at the stream speed `s` with the deformation `y` of `state`; `velocity` comes as `v` and is
-    /// used up.
+    /// `load ← load − D (v + s L y)` at the stream speed `s` with the deformation `y` of `state`; `velocity` comes as
+    /// `v` and is used up.
     fn subtract_damping(&self, speed: f64, state: &BodyState, velocity: &mut DVector<f64>, load: &mut DVector<f64>);
 
-    /// Residual flexibility that answers late.
+    /// Residual flexibility with a retarded response.
     fn layer(&self) -> Option<&RetardedLayer>;
 
     /// `load ← load − C x`.
@@ -36,7 +36,8 @@ pub(super) trait Equations {
     /// `M r_k` of the rigid accelerations, three columns.
     fn rigid(&self) -> &DMatrix<f64>;
 
-    /// Surface displacement of the coordinates `y`, with that of static remainders under the stream speed squared `square`.
+    /// Surface displacement of the coordinates `y`, with that of static remainders under the stream speed squared
+    /// `square`.
     fn set_surface(&self, y: &DVector<f64>, square: f64, surface: &mut DVector<f64>);
 
     /// `load ← load + Sᵀ λ`.
@@ -165,8 +166,9 @@ mod tests {
         BodySystem { damping: Some(CsrMatrix::from_triplets(n, n, &triplets).unwrap()), ..system }
     }
 
-    /// `D = α M` damps every mode alike: `q = e^{−αt/2} (cos ω t + α/2ω sin ω t)`, `ω² = Ω² − α²/4`. The trapezoidal rule
-    /// replaces `e^{λ Δt}`, `λ = −α/2 + iω`, by `z = (2 + λ Δt)/(2 − λ Δt)`, with the same factors of the two terms.
+    /// `D = α M` damps every mode alike: `q = e^{−αt/2} (cos ω t + α/2ω sin ω t)`, `ω² = Ω² − α²/4`. The trapezoidal
+    /// rule replaces `e^{λ Δt}`, `λ = −α/2 + iω`, by `z = (2 + λ Δt)/(2 − λ Δt)`, with the same factors of the two
+    /// terms.
     #[test]
     fn a_damped_mode_decays_as_its_closed_form() {
         let mut system = rail_system(&paper_d(4)).unwrap();
@@ -205,8 +207,8 @@ mod tests {
         }
     }
 
-    /// The trapezoidal rule conserves exactly: what the energy loses in a step is `Δt` times the dissipation at the mean of
-    /// the velocities at both ends.
+    /// The trapezoidal rule conserves exactly: what the energy loses in a step is `Δt` times the dissipation at the
+    /// mean of the velocities at both ends.
     #[test]
     fn energy_that_dashpots_take_is_what_the_body_loses() {
         for (name, system) in [("rail", rail_with_quiet_ends()), ("wheel", wheel_with_a_dashpot())] {

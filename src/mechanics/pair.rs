@@ -9,7 +9,7 @@ use super::reduced::ReducedBody;
 use super::reduction::ReducedBasis;
 use super::response::BodyResponse;
 use super::size::contact_zone;
-use super::smooth::HalfPlane;
+use crate::analytic::HalfPlane;
 use crate::config::Config;
 use crate::fem::graded::GUARDS;
 use crate::linalg::Lagrange;
@@ -28,20 +28,20 @@ pub struct Pair {
     pub spacing: f64,
     /// Surface nodes that can carry contact; the others are guards.
     pub candidates: Range<usize>,
-    /// The same bodies with the paired nodes of the wings, among which these are the middle ones; `None` without wings.
+    /// These bodies with the paired nodes of the wings on both sides of the ports; `None` without wings.
     pub wide: Option<Box<Pair>>,
-    /// The same bodies less half-planes, for a contact solver that knows those: reduced bodies without damping in proportion
-    /// to stiffness only.
-    pub smooth: Option<Smooth>,
+    /// These bodies less half-planes, for a contact solver that knows those; only reduced bodies without
+    /// stiffness-proportional damping have them.
+    pub smooth: Option<SmoothBodies>,
 }
 
 /// Wheel and rail less half-planes; their ports are the displacements at the points of a polynomial.
-pub struct Smooth {
+pub struct SmoothBodies {
     /// The wheel.
     pub wheel: Box<dyn BodyResponse>,
     /// The rail.
     pub rail: Box<dyn BodyResponse>,
-    /// What they lack.
+    /// Half-plane that they lack.
     pub half_plane: HalfPlane,
     /// Half of the length over which they are known \[m].
     pub reach: f64,
@@ -68,21 +68,21 @@ pub fn bodies(
     let (surface_x, wing) = (zone.surface_x(), zone.wing_nodes());
     let core = wing..surface_x.len() - wing;
     let ports = 2 * core.start..2 * core.end;
-    type Bodies = [Box<dyn BodyResponse>; 2];
+    type TwoBodies = [Box<dyn BodyResponse>; 2];
     let retarded = damping.iter().any(|damping| damping.stiffness > 0.0);
     let smooth = basis.as_ref().filter(|_| !retarded).and_then(|basis| {
-        let half_plane = HalfPlane::new(&Isotropic::from(&config.material));
+        let half_plane = Isotropic::from(&config.material).half_plane();
         let x = &surface_x[core.clone()];
         let reach = x[x.len() - 1 - GUARDS];
         let points = Lagrange::new(reach);
         let part = |body: &ReducedBasis, side| body.cut(ports.clone()).smooth(x, &points, half_plane, side);
         let wheel = ReducedBody::new(part(&basis.wheel, 1.0)?, centrifugal, &damping[0]);
         let rail = ReducedBody::new(part(&basis.rail, -1.0)?, false, &damping[1]);
-        Some(Smooth { wheel: Box::new(wheel), rail: Box::new(rail), half_plane, reach })
+        Some(SmoothBodies { wheel: Box::new(wheel), rail: Box::new(rail), half_plane, reach })
     });
-    let [narrow, wide]: [Bodies; 2] = match basis {
+    let [narrow, wide]: [TwoBodies; 2] = match basis {
         Some(Basis { wheel, rail, .. }) => {
-            [(wheel.cut(ports.clone()), rail.cut(ports)), (wheel, rail)].map(|(w, r)| -> Bodies {
+            [(wheel.cut(ports.clone()), rail.cut(ports)), (wheel, rail)].map(|(w, r)| -> TwoBodies {
                 [
                     Box::new(ReducedBody::new(w, centrifugal, &damping[0])),
                     Box::new(ReducedBody::new(r, false, &damping[1])),
@@ -99,7 +99,7 @@ pub fn bodies(
             [[Box::new(wheel.cut(ports.clone())), Box::new(rail.cut(ports))], [Box::new(wheel), Box::new(rail)]]
         }
     };
-    let pair = |[wheel, rail]: Bodies, x: Vec<f64>| Pair::new(wheel, rail, x, zone.spacing());
+    let pair = |[wheel, rail]: TwoBodies, x: Vec<f64>| Pair::new(wheel, rail, x, zone.spacing());
     let middle = pair(narrow, surface_x[core].to_vec());
     Ok(Pair { wide: (wing > 0).then(|| Box::new(pair(wide, surface_x))), smooth, ..middle })
 }

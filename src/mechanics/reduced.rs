@@ -1,14 +1,15 @@
 //! A body as vibration modes plus residual flexibility.
 //!
 //! `y = Φ q + (static answer of the truncated modes)`: with hub or base fixed, `Φᵀ M Φ = 1`, `Φᵀ K Φ = diag(Ω²)`, the
-//! surface displacement is `u = Φ_s q + F_res λ + …` with `F_res = G − Φ_s Ω⁻² Φ_sᵀ` and `G` the static compliance.
-//! The static limit is exact; the truncated modes lie above the band of interest and follow their load at once, or, with
-//! stiffness-proportional damping, with the retardation of a [`RetardedLayer`]. Ratios of modes and Rayleigh damping leave
-//! the kept modes uncoupled; dashpots couple them by `Φᵀ D Φ` and take no energy from the truncated ones.
+//! surface displacement is `u = Φ_s q + F_res λ + …` with `F_res = G − Φ_s Ω⁻² Φ_sᵀ` and `G` the static compliance. The
+//! static limit is exact; the truncated modes lie above the band of interest and follow their load at once, or, with
+//! stiffness-proportional damping, with the retardation of a [`RetardedLayer`]. Ratios of modes and Rayleigh damping
+//! leave the kept modes uncoupled; dashpots couple them by `Φᵀ D Φ` and take no energy from the truncated ones.
 //!
-//! This is MacNeal's method: R. H. MacNeal, *Computers & Structures* 1 (1971) 581–601, there for free interfaces with rigid
-//! modes, which hub and base take away here. Rubin's (*AIAA Journal* 13 (1975) 995–1006) would add the inertia of the
-//! truncated modes to second order. Both: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006), ch. 17.
+//! This is MacNeal's method: R. H. MacNeal, *Computers & Structures* 1 (1971) 581–601, there for free interfaces with
+//! rigid modes, which hub and base take away here. Rubin's (*AIAA Journal* 13 (1975) 995–1006) would add the inertia of
+//! the truncated modes to second order. Both: Craig & Kurdila, *Fundamentals of Structural Dynamics*, 2nd ed. (2006),
+//! ch. 17.
 
 use super::MechanicsError;
 use super::damping::BodyDamping;
@@ -43,7 +44,7 @@ struct ModalRates {
     transport: DMatrix<f64>,
 }
 
-/// What `A = a0² + a0 D + diag(Ω²)` answers.
+/// Solutions with the matrix `A = a0² + a0 D + diag(Ω²)` of a step.
 struct Factorised {
     solver: Box<dyn StepSolver>,
     /// `Φ_s A⁻¹`.
@@ -65,8 +66,8 @@ impl ReducedBody {
         Self { basis, centrifugal, modal, layer }
     }
 
-    /// What the stream carries of the truncated modes into the rates of the kept ones, per force, and the forces that
-    /// deform them; `None` without a late layer.
+    /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
+    /// `None` without a retarded layer.
     fn carried<'a>(&'a self, state: &'a BodyState) -> Option<(&'a DMatrix<f64>, &'a DVector<f64>)> {
         let forces = &state.retarded.now;
         self.basis.carried.as_ref().filter(|carried| carried.nrows() == forces.len()).map(|carried| (carried, forces))
@@ -283,8 +284,8 @@ mod tests {
         }
     }
 
-    /// Tolerances for the momentum of deformation of wheel and rail: the truncated modes carry the rest. Those of the rail
-    /// are many, but the momentum of its deformation is a small part of that of its base.
+    /// Tolerances for the momentum of deformation of wheel and rail: the truncated modes carry the rest. Those of the
+    /// rail are many, but the momentum of its deformation is a small part of that of its base.
     const MOMENTUM: [f64; 2] = [2e-3, 2e-2];
 
     /// Tolerance: 1e-4 of the largest compliance at 1500/s.

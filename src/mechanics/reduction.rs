@@ -47,7 +47,8 @@ impl ReducedBasis {
         Self::compute_with(system, count, false, progress)
     }
 
-    /// The same; `streaming`: with what the stream carries of the truncated modes ([`Self::carried`]).
+    /// Reduces a body to `count` modes; with `streaming` also the convection of the truncated modes
+    /// ([`Self::carried`]).
     pub fn compute_with(
         system: &BodySystem,
         count: usize,
@@ -103,7 +104,7 @@ impl ReducedBasis {
         Ok(basis)
     }
 
-    /// The same body with only the surface components `ports`.
+    /// This body with only the surface components `ports`.
     pub fn cut(&self, ports: Range<usize>) -> Self {
         let (first, count) = (ports.start, ports.len());
         let square = self.residual.view((first, first), (count, count));
@@ -127,7 +128,7 @@ impl ReducedBasis {
         [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping).chain(carried)
     }
 
-    /// Whether all arrays belong to `ports` surface components and hold finite numbers.
+    /// True if all arrays belong to `ports` surface components and hold finite numbers.
     pub fn is_consistent(&self, ports: usize) -> bool {
         let m = self.modes();
         self.shapes.shape() == (ports, m)

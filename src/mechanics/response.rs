@@ -1,4 +1,4 @@
-//! What the contact sees of a deformable body: one interface for the reduced and the full finite-element model.
+//! Response of a deformable body to the contact: one interface for the reduced and the full finite-element model.
 //!
 //! A body is a linear system with *ports*: the Cartesian displacement components of its surface nodes near the contact
 //! (node-major, `2·node + component`, x ascending) and the rigid accelerations of hub (`V̇`, `Ü`, `Ω̇`; Ω positive for
@@ -12,8 +12,9 @@
 //!
 //! `M ÿ + D (ẏ + Ω L y) + 2Ω C ẏ + Ω̇ C y − Ω² S y + K y = Sᵀλ + Ω² M X − M (r_x V̇ + r_y Ü + r_Ω Ω̇)`.
 //!
-//! The rail has the same form with `V` in place of `Ω`, the acceleration of its base, no centrifugal load and the in/outflow (Robin)
-//! term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state before the step.
+//! The rail has the same form with `V` in place of `Ω`, the acceleration of its base, no centrifugal load and the
+//! in/outflow (Robin) term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state
+//! before the step.
 
 use super::MechanicsError;
 pub(super) use super::retarded::fit;
@@ -34,8 +35,8 @@ pub trait BodyResponse: Send + Sync {
 
     /// The part of the answer known before the contact is solved; overwrites `out` and reuses its memory.
     ///
-    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms of the `stream`, evaluated
-    /// with the displacement and velocity of `state`. `op` must come from this body with `a0 = td.a0`.
+    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms of the `stream`,
+    /// evaluated with the displacement and velocity of `state`. `op` must come from this body with `a0 = td.a0`.
     fn free_response(
         &self,
         op: &StepOperator,
@@ -45,10 +46,12 @@ pub trait BodyResponse: Send + Sync {
         out: &mut FreeResponse,
     );
 
-    /// Accepts a step: solves for the new coordinates and writes the state after it into `next`, whose memory is reused.
+    /// Accepts a step: solves for the new coordinates and writes the state after it into `next`, whose memory is
+    /// reused.
     ///
     /// `forces` are the nodal forces on this body (`2n`) [N/m], `rigid` the accelerations `V̇`, `Ü` [m/s²] and `Ω̇`
-    /// [rad/s²] of the hub, or those of the base (x, y; the third is ignored); `op`, `free`, `td` and `state` are those of [`Self::free_response`].
+    /// [rad/s²] of the hub, or those of the base (x, y; the third is ignored); `op`, `free`, `td` and `state` are those
+    /// of [`Self::free_response`].
     #[allow(clippy::too_many_arguments)]
     fn commit(
         &self,
@@ -62,7 +65,8 @@ pub trait BodyResponse: Send + Sync {
     );
 
     /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
-    /// velocities `w = (V, U̇, Ω)`, less the work `Ω² XᵀM y` of the centrifugal load [J/m]; `forces` feed the static part of a reduced body.
+    /// velocities `w = (V, U̇, Ω)`, less the work `Ω² XᵀM y` of the centrifugal load [J/m]; `forces` feed the static
+    /// part of a reduced body.
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
 
     /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without
@@ -141,8 +145,8 @@ impl BodyState {
         }
     }
 
-    /// Completes `next`, whose displacement is that at the end of a step from this state: velocity and acceleration follow
-    /// from `td`, the histories shift.
+    /// Completes `next`, whose displacement is that at the end of a step from this state: velocity and acceleration
+    /// follow from `td`, the histories shift.
     ///
     /// Stationary: velocity and acceleration vanish and the history is the new displacement.
     pub fn advance(&self, td: &TimeDerivative, next: &mut Self) {
@@ -174,7 +178,7 @@ pub struct StepOperator {
     pub momentum: DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, `3 × 3`.
     pub deformation_inertia: DMatrix<f64>,
-    /// Part of the surface displacement that answers late, if there is any; its share is in [`Self::surface`].
+    /// Retarded part of the surface displacement, if there is any; its share is in [`Self::surface`].
     pub layer: Option<Arc<RetardedLayer>>,
     /// Solves the equations of the step.
     pub solver: Box<dyn StepSolver>,

@@ -1,4 +1,4 @@
-//! A massless layer at the surface that answers late: what stiffness-proportional damping makes of residual flexibility.
+//! A massless layer at the surface with a retarded response: residual flexibility under stiffness-proportional damping.
 //!
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
@@ -30,7 +30,7 @@ pub struct RetardedForces {
 }
 
 impl RetardedForces {
-    /// Whether all three belong to `ports` surface components.
+    /// True if all three belong to `ports` surface components.
     pub fn fits(&self, ports: usize) -> bool {
         [&self.now, &self.before, &self.rate].iter().all(|values| values.len() == ports)
     }
@@ -50,13 +50,13 @@ impl RetardedForces {
 }
 
 impl RetardedLayer {
-    /// The same layer with only the surface components `ports`.
+    /// This layer with only the surface components `ports`.
     pub fn cut(&self, ports: Range<usize>) -> Self {
         let flexibility = self.flexibility.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
         Self { flexibility, time: self.time }
     }
 
-    /// What a new force counts at once \[1].
+    /// Share with which a new force counts at once \[1].
     pub fn share(&self, a0: f64) -> f64 {
         1.0 / (1.0 + self.time * a0)
     }

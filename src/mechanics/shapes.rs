@@ -2,13 +2,13 @@
 
 use super::MechanicsError;
 use super::system::BodySystem;
-use crate::linalg::{Cholesky, CsrMatrix, Oscillator, Parity, Part, VibrationModes, lowest_modes_of_parts};
+use crate::linalg::{Cholesky, CsrMatrix, Oscillator, Parity, ParityPart, VibrationModes, lowest_modes_of_parts};
 use nalgebra::{DMatrix, DVector};
 
 /// The fields of one parity, with their stiffness factorised.
 pub(super) struct StaticPart {
     /// Which fields.
-    pub part: Part,
+    pub part: ParityPart,
     stiffness: CsrMatrix,
     mass: CsrMatrix,
     factor: Cholesky,
@@ -22,7 +22,7 @@ impl StaticPart {
         system.parts().into_iter().map(|part| Self::new(system, part)).collect()
     }
 
-    fn new(system: &BodySystem, part: Part) -> Result<Self, MechanicsError> {
+    fn new(system: &BodySystem, part: ParityPart) -> Result<Self, MechanicsError> {
         let stiffness = part.fold(&system.stiffness, &part);
         let mut ports: Vec<usize> = system.surface.iter().filter_map(|&i| part.place(i)).map(|p| p.0).collect();
         ports.sort_unstable();
@@ -61,7 +61,7 @@ impl StaticPart {
 
 /// Mass-normalised fields, each of which has one parity.
 pub(super) struct Shapes {
-    parts: Vec<Part>,
+    parts: Vec<ParityPart>,
     /// Of each part: its fields, one per column.
     fields: Vec<DMatrix<f64>>,
     /// Place of each part's fields among all.
@@ -94,7 +94,7 @@ impl Shapes {
     /// Fields of any parity, one per column.
     pub fn whole(fields: DMatrix<f64>) -> Self {
         let (n, count) = fields.shape();
-        Self { parts: vec![Part::whole(n)], fields: vec![fields], places: vec![(0..count).collect()] }
+        Self { parts: vec![ParityPart::whole(n)], fields: vec![fields], places: vec![(0..count).collect()] }
     }
 
     /// Number of fields.

@@ -3,18 +3,19 @@
 use super::damping::BodyDamping;
 use super::error::MechanicsError;
 use super::layout::{largest_rail_cell, nominal_half_width, winged_zone};
-use crate::config::{Config, Response};
+use crate::config::Config;
 use crate::fem::{ContactZone, FemError, graded};
 
 /// Largest number of unknown displacements of one body. With 80 and 40 modes, bodies of 84,480 and 48,762 unknowns (60
 /// elements per half-width) took 22 s and 0.67 GB to prepare.
 pub const LARGEST_UNKNOWNS: f64 = 150e3;
-/// Largest memory for the vectors from which the vibration modes of one body are usually computed \[bytes], of which about
-/// half is used; a very long rail may take 800 vectors more, see `largest_space`. With 200 and 100 modes, bodies of 51,840 and 24,766 unknowns (0.52 GB by this count) took 25 s and 0.77 GB.
+/// Largest memory for the vectors from which the vibration modes of one body are usually computed \[bytes], of which
+/// about half is used; a very long rail may take 800 vectors more, see `largest_space`. With 200 and 100 modes, bodies
+/// of 51,840 and 24,766 unknowns (0.52 GB by this count) took 25 s and 0.77 GB.
 pub const LARGEST_KRYLOV: f64 = 0.8e9;
 
-/// Fine zone of the meshes for the nominal load, with wings for wider patches where the bodies have room for them and do
-/// not become too large by them.
+/// Fine zone of the meshes for the nominal load, with wings for wider patches where the bodies have room for them and
+/// do not become too large by them.
 pub fn contact_zone(config: &Config) -> ContactZone {
     let winged = winged_zone(config);
     if check(config, winged).is_ok() { winged } else { ContactZone { reach: 0.0, ..winged } }
@@ -26,10 +27,10 @@ pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
     check(config, contact_zone(config))
 }
 
-/// The same for bodies with a given fine zone.
+/// Refuses bodies with a given fine zone that are too large.
 fn check(config: &Config, zone: ContactZone) -> Result<(), MechanicsError> {
     let damped = [BodyDamping::wheel(config), BodyDamping::rail(config)].iter().any(|damping| !damping.is_none());
-    let with_modes = config.solver.response == Response::Reduced || damped;
+    let with_modes = config.solver.response.is_reduced() || damped;
     let check = |body, parameter, unknowns: f64, modes: usize| {
         if unknowns > LARGEST_UNKNOWNS {
             return Err(MechanicsError::TooLarge { body, unknowns, limit: LARGEST_UNKNOWNS, causes: causes(config) });
@@ -84,6 +85,7 @@ pub(super) fn unmeshable(body: &'static str, source: FemError) -> MechanicsError
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::Response;
     use crate::mechanics::testing::paper_d;
     use crate::mechanics::{Basis, bodies, rail_mesh, wheel_mesh};
     use std::time::Instant;

@@ -1,48 +1,23 @@
 //! Bodies less the half-plane: what is left of their surface compliance is smooth.
 //!
-//! Close to a load every body answers like a half-plane. A contact solver that knows the half-plane in closed form needs of
-//! the body only the difference, which varies over the size of the body, and therefore only a polynomial of it: its ports
-//! are the displacements at a few points of the contact zone. The modes are those of the body with all its surface nodes.
-//! Derivation: `docs/theory/patch-contact.md`.
+//! Close to a load every body answers like a half-plane. A contact solver that knows the half-plane in closed form
+//! needs of the body only the difference, which varies over the size of the body, and therefore only a polynomial of
+//! it: its ports are the displacements at a few points of the contact zone. The modes are those of the body with all
+//! its surface nodes. Derivation: `docs/theory/patch-contact.md`.
 
 use super::reduction::{ReducedBasis, scale_columns};
+use crate::analytic::HalfPlane;
 use crate::linalg::Lagrange;
 pub use crate::linalg::POINTS;
 use crate::linalg::dense::symmetrise;
-use crate::material::Isotropic;
 use nalgebra::{DMatrix, DVector};
 
 /// Nodes within which the compliance of a mesh is not yet that of the elastic body.
 const NEAR: usize = 8;
 
-/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfPlane {
-    /// `κ = 2 (1 − ν²)/(πE)`: a line force displaces the surface along itself by `−κ ln|x|` [m/(N/m)].
-    pub kernel: f64,
-    /// `g = (1 − 2ν)(1 + ν)/E`: a pressure strains the surface by `−g p` [1/Pa].
-    pub coupling: f64,
-}
-
-impl HalfPlane {
-    /// Of this material.
-    pub fn new(material: &Isotropic) -> Self {
-        Self { kernel: material.surface_kernel(), coupling: material.surface_coupling() }
-    }
-
-    /// Displacement `component` (0: x, 1: y) at the distance `x` \[m] from a unit line force in direction `force`, of a body that
-    /// lies above its surface (`side` 1) or below it (−1), but for a constant [m/(N/m)].
-    fn displacement(&self, component: usize, force: usize, x: f64, side: f64) -> f64 {
-        match (component, force) {
-            (0, 1) => -0.5 * side * self.coupling * x.signum(),
-            (1, 0) => 0.5 * side * self.coupling * x.signum(),
-            _ => -self.kernel * x.abs().ln(),
-        }
-    }
-}
-
 impl ReducedBasis {
-    /// The body less a half-plane, on the points of `basis`; `x` are its surface nodes \[m]. `None` where there are too few.
+    /// The body less a half-plane, on the points of `basis`; `x` are its surface nodes \[m]. `None` where there are too
+    /// few.
     pub(super) fn smooth(&self, x: &[f64], basis: &Lagrange, half_plane: HalfPlane, side: f64) -> Option<Self> {
         let weighted = scale_columns(&self.shapes, &self.squared_frequencies.map(f64::recip));
         let mut compliance = self.residual.clone();
@@ -121,6 +96,7 @@ impl<'a> Projection<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::Isotropic;
     use crate::mechanics::testing::paper_d;
     use crate::mechanics::{nominal_half_width, rail_system, wheel_system};
 
@@ -128,12 +104,9 @@ mod tests {
     #[test]
     fn half_plane_and_polynomial_are_the_body() {
         let config = paper_d(10);
-        let half_plane = HalfPlane::new(&Isotropic::from(&config.material));
-        assert!(
-            (half_plane.kernel * std::f64::consts::PI * Isotropic::from(&config.material).contact_modulus() - 1.0)
-                .abs()
-                < 1e-14
-        );
+        let steel = Isotropic::from(&config.material);
+        let half_plane = steel.half_plane();
+        assert!((half_plane.kernel * std::f64::consts::PI * steel.contact_modulus() - 1.0).abs() < 1e-14);
         for (system, side) in [(wheel_system(&config).unwrap(), 1.0), (rail_system(&config).unwrap(), -1.0)] {
             let body = ReducedBasis::compute(&system, 6, &mut |_| {}).unwrap();
             let n = body.residual.nrows() / 2;

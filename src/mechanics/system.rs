@@ -3,9 +3,9 @@
 use super::ale::Stream;
 use super::elasticity::{self, Lame};
 use crate::config::Material;
-use crate::fem::{DofMap, FemError, Mesh, Pattern, assemble_vector};
+use crate::fem::{AssemblyPattern, DofMap, FemError, Mesh, assemble_vector};
 use crate::linalg::dense::symmetrise;
-use crate::linalg::{Cholesky, CsrMatrix, Part, Reflection};
+use crate::linalg::{Cholesky, CsrMatrix, ParityPart, Reflection};
 use nalgebra::{DMatrix, DVector};
 
 /// Matrices of one body on its free degrees of freedom, per metre of width.
@@ -34,8 +34,8 @@ pub struct BodySystem {
     pub centrifugal: DVector<f64>,
     /// Unknown of each surface component, `2·node + component`.
     pub surface: Vec<usize>,
-    /// The reflection at the vertical line through the contact point that leaves the body as it is; `None`: there is none.
-    /// [`Self::damping`] need not follow it.
+    /// The reflection at the vertical line through the contact point that leaves the body as it is; `None`: there is
+    /// none. [`Self::damping`] need not follow it.
     pub reflection: Option<Reflection>,
 }
 
@@ -43,7 +43,7 @@ impl BodySystem {
     /// Integrates all matrices of a body whose material streams as `stream`, without those of its [ends](super::ends).
     pub fn assemble(mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
         let dofs = DofMap::new(mesh);
-        let pattern = Pattern::new(mesh, &dofs);
+        let pattern = AssemblyPattern::new(mesh, &dofs);
         let (lame, density) = (Lame::from(material), material.density);
         let mass = |p: &_| elasticity::mass(p, density);
         let load = |field: fn([f64; 2]) -> [f64; 2]| assemble_vector(mesh, &dofs, mass, field);
@@ -76,10 +76,10 @@ impl BodySystem {
     }
 
     /// Even and odd displacements, which do not know of each other; or all of them.
-    pub fn parts(&self) -> Vec<Part> {
+    pub fn parts(&self) -> Vec<ParityPart> {
         match &self.reflection {
-            Some(reflection) => Part::halves(reflection).into(),
-            None => vec![Part::whole(self.unknowns())],
+            Some(reflection) => ParityPart::halves(reflection).into(),
+            None => vec![ParityPart::whole(self.unknowns())],
         }
     }
 
@@ -98,8 +98,8 @@ impl BodySystem {
         fields.select_rows(self.surface.iter())
     }
 
-    /// `S A⁻¹ Sᵀ` [m/(N/m)]: answer of the surface to unit nodal forces on it; `factor` is that of `A`. It costs least if the
-    /// unknowns of the surface were eliminated last, in their order.
+    /// `S A⁻¹ Sᵀ` [m/(N/m)]: answer of the surface to unit nodal forces on it; `factor` is that of `A`. It costs least
+    /// if the unknowns of the surface were eliminated last, in their order.
     pub fn surface_compliance(&self, factor: &Cholesky) -> DMatrix<f64> {
         /// Right-hand sides solved together.
         const BATCH: usize = 16;
@@ -123,7 +123,7 @@ impl BodySystem {
     }
 }
 
-/// What mirroring a mesh does to its unknowns: x components change their sign.
+/// Reflection of the unknowns of a mirrored mesh: x components change their sign.
 fn reflection(mesh: &Mesh, dofs: &DofMap) -> Option<Reflection> {
     let image = |k: usize| -> Option<(usize, f64)> {
         let (node, component) = (k / 2, k % 2);

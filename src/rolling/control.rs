@@ -1,9 +1,9 @@
 //! Mixed control: which partner of each work-conjugate pair is prescribed, and to what. An input is one row here, and
 //! its use in the code.
 
-use crate::config::row::Row;
+use crate::config::row::{Level, Row};
 use crate::config::units::Measure;
-use crate::config::value::{Field, Limits, choice};
+use crate::config::value::{RowValue, ValueLimits, choice};
 use crate::config::{display_outside, display_range};
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,36 @@ choice! {
     {
         Force = "force", "drive.load is prescribed";
         Displacement = "displacement", "drive.displacement is prescribed";
+    }
+}
+
+impl Rotation {
+    /// The angular velocity is prescribed, the moment its reaction.
+    pub fn prescribes_motion(self) -> bool {
+        match self {
+            Rotation::Velocity => true,
+            Rotation::Moment => false,
+        }
+    }
+}
+
+impl Translation {
+    /// The travel velocity is prescribed, the horizontal force its reaction.
+    pub fn prescribes_motion(self) -> bool {
+        match self {
+            Translation::Velocity => true,
+            Translation::Force => false,
+        }
+    }
+}
+
+impl Vertical {
+    /// The hub height is prescribed, the load its reaction.
+    pub fn prescribes_motion(self) -> bool {
+        match self {
+            Vertical::Force => false,
+            Vertical::Displacement => true,
+        }
     }
 }
 
@@ -141,8 +171,9 @@ macro_rules! inputs {
                 [$(
                     Row {
                         number: $choice_number,
+                        level: Level::Basic,
                         name: concat!("control.", stringify!($choice)),
-                        kind: <$Choice as Field>::kind(Limits::default()),
+                        kind: <$Choice as RowValue>::kind(ValueLimits::default()),
                         tunable: true,
                         text: $choice_text,
                         read: |inputs| inputs.$choice.read(),

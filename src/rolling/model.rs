@@ -7,12 +7,12 @@ use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
-use crate::analytic;
-use crate::config::{Config, ContactMethod, TimeScheme};
+use crate::analytic::{self, HalfPlane};
+use crate::config::{Config, ContactMethod};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::kernel::KernelCorrection;
-use crate::contact::series::{Fallback, HalfPlaneKernel, SeriesSolver};
+use crate::contact::series::{Fallback, SeriesSolver};
 use crate::contact::{self, ContactSolver};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
@@ -77,10 +77,8 @@ impl Model {
         }
         let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies, &surfaces) {
             Some((half_plane, reach)) => {
-                let fallback = match config.solver.contact {
-                    ContactMethod::Patch => Fallback::Refuse,
-                    ContactMethod::Auto | ContactMethod::Grid => Fallback::ActiveSet,
-                };
+                let only = config.solver.contact.requires_patch();
+                let fallback = if only { Fallback::Refuse } else { Fallback::ActiveSet };
                 Box::new(SeriesSolver::new(solver, half_plane, reach, fallback))
             }
             None => Box::new(solver),
@@ -88,20 +86,18 @@ impl Model {
         Self::with_solver(config, bodies, surfaces, solver, Some(correction))
     }
 
-    /// Half-plane that the bodies lack, and the distance up to which they are known \[m], where the series are asked for and no
-    /// parameter rules them out.
-    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlaneKernel, f64)> {
+    /// Half-plane that the bodies lack, and the distance up to which they are known \[m], where the series are asked
+    /// for and no parameter rules them out.
+    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlane, f64)> {
         // Reversible heating needs the strains of the surfaces.
         let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
-        let rates = config.solver.time_scheme == TimeScheme::Theta;
         let sought = match config.solver.contact {
             ContactMethod::Grid => false,
             ContactMethod::Auto => surfaces.is_smooth(),
             ContactMethod::Patch => true,
         };
         let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
-        let mechanics::HalfPlane { kernel, coupling } = smooth.half_plane;
-        (!reversible && !rates).then_some((HalfPlaneKernel { kernel, coupling }, smooth.reach))
+        (!reversible).then_some((smooth.half_plane, smooth.reach))
     }
 
     /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports; `correction`: that of

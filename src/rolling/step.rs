@@ -150,7 +150,7 @@ impl Plan {
         let jumped = stopped || model.contact.jumped(state, &begin, available);
         let before = if jumped { 0.0 } else { demand.last_step };
         let dt = settled(dt, before);
-        let td = formula(&model.config.solver, dt, before);
+        let td = formula(dt, before);
         let drives = std::array::from_fn(|k| match (begin[k].loads(), given[k].loads()) {
             (Some([from, brake_from]), Some([to, brake_to])) => {
                 let [impulse, of_brake] = [from + to, brake_from + brake_to].map(|sum| 0.5 * dt * sum);
@@ -161,7 +161,7 @@ impl Plan {
         });
         let of_height = match drives[1] {
             AxisDrive::Prescribed { .. } => td,
-            _ => position(&model.config.solver, &td, dt, before),
+            _ => position(&td, dt, before),
         };
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };

@@ -8,7 +8,6 @@ use super::control::{STANDSTILL, per_metre};
 use super::flattening;
 use super::model::Model;
 use super::state::State;
-use crate::config::Wear;
 use crate::material::Isotropic;
 use crate::mechanics::element_length;
 use crate::piecewise::Piecewise;
@@ -25,9 +24,8 @@ const FINEST: f64 = 1e-5;
 /// complete, and notes mass and work.
 pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     next.worn = state.worn;
-    match model.config.damage.wear {
-        Wear::Off => return,
-        Wear::TGamma => {}
+    if !model.config.damage.wear.is_on() {
+        return;
     }
     let traction = &next.contact.traction;
     let (velocity, rim) = (next.motion.velocity.now, next.motion.omega.now * model.rolling_radius(state));

@@ -2,7 +2,7 @@
 
 use super::validity::ZONE_LOAD;
 use super::{Inputs, PrepareError, StepError, start};
-use crate::config::{Config, Wear};
+use crate::config::Config;
 use crate::fem::FemError;
 use crate::heat::HeatError;
 use crate::linalg::LinalgError;
@@ -116,11 +116,7 @@ fn unsettled(otherwise: String, config: &Config) -> String {
 
 /// The advice `otherwise`, and what helps where the run has flattened the wheel beyond the zone.
 fn flattened(zone: f64, config: &Config, otherwise: String) -> String {
-    let wears = match config.damage.wear {
-        Wear::Off => false,
-        Wear::TGamma => true,
-    };
-    if config.physics.yielding || wears {
+    if config.physics.yielding || config.damage.wear.is_on() {
         format!("{otherwise}; where wear or yielding has flattened the wheel, {}", wider(zone, config))
     } else {
         otherwise

@@ -1,7 +1,7 @@
 //! What stands against a start that was not found, in the words of the user.
 
-use super::{Inputs, Rotation, Translation, Vertical};
-use crate::config::{Config, StartTemperature, display_number};
+use super::{Inputs, Translation};
+use crate::config::{Config, display_number};
 use crate::rolling::control::creepage;
 
 /// Loads over the nominal one between which a start is usual \[1].
@@ -28,7 +28,7 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
     let (drive, initial, thermal) = (&inputs.drive, &config.initial, &config.thermal);
     let number = display_number;
     let mut found = Vec::new();
-    if thermal.enabled && initial.temperature == StartTemperature::Stationary {
+    if thermal.enabled && initial.temperature.is_stationary() {
         let mut heat = Vec::new();
         if drive.tread_heat > 0.0 {
             heat.push(format!("drive.tread_heat = {} W", number(drive.tread_heat)));
@@ -42,7 +42,7 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
             "initial.temperature = stationary asks for the temperatures that {heat} would reach for ever; set it to uniform"
         ));
     }
-    if inputs.vertical == Vertical::Displacement {
+    if inputs.vertical.prescribes_motion() {
         found.push(format!("drive.displacement = {} m", number(drive.displacement)));
     } else {
         let (pressing, nominal) = (drive.pressing(), config.model.nominal_load);
@@ -63,7 +63,7 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
     if drive.friction > STICKY {
         found.push(format!("rail.friction = {}", number(drive.friction)));
     }
-    let velocity = if inputs.translation == Translation::Velocity { drive.velocity } else { initial.velocity };
+    let velocity = if inputs.translation.prescribes_motion() { drive.velocity } else { initial.velocity };
     if velocity.abs() > FAST * thermal.max_speed {
         found.push(format!("a speed of {} m/s", number(velocity)));
     }
@@ -77,7 +77,7 @@ fn slide(config: &Config, inputs: &Inputs) -> Option<String> {
         Translation::Velocity => (drive.velocity, "drive.velocity"),
         Translation::Force => (initial.velocity, "initial.velocity"),
     };
-    if inputs.rotation == Rotation::Velocity {
+    if inputs.rotation.prescribes_motion() {
         let slides = creepage(velocity, config.wheel.radius * drive.omega);
         return (slides.abs() > CREEPAGE).then(|| {
             let (v, omega) = (display_number(velocity), display_number(drive.omega));
@@ -91,7 +91,9 @@ fn slide(config: &Config, inputs: &Inputs) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Rotation;
     use super::*;
+    use crate::config::StartTemperature;
 
     fn advised(change: impl Fn(&mut Config, &mut Inputs)) -> String {
         let mut config = Config::default();

@@ -2,6 +2,7 @@
 //! architecture.
 #![allow(dead_code)]
 
+pub mod choices;
 mod text;
 
 pub use text::{functions, lines_of_tests, types, without_comments, without_strings, without_tests};

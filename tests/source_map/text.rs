@@ -8,7 +8,7 @@ pub struct Import {
     pub path: Vec<String>,
 }
 
-fn is_word(c: char) -> bool {
+pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
@@ -87,7 +87,7 @@ pub fn without_strings(code: &str) -> String {
 }
 
 /// Position behind the brace that closes the one at `open`.
-fn closing(code: &str, open: usize) -> usize {
+pub fn closing(code: &str, open: usize) -> usize {
     let mut depth = 0;
     let end = code[open..].char_indices().find(|(_, c)| {
         depth += i32::from(*c == '{') - i32::from(*c == '}');

@@ -6,6 +6,7 @@ from ctypes import byref
 from itertools import count
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from xml.etree import ElementTree
 
 import fmpy
 from fmpy.fmi1 import FMICallException
@@ -53,9 +54,13 @@ class Fmu:
         self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
         self.description = fmpy.read_model_description(self.directory)
         self.variables = {v.name: v for v in self.description.modelVariables}
+        notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iterfind("VendorAnnotations/Tool//Retired")
+        self.retired = {note.get("name"): note.get("refusal") for note in notes}
 
     def variable(self, name):
         """The variable of a name."""
+        if name in self.retired:
+            raise Refused(self.retired[name])
         if name not in self.variables:
             close = difflib.get_close_matches(name, self.variables, n=1)
             raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))

@@ -16,15 +16,6 @@ use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 /// Largest number of terms of a series.
 pub const TERMS: usize = 12;
 
-/// Answer of the surface of an elastic half-plane in plane strain (Johnson, *Contact Mechanics* (1985), eqs. 2.25).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfPlaneKernel {
-    /// A line force displaces the surface along itself by this times `−ln|x|` [m/(N/m)].
-    pub kernel: f64,
-    /// A pressure shortens the surface by this share per pascal [1/Pa].
-    pub coupling: f64,
-}
-
 /// One traction of this form.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Arch {

@@ -1,7 +1,8 @@
 //! Constants of all problems on a patch.
 
-use super::chebyshev::{HalfPlaneKernel, TERMS};
+use super::chebyshev::TERMS;
 use super::tables::{SMOOTH, Tables};
+use crate::analytic::HalfPlane;
 use crate::linalg::Lagrange;
 use std::f64::consts::PI;
 
@@ -49,7 +50,7 @@ impl Default for LayerTables {
 #[derive(Clone, Debug)]
 pub struct Constants {
     /// Half-planes that the bodies lack.
-    pub half_plane: HalfPlaneKernel,
+    pub half_plane: HalfPlane,
     /// Points between which their smooth displacements are polynomials.
     pub points: Lagrange,
     /// Constants of the series.

@@ -6,10 +6,11 @@
 //! it displaces by `κ [∫ n/(x − s) ds − π turn ln(b/2)]` with the part n of the sines. The layers move with the edges
 //! of the patch.
 
-use super::chebyshev::{Arch, HalfPlaneKernel, TERMS};
+use super::chebyshev::{Arch, TERMS};
 use super::constants::{Constants, LayerSamples, LayerTables, PARTS};
 use super::surface::AtPoints;
 use super::tables::{QUADRATURE, SMOOTH};
+use crate::analytic::HalfPlane;
 use crate::contact::problem::ContactProblem;
 use crate::linalg::POINTS;
 use crate::piecewise::Piecewise;
@@ -92,7 +93,7 @@ pub struct SeriesLayer {
     pub swelling: LayerProfile,
     /// Normal displacement of the half-plane \[m].
     pub lift: LayerProfile,
-    /// Displacement of a half-plane by a unit force, see [`HalfPlaneKernel::kernel`].
+    /// Displacement of a half-plane by a unit force, see [`HalfPlane::kernel`].
     kernel: f64,
     /// Moments of the pull with the polynomials of the points [N/m].
     pub pull: AtPoints,
@@ -218,7 +219,7 @@ pub fn pulls(layers: &Option<SeriesLayers>) -> [AtPoints; 2] {
 }
 
 /// Normal displacement of a half-plane above its surface (`side` 1) or below it (−1) by the pull of a membrane force.
-fn lift(half_plane: &HalfPlaneKernel, force: &LayerSamples, side: f64) -> LayerSamples {
+fn lift(half_plane: &HalfPlane, force: &LayerSamples, side: f64) -> LayerSamples {
     force.map(|n| 0.5 * side * half_plane.coupling * (force[0] + force[PARTS] - 2.0 * n))
 }
 
@@ -243,7 +244,7 @@ mod tests {
     /// Layers in which the wheel is chilled and the rail warmed with the root of the way through the patch.
     fn layer() -> SeriesLayer {
         let (points, tables, layers) = (Lagrange::new(0.012), Tables::new(), LayerTables::new());
-        let half_plane = HalfPlaneKernel { kernel: 2.8e-12, coupling: 2.5e-12 };
+        let half_plane = HalfPlane { kernel: 2.8e-12, coupling: 2.5e-12 };
         let constants = Constants { half_plane, points, tables, layers };
         let force = constants.layers.places.map(|t| -4e4 * (1.0 - t).sqrt());
         let [profile, swelling] = [force, force].map(|samples| LayerProfile::new(&constants.layers, &PATCH, &samples));

@@ -20,6 +20,6 @@ mod surface;
 mod tables;
 mod transfer;
 
-pub use chebyshev::{Arch, HalfPlaneKernel};
+pub use chebyshev::Arch;
 pub use solver::{Fallback, SeriesSolver};
 pub use state::{Past, SeriesState, Tractions};

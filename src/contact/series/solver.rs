@@ -1,11 +1,12 @@
 //! Contact solver that takes the series where they hold, and the active set elsewhere.
 
-use super::chebyshev::{Arch, HalfPlaneKernel};
+use super::chebyshev::Arch;
 use super::constants::{Constants, LayerTables};
 use super::series_line::SeriesLine;
 use super::state::{Past, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE, Tables};
 use super::{finish, stick, transfer};
+use crate::analytic::HalfPlane;
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
@@ -46,7 +47,7 @@ pub struct SeriesSolver {
 
 impl SeriesSolver {
     /// Patches within `reach` \[m] of the contact point on bodies that lack a half-plane each, beside a `grid`.
-    pub fn new(grid: ActiveSetSolver, half_plane: HalfPlaneKernel, reach: f64, fallback: Fallback) -> Self {
+    pub fn new(grid: ActiveSetSolver, half_plane: HalfPlane, reach: f64, fallback: Fallback) -> Self {
         let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
         let constants = Constants { half_plane, points, tables, layers };
         Self { grid, constants, fallback }

@@ -1,14 +1,14 @@
 //! Warnings of what a user should know although no call fails: each is given once in a run, by name, with a remedy.
 
 use super::partners::{idle, is_reaction, is_used};
-use crate::config::{Config, Given, display_number};
+use crate::config::{Config, display_number};
 use crate::fmi::presets;
 use crate::fmi::settings::{Settings, of_preset, start_value};
 use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Access, Causality, Kind, Reference, Value, Variable};
 use crate::simulation::mistaken_units::{cold, unusual};
 use crate::simulation::validity::Limit;
-use crate::simulation::{Inputs, Outputs, Rotation, Simulation};
+use crate::simulation::{Inputs, Outputs, Simulation};
 use wheelrail_slave::{Life, Log, Status};
 
 /// Values that a message names, of those that it counts.
@@ -87,7 +87,7 @@ impl Notices {
     pub fn of_reversal(&mut self, inputs: &Inputs, outputs: &Outputs, config: &Config, time: f64, log: &Log) {
         let (velocity, omega, moment) = (outputs.wheel_velocity, outputs.wheel_omega, inputs.drive.moment);
         let rim = config.wheel.radius * omega;
-        let driven = inputs.rotation == Rotation::Moment && moment * omega > 0.0;
+        let driven = !inputs.rotation.prescribes_motion() && moment * omega > 0.0;
         if driven && velocity.abs() > TRAVELS && rim.abs() > TRAVELS && velocity * omega < 0.0 {
             let text = format!(
                 "drive.moment = {} N.m turns the wheel against its travel, at {} rad/s: a moment drives a wheel that it has \
@@ -121,7 +121,7 @@ impl Notices {
 /// Warning of declared start values, which are those of the default preset, that a master writes back under another
 /// one.
 fn of_preset_values(settings: &Settings, config: &Config) -> Option<String> {
-    if settings.preset == presets::DEFAULT || config.initial.given == Given::Written {
+    if settings.preset == presets::DEFAULT || config.initial.given.counts_start_values() {
         return None;
     }
     let (given, acting) = (settings.given(config, true), settings.inputs(config, true));

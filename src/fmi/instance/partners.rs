@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::fmi::variable::Variable;
-use crate::simulation::{Inputs, Outputs, Rotation, Translation, Vertical};
+use crate::simulation::{Inputs, Outputs};
 
 /// Difference of an input without effect from what it would have to be \[1], up to which it is taken for a copy of
 /// that.
@@ -30,24 +30,22 @@ pub(super) fn idle(name: &str, inputs: &Inputs, config: &Config) -> Option<Strin
 fn partner(name: &str, inputs: &Inputs) -> Option<[&'static str; 4]> {
     let chosen = match name {
         "drive.omega" => {
-            (inputs.rotation == Rotation::Moment, ["control.rotation", "moment", "drive.moment", "velocity"])
+            (!inputs.rotation.prescribes_motion(), ["control.rotation", "moment", "drive.moment", "velocity"])
         }
         "drive.moment" | "brake.torque" => {
-            (inputs.rotation == Rotation::Velocity, ["control.rotation", "velocity", "drive.omega", "moment"])
+            (inputs.rotation.prescribes_motion(), ["control.rotation", "velocity", "drive.omega", "moment"])
         }
         "drive.velocity" => {
-            (inputs.translation == Translation::Force, ["control.translation", "force", "drive.force", "velocity"])
+            (!inputs.translation.prescribes_motion(), ["control.translation", "force", "drive.force", "velocity"])
         }
-        "drive.force" => (
-            inputs.translation == Translation::Velocity,
-            ["control.translation", "velocity", "drive.velocity", "force"],
-        ),
-        "drive.load" | "drive.load_change" => (
-            inputs.vertical == Vertical::Displacement,
-            ["control.vertical", "displacement", "drive.displacement", "force"],
-        ),
+        "drive.force" => {
+            (inputs.translation.prescribes_motion(), ["control.translation", "velocity", "drive.velocity", "force"])
+        }
+        "drive.load" | "drive.load_change" => {
+            (inputs.vertical.prescribes_motion(), ["control.vertical", "displacement", "drive.displacement", "force"])
+        }
         "drive.displacement" => {
-            (inputs.vertical == Vertical::Force, ["control.vertical", "force", "drive.load", "displacement"])
+            (!inputs.vertical.prescribes_motion(), ["control.vertical", "force", "drive.load", "displacement"])
         }
         _ => return None,
     };

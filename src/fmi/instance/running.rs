@@ -1,7 +1,7 @@
 //! The simulation behind a wheel, prepared when it is needed.
 
 use super::{WheelSlave, derivatives};
-use crate::config::{Config, Files, Response};
+use crate::config::{Config, Files};
 use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Reference, Value, Variable};
 use crate::simulation::{BasisStore, Checkpoint, Inputs, Model, Simulation, Vertical, advice};
@@ -61,7 +61,7 @@ impl WheelSlave {
         life: &Life,
         work: impl FnOnce(&mut Simulation) -> R + Send,
     ) -> Outcome<R> {
-        let full = self.config.solver.response == Response::Full;
+        let full = !self.config.solver.response.is_reduced();
         let aside = if full { life.aside() } else { aside::here };
         let simulation = self.simulation(life)?;
         aside::run(aside, &mut |_, _| {}, |_| work(simulation))
@@ -90,7 +90,7 @@ impl WheelSlave {
     /// Reference of the hub height, if it is prescribed at the start and has not been set.
     fn height_to_find(&self, inputs: &Inputs, life: &Life) -> Option<Reference> {
         let reference = named("drive.displacement")?.reference;
-        let unset = inputs.vertical == Vertical::Displacement && !self.given(life).contains_key(&reference);
+        let unset = inputs.vertical.prescribes_motion() && !self.given(life).contains_key(&reference);
         unset.then_some(reference)
     }
 

@@ -3,6 +3,7 @@
 
 use super::description;
 use super::variables::find;
+use crate::config::retired::{self, Retired};
 use crate::fmi::instance::WheelSlave;
 use crate::fmi::variable::{Kind, Value, Variable};
 use wheelrail_slave::{CallError, Life, Outcome, Reference, Scalar, ScalarAccess, Type};
@@ -43,10 +44,17 @@ impl TryFrom<Value> for Scalar {
     }
 }
 
+/// The refusal of a value reference that no variable has: that of a retired parameter is refused by its name.
+fn no_such_variable(reference: Reference) -> String {
+    let unknown = || format!("value reference {reference} is unknown");
+    let named = |retired: &Retired| format!("value reference {reference}: {retired}");
+    retired::numbered(reference).map_or_else(unknown, named)
+}
+
 /// Variables of one type, refusing unknown references and other types.
 fn lookup(references: &[Reference], wanted: Type) -> Outcome<Vec<&'static Variable>> {
     let variable = |reference: &Reference| {
-        let unknown = || CallError::error(format!("value reference {reference} is unknown"));
+        let unknown = || CallError::error(no_such_variable(*reference));
         let variable = find(*reference).ok_or_else(unknown)?;
         let theirs = type_of(variable.kind);
         if theirs == wanted {

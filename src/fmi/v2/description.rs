@@ -1,6 +1,7 @@
 //! `modelDescription.xml` and the GUID, both made from the table of variables.
 
 use crate::config::Config;
+use crate::config::retired::{RETIRED, Retired};
 use crate::fmi::MODEL_IDENTIFIER;
 use crate::fmi::instance::derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
 use crate::fmi::settings::start_value;
@@ -91,6 +92,7 @@ fn write(guid: &str, extent: Extent) -> io::Result<String> {
         let tolerance = number(Config::default().tuning.tolerance);
         let attributes = [("startTime", "0.0"), ("stopTime", &*stop), ("tolerance", &*tolerance), ("stepSize", &*step)];
         empty(xml, "DefaultExperiment", &attributes)?;
+        list(xml, "VendorAnnotations", retired_parameters)?;
         list(xml, "ModelVariables", |xml| model_variables(xml, extent))?;
         list(xml, "ModelStructure", |xml| model_structure(xml, extent))
     })?;
@@ -110,6 +112,19 @@ fn list(xml: &mut XmlText, name: &str, content: impl FnOnce(&mut XmlText) -> io:
 /// Shortest decimal form that reads back to the same number.
 fn number(value: f64) -> String {
     format!("{value:?}")
+}
+
+/// The retired parameters with the texts of their refusals, for programs that know variables by name only.
+fn retired_parameters(xml: &mut XmlText) -> io::Result<()> {
+    let parameter = |xml: &mut XmlText, retired: &Retired| {
+        let (reference, refusal) = (retired.number.to_string(), retired.to_string());
+        empty(xml, "Retired", &[("name", retired.name), ("valueReference", &reference), ("refusal", &refusal)])
+    };
+    let tool = xml.create_element("Tool").with_attribute(("name", MODEL_IDENTIFIER));
+    let content = |xml: &mut XmlText| {
+        list(xml, "RetiredParameters", |xml| RETIRED.iter().try_for_each(|retired| parameter(xml, retired)))
+    };
+    tool.write_inner_content(content).map(drop)
 }
 
 fn capabilities(xml: &mut XmlText) -> io::Result<()> {

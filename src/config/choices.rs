@@ -1,0 +1,131 @@
+//! Choices among named items, and the questions that code asks about them.
+//!
+//! Code outside this file matches on every item or asks one of the questions here, each of which answers for every
+//! item. A new item therefore does not compile until all of them are answered; `tests/architecture.rs` refuses
+//! comparisons.
+
+use super::value::choice;
+
+choice! {
+    /// Rule by which a value that was written counts as given at the start.
+    pub enum Given named "Given", "What counts as given at the start" {
+        Changed = "changed", "what has another value than its declared start, so that writing back start values changes nothing";
+        Written = "written", "all that is written, start values too";
+    }
+}
+
+impl Given {
+    /// Values count that only repeat a declared start value.
+    pub fn counts_start_values(self) -> bool {
+        match self {
+            Given::Changed => false,
+            Given::Written => true,
+        }
+    }
+}
+
+choice! {
+    /// Temperatures at the start.
+    pub enum StartTemperature named "StartTemperature", "Temperatures from which a run starts" {
+        Uniform = "uniform", "wheel at thermal.reference + thermal.wheel_excess, rail at rail.temperature";
+        Stationary = "stationary", "those that friction, brake and rail have brought about for ever, on top of these";
+    }
+}
+
+impl StartTemperature {
+    /// Temperatures at the start are those that friction and brake would reach for ever.
+    pub fn is_stationary(self) -> bool {
+        match self {
+            StartTemperature::Uniform => false,
+            StartTemperature::Stationary => true,
+        }
+    }
+}
+
+choice! {
+    /// Ends of the modelled rail.
+    pub enum RailEnds named "RailEnds", "What the ends of the modelled rail do to waves" {
+        Free = "free", "reflect them as free surfaces";
+        Fixed = "fixed", "reflect them as surfaces that cannot move";
+        Nonreflecting = "nonreflecting", "let them pass: dashpots swallow plane waves";
+    }
+}
+
+choice! {
+    /// Wear of the surfaces.
+    pub enum Wear named "Wear", "Whether wear changes the profiles" {
+        Off = "off", "it does not";
+        TGamma = "t_gamma", "by the energy that friction dissipates per distance and area";
+    }
+}
+
+impl Wear {
+    /// Wear changes the profiles.
+    pub fn is_on(self) -> bool {
+        match self {
+            Wear::Off => false,
+            Wear::TGamma => true,
+        }
+    }
+}
+
+choice! {
+    /// Body response behind the contact.
+    pub enum Response named "Response", "How the bodies answer contact tractions" {
+        Reduced = "reduced", "vibration modes plus residual flexibility";
+        Full = "full", "all finite-element equations";
+    }
+}
+
+impl Response {
+    /// Bodies are reduced to vibration modes, which a stored basis holds.
+    pub fn is_reduced(self) -> bool {
+        match self {
+            Response::Reduced => true,
+            Response::Full => false,
+        }
+    }
+}
+
+choice! {
+    /// Solver of the contact.
+    pub enum ContactMethod named "ContactMethod", "How contact forces are found" {
+        Auto = "auto", "on the patch while it is single and smooth, otherwise on the grid";
+        Grid = "grid", "on a grid of paired surface nodes";
+        Patch = "patch", "on a single smooth patch where other parameters allow it; a step without one fails";
+    }
+}
+
+impl ContactMethod {
+    /// Steps without a single smooth patch fail, instead of being solved on the grid.
+    pub fn requires_patch(self) -> bool {
+        match self {
+            ContactMethod::Auto | ContactMethod::Grid => false,
+            ContactMethod::Patch => true,
+        }
+    }
+}
+
+choice! {
+    /// Contact conductance law.
+    pub enum ConductanceLaw named "ConductanceLaw", "How the contact conductance depends on pressure" {
+        Constant = "constant", "independent of pressure";
+        Pressure = "pressure", "proportional to pressure^0.95";
+    }
+}
+
+choice! {
+    /// Width over which wheel and rail conduct heat.
+    pub enum CrossSection named "CrossSection", "How wide the bodies conduct heat" {
+        Bodies = "bodies", "spreading from the contact into rim, web, boss and rail head; a free wheel";
+        Contact = "contact", "as wide as the contact everywhere, in plane strain";
+    }
+}
+
+choice! {
+    /// Thermal boundary condition of the hub.
+    pub enum Hub named "Hub", "Thermal boundary condition of the hub" {
+        Fixed = "fixed", "held at thermal.reference";
+        Insulated = "insulated", "no heat passes";
+    }
+}
