@@ -139,6 +139,10 @@ fn starts(table: &mut Table, store: &BasisStore) {
         Simulation::new(model, &inputs).expect("stationary state")
     };
     table.time("start with a load for which nothing is stored", once(|| ready(changed, &BasisStore::none())).0);
+    let mut large = Config::default();
+    (large.mesh.elements_per_half_width, large.thermal.smallest_load_ratio) = (80, 0.05);
+    let refusal = || assert!(Model::prepare(large.clone(), &BasisStore::none(), &mut |_, _| {}).is_err());
+    table.time("refusal of a model that is too large", fastest(refusal));
     table.time("start with a stored basis", fastest(|| drop(ready(Config::default(), store))));
     let shared = model(20, true, store);
     let inputs = Inputs::rolling(shared.config());

@@ -7,7 +7,6 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 use wheelrail::config::Config;
 use wheelrail::simulation::{BasisStore, Drive, Inputs, Model, Simulation, basis_file_name};
 
@@ -117,22 +116,17 @@ fn a_place_that_cannot_be_written_is_only_a_remark() {
     assert_eq!(model.not_kept(), None);
 }
 
-/// Prints how long a second instance of the default wheel takes to be ready; asserts only that nothing is prepared.
 #[test]
 fn a_second_instance_of_the_default_wheel_prepares_nothing() {
     let config = preset("railway", 20);
     let first = Model::shared(config.clone(), &store(), &mut |_, _| {}).unwrap();
     let inputs = Inputs::rolling(&config);
     let one = Simulation::new(first, &inputs).unwrap();
-    let began = Instant::now();
     let second = Model::shared(config, &store(), &mut |what, _| panic!("{what}")).unwrap();
-    let shared = began.elapsed();
     let two = Simulation::new(second, &inputs).unwrap();
-    println!("model {shared:?}, with the stationary start {:?}", began.elapsed());
     assert_eq!(one.outputs(), two.outputs());
     assert_eq!(one.state(), two.state());
-    let (other, began) = (Inputs { drive: Drive { load: 9e4, ..inputs.drive }, ..inputs }, Instant::now());
+    let other = Inputs { drive: Drive { load: 9e4, ..inputs.drive }, ..inputs };
     let three = Simulation::new(two.model().clone(), &other).unwrap();
-    println!("start from other inputs {:?}", began.elapsed());
     assert!((three.outputs().contact_force_y / 9e4 - 1.0).abs() < 1e-6);
 }
