@@ -17,8 +17,8 @@ pub struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// Displacement `component` (0: x, 1: y) at the distance `x` \[m] from a unit line force in direction `force`, of a body
-    /// that lies above its surface (`side` 1) or below it (−1), but for a constant [m/(N/m)].
+    /// Displacement `component` (0: x, 1: y) at the distance `x` \[m] from a unit line force in direction `force`, of a
+    /// body that lies above its surface (`side` 1) or below it (−1), but for a constant [m/(N/m)].
     pub fn displacement(&self, component: usize, force: usize, x: f64, side: f64) -> f64 {
         match (component, force) {
             (0, 1) => -0.5 * side * self.coupling * x.signum(),

@@ -1,7 +1,7 @@
 //! Piecewise linear functions of one variable: profiles over a surface, inputs over time, nodal values of a mesh.
 //!
-//! Free functions work on slices of ascending positions and of values there, as a mesh has them. [`Piecewise`] owns both;
-//! it is zero outside its ends, and a repeated position is a jump.
+//! Free functions work on slices of ascending positions and of values there, as a mesh has them. [`Piecewise`] owns
+//! both; it is zero outside its ends, and a repeated position is a jump.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -67,7 +67,7 @@ impl Piecewise {
         self.value.push(value);
     }
 
-    /// Whether there are no points: the function is zero everywhere.
+    /// True if there are no points: the function is zero everywhere.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
@@ -120,7 +120,7 @@ impl Piecewise {
         self.value.iter_mut().for_each(|v| *v *= factor);
     }
 
-    /// The same function times a factor.
+    /// This function times a factor.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.scale(factor);
         self
@@ -206,8 +206,8 @@ pub fn smear(x: &[f64], values: &mut [f64], reach: f64) {
     values.copy_from_slice(&means);
 }
 
-/// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule); zero for
-/// a weight without integral.
+/// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule);
+/// zero for a weight without integral.
 pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for (i, &at) in weight.x.iter().enumerate() {
@@ -219,9 +219,9 @@ pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
     if total > 0.0 { sum / total } else { 0.0 }
 }
 
-/// Maximum of a piecewise parabola through the values, whose curvature in a cell is the smaller one of those at both its nodes
-/// and zero where these differ in sign: beside a jump it stays between the values, and it is continuous in them, wherever
-/// the maximum moves. Nodes are distinct; `−∞` without any.
+/// Maximum of a piecewise parabola through the values, whose curvature in a cell is the smaller one of those at both
+/// its nodes and zero where these differ in sign: beside a jump it stays between the values, and it is continuous in
+/// them, wherever the maximum moves. Nodes are distinct; `−∞` without any.
 ///
 /// Uniformly non-oscillatory interpolation: A. Harten, S. Osher, *SIAM J. Numer. Anal.* 24 (1987) 279–309.
 pub fn peak(x: &[f64], values: &[f64]) -> f64 {

@@ -100,8 +100,8 @@ impl Inputs {
 }
 
 impl Model {
-    /// Validates the configuration and makes the model ready. The reduced basis is read from the store if it is there, and
-    /// computed and kept there otherwise; `progress` hears what is being computed and its share done.
+    /// Validates the configuration and makes the model ready. The reduced basis is read from the store if it is there,
+    /// and computed and kept there otherwise; `progress` hears what is being computed and its share done.
     pub fn prepare(
         config: Config,
         store: &BasisStore,
@@ -128,7 +128,7 @@ impl Model {
         Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default(), shelf: Shelf::default() }))
     }
 
-    /// Whether the model serves a configuration: all but the tunable parameters are equal.
+    /// True if the model serves a configuration: all but the tunable parameters are equal.
     pub fn serves(&self, config: &Config) -> bool {
         let ours = self.config();
         *ours == config.tuned_like(ours)
@@ -157,7 +157,7 @@ pub struct Checkpoint {
     pub state: State,
     /// Tunable parameters with which it was computed; they may have changed since.
     pub tuning: Tuning,
-    /// What the state came from, for derivatives by inputs.
+    /// Origin of the state, for derivatives by inputs.
     pub origin: Origin,
     /// Times \[s] and outputs of the communication points before, latest first, for derivatives in time.
     pub before: Vec<(f64, Outputs)>,

@@ -3,11 +3,12 @@
 use crate::simulation::{Inputs, Simulation, StepError};
 use rayon::prelude::*;
 
-/// Advances every simulation by `h` seconds with its own inputs, on as many threads as the machine has cores; what became of
-/// each, in their order.
+/// Advances every simulation by `h` seconds with its own inputs, on as many threads as the machine has cores; what
+/// became of each, in their order.
 ///
-/// Wheels do not see each other within a step, so that the results are those of one after the other, bit for bit. A wheel whose
-/// step fails stays where it was; those beside it have advanced. Equal wheels share one [`Model`](crate::simulation::Model).
+/// Wheels do not see each other within a step, so that the results are those of one after the other, bit for bit. A
+/// wheel whose step fails stays where it was; those beside it have advanced. Equal wheels share one
+/// [`Model`](crate::simulation::Model).
 ///
 /// ```no_run
 /// use wheelrail::config::Config;

@@ -62,7 +62,6 @@ const LONGEST_FILE: usize = 400;
 const LONG_FILES: &[(&str, &str)] = &[];
 /// Functions that are longer today. The list may only become shorter.
 const LONG_FUNCTIONS: &[(&str, &str)] = &[
-    ("heat/tensor/step.rs", "march"),
     ("rolling/outputs.rs", "observe"),
     ("rolling/stationary/settle.rs", "run"),
     ("rolling/step.rs", "solve_and_commit"),
@@ -71,8 +70,8 @@ const LONG_FUNCTIONS: &[(&str, &str)] = &[
 /// Beginnings of doc comments that name no subject.
 const NO_SUBJECT: [&str; 3] = ["What", "Whether", "The same"];
 /// Doc comments without a subject, and type names defined more than once, that there are today. Both may only fall.
-const WITHOUT_SUBJECT: usize = 346;
-const DEFINED_TWICE: usize = 30;
+const WITHOUT_SUBJECT: usize = 0;
+const DEFINED_TWICE: usize = 1;
 
 fn src() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")

@@ -23,7 +23,7 @@ impl Failure {
         if matches!(self, Failure::Usage(_)) { 2 } else { 1 }
     }
 
-    /// Whether nobody reads the output any more.
+    /// True if nobody reads the output any more.
     pub fn is_closed_pipe(&self) -> bool {
         let kind = match self {
             Failure::Output(error) => Some(error.kind()),

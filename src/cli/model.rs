@@ -17,8 +17,8 @@ pub fn bar(title: &str, length: u64) -> ProgressBar {
     bar
 }
 
-/// The model of a configuration; its basis comes from `<resources>/basis` or `<cache>/basis`, or from the cache of the user
-/// if `cache` is no directory. If it must be computed, it is kept in the cache.
+/// The model of a configuration; its basis comes from `<resources>/basis` or `<cache>/basis`, or from the cache of the
+/// user if `cache` is no directory. If it must be computed, it is kept in the cache.
 pub fn prepare(config: Config, resources: &Path, cache: &Path, bar: &ProgressBar) -> Result<Arc<Model>, Failure> {
     let store = if cache.is_dir() { BasisStore::within(cache) } else { BasisStore::of_user() };
     let mut progress = |what: &str, share: f64| {

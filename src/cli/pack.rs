@@ -16,8 +16,8 @@ pub struct Pack {
     /// Shared library compiled for this machine.
     #[arg(long, default_value = "target/release/libwheelrail.so")]
     library: PathBuf,
-    /// Library compiled for a further platform, e.g. win64=path/to/wheelrail.dll; may be repeated. One for the platform of
-    /// this machine takes the place of --library.
+    /// Library compiled for a further platform, e.g. win64=path/to/wheelrail.dll; may be repeated. One for the platform
+    /// of this machine takes the place of --library.
     #[arg(long = "binary", value_name = "PLATFORM=FILE")]
     binaries: Vec<Binary>,
     /// Leave the points of profiles out of the model description; value references and library stay the same.

@@ -17,8 +17,8 @@ const ROUNDING: f64 = 1e-6;
 #[derive(clap::Args)]
 pub struct Course {
     /// Inputs over time: CSV with a column `time` [s] and columns named after inputs; numbers are linear between rows,
-    /// choices (by name or number) hold until the next row, and the last row holds to the end. Two rows at the same time
-    /// make a jump; lines that begin with # are skipped.
+    /// choices (by name or number) hold until the next row, and the last row holds to the end. Two rows at the same
+    /// time make a jump; lines that begin with # are skipped.
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
     /// End of the run [s]; that of the scenario, or 1, if not given.

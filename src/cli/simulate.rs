@@ -38,7 +38,8 @@ pub struct Simulate {
     /// Write every Nth communication point only (first and last always).
     #[arg(long, value_name = "N", default_value = "1")]
     every: NonZeroUsize,
-    /// File for the profile of the wheel at the end of the run, worn and flattened as it is, for wheel.profile of another run.
+    /// File for the profile of the wheel at the end of the run, worn and flattened as it is, for wheel.profile of
+    /// another run.
     #[arg(long, value_name = "FILE.csv")]
     wheel_profile: Option<String>,
 }
@@ -91,7 +92,7 @@ fn columns(names: &[String]) -> Result<Vec<&'static Variable>, Failure> {
     Ok(columns)
 }
 
-/// What one wants to know at the end of a run.
+/// Summary of a run, printed at its end.
 struct Summary {
     /// Velocity, creepage, maximum temperatures of wheel and rail.
     watched: [&'static Variable; 4],

@@ -109,7 +109,7 @@ impl Range {
 }
 
 impl Velocity {
-    /// Whether a velocity was named.
+    /// True if a velocity was named.
     pub fn is_given(&self) -> bool {
         self.velocity.is_some()
     }

@@ -1,9 +1,9 @@
 //! The energy balance: what the hub forces put in against what is stored, dissipated and radiated.
 //!
 //! Every force has the impulse that the time formula gives it (see [`crate::multistep::TimeDerivative::impulse`]), so
-//! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the way over the time:
-//! that of distance, angle and height as the outputs show them. The wheel that grows in a heat step lifts its load, which is work of the heat. Derivation:
-//! `docs/theory/lever-arms.md`.
+//! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the way over
+//! the time: that of distance, angle and height as the outputs show them. The wheel that grows in a heat step lifts its
+//! load, which is work of the heat. Derivation: `docs/theory/lever-arms.md`.
 
 use super::model::Model;
 use super::state::{Audit, State, ThermalDeformation};

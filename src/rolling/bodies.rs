@@ -23,11 +23,11 @@ pub struct Bodies {
     wide: Option<[Box<dyn BodyResponse>; 2]>,
     /// Both less half-planes, for a solver that knows those.
     smooth: Option<[Box<dyn BodyResponse>; 2]>,
-    /// What its base stands on; `None`: it is fixed.
+    /// Track below its base; `None`: the base is fixed.
     pub support: Option<TrackSupport>,
     /// Correction of their compliance at grid scale, if there is any.
     correction: Option<KernelCorrection>,
-    /// Whether this correction is part of them, because it is damped as they are.
+    /// True if this correction is part of them, because it is damped as they are.
     hold_correction: bool,
 }
 
@@ -142,8 +142,8 @@ impl Bodies {
         }
     }
 
-    /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇, Ω)
-    /// included [J/m].
+    /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇,
+    /// Ω) included [J/m].
     pub fn energy(&self, state: &State, velocities: [f64; 3]) -> f64 {
         let [on_wheel, on_rail] = &state.contact.traction.loads;
         let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));
@@ -181,7 +181,7 @@ impl Bodies {
         rail.commit(&operators.rail, &free[1], on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
     }
 
-    /// Whether a state has the dimensions of these bodies.
+    /// True if a state has the dimensions of these bodies.
     pub fn fits(&self, state: &State) -> bool {
         let fits = |body: &BodyState, response: &dyn BodyResponse| {
             let n = response.state_len();

@@ -1,9 +1,9 @@
 //! The brake of the wheel: what it does in a step, and where its power goes.
 //!
 //! Its strength is that of the input `brake.torque`; whether it slips or holds is found with the contact
-//! ([`crate::contact::active_set`]). There it is an impulse of the step, as all forces in the time formula are: the brake that
-//! stops the wheel within a step gives what that takes, and one that holds it balances what the step brings. Theory:
-//! `docs/theory/time-formula.md`.
+//! ([`crate::contact::active_set`]). There it is an impulse of the step, as all forces in the time formula are: the
+//! brake that stops the wheel within a step gives what that takes, and one that holds it balances what the step brings.
+//! Theory: `docs/theory/time-formula.md`.
 
 use super::control::Drive;
 use super::model::Model;
@@ -14,8 +14,8 @@ use crate::contact::AxisDrive;
 const AT_REST: f64 = 1e-9;
 
 impl Brake {
-    /// The brake in a step that ended with `motion` under the moment `driving` \[N]. `given` is what the inputs give at its
-    /// end, `taken` what entered the time formula, whose weight of the new value is `a0` [1/s], over `dt` \[s].
+    /// The brake in a step that ended with `motion` under the moment `driving` \[N]. `given` is what the inputs give at
+    /// its end, `taken` what entered the time formula, whose weight of the new value is `a0` [1/s], over `dt` \[s].
     pub fn applied(given: AxisDrive, taken: AxisDrive, motion: &Motion, driving: f64, [a0, dt]: [f64; 2]) -> Self {
         let (AxisDrive::Braked { load, .. }, omega) = (taken, motion.omega.now) else { return Self::default() };
         let (impulse, locked) = ((driving - load) / a0, omega == 0.0);
@@ -32,8 +32,9 @@ impl Brake {
     }
 }
 
-/// What drives the rotation at a stationary start, where the brake slips or holds for good: `rim` is the peripheral
-/// velocity [m/s] at which the wheel starts. A wheel that stands is held against drive and pull as far as the brake does.
+/// Drive of the rotation at a stationary start, where the brake slips or holds for good: `rim` is the peripheral
+/// velocity [m/s] at which the wheel starts. A wheel that stands is held against drive and pull as far as the brake
+/// does.
 pub fn at_start(drives: &[AxisDrive; 3], velocity: f64, rim: f64, radius: f64) -> AxisDrive {
     let AxisDrive::Braked { load, limit } = drives[2] else { return drives[2] };
     let pull = drives[0].loads().map_or(0.0, |[force, _]| load + radius * force);

@@ -56,7 +56,7 @@ pub struct ContactStep<'a> {
     pub deformation: &'a ThermalDeformation,
     /// Permanent flattening of wheel and rail.
     pub flattening: &'a [Flattening; 2],
-    /// What heat has left of the steel's strength.
+    /// Strength of the steel after heat has weakened it.
     pub weakening: &'a Weakening,
     /// Friction coefficient as a function of the slip at the end of the step.
     pub friction: Friction,
@@ -82,15 +82,15 @@ impl ContactModel {
         }
     }
 
-    /// How far the material of one of the bodies stands under the patch of a `traction` while the hub moves with the `velocities` V
-    /// [m/s] and Ω [rad/s], in steps of `duration` \[s] \[1].
+    /// How far the material of one of the bodies stands under the patch of a `traction` while the hub moves with the
+    /// `velocities` V [m/s] and Ω [rad/s], in steps of `duration` \[s] \[1].
     fn standing(&self, [velocity, omega]: [f64; 2], duration: f64, traction: &Traction) -> f64 {
         let slowest = traction.extent().map_or(0.0, |patch| standing::slowest(patch, duration));
         standing::share(velocity, slowest).max(standing::share(omega * self.surfaces.radius, slowest))
     }
 
-    /// Smallest pressure under which the steel of the present contact would yield, and the smallest that is used \[Pa]; zero
-    /// and zero while nothing yields.
+    /// Smallest pressure under which the steel of the present contact would yield, and the smallest that is used \[Pa];
+    /// zero and zero while nothing yields.
     pub fn softest(&self, state: &State) -> [f64; 2] {
         let traction = &state.contact.traction;
         let (Some(patch), true) = (traction.extent(), traction.yielding.share > 0.0) else { return [0.0; 2] };
@@ -174,14 +174,14 @@ impl ContactModel {
         self.solver.solve(&problem, start, found, scratch)
     }
 
-    /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck and
-    /// without forces yet.
+    /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck
+    /// and without forces yet.
     pub fn hertzian_guess(&self, load: f64) -> ContactState {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
         self.solver.touching(self.nominal_half_width * share.sqrt())
     }
 
-    /// Whether a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
+    /// True if a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
     /// available friction coefficient from that of the last step, by more than [`JUMP`].
     pub fn jumped(&self, state: &State, drives: &[AxisDrive; 3], friction: f64) -> bool {
         let limit = JUMP * self.nominal_line_load();

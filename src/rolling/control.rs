@@ -296,9 +296,9 @@ impl Inputs {
 /// Creepage `2 (V − V_C)/(V + V_C)` of the translational and the peripheral velocity [m/s]: braking positive, 0 at
 /// standstill.
 ///
-/// Where wheel and rail move against each other the quotient has a pole (`V_C = −V`) and says nothing; such a wheel slides
-/// more than a locked one, and the creepage stays at the value of the locked wheel, 2. The sign is relative to the direction of
-/// travel: that of a wheel which spins on the spot changes with it, unlike that of `V − V_C`.
+/// Where wheel and rail move against each other the quotient has a pole (`V_C = −V`) and says nothing; such a wheel
+/// slides more than a locked one, and the creepage stays at the value of the locked wheel, 2. The sign is relative to
+/// the direction of travel: that of a wheel which spins on the spot changes with it, unlike that of `V − V_C`.
 pub fn creepage(v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) {
         0.0
@@ -309,14 +309,14 @@ pub fn creepage(v: f64, v_c: f64) -> f64 {
     }
 }
 
-/// Slide `(V − V_C)/V` of EN 15595 \[1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it is
-/// given as if it travelled at the speed [`STANDSTILL`].
+/// Slide `(V − V_C)/V` of EN 15595 \[1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it
+/// is given as if it travelled at the speed [`STANDSTILL`].
 pub fn slide(v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) { 0.0 } else { (v - v_c) / v.abs().max(STANDSTILL).copysign(v) }
 }
 
-/// Dissipated energy per metre travelled \[N] of the dissipated `power` \[W]: 0 at standstill; of a wheel that spins on the
-/// spot it is given as if it travelled at the speed [`STANDSTILL`].
+/// Dissipated energy per metre travelled \[N] of the dissipated `power` \[W]: 0 at standstill; of a wheel that spins on
+/// the spot it is given as if it travelled at the speed [`STANDSTILL`].
 pub fn per_metre(power: f64, v: f64, v_c: f64) -> f64 {
     if at_rest(v, v_c) { 0.0 } else { power.max(0.0) / v.abs().max(STANDSTILL) }
 }

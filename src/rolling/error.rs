@@ -16,7 +16,7 @@ pub enum StepError {
         time: f64,
         /// Its length \[s].
         step: f64,
-        /// What the contact solver says.
+        /// Error of the contact solver.
         source: ContactError,
     },
     /// The contact patch outgrew the mesh.
@@ -43,7 +43,7 @@ pub enum StepError {
         "no equilibrium: drive.load and drive.load_change press the wheel down with {pressing} N, not with more than 0 N"
     )]
     Unpressed {
-        /// What presses \[N].
+        /// Force that presses \[N].
         pressing: f64,
     },
     /// Contact and temperatures that do not come to rest at each other.
@@ -73,7 +73,7 @@ pub enum StepError {
     /// A communication step outside its range.
     #[error("communication step = {step} s is outside its range: above 0 to {longest} s")]
     StepSize {
-        /// What was asked for \[s].
+        /// Length of the step that was asked for \[s].
         step: f64,
         /// Longest step \[s].
         longest: f64,
@@ -112,7 +112,8 @@ pub enum StepError {
     /// The temperatures have no answer.
     #[error("heat: {0}")]
     Heat(#[from] HeatError),
-    /// A temperature that matter cannot have: linear laws were taken beyond their range, or the tread was cooled too much.
+    /// A temperature that matter cannot have: linear laws were taken beyond their range, or the tread was cooled too
+    /// much.
     #[error("the coldest point would have {temperature:.1} K, which is not above absolute zero")]
     BelowAbsoluteZero {
         /// Lowest temperature \[K].
@@ -127,7 +128,8 @@ pub enum StepError {
 }
 
 impl StepError {
-    /// Whether another view of the same surfaces may have an answer: a wider zone, or a grid in place of a single patch.
+    /// True if another view of the same surfaces may have an answer: a wider zone, or a grid in place of a single
+    /// patch.
     pub fn asks_for_width(&self) -> bool {
         match self {
             StepError::ZoneExceeded { .. } => true,
@@ -135,7 +137,7 @@ impl StepError {
         }
     }
 
-    /// Whether a grid may have an answer where a single patch has none.
+    /// True if a grid may have an answer where a single patch has none.
     pub fn wants_a_grid(&self) -> bool {
         matches!(self, StepError::Contact { source: ContactError::Unsuited { .. }, .. })
     }

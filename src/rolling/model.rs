@@ -100,8 +100,8 @@ impl Model {
         (!reversible).then_some((smooth.half_plane, smooth.reach))
     }
 
-    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports; `correction`: that of
-    /// their compliance at grid scale, if the solver needs it.
+    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports;
+    /// `correction`: that of their compliance at grid scale, if the solver needs it.
     pub fn with_solver(
         config: Config,
         bodies: Pair,
@@ -146,7 +146,7 @@ impl Model {
         self.wheel.radius + state.deformation().radius_growth
     }
 
-    /// Whether a state has the dimensions of this model and only finite numbers in its contact forces.
+    /// True if a state has the dimensions of this model and only finite numbers in its contact forces.
     pub fn fits(&self, state: &State) -> bool {
         self.bodies.fits(state)
             && self.contact.solver.fits(&state.contact)

@@ -1,4 +1,4 @@
-//! What the model returns at a communication point. An output is one row here, and its value in [`super::outputs`].
+//! Outputs of the model at a communication point. An output is one row here, and its value in [`super::outputs`].
 
 use super::profile::PROFILE_POINTS;
 use crate::config::units::Measure;
@@ -32,7 +32,7 @@ pub struct OutputRow {
     pub high: f64,
     /// Usual size.
     pub nominal: f64,
-    /// Whether it is zero at the start by definition; otherwise it follows from all inputs and parameters there.
+    /// True if it is zero at the start by definition; otherwise it follows from all inputs and parameters there.
     pub starts_at_zero: bool,
     /// Meaning, plain text.
     pub text: &'static str,

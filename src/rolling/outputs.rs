@@ -97,7 +97,7 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
     values
 }
 
-/// What the surfaces have lost, and the outputs about heat; everything else zero.
+/// Outputs about the material that the surfaces have lost and about heat; all others are zero.
 fn surface_outputs(model: &Model, state: &State) -> Outputs {
     let [wheel, rail] = &state.flattening;
     Outputs {

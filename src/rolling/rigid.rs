@@ -47,7 +47,7 @@ impl RigidWheel {
         }
     }
 
-    /// What drives translation, hub height and rotation when the inputs have the values `target`.
+    /// Drives of translation, hub height and rotation when the inputs have the values `target`.
     pub fn drives(&self, inputs: &Inputs, target: &Drive) -> [AxisDrive; 3] {
         [
             match inputs.translation {
@@ -82,8 +82,8 @@ impl RigidWheel {
         })
     }
 
-    /// The three rigid motions of a step as unknowns of the contact problem, by the time formulas of velocities and of the hub
-    /// height; `speeds` are the predicted ones, `momentum` is that of the free deformation.
+    /// The three rigid motions of a step as unknowns of the contact problem, by the time formulas of velocities and of
+    /// the hub height; `speeds` are the predicted ones, `momentum` is that of the free deformation.
     ///
     /// The damper resists `U̇`. In the time formula `Ü = a0 U̇ + h` with what is known of the velocity, h, so that
     /// `c U̇ = c/a0 (Ü − h)`: a mass more, and a known momentum.
@@ -144,8 +144,8 @@ impl RigidWheel {
         (0..3).map(|k| 0.5 * self.inertia[k] * velocities[k] * velocities[k]).sum()
     }
 
-    /// Refuses motions (V, U, Ω) well outside the ranges of the inputs that could prescribe them, and velocities at which
-    /// loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
+    /// Refuses motions (V, U, Ω) well outside the ranges of the inputs that could prescribe them, and velocities at
+    /// which loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
     pub fn check(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
         // What is prescribed ends within its range; a free wheel that starts at its end may drift a little.
         let motion = Drive { velocity, displacement, omega, ..Drive::default() };

@@ -17,7 +17,7 @@ use super::{stationary, substeps};
 use crate::config::Tuning;
 use serde::{Deserialize, Serialize};
 
-/// What a state came from.
+/// Origin of a state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Origin {
     /// The stationary state of these inputs.
@@ -138,7 +138,7 @@ fn repeat(
     }
 }
 
-/// Whether two states were computed by the same sequence of decisions.
+/// True if two states were computed by the same sequence of decisions.
 fn same_branch(model: &Model, a: &State, b: &State) -> bool {
     model.contact.solver.same_branch(&a.contact, &b.contact)
         && a.hub.brake.locked == b.hub.brake.locked

@@ -10,8 +10,8 @@ pub fn slowest(patch: Interval, step: f64) -> f64 {
     (patch.high - patch.low) / PASSING.max(step)
 }
 
-/// How far material with a `speed` [m/s] stands \[1]: wholly below the slowest speed of those that roll through, not at all from twice
-/// that on.
+/// How far material with a `speed` [m/s] stands \[1]: wholly below the slowest speed of those that roll through, not at
+/// all from twice that on.
 pub fn share(speed: f64, slowest: f64) -> f64 {
     if slowest > 0.0 { (2.0 - speed.abs() / slowest).clamp(0.0, 1.0) } else { 0.0 }
 }

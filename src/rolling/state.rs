@@ -46,8 +46,8 @@ pub struct State {
 }
 
 impl State {
-    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre. That of
-    /// the wheel goes by the rim, which torsion turns against the hub.
+    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre.
+    /// That of the wheel goes by the rim, which torsion turns against the hub.
     pub fn place(&self, radius: f64) -> [f64; 2] {
         [(self.motion.angle - self.contact.rim_angle()) * radius, self.motion.distance]
     }
@@ -58,7 +58,7 @@ impl State {
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.deformation)
     }
 
-    /// What heat leaves of the strength of the steel.
+    /// Strength of the steel after heat has weakened it.
     pub fn weakening(&self) -> &Weakening {
         static NONE: Weakening = Weakening::NONE;
         self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
@@ -74,7 +74,7 @@ pub struct Clock {
     pub pending: f64,
     /// Length of the last internal step \[s]; 0: the time formula starts afresh.
     pub last_step: f64,
-    /// Whether the last internal step started the time formula afresh.
+    /// True if the last internal step started the time formula afresh.
     pub restarted: bool,
     /// Memory of the control of the step size.
     pub control: StepControl,
@@ -89,7 +89,7 @@ pub struct Clock {
 pub struct HubForces {
     /// Forces that drive the wheel at the end of the step, prescribed or reactions, with gravity and the brake.
     pub force: [f64; 3],
-    /// The same as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
+    /// Forces as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
     pub driving: [f64; 3],
     /// Part of the force in x: gravity along the track [N/m].
     pub gravity: f64,
@@ -133,14 +133,15 @@ impl Pressing {
     }
 }
 
-/// What the brake does; all zero where there is none.
+/// Action of the brake; all zero where there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Brake {
-    /// Its moment on the wheel, forward positive: at the end of the last step, or its mean over that step if it holds \[N].
+    /// Its moment on the wheel, forward positive: at the end of the last step, or its mean over that step if it
+    /// holds \[N].
     pub moment: f64,
     /// Its impulse in that step [N s].
     pub impulse: f64,
-    /// Whether it holds the wheel at rest.
+    /// True while it holds the wheel at rest.
     pub locked: bool,
     /// Its mean power over the last communication step; at the start the stationary one [W/m].
     pub power: f64,
@@ -191,7 +192,7 @@ pub struct ThermalState {
     pub temperatures: Temperatures,
     /// Mean excess temperatures of the surfaces in the patch: wheel, rail \[K].
     pub patch_mean: [f64; 2],
-    /// The same weighted with the pressure: the temperatures at which friction acts. The edges of the patch, where nothing
+    /// Means weighted with the pressure: the temperatures at which friction acts. The edges of the patch, where nothing
     /// presses, do not disturb them.
     pub loaded_mean: [f64; 2],
     /// Mean of these over the friction coefficient \[K].
@@ -200,7 +201,7 @@ pub struct ThermalState {
     pub melted: f64,
     /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included \[K].
     pub surface: [Vec<f64>; 2],
-    /// What the hot material has gone through.
+    /// Thermal history of the hot material.
     pub damage: Damage,
     /// Heat put in less heat passed on or stored since the start [J/m].
     pub unaccounted: f64,
@@ -208,7 +209,7 @@ pub struct ThermalState {
     pub turned_over: f64,
     /// How the heat deforms the bodies.
     pub deformation: ThermalDeformation,
-    /// What the heat leaves of their strength.
+    /// Strength of the bodies after heat has weakened them.
     pub weakening: Weakening,
 }
 
@@ -219,15 +220,15 @@ impl ThermalState {
     }
 }
 
-/// What heat leaves of the strength of the steel under the contact, over x.
+/// Strength of the steel under the contact after heat has weakened it, over x.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Weakening {
     /// Share of the yield strength, of the softer body \[1]; empty: all of it.
     pub strength: Piecewise,
     /// Share of the friction coefficient, where a surface melts \[1]; empty: all of it.
     pub film: Piecewise,
-    /// Mean temperature of the wheel less that of the rail over the depth in which the contact pressure acts \[K]: which of
-    /// them is softer; empty: neither.
+    /// Mean temperature of the wheel less that of the rail over the depth in which the contact pressure acts \[K]:
+    /// which of them is softer; empty: neither.
     pub warmer_wheel: Piecewise,
 }
 
@@ -268,7 +269,7 @@ impl ThermalDeformation {
     }
 }
 
-/// What the control of the step size remembers.
+/// Memory of the control of the step size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
     /// Largest internal step that the errors so far allow \[s].
@@ -285,7 +286,7 @@ pub struct StepControl {
     pub quiet: u32,
 }
 
-/// What a step is measured by.
+/// Quantities by which the error of a step is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Controlled {
     /// Contact forces on the wheel (x, y, moment) [N/m, N/m, N].

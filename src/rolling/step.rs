@@ -16,8 +16,8 @@ use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative, formula, position, settled};
 
-/// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each time the
-/// share of friction on the hottest places falls to a quarter or less.
+/// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each
+/// time the share of friction on the hottest places falls to a quarter or less.
 const COOLER: usize = 6;
 /// Step from which on flashes follow friction within it \[s].
 const FOLLOWED: f64 = 4e-5;
@@ -27,14 +27,14 @@ const LONGEST_AGAIN: f64 = 1e-3;
 /// Largest change of the weights at the contact edges that counts as converged in a step [1].
 const EDGE_TOLERANCE: f64 = 0.02;
 
-/// What is decided before anything is solved.
+/// Decisions of a step that are taken before anything is solved.
 struct Plan {
     /// Length of the step [s].
     dt: f64,
     td: TimeDerivative,
     /// Time formula of the hub height.
     of_height: TimeDerivative,
-    /// Whether the time formula starts afresh.
+    /// True if the time formula starts afresh.
     restarted: bool,
     /// Which motions are prescribed, and the forces whose impulses drive the others.
     drives: [AxisDrive; 3],
@@ -45,7 +45,7 @@ struct Plan {
     friction: Friction,
 }
 
-/// What leads from one state to the next.
+/// Demand that leads from one state to the next.
 #[derive(Clone, Copy)]
 pub struct Demand<'a> {
     /// Which partners are prescribed.
@@ -60,8 +60,8 @@ pub struct Demand<'a> {
     pub last_step: f64,
 }
 
-/// Computes the state `next` one internal step of `dt` seconds after `state`; on error `next` is meaningless. The control of
-/// the step size and the counts of the communication step are left to [`super::substeps`].
+/// Computes the state `next` one internal step of `dt` seconds after `state`; on error `next` is meaningless. The
+/// control of the step size and the counts of the communication step are left to [`super::substeps`].
 pub fn step(
     model: &Model,
     state: &State,
@@ -86,8 +86,8 @@ pub fn step(
     Ok(())
 }
 
-/// Whether friction has heated the contact beyond what a molten film lets it: within a step the film is that of its beginning.
-/// Where it has been beyond before, other heat is at work.
+/// True if friction has heated the contact beyond what a molten film lets it: within a step the film is that of its
+/// beginning. Where it has been beyond before, other heat is at work.
 fn overheats(model: &Model, state: &State, next: &State) -> bool {
     let (Some(model), Some(before), Some(after)) = (&model.thermal, &state.thermal, &next.thermal) else {
         return false;

@@ -1,14 +1,15 @@
 //! The track below the rail: its base moves in x and y as a rigid line on springs, dampers and a mass.
 //!
 //! The displacement `b` of the base is condensed into the answer of the rail, as its deformation is. In a step
-//! `ḃ = a0 b + h_v` and `b̈ = a0² b + h_a`. The rail feels `b̈` as its wheel feels the acceleration of the hub, so that its
-//! surface moves by `N b` with `N = E − Pᵀ`: `E` is the rigid shift, `P` the rate of deformation momentum per unit force.
-//! The momentum of mass, rail and its deformation balances contact forces `λ` on the rail, damper and spring:
+//! `ḃ = a0 b + h_v` and `b̈ = a0² b + h_a`. The rail feels `b̈` as its wheel feels the acceleration of the hub, so that
+//! its surface moves by `N b` with `N = E − Pᵀ`: `E` is the rigid shift, `P` the rate of deformation momentum per unit
+//! force. The momentum of mass, rail and its deformation balances contact forces `λ` on the rail, damper and spring:
 //!
 //! `Z b = Nᵀ λ − q`, `Z = a0² (m + D) + a0 c + k`, `q = (m + D) h_a + c h_v + π_free`,
 //!
-//! with the `D` of [`StepOperator::deformation_inertia`] and the momentum `π_free` of [`FreeResponse::momentum`]. A direction
-//! without spring is rigid: it has no unknown. Derivation: `docs/theory/track-support.md`. Per metre of width.
+//! with the `D` of [`StepOperator::deformation_inertia`] and the momentum `π_free` of [`FreeResponse::momentum`]. A
+//! direction without spring is rigid: it has no unknown. Derivation: `docs/theory/track-support.md`. Per metre of
+//! width.
 
 use crate::config::Config;
 use crate::mechanics::response::{FreeResponse, StepOperator};
@@ -36,7 +37,7 @@ impl BaseMotion {
         self.velocity.map(|v| v.rate)
     }
 
-    /// What is known of velocity and acceleration before a step: `h_v`, `h_a`.
+    /// Known parts of velocity and acceleration before a step: `h_v`, `h_a`.
     fn offsets(&self, td: &TimeDerivative) -> [[f64; 2]; 2] {
         let velocity = self.displacement.map(|b| b.offset(td));
         [velocity, [0, 1].map(|k| td.a0 * velocity[k] + self.velocity[k].offset(td))]

@@ -1,4 +1,4 @@
-//! What a user can do about a failure: the one place for the advice that follows a message.
+//! Advice on a failure: the one place for the words that follow a message.
 
 use super::validity::ZONE_LOAD;
 use super::{Inputs, PrepareError, StepError, start};

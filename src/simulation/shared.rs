@@ -44,7 +44,8 @@ fn entry(config: &Config) -> Arc<Entry> {
     entry
 }
 
-/// Forgets models that nobody uses or prepares, and gives their memory back: nothing is left when a library is unloaded.
+/// Forgets models that nobody uses or prepares, and gives their memory back: nothing is left when a library is
+/// unloaded.
 fn forget_unused() {
     let mut entries = lock(&ENTRIES);
     entries.retain(|entry| Arc::strong_count(entry) > 1 || lock(&entry.model).strong_count() > 0);

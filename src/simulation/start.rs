@@ -1,4 +1,4 @@
-//! What stands against a start that was not found, in the words of the user.
+//! Obstacles to a start that was not found, in the words of the user.
 
 use super::{Inputs, Translation};
 use crate::config::{Config, display_number};

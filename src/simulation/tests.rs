@@ -1,4 +1,4 @@
-//! What a step does that its results do not show.
+//! Work of a step that its results do not show.
 
 use super::*;
 use std::path::Path;

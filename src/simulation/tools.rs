@@ -1,13 +1,13 @@
 //! Memory in which steps are computed: as much as simulations of a model compute at the same time, not as there are.
 //!
-//! Nothing in it outlives a computation, so that it does not matter who has used it before. Eight wheels on two threads pass
-//! two sets from hand to hand, which stay in the caches of the processor.
+//! Nothing in it outlives a computation, so that it does not matter who has used it before. Eight wheels on two threads
+//! pass two sets from hand to hand, which stay in the caches of the processor.
 
 use super::lock::lock;
 use crate::rolling::{State, Workspace};
 use std::sync::Mutex;
 
-/// What a computation needs besides the states it leads from and to.
+/// Memory that a computation needs besides the states it leads from and to.
 #[derive(Default)]
 pub(super) struct Tools {
     pub workspace: Workspace,

@@ -67,7 +67,8 @@ impl WheelSlave {
         aside::run(aside, &mut |_, _| {}, |_| work(simulation))
     }
 
-    /// Derivatives of outputs along a direction of inputs, of which each has its component (see [`Simulation::difference`]).
+    /// Derivatives of outputs along a direction of inputs, of which each has its component (see
+    /// [`Simulation::difference`]).
     pub fn directional_derivative(
         &mut self,
         unknown: &[&Variable],

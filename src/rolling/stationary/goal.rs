@@ -1,4 +1,4 @@
-//! What a stationary state has to satisfy: which speeds are given, and which one is sought.
+//! Conditions of a stationary state: the speeds that are given, and the one that is sought.
 
 use super::super::brake;
 use super::super::control::{Drive, Inputs, peripheral_velocity};
@@ -9,13 +9,13 @@ use crate::contact::{AxisDrive, RigidMotion};
 /// Speed of both surfaces together below which the wheel stands [m/s].
 const AT_REST: f64 = 1e-9;
 
-/// What the stationary state has to satisfy.
+/// Conditions of the stationary state.
 pub(super) struct Goal {
     /// Values of the inputs.
     pub drive: Drive,
-    /// What drives the wheel, with what the brake does to it.
+    /// Drives of the wheel, the brake included.
     pub drives: [AxisDrive; 3],
-    /// The same as the inputs give it.
+    /// Drives as the inputs give them.
     pub given: [AxisDrive; 3],
     /// V [m/s].
     velocity: f64,
@@ -29,18 +29,19 @@ pub(super) struct Goal {
     pub moving: bool,
 }
 
-/// What the passes of a search change.
+/// Quantities that the passes of a search change.
 #[derive(Clone, Copy)]
 pub(super) struct Trial {
-    /// V [m/s] and Ω [rad/s] as slip sees them. At standstill, where slip is a direction of motion, those of slow rolling.
+    /// V [m/s] and Ω [rad/s] as slip sees them. At standstill, where slip is a direction of motion, those of slow
+    /// rolling.
     pub speeds: [f64; 2],
     /// Accelerations of the three axes.
     pub accelerations: [f64; 3],
 }
 
 impl Goal {
-    /// From the inputs at the start. The travel velocity is that of the input or `initial.velocity`, the angular velocity
-    /// that of the input or of `initial.creepage`, if it is set. Otherwise:
+    /// From the inputs at the start. The travel velocity is that of the input or `initial.velocity`, the angular
+    /// velocity that of the input or of `initial.creepage`, if it is set. Otherwise:
     /// - a wheel that moves rolls with the angular velocity that its moment needs;
     /// - a wheel at rest sticks, and the contact carries what moment or force put on it, nothing where both speeds are
     ///   prescribed. Such a contact is that of slow rolling, whose slip stands for the direction of motion;
@@ -111,9 +112,10 @@ impl Goal {
 
     /// Accelerations under the contact forces `resultant`.
     ///
-    /// Where speeds are given, and off the rail, every free axis accelerates by what is left of its own balance. Where one is
-    /// sought, the creepage stays constant, `Ω̇/V̇ = Ω/V = k`, and the sum of both balances, `m V̇ + k I Ω̇ = F + k M + (F_x + k M_c)`,
-    /// gives the acceleration: the tangential force drops out, and what remains in brackets is the small loss of rolling.
+    /// Where speeds are given, and off the rail, every free axis accelerates by what is left of its own balance. Where
+    /// one is sought, the creepage stays constant, `Ω̇/V̇ = Ω/V = k`, and the sum of both balances,
+    /// `m V̇ + k I Ω̇ = F + k M + (F_x + k M_c)`, gives the acceleration: the tangential force drops out, and what
+    /// remains in brackets is the small loss of rolling.
     pub fn accelerations(&self, inertia: [f64; 3], speeds: [f64; 2], resultant: [f64; 3]) -> [f64; 3] {
         let [force, moment] = self.free_loads();
         if self.sought.is_none() || resultant[1] <= 0.0 {
@@ -134,7 +136,7 @@ impl Goal {
         if self.sought == Some(0) { needed(force, 0) } else { -needed(moment, 2) * trial.speeds[1] / trial.speeds[0] }
     }
 
-    /// What asks for it, in words, for wheels of the given width \[m].
+    /// The demand in words, for wheels of the given width \[m].
     pub fn demand(&self, width: f64) -> String {
         let [force, moment] = self.free_loads();
         let braked = matches!(self.given[2], AxisDrive::Braked { .. });
@@ -146,8 +148,8 @@ impl Goal {
         named.collect::<Vec<_>>().join(" and ")
     }
 
-    /// The rigid motions of the contact problem: unknown are the hub height, unless it is prescribed, and the speed of the
-    /// axis `sought`, whose acceleration is that of the trial whatever the speed.
+    /// The rigid motions of the contact problem: unknown are the hub height, unless it is prescribed, and the speed of
+    /// the axis `sought`, whose acceleration is that of the trial whatever the speed.
     pub fn motions(
         &self,
         model: &Model,

@@ -19,18 +19,18 @@ use settle::{scale, settle};
 
 /// Passes of temperatures and contact.
 const MAX_PASSES: usize = 30;
-/// Passes after which the feedback of the temperatures is averaged, unless the changes shrink by this factor from pass to
-/// pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth.
+/// Passes after which the feedback of the temperatures is averaged, unless the changes shrink by this factor from pass
+/// to pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth.
 const PLAIN_PASSES: usize = 5;
 const CONTRACTION: f64 = 0.5;
 /// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
 /// rounding.
 const THERMAL_TOLERANCE: f64 = 1e-9;
-/// The same where averages are all there is.
+/// Scatter that is accepted where averages are all there is.
 const THERMAL_SCATTER: f64 = 1e-3;
 
-/// Stationary state for inputs. Where a force or moment is prescribed it is quasi-steady rolling at `initial.velocity`: the
-/// creepage is constant and belongs to force and moment, and the accelerations are what they do not balance. With
+/// Stationary state for inputs. Where a force or moment is prescribed it is quasi-steady rolling at `initial.velocity`:
+/// the creepage is constant and belongs to force and moment, and the accelerations are what they do not balance. With
 /// `initial.creepage`, creepage and velocity are given, and rotation and translation accelerate each by its own.
 ///
 /// # Errors
@@ -68,7 +68,8 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
 }
 
 /// Change from one state to the next: of the contact force relative to the load and, since a prescribed force fixes it
-/// whatever the temperatures, of the creepage relative to the one that strains the patch by its own width over the radius.
+/// whatever the temperatures, of the creepage relative to the one that strains the patch by its own width over the
+/// radius.
 fn difference(model: &Model, before: &State, now: &State) -> f64 {
     let (from, to) = (&before.contact.traction, &now.contact.traction);
     let force =

@@ -16,10 +16,10 @@ use crate::multistep::{History, TimeDerivative};
 
 /// Passes that bring in convective terms, creepage and accelerations.
 const MAX_PASSES: usize = 30;
-/// Relative change of the nodal contact forces at which they are brought in: derivatives by the inputs are differences of
-/// such states.
+/// Relative change of the nodal contact forces at which they are brought in: derivatives by the inputs are differences
+/// of such states.
 const TOLERANCE: f64 = 1e-11;
-/// The same where rounding allows no more.
+/// Tolerance where rounding allows no more.
 const ROUNDING: f64 = 1e-6;
 /// Largest change of the weights at the contact edges that counts as converged [1].
 const EDGE_TOLERANCE: f64 = 1e-5;

@@ -1,35 +1,37 @@
 //! When an internal step is too long, and when the next one may be longer.
 //!
 //! A step is too long where its [error](super::prediction) exceeds the tolerance. Halving it must then make the error
-//! smaller: fourfold where the motion is smooth, twofold where it bends. What does not become smaller is no error of the time
-//! formula but noise: forces that jump with the state of a contact node, or that depend on the length of the step itself.
-//! Shorter steps do not cure it, so the control learns its size and lets it pass, up to [`NOISIEST`] times the tolerance,
-//! until it fades. It learns
+//! smaller: fourfold where the motion is smooth, twofold where it bends. What does not become smaller is no error of
+//! the time formula but noise: forces that jump with the state of a contact node, or that depend on the length of the
+//! step itself. Shorter steps do not cure it, so the control learns its size and lets it pass, up to [`NOISIEST`] times
+//! the tolerance, until it fades. It learns
 //!
 //! - where half a step misses by no less than the whole one;
 //! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
 //!
-//! Events are over after some milliseconds, and vibrations deserve their steps. In long dry slides, however, heat, expansion
-//! and pressure excite each other without end, and steel that yields makes the force jump from node to node; the finest
-//! steps serve nobody: where the contact is beyond Ac1 or yields, the more steps were taken of late, the longer is the
-//! shortest one that errors ask for ([`PERSISTENCE`]).
+//! Events are over after some milliseconds, and vibrations deserve their steps. In long dry slides, however, heat,
+//! expansion and pressure excite each other without end, and steel that yields makes the force jump from node to node;
+//! the finest steps serve nobody: where the contact is beyond Ac1 or yields, the more steps were taken of late, the
+//! longer is the shortest one that errors ask for ([`PERSISTENCE`]).
 
 use super::prediction::Found;
 use crate::config::Tuning;
 use crate::rolling::state::StepControl;
 
-/// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events are
-/// located to twice this time at best.
+/// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events
+/// are located to twice this time at best.
 const FINEST: f64 = 1e-5;
-/// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or ends
-/// somewhere within, and its energy errs by what it does on the way of the whole step.
+/// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or
+/// ends somewhere within, and its energy errs by what it does on the way of the whole step.
 const STRIKE: f64 = 2e-6;
-/// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of remembered ones that doubles [`FINEST`]; twice as many
-/// make it five times as long. The shortest steps fall from sixty in a millisecond to some six if they go on.
+/// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of
+/// remembered ones that doubles [`FINEST`]; twice as many make it five times as long. The shortest steps fall from
+/// sixty in a millisecond to some six if they go on.
 const PERSISTENCE: (f64, f64) = (0.3, 500.0);
 /// Change of the highest contact temperature [K] that always refines steps longer than this [s].
 const HEATING: (f64, f64) = (300.0, 1e-3);
-/// Internal step that overheating alone does not halve any further [s]: a molten film takes friction away in the next one.
+/// Internal step that overheating alone does not halve any further [s]: a molten film takes friction away in the next
+/// one.
 const OVERHEATED: f64 = 1e-4;
 /// Share of the tolerance, and of [`HEATING`], below which the step doubles; the difference grows fourfold.
 const GROWTH: f64 = 0.125;
@@ -44,7 +46,7 @@ const FADING: f64 = 0.95;
 /// Control of the internal steps of one communication step.
 pub struct Control<'a> {
     tuning: &'a Tuning,
-    /// What is remembered from one communication step to the next.
+    /// Memory from one communication step to the next.
     pub memory: StepControl,
     /// Error of the last attempt from the present state, which failed; zero if there was none.
     failed: f64,
@@ -56,12 +58,12 @@ impl<'a> Control<'a> {
         Self { tuning, memory, failed: 0.0 }
     }
 
-    /// Whether the errors so far allow a step of `dt` seconds.
+    /// True if the errors so far allow a step of `dt` seconds.
     pub fn allows(&self, dt: f64) -> bool {
         self.tuning.tolerance == 0.0 || dt <= self.memory.step * (1.0 + 1e-9)
     }
 
-    /// Whether a step of `dt` seconds was too long; then half of it is allowed.
+    /// True if a step of `dt` seconds was too long; then half of it is allowed.
     pub fn refuses(&mut self, found: &Found, dt: f64) -> bool {
         let tolerance = self.tuning.tolerance;
         if !found.first && self.failed > 0.0 && found.error > SMALLER * self.failed {

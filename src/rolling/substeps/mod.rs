@@ -1,8 +1,8 @@
 //! Division of a communication step into internal steps.
 //!
-//! A communication step is first divided evenly by `solver.max_step`. Where a piece must be shorter it is halved, again and
-//! again, so that the last piece lands exactly on the end of the communication step; halves are joined again as soon as the
-//! errors allow. A piece is halved
+//! A communication step is first divided evenly by `solver.max_step`. Where a piece must be shorter it is halved, again
+//! and again, so that the last piece lands exactly on the end of the communication step; halves are joined again as
+//! soon as the errors allow. A piece is halved
 //!
 //! - where the contact finds no state;
 //! - with a `solver.tolerance`, where the contact misses its [`prediction`] by more than that. Loss of contact, re-contact,
@@ -34,8 +34,8 @@ pub const LONGEST_STEP: f64 = 3600.0;
 /// Shortest internal step \[s]: below, waves do not cross an element and the contact may find no state. Communication
 /// steps that are shorter, such as those that rounding leaves at the end of a run, wait for the next one.
 pub const SHORTEST_STEP: f64 = 5e-7;
-/// Most internal steps into which `solver.max_step` may divide a communication step: the longest one in tenths of a second,
-/// and some. They take less than half a minute.
+/// Most internal steps into which `solver.max_step` may divide a communication step: the longest one in tenths of a
+/// second, and some. They take less than half a minute.
 const MOST_PIECES: u64 = 40_000;
 /// Longest internal step on smooth surfaces where it is chosen automatically \[s].
 const AUTOMATIC: f64 = 0.1;

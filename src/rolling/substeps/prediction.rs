@@ -1,7 +1,7 @@
-//! What a step is expected to find, and how far it was from that.
+//! Expected result of a step, and its distance from the result that was found.
 //!
-//! The prediction continues the line through the two states before, or the last state after a jump of the inputs. What is
-//! missed is of second order in the step and larger than the error of the second-order formula.
+//! The prediction continues the line through the two states before, or the last state after a jump of the inputs. What
+//! is missed is of second order in the step and larger than the error of the second-order formula.
 //!
 //! Four kinds of quantities are predicted, each with the scale that makes one tolerance meaningful for all:
 //!
@@ -12,16 +12,16 @@
 //! | mean slip of the tread in the patch | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
 //! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
 //!
-//! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation, which
-//! rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what its motion
-//! leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads; the damper also by
-//! itself, on the scale of the load.
+//! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation,
+//! which rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what
+//! its motion leaves of them is predicted in the place of the contact forces, on the scale of [`AIRBORNE`] loads; the
+//! damper also by itself, on the scale of the load.
 //!
-//! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a rolling
-//! wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces by `Δt` times
-//! its value; `(a/r)a` is the displacement that breaks a standing wheel loose, over μ. So the scale holds at standstill, too,
-//! and short steps need not follow what the elasticity of the patch takes up. What a prescribed velocity explains of a missed
-//! slip is no error.
+//! With `V` the mean of travel and peripheral speed and `a` the nominal half-width, `μ(a/r)V` is the slip at which a
+//! rolling wheel slides (Carter), so slip and force count alike. A slip that lasts for the step displaces the surfaces
+//! by `Δt` times its value; `(a/r)a` is the displacement that breaks a standing wheel loose, over μ. So the scale holds
+//! at standstill, too, and short steps need not follow what the elasticity of the patch takes up. What a prescribed
+//! velocity explains of a missed slip is no error.
 
 use crate::rolling::model::Model;
 use crate::rolling::state::{Controlled, State};
@@ -29,8 +29,8 @@ use crate::rolling::state::{Controlled, State};
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
 
-/// Forces of the deformation in the air that count as much as a contact force of the nominal load does, over this load \[1]:
-/// no contact force follows from their errors, but energy that the audit misses.
+/// Forces of the deformation in the air that count as much as a contact force of the nominal load does, over this
+/// load \[1]: no contact force follows from their errors, but energy that the audit misses.
 const AIRBORNE: f64 = 8.0;
 
 /// The predicted quantities of a state.
@@ -55,17 +55,17 @@ pub struct Found {
     pub heating: f64,
     /// Highest absolute contact temperature at the end \[K]; zero without heat.
     pub hottest: f64,
-    /// Whether it exceeds the bound of a molten contact, which it kept before.
+    /// True if it exceeds the bound of a molten contact, which it kept before.
     pub overheats: bool,
-    /// Whether it exceeds that bound at the end, and has become hotter.
+    /// True if it exceeds that bound at the end, and has become hotter.
     pub molten: bool,
-    /// Whether steel yields in the contact at the end.
+    /// True if steel yields in the contact at the end.
     pub yields: bool,
     /// Contact was made or lost in it.
     pub strikes: bool,
-    /// Whether it was the first step after a jump of the inputs: it has no history.
+    /// True if it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
-    /// Whether it was longer than the step before.
+    /// True if it was longer than the step before.
     pub doubled: bool,
 }
 
