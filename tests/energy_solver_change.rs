@@ -6,7 +6,7 @@ use common::{is_patch, model, preset};
 use wheelrail::config::ContactMethod;
 use wheelrail::simulation::{Inputs, Simulation};
 
-/// What drives the wheel in a millisecond.
+/// Drive of the wheel in a millisecond.
 type Drive = dyn Fn(&mut Inputs, usize);
 
 /// Case of a run: preset, elements, heat.

@@ -1,4 +1,4 @@
-//! What is said once in a run, by name, although nothing fails: inputs without effect, values of another unit, moments
+//! Notices that are given once in a run, by name, although nothing fails: inputs without effect, values of another unit, moments
 //! that drive backwards.
 
 mod slave;

@@ -171,7 +171,7 @@ impl Coach {
         (0..AXLES).map(link).collect()
     }
 
-    /// What the primary suspension does to each wheelset: along the track \[N], and the load on the rail beside the
+    /// Forces of the primary suspension on each wheelset: along the track \[N], and the load on the rail beside the
     /// static one \[N].
     pub fn forces(&self, motion: &Motion) -> [[f64; AXLES]; 2] {
         let force = |link: &Link| {

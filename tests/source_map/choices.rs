@@ -18,7 +18,7 @@ pub fn items(text: &str) -> Vec<String> {
     found
 }
 
-/// What code does with the items instead of a complete match: one text for each place.
+/// Use of the items in code instead of a complete match: one text for each place.
 pub fn shortcuts(text: &str, items: &[String]) -> Vec<String> {
     let code = without_tests(&without_strings(&without_comments(text)));
     let mut found = Vec::new();
