@@ -54,7 +54,13 @@ pub enum PiecewiseError {
 /// One linear piece: both positions and both values.
 pub type Segment = ([f64; 2], [f64; 2]);
 
+/// Function without any points.
+pub static EMPTY: Piecewise = Piecewise::EMPTY;
+
 impl Piecewise {
+    /// Without any points.
+    pub const EMPTY: Self = Self { x: Vec::new(), value: Vec::new() };
+
     /// Removes all points and keeps the memory.
     pub fn clear(&mut self) {
         self.x.clear();

@@ -159,7 +159,7 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
         Simulation::new(model.clone(), &inputs).unwrap()
     };
     let (low, high) = (still(0.999), still(1.001));
-    let forces = |s: &Simulation| s.state().contact.traction.port_forces.clone();
+    let forces = |s: &Simulation| s.state().lines[0].contact.traction.port_forces.clone();
     let change = forces(&high) - forces(&low);
     let line_load =
         (high.outputs().contact_force_y - low.outputs().contact_force_y) / model.config().model.contact_width;

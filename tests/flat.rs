@@ -109,7 +109,7 @@ fn a_run_recalled_with_hot_spots_is_the_first_bit_for_bit() {
         let mut resumed = Simulation::resume(model.clone(), simulation.tuning().clone(), read).unwrap();
         assert_eq!(go_on(&mut resumed), first);
     }
-    let damage = &simulation.state().thermal.as_ref().unwrap().damage;
+    let damage = &simulation.state().lines[0].thermal.as_ref().unwrap().damage;
     println!("{} flats, {} spots", damage.places, damage.spots.len());
     assert!(damage.spots.iter().filter(|spot| spot.is_hot()).count() > 1);
 }
@@ -153,7 +153,7 @@ fn ordinary_braking_leaves_no_spot_and_no_memory_for_one() {
     let model = model(coarse());
     let (mut simulation, mut inputs) = rolling(&model);
     turn(&mut simulation, &mut inputs, 0.998, 0.2, 1e-3);
-    let damage = &simulation.state().thermal.as_ref().unwrap().damage;
+    let damage = &simulation.state().lines[0].thermal.as_ref().unwrap().damage;
     assert!(damage.spots.capacity() == 0 && damage.tread == Default::default());
     let o = simulation.outputs();
     assert!(o.peak_temperature > 293.0 && (o.flats, o.ac1_depth, o.austenitised_time) == (0, 0.0, 0.0));

@@ -49,7 +49,7 @@ fn pressed(step: f64) -> [f64; 2] {
     let mut most = [0.0f64; 2];
     for _ in 0..(0.2 / velocity / step) as usize {
         simulation.advance(&inputs, step).unwrap();
-        let pressure = &simulation.state().contact.traction.pressure.value;
+        let pressure = &simulation.state().lines[0].contact.traction.pressure.value;
         most =
             [pressure.iter().fold(most[0], |most, p| most.max(*p)), most[1].max(simulation.outputs().contact_force_y)];
     }

@@ -31,7 +31,7 @@ fn the_largest_pressure_is_nowhere_below_the_profile() {
         config.initial.velocity = 60.0 * KMH;
         let (mut least, mut most, mut yielding) = (f64::INFINITY, 0.0f64, 0);
         locked(config, [0.02, 0.2], |simulation, o| {
-            let nodes = simulation.state().contact.traction.pressure.value.iter().copied().fold(0.0, f64::max);
+            let nodes = simulation.state().lines[0].contact.traction.pressure.value.iter().copied().fold(0.0, f64::max);
             let points = o.profile_pressure.iter().copied().fold(0.0, f64::max);
             assert!(o.contact_pressure_max >= points && o.contact_pressure_max >= nodes);
             (least, most) = (least.min(o.contact_pressure_max / nodes), most.max(o.contact_pressure_max / nodes));

@@ -8,8 +8,8 @@ use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::series::{Fallback, SeriesSolver};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
-    RigidMotion, SolverState, SteelLimits, SurfaceResponse,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
+    LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -61,9 +61,10 @@ impl HalfPlanes {
         let omega = speed * (1.0 - 0.5 * creepage) / RADIUS;
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(RADIUS));
         let line = LineProblem {
+            share: 1.0,
             bodies: SurfaceResponse {
-                compliance: [&self.none[0], &self.none[0]],
-                relative: &self.none[0],
+                own: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
+                others: None,
                 free: [&self.still, &self.still],
                 inertial: &self.none[1],
                 momentum: &self.none[2],
@@ -83,16 +84,16 @@ impl HalfPlanes {
                 flattening: [&sound, &sound],
             },
             limits: SteelLimits::none(&flat),
+            friction: Friction::constant(friction),
         };
         let problem = ContactProblem {
-            line,
+            lines: vec![line],
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
-            friction: Friction::constant(friction),
             nominal_load: LOAD,
             edge_tolerance: 1e-5,
         };
         let mut found = ContactState::default();
-        self.solver.solve(&problem, start, &mut found, &mut ContactScratch::default()).map(|()| found)
+        self.solver.solve(&problem, &[start], &mut [&mut found], &mut ContactScratch::default()).map(|()| found)
     }
 
     fn steady(&self, load: f64, share: f64) -> ContactState {

@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SolvedFriction, SolverState,
-    Traction, Yielding,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SingleLine, SolvedFriction,
+    SolverState, Traction, Yielding,
 };
 use wheelrail::material::Isotropic;
 use wheelrail::mechanics::{Basis, Pair, bodies};
@@ -51,23 +51,23 @@ impl Hertz {
     }
 
     /// Displacements of both surfaces under forces and known motions.
-    fn surfaces(&self, problem: &ContactProblem, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
+    fn surfaces(&self, problem: &SingleLine, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
         let bodies = &problem.line.bodies;
-        let mut wheel = bodies.free[0] + bodies.compliance[0] * forces;
+        let mut wheel = bodies.free[0] + bodies.own.compliance[0] * forces;
         for (k, motion) in problem.rigid.iter().enumerate() {
             wheel.axpy(motion.acceleration(rigid[k]), &bodies.inertial.column(k), 1.0);
         }
-        [wheel, bodies.free[1] - bodies.compliance[1] * forces]
+        [wheel, bodies.free[1] - bodies.own.compliance[1] * forces]
     }
 
     /// Distance of the surfaces below the wheel centre [m]; zero in a solution.
-    fn gap(&self, problem: &ContactProblem, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
+    fn gap(&self, problem: &SingleLine, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
         let port = self.x.len() / 2 * 2 + 1;
         height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port]
     }
 
     /// What is left of the balance of a free axis [N/m, N].
-    fn unbalance(&self, problem: &ContactProblem, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
+    fn unbalance(&self, problem: &SingleLine, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
         let motion = &problem.rigid[axis];
         let mut sum = motion.momentum + (problem.line.bodies.momentum.row(axis) * forces)[0];
         for (l, other) in problem.rigid.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Hertz {
     }
 
     /// Rigid motions and residuals of the free axes for a load: the equations are linear.
-    fn motion(&self, problem: &ContactProblem, load: f64, radius: f64) -> [f64; 3] {
+    fn motion(&self, problem: &SingleLine, load: f64, radius: f64) -> [f64; 3] {
         let forces = self.forces(load, radius);
         let mut rigid = problem.rigid.map(|motion| motion.start());
         for _ in 0..4 {
@@ -122,10 +122,11 @@ impl ContactSolver for Hertz {
     fn solve(
         &self,
         problem: &ContactProblem,
-        _start: &ContactState,
-        found: &mut ContactState,
+        _start: &[&ContactState],
+        found: &mut [&mut ContactState],
         _scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
+        let (problem, [found]) = (&problem.single()?, found) else { return Err(ContactError::ForeignState) };
         let radius = problem.line.radius();
         *self.place.lock().unwrap() = [problem.line.placement.distance, problem.line.placement.angle];
         // The load at which what presses the wheel down is what holds it up; a secant of an almost linear function.
@@ -170,7 +171,7 @@ impl ContactSolver for Hertz {
             port_forces: forces,
             rigid,
             friction: SolvedFriction {
-                coefficient: problem.friction.coefficient(slip),
+                coefficient: problem.line.friction.coefficient(slip),
                 tread_slip: slip,
                 power: 0.0,
                 work: 0.0,
@@ -246,7 +247,7 @@ fn run(model: &Model, inputs: &Inputs, steps: usize) -> Vec<Outputs> {
         let mut next = State::default();
         substeps::advance(model, &model.config.tuning, &state, inputs, 1e-3, &mut workspace, &mut next).unwrap();
         state = next;
-        assert!(model.fits(&state) && state.contact.solver == SolverState::Stateless);
+        assert!(model.fits(&state) && state.lines[0].contact.solver == SolverState::Stateless);
         seen.push(observe(model, &state));
     }
     seen
@@ -306,10 +307,10 @@ fn states_do_not_pass_from_one_solver_to_the_other() {
     assert!(model.fits(&ours) && on_grid.fits(&theirs));
     assert!(!model.fits(&theirs) && !on_grid.fits(&ours));
     for model in [&model, &on_grid] {
-        assert!(!model.contact.solver.same_branch(&ours.contact, &theirs.contact));
+        assert!(!model.contact.solver.same_branch(&ours.lines[0].contact, &theirs.lines[0].contact));
     }
-    assert!(model.contact.solver.same_branch(&ours.contact, &ours.contact));
-    assert!(on_grid.contact.solver.same_branch(&theirs.contact, &theirs.contact));
+    assert!(model.contact.solver.same_branch(&ours.lines[0].contact, &ours.lines[0].contact));
+    assert!(on_grid.contact.solver.same_branch(&theirs.lines[0].contact, &theirs.lines[0].contact));
 }
 
 #[test]

@@ -141,7 +141,7 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
         // The wheel is pushed by 0.4 mm while the load grows, most of which it gives way in torsion.
         for load in [4e4, 6e4, 8e4, 1e5, 1.2e5] {
             let nodes = |simulation: &Simulation| {
-                let t = &simulation.state().contact.traction;
+                let t = &simulation.state().lines[0].contact.traction;
                 let at = |&x: &f64| [t.pressure.at(x) / SHEAR, t.shear.at(x).abs() / SHEAR, t.yielding.overlap.at(x)];
                 t.pressure.x.iter().map(|x| (*x, at(x))).collect::<Vec<_>>()
             };

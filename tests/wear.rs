@@ -33,7 +33,7 @@ fn run(simulation: &mut Simulation, inputs: &Inputs, step: f64, steps: usize) ->
 /// Mass of what is missing on the tread [kg].
 fn missing(simulation: &Simulation) -> f64 {
     let config = simulation.model().config();
-    simulation.state().flattening[0].worn().volume() * config.material.density * config.model.contact_width
+    simulation.state().lines[0].flattening[0].worn().volume() * config.material.density * config.model.contact_width
 }
 
 /// Mild and severe creepage forwards and backwards, several turns in long steps, and a slide.
@@ -214,7 +214,7 @@ fn a_wheel_that_spins_on_the_spot_wears_the_rail_as_well() {
     let mut simulation = Simulation::new(model, &inputs).unwrap();
     run(&mut simulation, &inputs, 1e-3, 100);
     let outputs = simulation.outputs();
-    let rail = simulation.state().flattening[1].worn().volume() * 7850.0 * 0.014;
+    let rail = simulation.state().lines[0].flattening[1].worn().volume() * 7850.0 * 0.014;
     println!("wheel {:.3e} kg, rail {rail:.3e} kg, {:.3e} m deep", outputs.worn_mass, outputs.worn_depth_rail);
     assert!((rail / outputs.worn_mass - 1.0).abs() < 1e-12 && outputs.worn_depth_rail > 5.0 * outputs.worn_depth);
 }

@@ -11,7 +11,7 @@ use wheelrail::simulation::{Checkpoint, Inputs, Model, Simulation};
 
 /// Ports of the contact of a simulation: more in the wide zone.
 fn ports(simulation: &Simulation) -> usize {
-    simulation.state().contact.traction.port_forces.len()
+    simulation.state().lines[0].contact.traction.port_forces.len()
 }
 
 /// The default wheel with `elements` per half-width and room for three times the half-width in uniform nodes: laid out for

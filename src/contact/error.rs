@@ -29,6 +29,12 @@ pub enum ContactError {
         /// Property of the contact that it cannot describe.
         reason: &'static str,
     },
+    /// The solver takes one contact line.
+    #[error("this contact solver takes one contact line, not {lines}")]
+    SingleLine {
+        /// Lines of the problem.
+        lines: usize,
+    },
     /// The start state belongs to another solver or another mesh.
     #[error("the contact state belongs to another solver")]
     ForeignState,

@@ -20,6 +20,8 @@ pub mod traction;
 pub use error::ContactError;
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use limits::SteelLimits;
-pub use problem::{AxisDrive, ContactProblem, LineProblem, RetardedSurface, RigidMotion, SurfaceResponse};
+pub use problem::{
+    AxisDrive, ContactProblem, Influence, LineProblem, RetardedSurface, RigidMotion, SingleLine, SurfaceResponse,
+};
 pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 pub use traction::{SolvedFriction, Traction, Yielding};

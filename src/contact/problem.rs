@@ -1,5 +1,10 @@
 //! Condensed contact problem of one step: bodies, wheel and surfaces as the contact knows them.
+//!
+//! The contact is a list of *lines* side by side, each with a share of the width. They share the wheel's rigid motions
+//! and feel each other through the bodies: a line is displaced by its own forces ([`SurfaceResponse`]) and by the forces
+//! of the others ([`Influence`]). Derivation: `docs/theory/lines.md`.
 
+use super::error::ContactError;
 use super::friction::Friction;
 use super::limits::SteelLimits;
 use crate::multistep::TimeDerivative;
@@ -7,13 +12,22 @@ use crate::piecewise::Piecewise;
 use crate::surface::{Placement, Surfaces};
 use nalgebra::{DMatrix, DVector};
 
+/// Displacements by nodal forces.
+#[derive(Clone, Copy)]
+pub struct Influence<'a> {
+    /// Displacement of wheel and rail per unit nodal force on this body [m/(N/m)].
+    pub compliance: [&'a DMatrix<f64>; 2],
+    /// Sum of both [m/(N/m)].
+    pub relative: &'a DMatrix<f64>,
+}
+
 /// Linear answer of both bodies at their surfaces; the ports are the surface displacements x, y of every node.
 #[derive(Clone, Copy)]
 pub struct SurfaceResponse<'a> {
-    /// Displacement of wheel and rail per unit nodal force on this body, corrected by the solver [m/(N/m)].
-    pub compliance: [&'a DMatrix<f64>; 2],
-    /// Sum of both compliances [m/(N/m)].
-    pub relative: &'a DMatrix<f64>,
+    /// Displacements by forces of the line itself, corrected by the solver.
+    pub own: Influence<'a>,
+    /// Displacements by the forces of other lines, each weighted with its share of the width; `None`: there are none.
+    pub others: Option<Influence<'a>>,
     /// Displacement of wheel and rail without contact forces and rigid accelerations \[m].
     pub free: [&'a DVector<f64>; 2],
     /// Displacement of the wheel surface per unit rigid acceleration, three columns (x, y, rotation).
@@ -130,8 +144,10 @@ impl RigidMotion {
 }
 
 /// Gap and slip of one contact line as functions of contact forces and rigid motions, for one step or a stationary
-/// state.
+/// state. Forces are per metre of its own width.
 pub struct LineProblem<'a> {
+    /// Share of the contact's width \[1].
+    pub share: f64,
     /// Linear answer of the bodies.
     pub bodies: SurfaceResponse<'a>,
     /// Membrane forces `N(x)` of the hot layers of wheel and rail [N/m]; their gradients pull at the surfaces.
@@ -146,6 +162,8 @@ pub struct LineProblem<'a> {
     pub placement: Placement<'a>,
     /// Limits of pressure and friction.
     pub limits: SteelLimits<'a>,
+    /// Friction coefficient as a function of the slip at the end of the step.
+    pub friction: Friction,
 }
 
 impl LineProblem<'_> {
@@ -155,14 +173,37 @@ impl LineProblem<'_> {
     }
 }
 
-/// A contact line under a wheel whose rigid motions are sought or prescribed.
+/// A contact problem of a single line.
+#[derive(Clone, Copy)]
+pub struct SingleLine<'a> {
+    /// The line.
+    pub line: &'a LineProblem<'a>,
+    /// Translation V, hub height U, rotation Ω.
+    pub rigid: &'a [RigidMotion; 3],
+    /// Line load that scales tolerances [N/m].
+    pub nominal_load: f64,
+}
+
+impl ContactProblem<'_> {
+    /// The problem for a solver that takes a single line.
+    ///
+    /// # Errors
+    ///
+    /// [`ContactError::SingleLine`] if there are several.
+    pub fn single(&self) -> Result<SingleLine<'_>, ContactError> {
+        match self.lines.as_slice() {
+            [line] => Ok(SingleLine { line, rigid: &self.rigid, nominal_load: self.nominal_load }),
+            lines => Err(ContactError::SingleLine { lines: lines.len() }),
+        }
+    }
+}
+
+/// Contact lines under a wheel whose rigid motions are sought or prescribed.
 pub struct ContactProblem<'a> {
-    /// The contact line.
-    pub line: LineProblem<'a>,
+    /// The contact lines; their shares of the width add up to one.
+    pub lines: Vec<LineProblem<'a>>,
     /// Translation V, hub height U, rotation Ω.
     pub rigid: [RigidMotion; 3],
-    /// Friction coefficient as a function of the slip at the end of the step.
-    pub friction: Friction,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].

@@ -11,18 +11,21 @@ use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
 
 /// Finds the contact forces of one step, or of a stationary state.
+///
+/// A [`ContactState`] is that of one line; a solver may refuse problems of several lines
+/// ([`ContactError::SingleLine`]).
 pub trait ContactSolver: Send + Sync {
     /// A start for [`Self::solve`]: bodies that touch and stick within `half_width` \[m] of the contact point, without
     /// forces yet.
     fn touching(&self, half_width: f64) -> ContactState;
 
-    /// Solves `problem` from the result `start` of the step before and writes all of `found`; on error `found` is
-    /// meaningless.
+    /// Solves `problem` from the results `start` of the step before, one for each of its lines, and writes all of
+    /// `found`; on error `found` is meaningless.
     fn solve(
         &self,
         problem: &ContactProblem,
-        start: &ContactState,
-        found: &mut ContactState,
+        start: &[&ContactState],
+        found: &mut [&mut ContactState],
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError>;
 

@@ -6,7 +6,7 @@
 //! load, which is work of the heat. Derivation: `docs/theory/lever-arms.md`.
 
 use super::model::Model;
-use super::state::{Audit, State, ThermalDeformation};
+use super::state::{Audit, State};
 use crate::multistep::TimeDerivative;
 
 /// Kinetic and elastic energy of a state, with that of steel which yields and springs back [J/m].
@@ -14,8 +14,8 @@ pub fn energy(model: &Model, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
-        + model.bodies.correction_energy(&state.contact)
-        + state.contact.traction.yielding.springing_work
+        + model.bodies.correction_energy(state)
+        + state.sum(|line| line.contact.traction.yielding.springing_work)
 }
 
 /// Balance at a stationary start.
@@ -35,7 +35,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         mean[1] = (next.motion.height.now - state.motion.height.now) / next.clock.last_step;
     }
     let work: f64 = (0..3).map(|k| impulse[k] * mean[k]).sum();
-    let forces = [state, next].map(|state| state.contact.traction.resultant[1]);
+    let forces = [state, next].map(|state| state.resultant()[1]);
     let damper = [state, next].map(|state| model.wheel.damper_force(state));
     let damper = td.impulse(damper[1], damper[0], before.damper);
     let damping_power = model.bodies.dissipation(next);
@@ -49,7 +49,7 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
         brake: before.brake - next.hub.brake.impulse * mean[2],
         thermal_work: before.thermal_work,
-        friction: before.friction + next.contact.traction.friction.work,
+        friction: before.friction + next.sum(|line| line.contact.traction.friction.work),
         plastic: before.plastic,
         damping: before.damping + damped + damper * mean[1],
         throughput: before.throughput + work.abs(),
@@ -61,8 +61,9 @@ pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) 
     }
 }
 
-/// Adds the work of the wheel that grows from `before` in the heat step of `state` and lifts its load.
-pub fn grow(state: &mut State, before: &ThermalDeformation) {
-    let growth = state.deformation().radius_growth - before.radius_growth;
-    state.audit.thermal_work += growth * state.contact.traction.resultant[1];
+/// Adds the work of the wheel whose radius grows, by more than `before` \[m], in the heat step of `state` and lifts its
+/// load.
+pub fn grow(state: &mut State, before: f64) {
+    let growth = state.growth() - before;
+    state.audit.thermal_work += growth * state.resultant()[1];
 }

@@ -1,9 +1,10 @@
 //! The deformable wheel and rail, and their answers for the step sizes in use.
 
+use super::lines::{self, Line};
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
-use crate::contact::line::kernel::KernelCorrection;
-use crate::contact::{ContactState, Ports};
+use crate::contact::line::kernel::{KernelCorrection, LineKernel};
+use crate::contact::{Influence, Ports};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::mechanics::{MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
@@ -27,6 +28,11 @@ pub struct Bodies {
     pub support: Option<TrackSupport>,
     /// Correction of their compliance at grid scale, if there is any.
     correction: Option<KernelCorrection>,
+    /// Positions of the nodes of the narrow and of the wide ports \[m], and their distance in the middle \[m].
+    nodes: ([Vec<f64>; 2], f64),
+    /// Compliance that every one of several lines has for itself, of one body at the narrow and at the wide ports
+    /// [m/(N/m)]; `None`: there is a single line.
+    own: Option<[DMatrix<f64>; 2]>,
     /// True if this correction is part of them, because it is damped as they are.
     hold_correction: bool,
 }
@@ -45,6 +51,51 @@ pub struct Operators {
     pub base: Option<CondensedBase>,
     /// Sum of both surface compliances [m/(N/m)].
     pub relative: DMatrix<f64>,
+    /// Compliances of several lines; `None`: there is a single one.
+    lines: Option<LineOperators>,
+}
+
+/// Compliances of wheel and rail, and their sum [m/(N/m)].
+type Compliances = ([DMatrix<f64>; 2], DMatrix<f64>);
+
+/// Compliances of several lines.
+struct LineOperators {
+    /// By the forces of a line itself, for every line.
+    own: Vec<Compliances>,
+    /// By the forces of other lines.
+    others: Compliances,
+}
+
+impl LineOperators {
+    /// Those of lines that each have the compliance `own` for themselves, on bodies with the compliances `whole`.
+    fn new(own: &DMatrix<f64>, whole: [&DMatrix<f64>; 2], lines: &[Line]) -> Self {
+        let with_sum = |[wheel, rail]: [DMatrix<f64>; 2]| {
+            let sum = &wheel + &rail;
+            ([wheel, rail], sum)
+        };
+        let shared = whole.map(|whole| whole - own);
+        let of_line = |line: &Line| with_sum(shared.each_ref().map(|shared| own + line.share * shared));
+        Self { own: lines.iter().map(of_line).collect(), others: with_sum(shared) }
+    }
+}
+
+impl Operators {
+    /// Displacements by the forces of line `k` itself.
+    pub fn own(&self, k: usize) -> Influence<'_> {
+        match self.lines.as_ref().and_then(|lines| lines.own.get(k)) {
+            Some(own) => influence(own),
+            None => Influence { compliance: [&self.wheel.surface, &self.rail.surface], relative: &self.relative },
+        }
+    }
+
+    /// Displacements by the forces of other lines; `None`: there are none.
+    pub fn others(&self) -> Option<Influence<'_>> {
+        self.lines.as_ref().map(|lines| influence(&lines.others))
+    }
+}
+
+fn influence(([wheel, rail], relative): &Compliances) -> Influence<'_> {
+    Influence { compliance: [wheel, rail], relative }
 }
 
 /// Operators of recently used step sizes; never part of a state.
@@ -57,6 +108,8 @@ impl Bodies {
     /// Wheel and rail, the rail on its `support`, with a `correction` of their compliance at grid scale.
     pub fn new(pair: Pair, support: Option<TrackSupport>, correction: Option<KernelCorrection>) -> Self {
         let (wide, mut hold_correction) = (pair.wide, false);
+        let wings = wide.as_ref().map_or(Vec::new(), |wide| wide.surface_x.clone());
+        let nodes = ([pair.surface_x.clone(), wings], pair.spacing);
         let mut corrected = |wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, ports: usize| {
             let mut bodies = [wheel, rail];
             let mut layers = [DMatrix::zeros(ports, ports), DMatrix::zeros(ports, ports)];
@@ -68,12 +121,12 @@ impl Bodies {
         let narrow = corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len());
         let wide = wide.map(|pair| corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len()));
         let smooth = pair.smooth.map(|pair| [pair.wheel, pair.rail]);
-        Self { narrow, wide, smooth, support, correction, hold_correction }
+        Self { narrow, wide, smooth, support, correction, nodes, own: None, hold_correction }
     }
 
     /// Wheel and rail as the contact of a state sees them.
     fn of(&self, state: &State) -> [&dyn BodyResponse; 2] {
-        let other = match state.contact.ports {
+        let other = match ports_of(state) {
             Ports::Narrow => None,
             Ports::Wide => self.wide.as_ref(),
             Ports::Smooth => self.smooth.as_ref(),
@@ -87,13 +140,32 @@ impl Bodies {
         [0, 1].map(|body| BodyState::zeros(self.narrow[body].state_len()))
     }
 
-    /// Elastic energy of the contact that the bodies do not count [J/m].
-    pub fn correction_energy(&self, contact: &ContactState) -> f64 {
-        match (contact.ports, &self.correction) {
-            _ if self.hold_correction => 0.0,
-            (Ports::Narrow | Ports::Wide, Some(correction)) => correction.energy(&contact.traction.port_forces),
-            (Ports::Narrow | Ports::Wide, None) | (Ports::Smooth, _) => contact.energy,
+    /// Gives each of several lines a flexibility of its own.
+    pub fn with_lines(mut self, kernel: LineKernel) -> Self {
+        let (nodes, spacing) = &self.nodes;
+        self.own = Some(nodes.each_ref().map(|nodes| kernel.matrix(nodes, *spacing)));
+        self
+    }
+
+    /// Compliance that every one of several lines has for itself at given ports.
+    fn own(&self, ports: Ports) -> Option<&DMatrix<f64>> {
+        let [narrow, wide] = self.own.as_ref()?;
+        match ports {
+            Ports::Narrow => Some(narrow),
+            Ports::Wide => Some(wide),
+            Ports::Smooth => None,
         }
+    }
+
+    /// Elastic energy of the contact that the bodies do not count [J/m].
+    pub fn correction_energy(&self, state: &State) -> f64 {
+        let forces = lines::mean(&state.lines, |line| &line.contact.traction.port_forces);
+        let correction = match (ports_of(state), &self.correction) {
+            _ if self.hold_correction => 0.0,
+            (Ports::Narrow | Ports::Wide, Some(correction)) => correction.energy(&forces),
+            (Ports::Narrow | Ports::Wide, None) | (Ports::Smooth, _) => state.sum(|line| line.contact.energy),
+        };
+        correction + self.own(ports_of(state)).map_or(0.0, |own| energy_apart(own, state))
     }
 
     /// Operators for `a0` on the ports of `state`, from the cache if they are there.
@@ -103,7 +175,7 @@ impl Bodies {
         state: &State,
         cache: &mut OperatorCache,
     ) -> Result<Arc<Operators>, MechanicsError> {
-        let (recent, ports) = (&mut cache.recent, state.contact.ports);
+        let (recent, ports) = (&mut cache.recent, ports_of(state));
         if let Some(at) = recent.iter().position(|o| o.a0 == a0 && o.ports == ports) {
             recent[at..].rotate_left(1);
         } else {
@@ -120,7 +192,9 @@ impl Bodies {
                 Ports::Narrow | Ports::Wide | Ports::Smooth => {}
             }
             let relative = &wheel.surface + &rail.surface;
-            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative }));
+            let own = self.own(ports);
+            let lines = own.map(|own| LineOperators::new(own, [&wheel.surface, &rail.surface], &state.lines));
+            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative, lines }));
         }
         Ok(recent[recent.len() - 1].clone())
     }
@@ -145,11 +219,11 @@ impl Bodies {
     /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇,
     /// Ω) included [J/m].
     pub fn energy(&self, state: &State, velocities: [f64; 3]) -> f64 {
-        let [on_wheel, on_rail] = &state.contact.traction.loads;
+        let [on_wheel, on_rail] = [0, 1].map(|body| state.loads(body));
         let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));
         let [x, y] = state.base.velocities();
         let [wheel, rail] = self.of(state);
-        wheel.energy(&state.wheel, on_wheel, velocities) + rail.energy(&state.rail, on_rail, [x, y, 0.0]) + track
+        wheel.energy(&state.wheel, &on_wheel, velocities) + rail.energy(&state.rail, &on_rail, [x, y, 0.0]) + track
     }
 
     /// Power that damping and open ends take out of the bodies and the track [W/m].
@@ -171,14 +245,16 @@ impl Bodies {
         state: &State,
         next: &mut State,
     ) {
-        let ([wheel, rail], [on_wheel, on_rail]) = (self.of(next), &next.contact.traction.loads);
-        wheel.commit(&operators.wheel, &free[0], on_wheel, accelerations, td, &state.wheel, &mut next.wheel);
+        let [wheel, rail] = self.of(next);
+        let on_wheel = lines::mean(&next.lines, |line| &line.contact.traction.loads[0]);
+        let on_rail = lines::mean(&next.lines, |line| &line.contact.traction.loads[1]);
+        wheel.commit(&operators.wheel, &free[0], &on_wheel, accelerations, td, &state.wheel, &mut next.wheel);
         next.base = match &operators.base {
-            Some(base) => base.advance(&state.base, td, &free[1], on_rail),
+            Some(base) => base.advance(&state.base, td, &free[1], &on_rail),
             None => state.base,
         };
         let [x, y] = next.base.accelerations();
-        rail.commit(&operators.rail, &free[1], on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
+        rail.commit(&operators.rail, &free[1], &on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
     }
 
     /// True if a state has the dimensions of these bodies.
@@ -199,6 +275,19 @@ impl Bodies {
     }
 }
 
+/// Energy of the flexibility `own` that the lines have for themselves [J/m]: the differences of their forces from the
+/// mean deform it.
+fn energy_apart(own: &DMatrix<f64>, state: &State) -> f64 {
+    let of_body = |body: usize| {
+        let mean = state.loads(body);
+        state.sum(|line| {
+            let apart = &line.contact.traction.loads[body] - &*mean;
+            0.5 * apart.dot(&(own * &apart))
+        })
+    };
+    of_body(0) + of_body(1)
+}
+
 /// Adds half of a correction to the surface compliance of each body.
 fn correct(correction: Option<&KernelCorrection>, compliances: [&mut DMatrix<f64>; 2]) {
     let Some(correction) = correction else { return };
@@ -207,5 +296,10 @@ fn correct(correction: Option<&KernelCorrection>, compliances: [&mut DMatrix<f64
 
 /// Number of surface components that the contact of a state sees.
 pub fn ports(state: &State) -> usize {
-    state.contact.traction.port_forces.len()
+    state.lines.first().map_or(0, |line| line.contact.traction.port_forces.len())
+}
+
+/// Ports of the lines of a state, the same for all.
+fn ports_of(state: &State) -> Ports {
+    state.lines.first().map_or_else(Ports::default, |line| line.contact.ports)
 }

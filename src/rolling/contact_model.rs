@@ -2,8 +2,9 @@
 
 use super::bodies::Operators;
 use super::error::StepError;
+use super::lines::Line;
 use super::standing;
-use super::state::{State, ThermalDeformation, Weakening};
+use super::state::{State, ThermalDeformation};
 use crate::config::Config;
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
@@ -14,7 +15,8 @@ use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
-use crate::surface::{Flattening, Placement, Surfaces};
+use crate::piecewise;
+use crate::surface::{Placement, Surfaces};
 
 /// Contact of the wheel with the rail.
 pub struct ContactModel {
@@ -22,6 +24,8 @@ pub struct ContactModel {
     pub surfaces: Surfaces,
     /// How contact forces are found.
     pub solver: Box<dyn ContactSolver>,
+    /// Shares of the contact lines in the width \[1].
+    pub shares: Vec<f64>,
     /// Wheel load for which the mesh is laid out [N].
     nominal_load: f64,
     /// Half-width of the Hertzian patch under it [m].
@@ -48,18 +52,14 @@ pub struct ContactStep<'a> {
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.
     pub duration: f64,
-    /// Distance travelled \[m] and angle turned \[rad] at the end of the step, as predicted.
+    /// Distance travelled \[m] and angle by which the hub has turned \[rad] at the end of the step, as predicted.
     pub place: [f64; 2],
     /// Height of the rail \[m].
     pub elevation: f64,
-    /// How heat has deformed the bodies.
-    pub deformation: &'a ThermalDeformation,
-    /// Permanent flattening of wheel and rail.
-    pub flattening: &'a [Flattening; 2],
-    /// Strength of the steel after heat has weakened it.
-    pub weakening: &'a Weakening,
-    /// Friction coefficient as a function of the slip at the end of the step.
-    pub friction: Friction,
+    /// True if the steel keeps its strength however hot it is.
+    pub cold_steel: bool,
+    /// Friction coefficient of every line as a function of the slip at the end of the step.
+    pub friction: &'a [Friction],
     /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
 }
@@ -70,6 +70,7 @@ impl ContactModel {
         Self {
             surfaces,
             solver,
+            shares: vec![1.0],
             nominal_load: config.model.nominal_load,
             nominal_half_width: mechanics::nominal_half_width(config),
             width: config.model.contact_width,
@@ -89,18 +90,23 @@ impl ContactModel {
         standing::share(velocity, slowest).max(standing::share(omega * self.surfaces.radius, slowest))
     }
 
-    /// Smallest pressure under which the steel of the present contact would yield, and the smallest that is used \[Pa];
-    /// zero and zero while nothing yields.
+    /// Smallest pressure under which the steel of the present contact would yield, and the smallest that is used \[Pa],
+    /// on the line on which the one is the smallest part of the other; zero and zero while nothing yields.
     pub fn softest(&self, state: &State) -> [f64; 2] {
-        let traction = &state.contact.traction;
-        let (Some(patch), true) = (traction.extent(), traction.yielding.share > 0.0) else { return [0.0; 2] };
-        let strength = &state.weakening().strength;
+        let lines = state.lines.iter().filter_map(|line| self.softest_of(state, line));
+        lines.min_by(|a, b| (a[0] * b[1]).total_cmp(&(b[0] * a[1]))).unwrap_or_default()
+    }
+
+    fn softest_of(&self, state: &State, line: &Line) -> Option<[f64; 2]> {
+        let traction = &line.contact.traction;
+        let patch = traction.extent().filter(|_| traction.yielding.share > 0.0)?;
+        let strength = &line.weakening().strength;
         let within = strength.x.iter().zip(&strength.value).filter(|(x, _)| **x > patch.low && **x < patch.high);
         let share = within.map(|(_, share)| *share).fold(1.0, f64::min);
         let standing =
             self.standing([state.motion.velocity.now, state.motion.omega.now], state.clock.last_step, traction);
         let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction.coefficient);
-        [softest, self.least_pressure(traction.resultant[1])]
+        Some([softest, self.least_pressure(traction.resultant[1])])
     }
 
     /// Pressure \[Pa] under which the line load of a contact \[N/m] spreads over most of the zone.
@@ -118,32 +124,36 @@ impl ContactModel {
         self.nominal_half_width
     }
 
-    /// Solves for the contact forces; `start` is the result of the step before.
+    /// Solves for the contact forces of all lines; `start` are the results of the step before.
     pub fn solve(
         &self,
         step: &ContactStep,
-        start: &ContactState,
-        found: &mut ContactState,
+        start: &[Line],
+        found: &mut Vec<Line>,
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let ThermalDeformation { radius_growth, swelling, membrane_force } = step.deformation;
-        let (operators, [wheel, rail]) = (step.operators, step.free);
-        let bodies = SurfaceResponse {
-            compliance: [&operators.wheel.surface, &operators.rail.surface],
-            relative: &operators.relative,
-            free: [&wheel.surface, &rail.surface],
-            inertial: &operators.wheel.inertial_response,
-            momentum: &operators.wheel.momentum,
-            deformation_inertia: &operators.wheel.deformation_inertia,
-            retarded: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
-                let layer = operator.layer.as_ref()?;
-                let share = layer.share(operator.a0);
-                Some(RetardedSurface { flexibility: &layer.flexibility, share, known: &free.retarded })
-            }),
+        let lines = start.iter().zip(step.friction).enumerate();
+        let problem = ContactProblem {
+            lines: lines.map(|(k, (line, friction))| self.line(step, k, line, *friction)).collect(),
+            rigid: step.rigid,
+            nominal_load: self.nominal_line_load(),
+            edge_tolerance: step.edge_tolerance,
         };
-        let [distance, angle] = step.place;
-        let line = LineProblem {
-            bodies,
+        found.resize_with(start.len(), Line::default);
+        found.iter_mut().zip(start).for_each(|(found, start)| found.share = start.share);
+        let before: Vec<_> = start.iter().map(|line| &line.contact).collect();
+        let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();
+        self.solver.solve(&problem, &before, &mut after, scratch)
+    }
+
+    /// Problem of the line `k`, which is in the state `start`.
+    fn line<'a>(&'a self, step: &'a ContactStep, k: usize, start: &'a Line, friction: Friction) -> LineProblem<'a> {
+        let ThermalDeformation { radius_growth, swelling, membrane_force } = start.deformation();
+        let (weakening, traction) = (start.weakening(), &start.contact.traction);
+        let [distance, angle] = start.place(step.place);
+        LineProblem {
+            share: start.share,
+            bodies: surface_response(step, k),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,
             duration: step.duration,
@@ -154,24 +164,17 @@ impl ContactModel {
                 elevation: step.elevation,
                 growth: *radius_growth,
                 swelling: [&swelling[0], &swelling[1]],
-                flattening: [&step.flattening[0], &step.flattening[1]],
+                flattening: [&start.flattening[0], &start.flattening[1]],
             },
             limits: SteelLimits {
                 pressure: self.yield_pressure,
-                least: self.least_pressure(start.traction.resultant[1]),
-                sheared: self.standing([step.rigid[0].start(), step.rigid[2].start()], step.duration, &start.traction),
-                softened: &step.weakening.strength,
-                film: &step.weakening.film,
+                least: self.least_pressure(traction.resultant[1]),
+                sheared: self.standing([step.rigid[0].start(), step.rigid[2].start()], step.duration, traction),
+                softened: if step.cold_steel { &piecewise::EMPTY } else { &weakening.strength },
+                film: &weakening.film,
             },
-        };
-        let problem = ContactProblem {
-            line,
-            rigid: step.rigid,
-            friction: step.friction,
-            nominal_load: self.nominal_line_load(),
-            edge_tolerance: step.edge_tolerance,
-        };
-        self.solver.solve(&problem, start, found, scratch)
+            friction,
+        }
     }
 
     /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck
@@ -211,6 +214,24 @@ impl ContactModel {
     pub fn nominal_energy(&self) -> f64 {
         let penetration = self.nominal_half_width.powi(2) / (2.0 * self.surfaces.radius);
         0.5 * self.nominal_line_load() * penetration
+    }
+}
+
+/// Linear answer of the bodies under the line `k`.
+fn surface_response<'a>(step: &'a ContactStep, k: usize) -> SurfaceResponse<'a> {
+    let (operators, [wheel, rail]) = (step.operators, step.free);
+    SurfaceResponse {
+        own: operators.own(k),
+        others: operators.others(),
+        free: [&wheel.surface, &rail.surface],
+        inertial: &operators.wheel.inertial_response,
+        momentum: &operators.wheel.momentum,
+        deformation_inertia: &operators.wheel.deformation_inertia,
+        retarded: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
+            let layer = operator.layer.as_ref()?;
+            let share = layer.share(operator.a0);
+            Some(RetardedSurface { flexibility: &layer.flexibility, share, known: &free.retarded })
+        }),
     }
 }
 

@@ -155,4 +155,15 @@ pub enum ModelError {
     /// A profile without meaning.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// Contact lines that no model can have.
+    #[error(
+        "contact lines with the shares {shares:?} of the width and a reach of {length:?} m: shares must be positive and add up \
+         to 1, the reach must be positive, and solver.contact = patch takes a single line"
+    )]
+    Lines {
+        /// Shares of the width \[1].
+        shares: Vec<f64>,
+        /// Distance at which the displacement by a force of a line alone ends \[m].
+        length: f64,
+    },
 }

@@ -1,5 +1,6 @@
 //! Fields of a state in the whole bodies, for pictures: in the frame of the rail's contact point, wheel above rail.
 
+use super::lines::Line;
 use super::model::Model;
 use super::state::State;
 use crate::heat::HeatError;
@@ -56,9 +57,11 @@ pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
     Ok(Fields { wheel, rail, temperature })
 }
 
-/// Absolute temperatures in wheel (about its centre) and rail with either response; `None` if they are not computed.
+/// Absolute temperatures in wheel (about its centre) and rail under the hottest line, with either response; `None` if
+/// they are not computed.
 pub fn temperatures(model: &Model, state: &State) -> Result<Option<[TemperatureField; 2]>, HeatError> {
-    match (&model.thermal, &state.thermal) {
+    let warmest = state.line_of_largest(Line::hottest).and_then(|line| line.thermal.as_ref());
+    match (&model.thermal, warmest) {
         (Some(heat), Some(thermal)) => heat.fields(thermal).map(Some),
         _ => Ok(None),
     }

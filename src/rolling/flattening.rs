@@ -5,6 +5,7 @@
 //! the leading edge and back at the trailing one, and since its volume stays, the same depth all around the wheel would
 //! be no dent.
 
+use super::lines::Line;
 use super::model::Model;
 use super::standing;
 use super::state::State;
@@ -19,9 +20,17 @@ pub fn none(model: &Model) -> [Flattening; 2] {
     [Flattening::none(std::f64::consts::TAU * model.contact.surfaces.radius), Flattening::none(0.0)]
 }
 
-/// Adds the overlap of the contact in `next` to the dents of the material at `place` (distance \[m], angle of the rim
-/// \[rad]) and notes the work.
+/// Adds the overlap of the contact in `next` to the dents of the material under every line, where the wheel has
+/// travelled and turned `place` (distance \[m], angle of the hub \[rad]), and notes the work.
 pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
+    let passing = Passing::of(next);
+    for (before, line) in state.lines.iter().zip(&mut next.lines) {
+        indent_line(model, before, before.place(place), &passing, line);
+    }
+}
+
+/// Adds the overlap of one line to the dents of the material at `place` (distance \[m], angle of the rim \[rad]).
+fn indent_line(model: &Model, state: &Line, place: [f64; 2], passing: &Passing, next: &mut Line) {
     next.flattening.clone_from(&state.flattening);
     let traction = &mut next.contact.traction;
     traction.yielding.plastic_work = 0.0;
@@ -31,7 +40,7 @@ pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     }
     let traction = &next.contact.traction;
     let Some(patch) = traction.extent().filter(|_| !traction.yielding.overlap.is_empty()) else { return };
-    let stands = bodies_that_stand(model, next, patch);
+    let stands = passing.stand(model, patch);
     if stands == [false; 2] {
         return;
     }
@@ -57,16 +66,26 @@ pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
     next.flattening[1].forget_beyond(place[0], model.config.rail.length);
 }
 
-/// Bodies, wheel and rail, on whose material the contact of a state stays so long that it leaves a dent.
-pub fn stands(model: &Model, state: &State) -> [bool; 2] {
-    state.contact.traction.extent().map_or([false; 2], |patch| bodies_that_stand(model, state, patch))
+/// How the material of both bodies passes the contact at the end of a step.
+pub struct Passing {
+    /// V [m/s] and Ω [rad/s].
+    speeds: [f64; 2],
+    /// Length of the step \[s].
+    step: f64,
 }
 
-/// Bodies whose material stays so long under a patch of the contact.
-fn bodies_that_stand(model: &Model, state: &State, patch: Interval) -> [bool; 2] {
-    let (velocity, omega) = (state.motion.velocity.now, state.motion.omega.now);
-    let slowest = standing::slowest(patch, state.clock.last_step);
-    [omega * model.contact.surfaces.radius, velocity].map(|speed| speed.abs() < slowest)
+impl Passing {
+    /// That of a state.
+    pub fn of(state: &State) -> Self {
+        Self { speeds: [state.motion.velocity.now, state.motion.omega.now], step: state.clock.last_step }
+    }
+
+    /// Bodies, wheel and rail, whose material stays so long under a patch that it keeps a dent.
+    pub fn stand(&self, model: &Model, patch: Interval) -> [bool; 2] {
+        let slowest = standing::slowest(patch, self.step);
+        let [velocity, omega] = self.speeds;
+        [omega * model.contact.surfaces.radius, velocity].map(|speed| speed.abs() < slowest)
+    }
 }
 
 /// Share of the overlap that the wheel (0) or the rail (1) takes \[1], of those that stand the softer one.

@@ -21,6 +21,7 @@ pub mod control;
 pub mod error;
 pub mod fields;
 pub mod flattening;
+pub mod lines;
 pub mod model;
 pub mod output_rows;
 pub mod outputs;
@@ -40,6 +41,7 @@ pub mod zones;
 
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};
+pub use lines::Line;
 pub use model::{Model, Workspace};
 pub use output_rows::{OutputRow, Outputs, Read};
 pub use profile::PROFILE_POINTS;

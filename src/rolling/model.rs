@@ -3,6 +3,7 @@
 use super::bodies::{Bodies, OperatorCache};
 use super::contact_model::ContactModel;
 use super::error::ModelError;
+use super::lines::Line;
 use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
@@ -11,7 +12,7 @@ use crate::analytic::{self, HalfPlane};
 use crate::config::{Config, ContactMethod};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
-use crate::contact::line::kernel::KernelCorrection;
+use crate::contact::line::kernel::{KernelCorrection, LineKernel};
 use crate::contact::series::{Fallback, SeriesSolver};
 use crate::contact::{self, ContactSolver};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
@@ -39,6 +40,9 @@ pub struct Model {
     /// Torsion of the wheel on its hub, which falling friction can excite [rad/s].
     pub torsion: f64,
 }
+
+/// Deviation of the sum of all shares from one that counts as round-off [1].
+const SHARES_ROUND_OFF: f64 = 1e-12;
 
 /// Scratch space of the computations; never part of a state.
 #[derive(Default)]
@@ -128,6 +132,26 @@ impl Model {
         })
     }
 
+    /// Puts contact lines side by side with the given `shares` of the width \[1] in the place of a single one. Beside
+    /// the bodies that all of them press, each has the flexibility of a half-plane for itself, whose displacement by a
+    /// force ends at the distance `length` \[m].
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one, or if `solver.contact = patch` asks
+    /// for the series, which take a single line.
+    pub fn with_lines(mut self, shares: Vec<f64>, length: f64) -> Result<Self, ModelError> {
+        let sum: f64 = shares.iter().sum();
+        let sound = shares.iter().all(|share| *share > 0.0) && (sum - 1.0).abs() < SHARES_ROUND_OFF && length > 0.0;
+        if !sound || self.config.solver.contact.requires_patch() {
+            return Err(ModelError::Lines { shares, length });
+        }
+        let half_plane = Isotropic::from(&self.config.material).half_plane().kernel;
+        self.bodies = self.bodies.with_lines(LineKernel { half_plane, length });
+        self.contact.shares = shares;
+        Ok(self)
+    }
+
     /// Puts the heat model that `heat` makes for the given parameters in the place of the one on tensor meshes; without
     /// temperatures there is none.
     pub fn with_heat(
@@ -143,15 +167,20 @@ impl Model {
 
     /// Outer radius of the wheel in a state \[m]: the cold one and its growth by the bulk temperature.
     pub fn rolling_radius(&self, state: &State) -> f64 {
-        self.wheel.radius + state.deformation().radius_growth
+        self.wheel.radius + state.growth()
     }
 
     /// True if a state has the dimensions of this model and only finite numbers in its contact forces.
     pub fn fits(&self, state: &State) -> bool {
         self.bodies.fits(state)
-            && self.contact.solver.fits(&state.contact)
-            && state.flattening.iter().all(Flattening::is_sound)
-            && match (&state.thermal, &self.thermal) {
+            && state.lines.iter().map(|line| line.share).eq(self.contact.shares.iter().copied())
+            && state.lines.iter().all(|line| self.fits_line(line))
+    }
+
+    fn fits_line(&self, line: &Line) -> bool {
+        self.contact.solver.fits(&line.contact)
+            && line.flattening.iter().all(Flattening::is_sound)
+            && match (&line.thermal, &self.thermal) {
                 (Some(temperatures), Some(model)) => model.fits(temperatures),
                 (None, None) => true,
                 _ => false,

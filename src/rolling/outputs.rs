@@ -1,25 +1,34 @@
 //! Observables of a state, for the whole wheel in SI units.
 
 use super::control::{creepage, per_metre, slide};
+use super::lines::Line;
 use super::model::Model;
 use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
-use super::state::State;
+use super::state::{State, ThermalState};
 use super::suggested_step::suggested_step;
 use crate::damage::surface_fatigue;
+use crate::heat::HeatFlows;
 use crate::mechanics::element_length;
 use crate::piecewise::Piecewise;
 use crate::surface::WearLaw;
 
 /// Observables of a state.
+///
+/// Forces, energies and heat are those of all lines together, extremes the largest on any line, means those over the
+/// width or, of friction and slip, over the load. Profiles are those of the line with the largest pressure.
 pub fn observe(model: &Model, state: &State) -> Outputs {
     let width = model.wheel.width;
-    let traction = &state.contact.traction;
-    let [force_x, force_y, moment] = traction.resultant.map(|force| force * width);
+    let none = Line::default();
+    let pressed = state.line_of_largest(|line| line.contact.traction.pressure_max).unwrap_or(&none);
+    let traction = &pressed.contact.traction;
+    let [force_x, force_y, moment] = state.resultant().map(|force| force * width);
+    let friction_force = state.sum(|line| line.contact.traction.friction_force());
     let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
     let v_c = model.rolling_radius(state) * omega;
     let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
-    let (t_gamma, area) = (per_metre(state.friction_power * width, v, v_c), width * traction.touching());
+    let (t_gamma, area) =
+        (per_metre(state.friction_power * width, v, v_c), width * state.sum(|line| line.contact.traction.touching()));
     let points = profile_points(model.zone);
     Outputs {
         contact_force_x: force_x,
@@ -29,9 +38,9 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         contact_slide: slide(v, v_c),
         contact_slip_velocity: v - v_c,
         contact_adhesion: ratio(force_x, force_y),
-        contact_utilisation: ratio(traction.friction_force().abs() * width, traction.friction.coefficient * force_y),
-        contact_stick_fraction: traction.stick_fraction,
-        contact_half_width: traction.half_width(),
+        contact_utilisation: ratio(friction_force.abs() * width, state.friction() * force_y),
+        contact_stick_fraction: state.sum(|line| line.contact.traction.stick_fraction),
+        contact_half_width: state.half_width(),
         contact_pressure_max: traction.pressure_max,
         contact_approach: state.elevation - state.motion.height.now,
         contact_force_min: state.pressing.lowest * width,
@@ -41,8 +50,8 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         contact_patches: traction.patches.len() as u64,
         wheel_profile_height: wheel_height,
         rail_profile_height: rail_height,
-        friction: traction.friction.coefficient,
-        contact_tread_slip: traction.friction.tread_slip,
+        friction: state.friction(),
+        contact_tread_slip: state.tread_slip(),
         wheel_velocity: v,
         wheel_omega: omega,
         wheel_distance: state.motion.distance,
@@ -68,7 +77,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         stored_energy: (state.audit.energy - state.audit.initial_energy) * width,
         friction_energy: state.audit.friction * width,
         plastic_energy: state.audit.plastic * width,
-        yielded: traction.yielding.share,
+        yielded: state.sum(|line| line.contact.traction.yielding.share),
         damping_energy: state.audit.damping * width,
         t_gamma,
         surface_fatigue: surface_fatigue(
@@ -86,7 +95,7 @@ pub fn observe(model: &Model, state: &State) -> Outputs {
         profile_shear: sampled(&traction.shear, &points),
         profile_slip: sampled(&traction.slip, &points),
         profile_x: points,
-        ..surface_outputs(model, state)
+        ..surface_outputs(model, state, pressed)
     }
 }
 
@@ -97,22 +106,22 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
     values
 }
 
-/// Outputs about the material that the surfaces have lost and about heat; all others are zero.
-fn surface_outputs(model: &Model, state: &State) -> Outputs {
-    let [wheel, rail] = &state.flattening;
+/// Outputs about the material that the surfaces have lost and about heat; all others are zero. Profiles are those of the
+/// line `shown`.
+fn surface_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
     Outputs {
-        flattening: wheel.deepest_dent(),
-        flattening_rail: rail.deepest_dent(),
-        worn_mass: state.worn * model.wheel.width,
-        worn_depth: wheel.worn().deepest(),
-        worn_depth_rail: rail.worn().deepest(),
-        ..thermal_outputs(model, state)
+        flattening: state.largest(|line| line.flattening[0].deepest_dent()),
+        flattening_rail: state.largest(|line| line.flattening[1].deepest_dent()),
+        worn_mass: state.sum(|line| line.worn) * model.wheel.width,
+        worn_depth: state.largest(|line| line.flattening[0].worn().deepest()),
+        worn_depth_rail: state.largest(|line| line.flattening[1].worn().deepest()),
+        ..thermal_outputs(model, state, shown)
     }
 }
 
 /// The outputs about heat, everything else zero.
-fn thermal_outputs(model: &Model, state: &State) -> Outputs {
-    let (Some(heat), Some(thermal)) = (&model.thermal, &state.thermal) else {
+fn thermal_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
+    let (Some(heat), Some(thermal)) = (&model.thermal, &shown.thermal) else {
         let cold = vec![0.0; PROFILE_POINTS];
         return Outputs {
             profile_temperature_wheel: cold.clone(),
@@ -122,28 +131,62 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
             ..Outputs::default()
         };
     };
-    let (width, kelvin) = (model.wheel.width, heat.reference());
-    let (temperatures, flows, damage) = (&thermal.temperatures, &thermal.flows, &thermal.damage);
+    let kelvin = heat.reference();
+    let of = |of: &dyn Fn(&ThermalState) -> f64, line: &Line| line.thermal.as_ref().map_or(0.0, of);
+    let mean = |value: &dyn Fn(&ThermalState) -> f64| state.sum(|line| of(value, line));
+    let most = |value: &dyn Fn(&ThermalState) -> f64| state.largest(|line| of(value, line));
     let depths = profile_depths();
-    let (found, v) = (damage.findings(), state.motion.velocity.now);
-    let rail_heat = per_metre(width * flows.to_rail, v, model.rolling_radius(state) * state.motion.omega.now);
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
-        temperature_wheel_max: kelvin + temperatures.wheel_max,
-        temperature_rail_max: kelvin + temperatures.rail_max,
-        temperature_wheel_mean: kelvin + thermal.patch_mean[0],
-        temperature_rail_mean: kelvin + thermal.patch_mean[1],
-        temperature_friction: kelvin + thermal.friction_excess(),
-        temperature_wheel_nominal: kelvin + temperatures.wheel_centre,
-        temperature_rail_nominal: kelvin + temperatures.rail_centre,
-        temperature_wheel_bulk: kelvin + temperatures.wheel_mean,
-        heat_to_wheel: width * flows.to_wheel,
-        heat_to_rail: width * flows.to_rail,
-        heat_conduction: width * flows.conduction,
-        heat_to_hub: width * flows.to_hub,
-        heat_to_air: width * flows.wheel_to_air,
-        melted: thermal.melted,
-        heat_residual: ratio(thermal.unaccounted, thermal.turned_over),
+        temperature_wheel_max: kelvin + most(&|thermal| thermal.temperatures.wheel_max),
+        temperature_rail_max: kelvin + most(&|thermal| thermal.temperatures.rail_max),
+        temperature_wheel_mean: kelvin + mean(&|thermal| thermal.patch_mean[0]),
+        temperature_rail_mean: kelvin + mean(&|thermal| thermal.patch_mean[1]),
+        temperature_friction: kelvin + mean(&|thermal| thermal.friction_excess()),
+        temperature_wheel_nominal: kelvin + most(&|thermal| thermal.temperatures.wheel_centre),
+        temperature_rail_nominal: kelvin + most(&|thermal| thermal.temperatures.rail_centre),
+        temperature_wheel_bulk: kelvin + mean(&|thermal| thermal.temperatures.wheel_mean),
+        melted: most(&|thermal| thermal.melted),
+        heat_residual: ratio(mean(&|thermal| thermal.unaccounted), mean(&|thermal| thermal.turned_over)),
+        thermal_growth: state.growth(),
+        profile_temperature_wheel: absolute(&thermal.surface[0]),
+        profile_temperature_rail: absolute(&thermal.surface[1]),
+        profile_peak: heat.peaks(thermal, &depths),
+        profile_depth: depths,
+        ..flow_outputs(model, state)
+    }
+}
+
+/// Outputs about heat that flows, everything else zero.
+fn flow_outputs(model: &Model, state: &State) -> Outputs {
+    let width = model.wheel.width;
+    let flow = |of: &dyn Fn(&HeatFlows) -> f64| {
+        width * state.sum(|line| line.thermal.as_ref().map_or(0.0, |thermal| of(&thermal.flows)))
+    };
+    let (v, v_c) = (state.motion.velocity.now, model.rolling_radius(state) * state.motion.omega.now);
+    let heat_to_rail = flow(&|flows| flows.to_rail);
+    let rail_heat = per_metre(heat_to_rail, v, v_c);
+    Outputs {
+        heat_to_wheel: flow(&|flows| flows.to_wheel),
+        heat_to_rail,
+        heat_conduction: flow(&|flows| flows.conduction),
+        heat_to_hub: flow(&|flows| flows.to_hub),
+        heat_to_air: flow(&|flows| flows.wheel_to_air),
+        rail_heat,
+        heat_per_metre: rail_heat,
+        ..damage_outputs(state)
+    }
+}
+
+/// Outputs about the structure of the steel, of the line with the hottest tread so far, everything else zero.
+fn damage_outputs(state: &State) -> Outputs {
+    let peak = |line: &Line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.damage.peak);
+    let Some(thermal) = state.line_of_largest(peak).and_then(|line| line.thermal.as_ref()) else {
+        return Outputs::default();
+    };
+    let damage = &thermal.damage;
+    let found = damage.findings();
+    Outputs {
         austenitised_time: found.above_ac1,
         peak_temperature: damage.peak,
         ac1_depth: found.ac1_depth,
@@ -151,13 +194,6 @@ fn thermal_outputs(model: &Model, state: &State) -> Outputs {
         martensite_depth: found.martensite_depth,
         flats: damage.places,
         rail_peak: damage.rail_peak,
-        rail_heat,
-        heat_per_metre: rail_heat,
-        thermal_growth: thermal.deformation.radius_growth,
-        profile_temperature_wheel: absolute(&thermal.surface[0]),
-        profile_temperature_rail: absolute(&thermal.surface[1]),
-        profile_peak: heat.peaks(thermal, &depths),
-        profile_depth: depths,
         ..Outputs::default()
     }
 }
@@ -170,8 +206,10 @@ fn ratio(a: f64, b: f64) -> f64 {
 /// Elements of the contact between the samples of the tread: as many as the contact resolves.
 const SAMPLING: f64 = 2.0;
 
-/// Present profile of the wheel: positions around the tread and heights over the circle \[m], that is `wheel.profile`
+/// Present profile of the wheel under its most worn line: positions around the tread and heights over the circle \[m], that is `wheel.profile`
 /// less the depth that yielding and wear have taken off.
 pub fn tread(model: &Model, state: &State) -> Vec<[f64; 2]> {
-    model.contact.surfaces.tread(&state.flattening[0], SAMPLING * element_length(&model.config))
+    let none = Line::default();
+    let line = state.line_of_largest(|line| line.worn).unwrap_or(&none);
+    model.contact.surfaces.tread(&line.flattening[0], SAMPLING * element_length(&model.config))
 }

@@ -9,6 +9,7 @@
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
+use super::lines::Line;
 use super::model::{Model, Workspace};
 use super::output_rows::Outputs;
 use super::outputs::observe;
@@ -140,7 +141,8 @@ fn repeat(
 
 /// True if two states were computed by the same sequence of decisions.
 fn same_branch(model: &Model, a: &State, b: &State) -> bool {
-    model.contact.solver.same_branch(&a.contact, &b.contact)
+    let same = |(a, b): (&Line, &Line)| model.contact.solver.same_branch(&a.contact, &b.contact);
+    a.lines.iter().zip(&b.lines).all(same)
         && a.hub.brake.locked == b.hub.brake.locked
         && a.clock.internal_steps == b.clock.internal_steps
         && a.clock.iterations == b.clock.iterations

@@ -1,13 +1,13 @@
 //! All data that a restart needs, and nothing else. Per metre of width.
 
+use super::lines::Line;
 use super::support::BaseMotion;
-use crate::contact::{ContactState, Heating};
+use crate::contact::Heating;
 use crate::damage::Damage;
 use crate::heat::{HeatFlows, HeatState, Temperatures};
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
 use crate::piecewise::Piecewise;
-use crate::surface::Flattening;
 use serde::{Deserialize, Serialize};
 
 /// State of a wheel on its rail.
@@ -25,16 +25,10 @@ pub struct State {
     pub elevation: f64,
     /// Motion of the base of the rail.
     pub base: BaseMotion,
-    /// Contact: result of the last step and start of the next one.
-    pub contact: ContactState,
+    /// Contact lines side by side.
+    pub lines: Vec<Line>,
     /// Friction coefficient that was available in the last step \[1].
     pub available_friction: f64,
-    /// Material that wheel and rail have lost to yield and wear.
-    pub flattening: [Flattening; 2],
-    /// Mass that wear has taken off the wheel since the start [kg/m].
-    pub worn: f64,
-    /// Temperatures, unless the thermal part is switched off.
-    pub thermal: Option<ThermalState>,
     /// Forces on the hub in the last step.
     pub hub: HubForces,
     /// Mean power of friction over the last communication step; at the start the stationary one [W/m].
@@ -43,26 +37,6 @@ pub struct State {
     pub pressing: Pressing,
     /// Energy balance.
     pub audit: Audit,
-}
-
-impl State {
-    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre.
-    /// That of the wheel goes by the rim, which torsion turns against the hub.
-    pub fn place(&self, radius: f64) -> [f64; 2] {
-        [(self.motion.angle - self.contact.rim_angle()) * radius, self.motion.distance]
-    }
-
-    /// Thermal deformation that acts on the contact.
-    pub fn deformation(&self) -> &ThermalDeformation {
-        static NONE: ThermalDeformation = ThermalDeformation::NONE;
-        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.deformation)
-    }
-
-    /// Strength of the steel after heat has weakened it.
-    pub fn weakening(&self) -> &Weakening {
-        static NONE: Weakening = Weakening::NONE;
-        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
-    }
 }
 
 /// Time since the start, and the steps in which it advances.
@@ -125,11 +99,11 @@ impl Pressing {
 
     /// Takes note of an internal step of `dt` seconds that ended in `state`.
     pub fn add(&mut self, state: &State, dt: f64) {
-        let traction = &state.contact.traction;
-        self.lowest = self.lowest.min(traction.resultant[1]);
-        self.highest = self.highest.max(traction.resultant[1]);
+        let [_, force, _] = state.resultant();
+        self.lowest = self.lowest.min(force);
+        self.highest = self.highest.max(force);
         self.impulse += state.audit.pressed;
-        self.lost += if traction.patches.is_empty() { dt } else { 0.0 };
+        self.lost += if state.touches() { 0.0 } else { dt };
     }
 }
 
@@ -235,7 +209,7 @@ pub struct Weakening {
 impl Weakening {
     /// None at all.
     pub const NONE: Self = {
-        const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
+        const EMPTY: Piecewise = Piecewise::EMPTY;
         Self { strength: EMPTY, film: EMPTY, warmer_wheel: EMPTY }
     };
 }
@@ -254,7 +228,7 @@ pub struct ThermalDeformation {
 impl ThermalDeformation {
     /// None at all.
     pub const NONE: Self = {
-        const EMPTY: Piecewise = Piecewise { x: Vec::new(), value: Vec::new() };
+        const EMPTY: Piecewise = Piecewise::EMPTY;
         Self { radius_growth: 0.0, swelling: [EMPTY, EMPTY], membrane_force: [EMPTY, EMPTY] }
     };
 

@@ -6,9 +6,10 @@ use super::contact_model::ContactStep;
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
+use super::lines::Line;
 use super::model::{Model, Workspace};
-use super::state::{Brake, Motion, State, ThermalState};
-use super::thermal::{self, HeatStep};
+use super::state::{Brake, Motion, State};
+use super::thermal::{self, HeatStep, ThermalScratch};
 use super::wear;
 use super::zones;
 use crate::config::Tuning;
@@ -42,7 +43,8 @@ struct Plan {
     given: [AxisDrive; 3],
     /// Predicted V [m/s] and Ω [rad/s].
     speeds: [f64; 2],
-    friction: Friction,
+    /// Friction of every line.
+    friction: Vec<Friction>,
 }
 
 /// Demand that leads from one state to the next.
@@ -78,8 +80,10 @@ pub fn step(
             break;
         }
         let again = again.get_or_insert_with(|| state.clone());
-        if let (Some(thermal), Some(found)) = (&mut again.thermal, &next.thermal) {
-            thermal.weakening.film.clone_from(&found.weakening.film);
+        for (line, found) in again.lines.iter_mut().zip(&next.lines) {
+            if let (Some(thermal), Some(found)) = (&mut line.thermal, &found.thermal) {
+                thermal.weakening.film.clone_from(&found.weakening.film);
+            }
         }
         attempt(model, again, demand, &plan, workspace, next)?;
     }
@@ -89,11 +93,8 @@ pub fn step(
 /// True if friction has heated the contact beyond what a molten film lets it: within a step the film is that of its
 /// beginning. Where it has been beyond before, other heat is at work.
 fn overheats(model: &Model, state: &State, next: &State) -> bool {
-    let (Some(model), Some(before), Some(after)) = (&model.thermal, &state.thermal, &next.thermal) else {
-        return false;
-    };
-    let hottest = |thermal: &ThermalState| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
-    let [before, after] = [before, after].map(|thermal| model.reference() + hottest(thermal));
+    let Some(model) = &model.thermal else { return false };
+    let [before, after] = [state, next].map(|state| model.reference() + state.largest(Line::hottest));
     after > before && after > model.frictionless() && before <= model.hottest()
 }
 
@@ -118,27 +119,38 @@ fn attempt(
     solved?;
     // The energy is that of the solution found: another solver that takes over has none of its own yet.
     next.audit = audit::advance(model, &plan.td, state, next);
-    next.audit.plastic += next.contact.traction.yielding.plastic_work;
+    next.audit.plastic += next.sum(|line| line.contact.traction.yielding.plastic_work);
     zones::narrow(model, next);
-    let numbers = [next.motion.values(), next.contact.traction.resultant, next.hub.force, [next.audit.energy; 3]];
+    let numbers = [next.motion.values(), next.resultant(), next.hub.force, [next.audit.energy; 3]];
     if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
         return Err(StepError::NotFinite { time: state.clock.time, step: plan.dt });
     }
     model.wheel.check_state(next)?;
-    match (&model.thermal, &state.thermal) {
-        (Some(thermal), Some(before)) => {
-            let temperatures = next.thermal.take().unwrap_or_default();
-            let criteria = thermal::criteria(demand.tuning);
-            let brake_power = (next.audit.brake - state.audit.brake) / plan.dt;
-            let tread_heat = brake::tread_heat(model, demand.target, brake_power);
-            let step = HeatStep { dt: plan.dt, tread_heat, criteria };
-            let contact = thermal.contact(&model.contact, &next.contact, demand.target.temperature);
-            let temperatures = thermal.step(before, next, &contact, step, temperatures, &mut workspace.heat)?;
-            next.thermal = Some(temperatures);
-            audit::grow(next, &before.deformation);
+    heat(model, state, demand, plan.dt, &mut workspace.heat, next)
+}
+
+/// The heat step of every line.
+fn heat(
+    model: &Model,
+    state: &State,
+    demand: &Demand,
+    dt: f64,
+    scratch: &mut ThermalScratch,
+    next: &mut State,
+) -> Result<(), StepError> {
+    let brake_power = (next.audit.brake - state.audit.brake) / dt;
+    let tread_heat = brake::tread_heat(model, demand.target, brake_power);
+    let step = HeatStep { dt, tread_heat, criteria: thermal::criteria(demand.tuning) };
+    for (before, line) in state.lines.iter().zip(&mut next.lines) {
+        let temperatures = line.thermal.take();
+        if let (Some(thermal), Some(before)) = (&model.thermal, &before.thermal) {
+            let contact = thermal.contact(&model.contact, &line.contact, demand.target.temperature);
+            let temperatures = temperatures.unwrap_or_default();
+            line.thermal = Some(thermal.step(before, &next.motion, &contact, step, temperatures, scratch)?);
         }
-        _ => next.thermal = None,
     }
+    thermal::share_growth(&mut next.lines);
+    audit::grow(next, state.growth());
     Ok(())
 }
 
@@ -165,11 +177,15 @@ impl Plan {
         };
         let speeds = model.wheel.predicted_speeds(&state.motion, &drives, dt);
         let ratio = if before > 0.0 { (dt / before).min(2.0) } else { 0.0 };
-        let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-        let (law, traction) = (FrictionLaw::from(demand.tuning), &state.contact.traction);
-        let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
-        let friction = Friction::local(law, available, heating, ratio);
-        let friction = friction.after(dt, traction.friction.coefficient, traction.friction.tread_slip, heating);
+        let law = FrictionLaw::from(demand.tuning);
+        let friction = state.lines.iter().map(|line| {
+            let heating = line.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
+            let before = &line.contact.traction.friction;
+            let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
+            let friction = Friction::local(law, available, heating, ratio);
+            friction.after(dt, before.coefficient, before.tread_slip, heating)
+        });
+        let friction = friction.collect();
         Self { dt, td, of_height, restarted: before == 0.0, drives, given, speeds, friction }
     }
 }
@@ -191,10 +207,9 @@ fn solve_and_commit(
     ];
     model.bodies.free_responses(&operators, state, td, streams, &mut workspace.free);
     let free = &workspace.free;
-    // Where the material lies goes by the rim under the contact.
     let place = [
         moved_by(state.motion.distance, &state.motion.velocity, speeds[0], *dt),
-        moved_by(state.motion.angle, &state.motion.omega, speeds[1], *dt) - state.contact.rim_angle(),
+        moved_by(state.motion.angle, &state.motion.omega, speeds[1], *dt),
     ];
     let contact = ContactStep {
         operators: &operators,
@@ -204,21 +219,21 @@ fn solve_and_commit(
         duration: *dt,
         place,
         elevation: demand.target.elevation,
-        deformation: state.deformation(),
-        flattening: &state.flattening,
-        weakening: state.weakening(),
-        friction: plan.friction,
+        cold_steel: false,
+        friction: &plan.friction,
         edge_tolerance: EDGE_TOLERANCE,
     };
-    let solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+    let solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
-    next.motion = moved(&state.motion, [td, of_height], next.contact.traction.rigid);
+    next.motion = moved(&state.motion, [td, of_height], next.rigid());
     let accelerations = next.motion.accelerations();
     model.bodies.commit(&operators, free, accelerations, td, state, next);
-    let traction = &next.contact.traction;
-    let (forces, resultant) = (&traction.loads[0], traction.resultant);
-    next.hub.driving = model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], forces, resultant);
+    let driving = {
+        let (forces, resultant) = (next.loads(0), next.resultant());
+        model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], &forces, resultant)
+    };
+    next.hub.driving = driving;
     next.hub.brake = Brake::applied(plan.given[2], drives[2], &next.motion, next.hub.driving[2], [td.a0, *dt]);
     next.hub.force = std::array::from_fn(|k| plan.given[k].loads().map_or(next.hub.driving[k], |[load, _]| load));
     next.hub.force[2] += next.hub.brake.moment;

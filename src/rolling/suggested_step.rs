@@ -22,14 +22,13 @@ pub fn suggested_step(model: &Model, state: &State) -> f64 {
     let [x, y, rotation] = state.hub.prescribed;
     let [mass, wheel, moment] = model.wheel.inertia;
     let radius = model.rolling_radius(state);
-    let traction = &state.contact.traction;
-    let (load, approach) = (traction.resultant[1], state.elevation - state.motion.height.now);
+    let (load, approach) = (state.resultant()[1], state.elevation - state.motion.height.now);
     let compliance = |prescribed: bool, inverse: f64| if prescribed { inverse } else { 0.0 };
     let inverse_mass = compliance(x, 1.0 / mass) + compliance(rotation, radius * radius / moment);
     let mut suggestion = LARGEST;
     if inverse_mass > 0.0 && load > 0.0 {
         let speed = 0.5 * (state.motion.velocity.now + radius * state.motion.omega.now).abs();
-        let inverse_damping = traction.half_width() * speed / (2.0 * load * radius);
+        let inverse_damping = state.half_width() * speed / (2.0 * load * radius);
         suggestion = suggestion.min(SAFETY * 2.0 * inverse_damping / inverse_mass);
     }
     if y && load > 0.0 && approach > 0.0 {

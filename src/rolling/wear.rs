@@ -5,7 +5,8 @@
 //! The rail, from which one passage takes a negligible depth, keeps it where the contact stays.
 
 use super::control::{STANDSTILL, per_metre};
-use super::flattening;
+use super::flattening::Passing;
+use super::lines::Line;
 use super::model::Model;
 use super::state::State;
 use crate::material::Isotropic;
@@ -23,13 +24,34 @@ const FINEST: f64 = 1e-5;
 /// Takes off what friction wears in the step of `dt` seconds from `state` to `next`, whose motion and contact are
 /// complete, and notes mass and work.
 pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
-    next.worn = state.worn;
+    next.lines.iter_mut().zip(&state.lines).for_each(|(next, line)| next.worn = line.worn);
     if !model.config.damage.wear.is_on() {
         return;
     }
-    let traction = &next.contact.traction;
     let (velocity, rim) = (next.motion.velocity.now, next.motion.omega.now * model.rolling_radius(state));
-    let t_gamma = per_metre(traction.friction.work / dt, velocity, rim);
+    let (passing, motion) = (Passing::of(next), next.motion);
+    for (before, line) in state.lines.iter().zip(&mut next.lines) {
+        let [from, to] = [(before, state.motion), (&*line, motion)].map(|(l, m)| l.below(&m, model.wheel.radius));
+        wear_line(model, &Way { dt, velocity, rim, from, to }, &passing, line);
+    }
+}
+
+/// Way of the material in a step.
+struct Way {
+    /// Length of the step \[s].
+    dt: f64,
+    /// V and the peripheral velocity at its end [m/s].
+    velocity: f64,
+    rim: f64,
+    /// Positions on wheel and rail under the line at its beginning and end \[m].
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+/// Takes off what friction wears under one line.
+fn wear_line(model: &Model, way: &Way, passing: &Passing, next: &mut Line) {
+    let (Way { dt, velocity, rim, from, to }, traction) = (way, &next.contact.traction);
+    let t_gamma = per_metre(traction.friction.work / dt, *velocity, *rim);
     let law = WearLaw::from(&model.config);
     let mass = law.rate(t_gamma, traction.touching()) * velocity.abs().max(STANDSTILL) * dt;
     let volume = mass / model.config.material.density;
@@ -38,11 +60,10 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
         return;
     }
     let distribution = traction.friction.dissipation.clone();
-    let wears_rail = flattening::stands(model, next)[1];
+    let wears_rail = traction.extent().is_some_and(|patch| passing.stand(model, patch)[1]);
     let spacing = element_length(&model.config).max(FINEST);
     let smoothing = smoothing_length(model, volume / load).min(model.wheel.radius);
     let smoothing = if smoothing > SHORTEST_SMOOTHING * spacing { smoothing } else { 0.0 };
-    let (from, to) = (state.place(model.wheel.radius), next.place(model.wheel.radius));
     let increment =
         |body: usize| WearIncrement { path: [from[body], to[body]], distribution: &distribution, volume, smoothing };
     let mut work = weighted_mean(&distribution, &traction.pressure) * volume;
@@ -50,7 +71,7 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     next.worn += mass;
     if wears_rail {
         next.flattening[1].wear(&increment(1), spacing);
-        next.flattening[1].forget_beyond(next.motion.distance, model.config.rail.length);
+        next.flattening[1].forget_beyond(to[1], model.config.rail.length);
         work *= 2.0;
     }
     next.contact.traction.yielding.plastic_work += work;

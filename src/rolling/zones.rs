@@ -12,21 +12,24 @@ use crate::contact::ContactState;
 
 /// The state in the wide zone; `None` if it is there, or there is none.
 pub fn widened(model: &Model, state: &State) -> Option<State> {
-    let contact = model.contact.solver.widened(&state.contact)?;
+    let lines = state.lines.iter().map(|line| model.contact.solver.widened(&line.contact));
+    let contacts = lines.collect::<Option<Vec<_>>>()?;
     let mut wide = state.clone();
-    place(&mut wide, contact);
+    place(&mut wide, contacts);
     Some(wide)
 }
 
-/// Returns a state to the narrow zone if it no longer needs the wide one.
+/// Returns a state to the narrow zone if none of its lines needs the wide one any longer.
 pub fn narrow(model: &Model, state: &mut State) {
-    if let Some(contact) = model.contact.solver.narrowed(&state.contact, model.contact.nominal_line_load()) {
-        place(state, contact);
+    let load = model.contact.nominal_line_load();
+    let lines = state.lines.iter().map(|line| model.contact.solver.narrowed(&line.contact, load));
+    if let Some(contacts) = lines.collect::<Option<Vec<_>>>() {
+        place(state, contacts);
     }
 }
 
-fn place(state: &mut State, contact: ContactState) {
-    state.contact = contact;
+fn place(state: &mut State, contacts: Vec<ContactState>) {
+    state.lines.iter_mut().zip(contacts).for_each(|(line, contact)| line.contact = contact);
     let ports = ports(state);
     state.wheel.retarded.fit_to(ports);
     state.rail.retarded.fit_to(ports);

@@ -163,7 +163,8 @@ impl Simulation {
 
     /// Largest distance from the contact point at which the surfaces touch \[m].
     fn touching_reach(&self) -> f64 {
-        self.state().contact.traction.extent().map_or(0.0, |patch| f64::max(-patch.low, patch.high))
+        self.state()
+            .largest(|line| line.contact.traction.extent().map_or(0.0, |patch| f64::max(-patch.low, patch.high)))
     }
 
     /// Shortest wavelength of the surfaces that have been in the contact zone since the last communication point \[m];

@@ -75,5 +75,5 @@ pub fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config
 
 /// Whether the contact was found on a patch.
 pub fn is_patch(simulation: &Simulation) -> bool {
-    matches!(simulation.state().contact.solver, SolverState::Series(_))
+    matches!(simulation.state().lines[0].contact.solver, SolverState::Series(_))
 }

@@ -6,10 +6,11 @@
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::active_set::ActiveSetSolver;
+use wheelrail::contact::line::kernel::LineKernel;
 use wheelrail::contact::line::{ContactGrid, LineState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineProblem,
-    RigidMotion, SolverState, SteelLimits, SurfaceResponse,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
+    LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -36,6 +37,17 @@ pub struct HalfPlanes {
 
 pub fn modulus() -> f64 {
     contact_modulus(200e9, 0.3)
+}
+
+/// A line beside others.
+#[derive(Clone, Copy)]
+pub struct SideLine {
+    /// Share of the width [1].
+    pub share: f64,
+    /// Height by which its wheel is lower than round [m].
+    pub lower: f64,
+    /// Friction coefficient [1].
+    pub friction: f64,
 }
 
 impl HalfPlanes {
@@ -79,43 +91,91 @@ impl HalfPlanes {
 
     /// Stationary rolling at mean speed 10 m/s.
     pub fn roll(&self, load: f64, creepage: f64, start: &ContactState) -> Result<ContactState, ContactError> {
+        let own = Influence { compliance: [&self.half, &self.half], relative: &self.relative };
+        let line = SideLine { share: 1.0, lower: 0.0, friction: FRICTION };
+        let found = self.roll_on(&[(line, own)], None, (load, creepage), &[start])?;
+        Ok(found.into_iter().next().unwrap())
+    }
+
+    /// Stationary rolling of lines side by side at mean speed 10 m/s. Each has the displacements of [`LineKernel`] with
+    /// the reach `length` [m] for itself; `shared` are those by the forces of all, of each half-plane, at the distance x.
+    pub fn roll_lines(
+        &self,
+        lines: &[SideLine],
+        (length, shared): (f64, &dyn Fn(f64) -> f64),
+        (load, creepage): (f64, f64),
+    ) -> Result<Vec<ContactState>, ContactError> {
+        let kernel = LineKernel { half_plane: 1.0 / (std::f64::consts::PI * modulus()), length };
+        let own = kernel.matrix(self.grid.nodes(), self.grid.spacing);
+        let nodes = self.grid.nodes();
+        let shared = DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| {
+            if i % 2 == j % 2 { shared(nodes[i / 2] - nodes[j / 2]) } else { 0.0 }
+        });
+        let whole: Vec<_> = lines.iter().map(|line| &own + line.share * &shared).collect();
+        let both: Vec<_> = whole.iter().map(|half| 2.0 * half).collect();
+        let both_shared = 2.0 * &shared;
+        let with_own = |(k, line): (usize, &SideLine)| {
+            (*line, Influence { compliance: [&whole[k], &whole[k]], relative: &both[k] })
+        };
+        let lines: Vec<_> = lines.iter().enumerate().map(with_own).collect();
+        let others = Influence { compliance: [&shared, &shared], relative: &both_shared };
+        let start = self.start();
+        self.roll_on(&lines, Some(others), (load, creepage), &vec![&start; lines.len()])
+    }
+
+    fn roll_on(
+        &self,
+        lines: &[(SideLine, Influence)],
+        others: Option<Influence>,
+        (load, creepage): (f64, f64),
+        start: &[&ContactState],
+    ) -> Result<Vec<ContactState>, ContactError> {
         let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
         let v = 10.0 * (1.0 + 0.5 * creepage);
         let omega = 10.0 * (1.0 - 0.5 * creepage) / RADIUS;
         let (flat, sound) = (Piecewise::default(), Flattening::none(0.0));
-        let line = LineProblem {
-            bodies: SurfaceResponse {
-                compliance: [&self.half, &self.half],
-                relative: &self.relative,
-                free: [&self.free[0], &self.free[1]],
-                inertial: &self.none[0],
-                momentum: &self.none[1],
-                deformation_inertia: &self.none[2],
-                retarded: [None; 2],
-            },
-            membrane: [&flat, &flat],
-            time: TimeDerivative::default(),
-            duration: 0.0,
-            surfaces: &self.surfaces,
-            placement: Placement {
-                distance: 0.0,
-                angle: 0.0,
-                elevation: 0.0,
-                growth: 0.0,
-                swelling: [&flat, &flat],
-                flattening: [&sound, &sound],
-            },
-            limits: SteelLimits::none(&flat),
-        };
+        let ends = [self.grid.nodes()[0], -self.grid.nodes()[0]];
+        let lower = |line: &SideLine| Piecewise { x: ends.to_vec(), value: vec![-line.lower; 2] };
+        let swollen: Vec<_> = lines.iter().map(|(line, _)| lower(line)).collect();
+        let mut problems = Vec::new();
+        for ((line, own), swelling) in lines.iter().zip(&swollen) {
+            problems.push(LineProblem {
+                share: line.share,
+                bodies: SurfaceResponse {
+                    own: *own,
+                    others,
+                    free: [&self.free[0], &self.free[1]],
+                    inertial: &self.none[0],
+                    momentum: &self.none[1],
+                    deformation_inertia: &self.none[2],
+                    retarded: [None; 2],
+                },
+                membrane: [&flat, &flat],
+                time: TimeDerivative::default(),
+                duration: 0.0,
+                surfaces: &self.surfaces,
+                placement: Placement {
+                    distance: 0.0,
+                    angle: 0.0,
+                    elevation: 0.0,
+                    growth: 0.0,
+                    swelling: [swelling, &flat],
+                    flattening: [&sound, &sound],
+                },
+                limits: SteelLimits::none(&flat),
+                friction: Friction::constant(line.friction),
+            });
+        }
         let problem = ContactProblem {
-            line,
+            lines: problems,
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
-            friction: Friction::constant(FRICTION),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
         };
-        let mut found = ContactState::default();
-        self.solver.solve(&problem, start, &mut found, &mut ContactScratch::default()).map(|()| found)
+        let mut found = vec![ContactState::default(); lines.len()];
+        let mut places: Vec<_> = found.iter_mut().collect();
+        self.solver.solve(&problem, start, &mut places, &mut ContactScratch::default())?;
+        Ok(found)
     }
 
     /// The node in the middle touches.

@@ -96,12 +96,12 @@ impl Run {
 
     /// Temperatures over the reference.
     pub fn warmth(&self) -> Temperatures {
-        self.simulation.state().thermal.as_ref().map(|thermal| thermal.temperatures).unwrap_or_default()
+        self.simulation.state().lines[0].thermal.as_ref().map(|thermal| thermal.temperatures).unwrap_or_default()
     }
 
     /// Largest part of the heat put in that a body neither passes on nor stores \[1], by the nodal reactions of its equations; NaN without heat.
     pub fn heat_imbalance(&self) -> f64 {
-        let Some(thermal) = &self.simulation.state().thermal else { return f64::NAN };
+        let Some(thermal) = &self.simulation.state().lines[0].thermal else { return f64::NAN };
         let flows = &thermal.flows;
         flows.wheel_imbalance().abs().max(flows.rail_imbalance().abs()) / (flows.friction + flows.tread)
     }
@@ -117,6 +117,6 @@ impl Run {
 
     /// Tractions in the contact.
     pub fn traction(&self) -> &Traction {
-        &self.simulation.state().contact.traction
+        &self.simulation.state().lines[0].contact.traction
     }
 }

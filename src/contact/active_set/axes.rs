@@ -33,14 +33,15 @@ impl<'a> Axes<'a> {
     }
 
     /// Takes new states of the brakes from motions and reactions; returns whether any changed. A brake keeps its hold
-    /// within a `tolerance` [N/m], at the rim; `forces` is memory for all ports.
-    pub fn update_brakes(&mut self, line: &ContactLine, forces: &mut [f64], tolerance: f64) -> bool {
+    /// within a `tolerance` [N/m], at the rim; `forces` is memory for all ports of all lines.
+    pub fn update_brakes(&mut self, lines: &[ContactLine], forces: &mut [Vec<f64>], tolerance: f64) -> bool {
         let mut changed = false;
         for axis in 0..3 {
             let AxisDrive::Braked { load, limit } = self.rigid[axis].drive else { continue };
-            let arm = if axis == 2 { line.problem.radius() } else { 1.0 };
-            let (before, speed) = (self.brakes[axis], line.traction.rigid[axis]);
-            let reaction = || self.reaction(axis, line, forces);
+            let Some(first) = lines.first() else { continue };
+            let arm = if axis == 2 { first.problem.radius() } else { 1.0 };
+            let (before, speed) = (self.brakes[axis], first.traction.rigid[axis]);
+            let reaction = || self.reaction(axis, lines, forces);
             let new = brake::next(before, [load, limit], reaction, speed, tolerance * arm);
             changed |= new != before;
             self.brakes[axis] = new;
@@ -82,42 +83,25 @@ impl<'a> Axes<'a> {
     }
 
     /// Equation of a motion that is sought: its balance, or rest where a brake holds it. Writes the coefficients of all
-    /// port forces to `forces`.
-    pub fn row(&self, axis: usize, line: &ContactLine, forces: &mut [f64]) -> Equation {
+    /// port forces of every line to `forces`.
+    pub fn row(&self, axis: usize, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> Equation {
         if self.holds(axis) {
-            forces.fill(0.0);
+            forces.iter_mut().for_each(|forces| forces.fill(0.0));
             return Equation { motions: std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 }), constant: 0.0 };
         }
         let [load, limit] = self.rigid[axis].drive.loads().unwrap_or_default();
-        self.balance(axis, load + self.brakes[axis].direction() * limit, line, forces)
+        self.balance(axis, load + self.brakes[axis].direction() * limit, lines, forces)
     }
 
     /// Balance of momentum of an axis under an external `load`; lever arms are those of the present iterate. Writes the
-    /// coefficients of all port forces to `forces`.
-    pub fn balance(&self, axis: usize, load: f64, line: &ContactLine, forces: &mut [f64]) -> Equation {
-        let (grid, bodies) = (line.grid, &line.problem.bodies);
-        forces.iter_mut().zip(bodies.momentum.row(axis).iter()).for_each(|(f, m)| *f = *m);
-        for i in 0..grid.len() {
-            let port = grid.port(i);
-            match axis {
-                0 => {
-                    forces[port] -= 1.0;
-                    forces[port + 1] -= line.slopes().rail(i);
-                }
-                1 => forces[port + 1] -= 1.0,
-                _ => {
-                    let [arm_t, arm_n] = line.lever_arms(i);
-                    forces[port] += arm_t;
-                    forces[port + 1] += arm_n;
-                }
-            }
-        }
+    /// coefficients of all port forces of every line to `forces`.
+    fn balance(&self, axis: usize, load: f64, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> Equation {
         let own = &self.rigid[axis];
-        let relief = if axis == 2 { line.problem.radius() * line.retarded.force.iter().sum::<f64>() } else { 0.0 };
-        let mut equation = Equation { motions: [0.0; 3], constant: own.momentum - load + relief };
-        for (i, pull) in line.given.layers.pull[0].iter().enumerate() {
-            equation.constant += bodies.momentum[(axis, grid.port(i))] * pull;
+        let mut equation = Equation { motions: [0.0; 3], constant: own.momentum - load };
+        for (line, forces) in lines.iter().zip(forces) {
+            add_line(axis, line, forces, &mut equation.constant);
         }
+        let Some(bodies) = lines.first().map(|line| &line.problem.bodies) else { return equation };
         for (l, motion) in self.rigid.iter().enumerate() {
             let inertia = bodies.deformation_inertia[(axis, l)] + if l == axis { own.inertia } else { 0.0 };
             equation.constant += inertia * motion.known_acceleration();
@@ -129,11 +113,45 @@ impl<'a> Axes<'a> {
     }
 
     /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate; `forces` is memory for all
-    /// ports.
-    fn reaction(&self, axis: usize, line: &ContactLine, forces: &mut [f64]) -> f64 {
-        let balance = self.balance(axis, 0.0, line, forces);
-        let of_contact: f64 = forces.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum();
-        let of_motion: f64 = balance.motions.iter().zip(line.traction.rigid).map(|(c, v)| c * v).sum();
+    /// ports of all lines.
+    fn reaction(&self, axis: usize, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> f64 {
+        let balance = self.balance(axis, 0.0, lines, forces);
+        let (mut of_contact, mut motions) = (0.0, [0.0; 3]);
+        for (line, forces) in lines.iter().zip(forces) {
+            of_contact += forces.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum::<f64>();
+            motions = line.traction.rigid;
+        }
+        let of_motion: f64 = balance.motions.iter().zip(motions).map(|(c, v)| c * v).sum();
         of_contact + of_motion + balance.constant
+    }
+}
+
+/// Adds a line to the balance of an axis, by its share of the width: writes the coefficients of its port forces to
+/// `forces` and adds to the `constant`.
+fn add_line(axis: usize, line: &ContactLine, forces: &mut [f64], constant: &mut f64) {
+    let (grid, bodies, share) = (line.grid, &line.problem.bodies, line.problem.share);
+    forces.iter_mut().zip(bodies.momentum.row(axis).iter()).for_each(|(f, m)| *f = *m);
+    for i in 0..grid.len() {
+        let port = grid.port(i);
+        match axis {
+            0 => {
+                forces[port] -= 1.0;
+                forces[port + 1] -= line.slopes().rail(i);
+            }
+            1 => forces[port + 1] -= 1.0,
+            _ => {
+                let [arm_t, arm_n] = line.lever_arms(i);
+                forces[port] += arm_t;
+                forces[port + 1] += arm_n;
+            }
+        }
+    }
+    let relief = if axis == 2 { line.problem.radius() * line.retarded.force.iter().sum::<f64>() } else { 0.0 };
+    *constant += share * relief;
+    for (i, pull) in line.given.layers.pull[0].iter().enumerate() {
+        *constant += share * (bodies.momentum[(axis, grid.port(i))] * pull);
+    }
+    if share != 1.0 {
+        forces.iter_mut().for_each(|force| *force *= share);
     }
 }

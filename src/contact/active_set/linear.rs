@@ -1,42 +1,76 @@
-//! Linear problem of given states: all equations are written and solved together.
+//! Linear problem of given states: all equations of all lines are written and solved together.
 
 use super::axes::Axes;
 use super::unknowns::Unknowns;
 use crate::contact::error::ContactError;
+use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::rows::AffineRow;
 use crate::linalg::DenseSystem;
+use std::ops::Range;
 
-/// Solves the linear problem of the present states and gives the line its forces and motions; `row` is memory for the
-/// coefficients of all ports.
+/// Equation of a node. The first function writes the coefficients of the line's own forces at the given ports, and
+/// returns the rest; the second one writes those of the forces of another line with its share of the width.
+type NodeEquation = (
+    fn(&ContactLine, usize, Range<usize>, &mut [f64]) -> AffineRow,
+    fn(&ContactLine, usize, f64, Range<usize>, &mut [f64]),
+);
+
+/// Solves the linear problem of the present states and gives the lines their forces and motions; `rows` is memory for
+/// the coefficients of all ports of every line.
 pub(super) fn solve(
-    line: &mut ContactLine,
+    lines: &mut [ContactLine],
+    grid: &ContactGrid,
     axes: &Axes,
     unknowns: &Unknowns,
-    row: &mut [f64],
-    system: &mut DenseSystem,
+    (rows, system): (&mut [Vec<f64>], &mut DenseSystem),
 ) -> Result<(), ContactError> {
-    assemble(line, axes, unknowns, row, system);
+    system.reset(unknowns.len());
+    let mut r = 0;
+    for (k, unknown) in unknowns.lines.iter().enumerate() {
+        let gap: NodeEquation = (
+            |line, i, window, row| line.gap_row(i, window, row),
+            |line, i, share, window, row| line.gap_by_other(i, share, window, row),
+        );
+        let slip: NodeEquation = (
+            |line, i, window, row| line.slip_row(i, window, row),
+            |line, i, share, window, row| line.slip_by_other(i, share, window, row),
+        );
+        for (nodes, equation) in [(&unknown.closed, gap), (&unknown.stuck, slip)] {
+            for &i in nodes {
+                let row = write_forces(lines, unknowns, (k, i), equation, rows);
+                unknowns.write(system.row(r), (&axes.equation(row), rows), grid, axes);
+                r += 1;
+            }
+        }
+    }
+    for &axis in &unknowns.axes {
+        let balance = axes.row(axis, lines, rows);
+        unknowns.write(system.row(r), (&balance, rows), grid, axes);
+        r += 1;
+    }
     // Nothing is unknown when a wheel with prescribed motions is off the rail.
-    let solution = system.solve().ok_or(ContactError::Singular { closed: unknowns.closed.len() })?;
-    unknowns.accept(solution, line, axes);
+    let solution = system.solve().ok_or(ContactError::Singular { closed: unknowns.closed() })?;
+    unknowns.accept(solution, lines, axes);
     Ok(())
 }
 
-/// Writes the equations: no gap at closed nodes, no slip at stuck ones, balances of the axes.
-fn assemble(line: &ContactLine, axes: &Axes, unknowns: &Unknowns, row: &mut [f64], system: &mut DenseSystem) {
-    let Unknowns { closed, stuck, .. } = unknowns;
-    system.reset(unknowns.len());
-    let window = unknowns.window(line.grid);
-    for (r, &i) in closed.iter().enumerate() {
-        let gap = axes.equation(line.gap_row(i, window.clone(), row));
-        unknowns.write(system.row(r), (&gap, row), line.grid, axes);
+/// Writes the coefficients of all ports of every line in the equation of node `i` of line `k` to `rows`; returns the
+/// rest of it.
+fn write_forces(
+    lines: &[ContactLine],
+    unknowns: &Unknowns,
+    (k, i): (usize, usize),
+    (own, by_other): NodeEquation,
+    rows: &mut [Vec<f64>],
+) -> AffineRow {
+    let (line, mut affine) = (&lines[k], AffineRow::default());
+    for (j, (other, row)) in unknowns.lines.iter().zip(rows).enumerate() {
+        let window = other.window(line.grid);
+        match j == k {
+            true => affine = own(line, i, window, row),
+            false => by_other(line, i, lines[j].problem.share, window, row),
+        }
     }
-    for (r, &i) in stuck.iter().enumerate() {
-        let slip = axes.equation(line.slip_row(i, window.clone(), row));
-        unknowns.write(system.row(closed.len() + r), (&slip, row), line.grid, axes);
-    }
-    for (r, &axis) in unknowns.axes.iter().enumerate() {
-        let balance = axes.row(axis, line, row);
-        unknowns.write(system.row(closed.len() + stuck.len() + r), (&balance, row), line.grid, axes);
-    }
+    affine
 }

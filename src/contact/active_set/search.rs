@@ -17,7 +17,7 @@ use super::unknowns::Unknowns;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
-use crate::contact::line::{ContactGrid, finish, zone};
+use crate::contact::line::{ContactGrid, finish, others, zone};
 use crate::contact::problem::ContactProblem;
 use crate::linalg::DenseSystem;
 
@@ -40,7 +40,7 @@ const RETARDED_TOLERANCE: f64 = 1e-7;
 /// Buffers of the active set; of their content only functions of the operators outlive a solution.
 #[derive(Default)]
 pub struct ActiveSetScratch {
-    line: LineScratch,
+    lines: Vec<LineScratch>,
     memory: SearchMemory,
 }
 
@@ -56,8 +56,8 @@ impl ActiveSetScratch {
 #[derive(Default)]
 struct SearchMemory {
     unknowns: Unknowns,
-    /// Coefficients of all port forces in the row at hand.
-    row: Vec<f64>,
+    /// Coefficients of all port forces of every line in the row at hand.
+    rows: Vec<Vec<f64>>,
     system: DenseSystem,
     /// States before an update.
     before: Vec<NodeStatus>,
@@ -68,129 +68,172 @@ struct SearchMemory {
 /// The search in one contact problem.
 pub(super) struct ActiveSet<'a> {
     problem: &'a ContactProblem<'a>,
-    line: ContactLine<'a>,
+    grid: &'a ContactGrid,
+    lines: Vec<ContactLine<'a>>,
+    /// Stiffness by which every line compares gaps with forces [N/m per m].
+    penalties: Vec<f64>,
     axes: Axes<'a>,
     memory: &'a mut SearchMemory,
 }
 
 impl<'a> ActiveSet<'a> {
-    /// A search that starts from the given states.
+    /// A search that starts from the given states, one for each line of the problem.
     pub fn new(
         grid: &'a ContactGrid,
         problem: &'a ContactProblem<'a>,
-        start: LineStart<'a>,
+        starts: Vec<LineStart<'a>>,
         scratch: &'a mut ActiveSetScratch,
     ) -> Self {
-        start.2.rigid = problem.rigid.map(|motion| motion.start());
         let accelerations = problem.rigid.map(|motion| motion.known_acceleration());
-        let ActiveSetScratch { line, memory } = scratch;
-        memory.row.resize(grid.ports(), 0.0);
-        let line = ContactLine::new(grid, &problem.line, accelerations, start, line);
-        Self { problem, line, axes: Axes::new(&problem.rigid), memory }
+        let ActiveSetScratch { lines: buffers, memory } = scratch;
+        buffers.resize_with(problem.lines.len(), LineScratch::default);
+        for ((line, (state, _, traction)), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
+            buffers.find_known(grid, line, (state, &traction.port_forces), accelerations);
+        }
+        others::exchange_pulls(grid, &problem.lines, buffers);
+        let together = problem.lines.iter().zip(starts).zip(buffers);
+        let mut lines: Vec<_> =
+            together.map(|((line, start), buffers)| ContactLine::new(grid, line, start, buffers)).collect();
+        lines.iter_mut().for_each(|line| line.traction.rigid = problem.rigid.map(|motion| motion.start()));
+        others::exchange_forces(&mut lines);
+        memory.rows.resize_with(lines.len(), Vec::new);
+        memory.rows.iter_mut().for_each(|row| row.resize(grid.ports(), 0.0));
+        let penalties = lines.iter().map(states::penalty).collect();
+        Self { problem, grid, lines, penalties, axes: Axes::new(&problem.rigid), memory }
     }
 
     /// Iterates from the states and forces of the start to the solution.
     pub fn run(mut self) -> Result<(), ContactError> {
-        self.line.update_retarded();
-        if self.line.problem.time.is_stationary() {
-            states::found_anew(&mut self.line);
+        for line in &mut self.lines {
+            line.update_retarded();
+            if line.problem.time.is_stationary() {
+                states::found_anew(line);
+            }
         }
-        let (penalty, friction) = (states::penalty(&self.line), self.problem.friction);
-        self.guess_closed(penalty);
-        self.line.traction.friction.coefficient = friction.coefficient(self.line.traction.friction.tread_slip);
-        self.line.update_upwind();
-        self.line.take_surface_angle();
-        self.line.frame.rim_angle = self.line.predicted_angle();
-        self.line.traction.iterations = self.find_states(penalty)?;
-        self.line.traction.friction.tread_slip = states::mean_slip(&self.line);
-        if friction.varies() {
-            self.find_coefficient(penalty)?;
+        self.guess_closed();
+        for line in &mut self.lines {
+            line.traction.friction.coefficient = line.problem.friction.coefficient(line.traction.friction.tread_slip);
+            line.update_upwind();
+            line.take_surface_angle();
+            line.frame.rim_angle = line.predicted_angle();
         }
-        zone::check(&self.line)?;
-        finish::finish(self.line);
+        let iterations = self.find_states()?;
+        for line in &mut self.lines {
+            line.traction.iterations = iterations;
+            line.traction.friction.tread_slip = states::mean_slip(line);
+        }
+        if self.lines.iter().any(|line| line.problem.friction.varies()) {
+            self.find_coefficients()?;
+        }
+        self.lines.iter().try_for_each(zone::check)?;
+        self.lines.into_iter().for_each(finish::finish);
         Ok(())
     }
 
     /// Guesses the closed nodes from which the search starts.
-    fn guess_closed(&mut self, penalty: f64) {
-        let SearchMemory { unknowns, row, before, fast, .. } = &mut *self.memory;
-        let tolerance = states::FORCE_TOLERANCE[0] * self.problem.nominal_load / self.line.grid.len() as f64;
-        let comparison = Comparison { penalty, tolerance };
-        fast.guess(&mut self.line, &self.axes, comparison, (unknowns, row, before));
+    fn guess_closed(&mut self) {
+        let SearchMemory { unknowns, rows, before, fast, .. } = &mut *self.memory;
+        let tolerance = states::FORCE_TOLERANCE[0] * self.problem.nominal_load / self.grid.len() as f64;
+        let comparison = Comparison { penalty: self.penalties[0], tolerance };
+        fast.guess(&mut self.lines, &self.axes, comparison, (unknowns, rows, before));
     }
 
-    /// Finds the states of all nodes at the present friction coefficient; returns the iterations made.
-    fn find_states(&mut self, penalty: f64) -> Result<usize, ContactError> {
+    /// Finds the states of all nodes at the present friction coefficients; returns the iterations made.
+    fn find_states(&mut self) -> Result<usize, ContactError> {
         let (mut settled, mut decided) = (false, 0);
         for iteration in 1..=MAX_ITERATIONS {
             if RESTARTS.contains(&iteration) {
-                self.line.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = NodeStatus::Stick);
-                states::found_anew(&mut self.line);
+                for line in &mut self.lines {
+                    line.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = NodeStatus::Stick);
+                    states::found_anew(line);
+                }
             }
             self.solve_linear()?;
-            let turned = (self.line.frame.rim_angle - self.line.rim.value).abs() > ANGLE_TOLERANCE;
-            let changed = self.update_states(penalty, iteration);
+            let turned = self.lines.iter().any(|line| (line.frame.rim_angle - line.rim.value).abs() > ANGLE_TOLERANCE);
+            let changed = self.update_states(iteration);
             // Once states and edges are settled, only motions and rim angle are refined: smooth functions of the data.
             decided += usize::from(!settled);
             settled = !changed && (settled || self.edges_settled());
-            let relieved = self.line.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
+            let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
             let relieved = relieved && self.axes.seeks(2);
-            if settled && !turned && !relieved && states::sticks(&self.line) {
+            if settled && !turned && !relieved && self.lines.iter().all(states::sticks) {
                 return Ok(decided);
             }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
     }
 
-    /// Finds the coefficient that the law gives to the slip of the states that it leads to.
-    fn find_coefficient(&mut self, penalty: f64) -> Result<(), ContactError> {
-        let friction = self.problem.friction;
-        let mut search = CoefficientSearch::new(friction.bounds());
+    /// Finds the coefficients that the law gives to the slips of the states that they lead to. Each line has a search of
+    /// its own, which begins anew where the other lines have shifted its solution.
+    fn find_coefficients(&mut self) -> Result<(), ContactError> {
+        let begun = |line: &ContactLine| CoefficientSearch::new(line.problem.friction.bounds());
+        let mut searches: Vec<_> = self.lines.iter().map(begun).collect();
         for _ in 0..MAX_COEFFICIENTS {
-            let law = friction.coefficient(self.line.traction.friction.tread_slip);
-            let Some(next) = search.next(self.line.traction.friction.coefficient, law) else { return Ok(()) };
-            self.line.traction.friction.coefficient = next;
-            self.find_states(penalty)?;
-            self.line.traction.friction.tread_slip = states::mean_slip(&self.line);
+            let mut found = true;
+            for (line, search) in self.lines.iter_mut().zip(&mut searches) {
+                let law = line.problem.friction.coefficient(line.traction.friction.tread_slip);
+                match search.next(line.traction.friction.coefficient, law) {
+                    Some(next) => (line.traction.friction.coefficient, found) = (next, false),
+                    None => *search = begun(line),
+                }
+            }
+            if found {
+                return Ok(());
+            }
+            self.find_states()?;
+            self.lines.iter_mut().for_each(|line| line.traction.friction.tread_slip = states::mean_slip(line));
         }
         Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
     }
 
     /// Solves the linear problem of the present states; fills forces, rigid motions, displacements, slips and gaps.
     fn solve_linear(&mut self) -> Result<(), ContactError> {
-        let Self { line, axes, memory, .. } = self;
-        let SearchMemory { unknowns, row, system, fast, solved, .. } = &mut **memory;
-        unknowns.list(line, axes);
-        line.update_rim();
-        let alternated = fast.solve(line, axes, unknowns, row);
+        let Self { lines, grid, axes, memory, .. } = self;
+        let SearchMemory { unknowns, rows, system, fast, solved, .. } = &mut **memory;
+        unknowns.list(lines, axes);
+        lines.iter_mut().for_each(ContactLine::update_rim);
+        let alternated = fast.solve(lines, axes, unknowns, rows);
         if !alternated {
-            linear::solve(line, axes, unknowns, row, system)?;
+            linear::solve(lines, grid, axes, unknowns, (rows, system))?;
         }
         solved[usize::from(!alternated)] += 1;
-        line.evaluate(axes.sought_accelerations(line.traction.rigid));
+        others::exchange_forces(lines);
+        for line in lines {
+            line.evaluate(axes.sought_accelerations(line.traction.rigid));
+        }
         Ok(())
     }
 
+    /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
+    fn update_retarded(&mut self) -> f64 {
+        self.lines.iter_mut().map(|line| line.problem.share * line.update_retarded()).sum()
+    }
+
     /// Takes new states of nodes and brakes; returns whether any changed.
-    fn update_states(&mut self, penalty: f64, iteration: usize) -> bool {
+    fn update_states(&mut self, iteration: usize) -> bool {
         let growth = GROWTH.powi(iteration.saturating_sub(STRICT_ITERATIONS) as i32);
         let founding = (RESTARTS[0]..RESTARTS[1]).contains(&iteration);
-        let Self { line, axes, memory, problem } = self;
-        let rules = Rules::new(line, penalty, problem.nominal_load, growth, founding);
-        let changed = states::update(line, &rules, &mut memory.before);
-        let braked = axes.update_brakes(line, &mut memory.row, rules.force * line.grid.len() as f64);
+        let Self { lines, penalties, axes, memory, problem, grid } = self;
+        let (mut changed, mut tolerance) = (false, 0.0);
+        for (line, penalty) in lines.iter_mut().zip(penalties) {
+            let rules = Rules::new(line, *penalty, problem.nominal_load, growth, founding);
+            changed |= states::update(line, &rules, &mut memory.before);
+            tolerance = rules.force;
+        }
+        let braked = axes.update_brakes(lines, &mut memory.rows, tolerance * grid.len() as f64);
         // A static problem needs a support.
         let held = problem.rigid[1].gain != 0.0 || !axes.seeks(1);
-        let closed = !held && states::support(line);
+        let closed = !held && states::support(lines);
         closed || changed || braked
     }
 
     /// True if the edges of the patches are settled. The weights of the present solution are kept if so: with weights
     /// that change from one coefficient to the next the slip would be no function of the coefficient.
     fn edges_settled(&mut self) -> bool {
-        let settled = self.line.update_upwind() <= self.problem.edge_tolerance;
+        let change = self.lines.iter_mut().map(ContactLine::update_upwind).fold(0.0, f64::max);
+        let settled = change <= self.problem.edge_tolerance;
         if settled {
-            self.line.upwind.restore();
+            self.lines.iter_mut().for_each(|line| line.upwind.restore());
         }
         settled
     }

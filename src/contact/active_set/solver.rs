@@ -3,11 +3,12 @@
 use super::search::ActiveSet;
 use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
+use crate::contact::line::contact_line::LineStart;
 use crate::contact::line::history::LineHistory;
 use crate::contact::line::regrid;
 use crate::contact::line::state::{LineState, NodeStatus};
 use crate::contact::line::vectors::copy;
-use crate::contact::problem::ContactProblem;
+use crate::contact::problem::{ContactProblem, LineProblem};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::multistep::History;
@@ -56,6 +57,25 @@ impl ActiveSetSolver {
     }
 }
 
+/// Makes `found` the start of a search.
+fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineStart<'a>, ContactError> {
+    let SolverState::Line(before) = &start.solver else { return Err(ContactError::ForeignState) };
+    let ContactState { ports, traction, history, energy, solver } = found;
+    if !matches!(solver, SolverState::Line(_)) {
+        *solver = SolverState::Line(Box::default());
+    }
+    let SolverState::Line(state) = solver else { return Err(ContactError::ForeignState) };
+    state.copy_from(before);
+    history.copy_from(&start.history);
+    (*ports, *energy) = (start.ports, 0.0);
+    copy(&mut traction.port_forces, &start.traction.port_forces);
+    traction.friction.tread_slip = start.traction.friction.tread_slip;
+    for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
+        copy(ours, theirs);
+    }
+    Ok((state, history, traction))
+}
+
 impl ContactSolver for ActiveSetSolver {
     fn touching(&self, half_width: f64) -> ContactState {
         let holds = self.narrow.x.last().is_some_and(|end| half_width < *end);
@@ -83,27 +103,19 @@ impl ContactSolver for ActiveSetSolver {
     fn solve(
         &self,
         problem: &ContactProblem,
-        start: &ContactState,
-        found: &mut ContactState,
+        start: &[&ContactState],
+        found: &mut [&mut ContactState],
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let SolverState::Line(before) = &start.solver else { return Err(ContactError::ForeignState) };
-        let grid = self.grid(start.ports).filter(|grid| grid.ports() == problem.line.bodies.relative.nrows());
-        let grid = grid.ok_or(ContactError::ForeignState)?;
-        let ContactState { ports, traction, history, energy, solver } = found;
-        if !matches!(solver, SolverState::Line(_)) {
-            *solver = SolverState::Line(Box::default());
+        let ports = start.first().ok_or(ContactError::ForeignState)?.ports;
+        let grid = self.grid(ports).ok_or(ContactError::ForeignState)?;
+        let fits = |line: &LineProblem| line.bodies.own.relative.nrows() == grid.ports();
+        if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
+            return Err(ContactError::ForeignState);
         }
-        let SolverState::Line(state) = solver else { return Err(ContactError::ForeignState) };
-        state.copy_from(before);
-        history.copy_from(&start.history);
-        (*ports, *energy) = (start.ports, 0.0);
-        copy(&mut traction.port_forces, &start.traction.port_forces);
-        traction.friction.tread_slip = start.traction.friction.tread_slip;
-        for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
-            copy(ours, theirs);
-        }
-        ActiveSet::new(grid, problem, (state, history, traction), &mut scratch.active_set).run()
+        let begun = start.iter().zip(found).map(|(start, found)| begin(start, found));
+        let starts = begun.collect::<Result<Vec<_>, _>>()?;
+        ActiveSet::new(grid, problem, starts, &mut scratch.active_set).run()
     }
 
     fn fits(&self, state: &ContactState) -> bool {

@@ -55,7 +55,7 @@ impl Rules {
 pub(super) fn penalty(line: &ContactLine) -> f64 {
     let stiffness = |i: usize| {
         let port = line.grid.port(i) + 1;
-        line.problem.bodies.relative[(port, port)]
+        line.problem.bodies.own.relative[(port, port)]
     };
     line.grid.len() as f64 / (0..line.grid.len()).map(stiffness).sum::<f64>()
 }
@@ -143,17 +143,16 @@ pub(super) fn found_anew(line: &mut ContactLine) {
     line.state.status.iter_mut().filter(|s| s.is_stuck()).for_each(|s| *s = founding);
 }
 
-/// Closes the nearest node of a line without any; returns whether it did.
-pub(super) fn support(line: &mut ContactLine) -> bool {
-    if line.state.status.iter().any(|s| s.is_active()) {
+/// Closes the nearest node of lines without any; returns whether it did.
+pub(super) fn support(lines: &mut [ContactLine]) -> bool {
+    if lines.iter().any(|line| line.state.status.iter().any(|s| s.is_active())) {
         return false;
     }
-    let gap = &line.state.gap;
-    let nearest = (0..line.grid.len()).min_by(|&a, &b| gap[a].total_cmp(&gap[b]));
-    if let Some(i) = nearest {
-        line.state.status[i] = founding_state(line);
-    }
-    nearest.is_some()
+    let nodes = (0..lines.len()).flat_map(|k| (0..lines[k].grid.len()).map(move |i| (k, i)));
+    let gap = |(k, i): (usize, usize)| lines[k].state.gap[i];
+    let Some((k, i)) = nodes.min_by(|a, b| gap(*a).total_cmp(&gap(*b))) else { return false };
+    lines[k].state.status[i] = founding_state(&lines[k]);
+    true
 }
 
 /// True if the stuck nodes carry far more than friction allows, as happens when sliding starts from stick: normal

@@ -1,5 +1,5 @@
-//! Unknowns of the linear problem, in their order: normal forces of the closed nodes, tangential forces of the stuck
-//! ones, motions that are sought.
+//! Unknowns of the linear problem, in their order: of every line normal forces of the closed nodes and tangential forces
+//! of the stuck ones, then motions that are sought.
 
 use super::axes::{Axes, Equation};
 use crate::contact::line::ContactGrid;
@@ -9,12 +9,19 @@ use std::ops::Range;
 /// Unknowns of given states.
 #[derive(Default)]
 pub(super) struct Unknowns {
+    /// Those of every line.
+    pub lines: Vec<LineUnknowns>,
+    /// Axes whose motions are sought; the height of the hub comes last.
+    pub axes: Vec<usize>,
+}
+
+/// Unknown forces of one line.
+#[derive(Default)]
+pub(super) struct LineUnknowns {
     /// Closed nodes.
     pub closed: Vec<usize>,
     /// Stuck nodes.
     pub stuck: Vec<usize>,
-    /// Axes whose motions are sought; the height of the hub comes last.
-    pub axes: Vec<usize>,
     /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks
     /// \[1].
     pub friction: Vec<f64>,
@@ -22,13 +29,69 @@ pub(super) struct Unknowns {
 
 impl Unknowns {
     /// Lists the unknowns of the present states.
-    pub fn list(&mut self, line: &ContactLine, axes: &Axes) {
+    pub fn list(&mut self, lines: &[ContactLine], axes: &Axes) {
+        self.lines.resize_with(lines.len(), LineUnknowns::default);
+        self.lines.iter_mut().zip(lines).for_each(|(unknowns, line)| unknowns.list(line));
+        self.axes.clear();
+        self.axes.extend(axes.sought());
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.lines.iter().map(LineUnknowns::len).sum::<usize>() + self.axes.len()
+    }
+
+    /// Closed nodes of all lines.
+    pub fn closed(&self) -> usize {
+        self.lines.iter().map(|line| line.closed.len()).sum()
+    }
+
+    /// Writes one equation with the coefficients `forces` of all ports of every line, scaled to a largest coefficient of
+    /// one.
+    pub fn write(
+        &self,
+        (target, side): (&mut [f64], &mut f64),
+        (equation, forces): (&Equation, &[Vec<f64>]),
+        grid: &ContactGrid,
+        axes: &Axes,
+    ) {
+        let mut rest = &mut *target;
+        for (line, forces) in self.lines.iter().zip(forces) {
+            let (own, others) = rest.split_at_mut(line.len());
+            line.write(own, forces, grid);
+            rest = others;
+        }
+        for (value, &k) in rest.iter_mut().zip(&self.axes) {
+            *value = equation.motions[k];
+        }
+        let largest = largest(target);
+        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        target.iter_mut().for_each(|value| *value *= scale);
+        *side = -axes.constant(equation) * scale;
+    }
+
+    /// Gives the lines the solution of the linear problem: port forces and motions.
+    pub fn accept(&self, solution: &[f64], lines: &mut [ContactLine], axes: &Axes) {
+        let mut rest = solution;
+        for (unknowns, line) in self.lines.iter().zip(&mut *lines) {
+            let (own, others) = rest.split_at(unknowns.len());
+            unknowns.accept(own, line);
+            rest = others;
+        }
+        for (value, &k) in rest.iter().zip(&self.axes) {
+            let value = if axes.holds(k) { 0.0 } else { *value };
+            lines.iter_mut().for_each(|line| line.traction.rigid[k] = value);
+        }
+    }
+}
+
+impl LineUnknowns {
+    /// Lists the unknowns of the present states.
+    fn list(&mut self, line: &ContactLine) {
         let status = &line.state.status;
         self.list_closed(line);
         self.stuck.clear();
         self.stuck.extend(self.closed.iter().filter(|&&i| status[i].is_stuck()));
-        self.axes.clear();
-        self.axes.extend(axes.sought());
         self.friction.clear();
         self.friction.extend(self.closed.iter().map(|&i| status[i].friction_direction() * line.friction(i)));
     }
@@ -41,8 +104,8 @@ impl Unknowns {
     }
 
     /// Number of unknowns.
-    pub fn len(&self) -> usize {
-        self.closed.len() + self.stuck.len() + self.axes.len()
+    fn len(&self) -> usize {
+        self.closed.len() + self.stuck.len()
     }
 
     /// Ports from the first to the last closed node.
@@ -60,16 +123,9 @@ impl Unknowns {
         (single && !line.state.yielded[first..=last].contains(&true)).then_some(first..last + 1)
     }
 
-    /// Writes one equation with the coefficients `forces` of all ports, scaled to a largest coefficient of one.
-    pub fn write(
-        &self,
-        (target, side): (&mut [f64], &mut f64),
-        (equation, forces): (&Equation, &[f64]),
-        grid: &ContactGrid,
-        axes: &Axes,
-    ) {
-        let (normal, rest) = target.split_at_mut(self.closed.len());
-        let (tangential, motions) = rest.split_at_mut(self.stuck.len());
+    /// Writes the coefficients of the unknowns, given those of all port `forces`.
+    fn write(&self, target: &mut [f64], forces: &[f64], grid: &ContactGrid) {
+        let (normal, tangential) = target.split_at_mut(self.closed.len());
         let nodes = forces.as_chunks::<2>().0;
         let pressed = |[tangential, normal]: &[f64; 2], friction: &f64| normal + friction * tangential;
         match (self.closed.first(), self.closed.last()) {
@@ -87,20 +143,12 @@ impl Unknowns {
         for (value, &i) in tangential.iter_mut().zip(&self.stuck) {
             *value = forces[grid.port(i)];
         }
-        for (value, &k) in motions.iter_mut().zip(&self.axes) {
-            *value = equation.motions[k];
-        }
-        let largest = largest(target);
-        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        target.iter_mut().for_each(|value| *value *= scale);
-        *side = -axes.constant(equation) * scale;
     }
 
-    /// Gives the line the solution of the linear problem: port forces and motions.
-    pub fn accept(&self, solution: &[f64], line: &mut ContactLine, axes: &Axes) {
+    /// Gives a line its part of the solution.
+    fn accept(&self, solution: &[f64], line: &mut ContactLine) {
         let forces = &mut line.traction.port_forces;
-        let (normal, rest) = solution.split_at(self.closed.len());
-        let (tangential, motions) = rest.split_at(self.stuck.len());
+        let (normal, tangential) = solution.split_at(self.closed.len());
         forces.fill(0.0);
         for ((&i, force), friction) in self.closed.iter().zip(normal).zip(&self.friction) {
             let port = line.grid.port(i);
@@ -109,9 +157,6 @@ impl Unknowns {
         }
         for (force, &i) in tangential.iter().zip(&self.stuck) {
             forces[line.grid.port(i)] = *force;
-        }
-        for (value, &k) in motions.iter().zip(&self.axes) {
-            line.traction.rigid[k] = if axes.holds(k) { 0.0 } else { *value };
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
+use super::others::OtherLines;
 use super::retarded::Retarded;
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
@@ -11,17 +12,36 @@ use super::streamline::UpwindRows;
 use crate::contact::limits::RESISTANCE;
 use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
+use nalgebra::DVector;
 
 /// Buffers of a line; nothing in them outlives a solution.
 #[derive(Default)]
 pub struct LineScratch {
     /// Known part of the problem.
     pub given: KnownPart,
+    /// Forces of the other lines.
+    pub others: OtherLines,
     rim: RimAngleRow,
     upwind: UpwindRows,
     retarded: Retarded,
     overlap: Vec<f64>,
     centred_slip: Vec<f64>,
+}
+
+impl LineScratch {
+    /// Finds the known part of a problem for a line that starts from `state` and port `forces`, under rigid
+    /// `accelerations` of the wheel that are known.
+    pub fn find_known(
+        &mut self,
+        grid: &ContactGrid,
+        problem: &LineProblem,
+        (state, forces): (&LineState, &DVector<f64>),
+        accelerations: [f64; 3],
+    ) {
+        self.given.find(grid, problem, state, forces, accelerations);
+        let ports = if problem.bodies.others.is_some() { grid.ports() } else { 0 };
+        self.others.reset(ports);
+    }
 }
 
 /// Compliance of a yielding node over that of its surroundings in a stationary start \[1]: large, but so small that the
@@ -36,6 +56,8 @@ pub struct ContactLine<'a> {
     pub problem: &'a LineProblem<'a>,
     /// Known part of the problem.
     pub given: &'a KnownPart,
+    /// Forces of the other lines in the present iterate.
+    pub others: &'a mut OtherLines,
     pub state: &'a mut LineState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
@@ -61,16 +83,14 @@ pub struct ContactLine<'a> {
 pub type LineStart<'a> = (&'a mut LineState, &'a mut LineHistory, &'a mut Traction);
 
 impl<'a> ContactLine<'a> {
-    /// A line that starts from the given states, under rigid `accelerations` of the wheel that are known.
+    /// A line that starts from the given states; the known part of its problem is that of the `scratch`.
     pub fn new(
         grid: &'a ContactGrid,
         problem: &'a LineProblem<'a>,
-        accelerations: [f64; 3],
         (state, history, traction): LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineScratch { given, rim, upwind, retarded, overlap, centred_slip } = scratch;
-        given.find(grid, problem, state, &traction.port_forces, accelerations);
+        let LineScratch { given, others, rim, upwind, retarded, overlap, centred_slip } = scratch;
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
         }
@@ -83,6 +103,7 @@ impl<'a> ContactLine<'a> {
             grid,
             problem,
             given,
+            others,
             state,
             history,
             traction,
@@ -117,7 +138,7 @@ impl<'a> ContactLine<'a> {
         if self.problem.duration > 0.0 {
             1.0 / (RESISTANCE * self.grid.width(i))
         } else {
-            SOFTER * self.problem.bodies.relative[(port, port)]
+            SOFTER * self.problem.bodies.own.relative[(port, port)]
         }
     }
 
@@ -153,7 +174,8 @@ impl<'a> ContactLine<'a> {
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
     pub fn update_retarded(&mut self) -> f64 {
-        self.retarded.update(self.grid, self.problem, &self.traction.port_forces, &self.given.layers.pull)
+        let own = (&self.traction.port_forces, &self.given.layers.pull);
+        self.retarded.update(self.grid, self.problem, self.others.mean(self.problem.share, own))
     }
 
     /// Slopes of gap and surfaces in the present iterate.

@@ -6,7 +6,7 @@ use super::rim;
 use super::state::LineState;
 use super::strength::Strength;
 use super::vectors::copy;
-use crate::contact::problem::LineProblem;
+use crate::contact::problem::{Influence, LineProblem};
 use nalgebra::DVector;
 
 /// Known part of one problem; nothing in it changes while the forces are sought.
@@ -60,6 +60,13 @@ impl KnownPart {
         self.slip_offset.extend(state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
         self.strength.find(grid, &problem.limits, forces);
         self.find_unevenness(grid, problem);
+    }
+
+    /// Adds the displacements by the `pull` of other lines' hot layers on wheel and rail, at the candidates [N/m].
+    pub fn add_pulls_of_others(&mut self, grid: &ContactGrid, others: &Influence, pull: &[Vec<f64>; 2]) {
+        for (body, pull) in pull.iter().enumerate().filter(|(_, pull)| !pull.is_empty()) {
+            self.layers.add_pull(grid, others.compliance[body], (body, pull), &mut self.displacement[body]);
+        }
     }
 
     /// Adds the depths of wheel and rail below circle and plane to the gap, and takes the slope of the rail.

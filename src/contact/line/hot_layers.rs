@@ -4,7 +4,7 @@ use super::grid::ContactGrid;
 use super::vectors::copy;
 use crate::contact::problem::LineProblem;
 use crate::linalg::vectorised::add_columns;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// Swelling, pull and displacement of the hot layers of wheel and rail.
 #[derive(Default)]
@@ -41,14 +41,40 @@ impl HotLayers {
         for i in 0..=last {
             pull.push(-0.5 * (at_candidates[(i + 1).min(last)] - at_candidates[i.saturating_sub(1)]));
         }
-        // Every other column belongs to a normal force.
-        let columns = &problem.bodies.compliance[body].as_slice()[grid.port(0) * membrane.len()..];
-        add_columns(1.0, columns, 2 * membrane.len(), pull, membrane.as_mut_slice());
+        displace(grid, problem.bodies.own.compliance[body], pull, membrane);
         *known += &*membrane;
+    }
+
+    /// Adds the displacement of one body by the `pull` of other lines' layers, at the candidates [N/m], to that by its
+    /// own and to `known` \[m].
+    pub fn add_pull(
+        &mut self,
+        grid: &ContactGrid,
+        compliance: &DMatrix<f64>,
+        (body, pull): (usize, &[f64]),
+        known: &mut DVector<f64>,
+    ) {
+        let mut by_others = DVector::zeros(known.len());
+        displace(grid, compliance, pull, &mut by_others);
+        let membrane = &mut self.membrane[body];
+        if membrane.is_empty() {
+            membrane.clone_from(&by_others)
+        } else {
+            *membrane += &by_others
+        }
+        *known += by_others;
     }
 
     /// Swelling of one body at candidate `i` \[m].
     pub fn swelling_at(&self, body: usize, i: usize) -> f64 {
         self.swelling[body].get(i).copied().unwrap_or(0.0)
     }
+}
+
+/// Adds the displacement by tangential forces `pull` at the candidates [N/m].
+fn displace(grid: &ContactGrid, compliance: &DMatrix<f64>, pull: &[f64], displacement: &mut DVector<f64>) {
+    let ports = displacement.len();
+    // Every other column belongs to a normal force.
+    let columns = &compliance.as_slice()[grid.port(0) * ports..];
+    add_columns(1.0, columns, 2 * ports, pull, displacement.as_mut_slice());
 }

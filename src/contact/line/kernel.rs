@@ -52,6 +52,42 @@ impl KernelCorrection {
     }
 }
 
+/// Flexibility that every one of several lines side by side has for itself: the surface of a half-plane under the forces
+/// of this line alone, `−κ ln(|x|/L)`.
+#[derive(Clone, Copy, Debug)]
+pub struct LineKernel {
+    /// Displacement along a line force at the distance x is `−κ ln|x|` and a constant: κ of one body [m/(N/m)].
+    pub half_plane: f64,
+    /// Distance L at which a force of the line no longer displaces it by more than forces of other lines do \[m].
+    pub length: f64,
+}
+
+impl LineKernel {
+    /// Compliance of the surface of one body at `nodes` whose distance in the middle is `spacing` \[m], per unit nodal
+    /// force, x and y of every node [m/(N/m)]. At neighbouring nodes its differences are those of the discrete kernel
+    /// `1/(n + ½)`: `κ (ln(L/h) − ψ(|x|/h + ½))` with the digamma function ψ.
+    pub fn matrix(&self, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
+        let n = nodes.len();
+        let at = |i: usize, j: usize| {
+            let distance = (nodes[i] - nodes[j]).abs() / spacing;
+            self.half_plane * ((self.length / spacing).ln() - digamma(distance + 0.5))
+        };
+        DMatrix::from_fn(2 * n, 2 * n, |i, j| if i % 2 == j % 2 { at(i / 2, j / 2) } else { 0.0 })
+    }
+}
+
+/// Digamma function of a positive number, by its recurrence and its asymptotic series (Abramowitz & Stegun, 6.3.5 and
+/// 6.3.18).
+fn digamma(mut x: f64) -> f64 {
+    let mut below = 0.0;
+    while x < 10.0 {
+        below += 1.0 / x;
+        x += 1.0;
+    }
+    let y = 1.0 / (x * x);
+    x.ln() - 0.5 / x - y * (1.0 / 12.0 - y * (1.0 / 120.0 - y * (1.0 / 252.0 - y / 240.0))) - below
+}
+
 impl KernelCorrection {
     /// Elastic energy of the correction under nodal forces [J/m].
     pub fn energy(&self, forces: &nalgebra::DVector<f64>) -> f64 {
@@ -65,5 +101,32 @@ impl KernelCorrection {
             energy += share * (self.tangential[k] * products[0] + self.normal[k] * products[1]);
         }
         energy
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digamma_has_its_known_values() {
+        const EULER: f64 = 0.577_215_664_901_532_9;
+        assert!((digamma(0.5) + EULER + 2.0 * 2f64.ln()).abs() < 1e-14);
+        assert!((digamma(1.0) + EULER).abs() < 1e-14);
+        assert!((digamma(30.5) - digamma(29.5) - 1.0 / 29.5).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {
+        let kernel = LineKernel { half_plane: 2.0, length: 0.03 };
+        let h = 1e-4;
+        let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
+        let matrix = kernel.matrix(&nodes, h);
+        for component in 0..2 {
+            let at = |n: usize| matrix[(2 * n + component, component)];
+            assert!((at(0) - at(1) - 4.0).abs() < 1e-12 && (at(3) - at(4) - 2.0 / 3.5).abs() < 1e-12);
+            assert!((at(150) + 2.0 * (0.015f64 / 0.03).ln()).abs() < 1e-5);
+            assert_eq!(matrix[(2 + component, 1 - component)], 0.0);
+        }
     }
 }

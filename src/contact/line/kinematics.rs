@@ -73,7 +73,7 @@ impl ContactLine<'_> {
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
     fn displace(&mut self, accelerations: [Option<f64>; 3]) {
-        let Self { problem, given, traction, rim, .. } = self;
+        let Self { problem, given, others, traction, rim, .. } = self;
         let bodies = &problem.bodies;
         let forces = traction.port_forces.as_slice();
         let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
@@ -81,11 +81,16 @@ impl ContactLine<'_> {
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
             let surface = &mut traction.surface[body];
             copy(surface, &given.displacement[body]);
-            let columns = &bodies.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
+            let columns =
+                &bodies.own.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
             add_columns(sign, columns, surface.len(), &forces[loaded.clone()], surface.as_mut_slice());
+            if let Some(influence) = &bodies.others {
+                surface.gemv(sign, influence.compliance[body], &others.forces, 1.0);
+            }
         }
         rim.value = rim.constant;
         rim.value += rim.forces.iter().zip(traction.port_forces.iter()).map(|(t, f)| t * f).sum::<f64>();
+        rim.value += rim.others.iter().zip(others.forces.iter()).map(|(t, f)| t * f).sum::<f64>();
         for (k, acceleration) in accelerations.into_iter().enumerate() {
             let Some(acceleration) = acceleration else { continue };
             traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);

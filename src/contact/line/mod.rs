@@ -4,7 +4,7 @@
 //! [`LineState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
 //! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions,
-//! [`streamline`] the upwind differences of the slip, [`kernel`] the correction of the compliance at grid scale,
+//! [`others`] the forces of the lines beside it, [`streamline`] the upwind differences of the slip, [`kernel`] the correction of the compliance at grid scale,
 //! [`slopes`] the slopes against which pressure pushes, [`rim`] the frame that turns with the rim, [`retarded`] the
 //! forces of retarded layers, [`zone`] the ends of the grid, [`regrid`] the change to a wider or narrower grid. Of a
 //! solution [`power`] takes the power, [`observe`] the traction, and [`mod@finish`] both. Theory:
@@ -19,6 +19,7 @@ pub(super) mod hot_layers;
 pub mod kernel;
 pub(super) mod kinematics;
 pub mod observe;
+pub(super) mod others;
 pub(super) mod power;
 pub(super) mod regrid;
 pub(super) mod retarded;

@@ -21,14 +21,13 @@ pub struct Retarded {
 }
 
 impl Retarded {
-    /// Takes the forces that belong to port `forces` on the wheel and to the `pulls` of hot layers [N/m]; returns the
-    /// change of their sum [N/m].
+    /// Takes the forces that belong to port `forces` of all lines on the wheel and to the `pulls` of their hot layers
+    /// [N/m]; returns the change of their sum [N/m].
     pub fn update(
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
-        forces: &DVector<f64>,
-        pulls: &[Vec<f64>; 2],
+        (forces, pulls): (&DVector<f64>, &[Vec<f64>; 2]),
     ) -> f64 {
         let before: f64 = self.force.iter().sum();
         self.force = [0.0; 2];

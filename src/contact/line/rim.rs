@@ -9,7 +9,7 @@
 use super::grid::ContactGrid;
 use crate::contact::problem::SurfaceResponse;
 use crate::linalg::vectorised::add_columns;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// Displacements of the wheel surface as seen from the turned rim.
 #[derive(Clone, Copy)]
@@ -63,6 +63,8 @@ pub(in crate::contact) fn sagitta(grid: &ContactGrid, radius: f64, heights: &mut
 pub struct RimAngleRow {
     /// Coefficients of all port forces [rad/(N/m)].
     pub forces: Vec<f64>,
+    /// Coefficients of the port forces of other lines; empty: there are none.
+    pub others: Vec<f64>,
     /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
     pub accelerations: [f64; 3],
     /// Constant \[rad].
@@ -93,8 +95,16 @@ impl RimAngleRow {
             self.accelerations.iter_mut().enumerate().for_each(|(k, t)| *t += weight * bodies.inertial[(port, k)]);
             self.constant += weight * known[port];
         }
+        let (weights, start) = (&self.weights, first * ports);
         // Every other column belongs to a normal force.
-        let columns = &bodies.compliance[0].as_slice()[first * ports..];
-        add_columns(1.0, columns, 2 * ports, &self.weights, &mut self.forces);
+        let mean = |compliance: &DMatrix<f64>, mean: &mut [f64]| {
+            add_columns(1.0, &compliance.as_slice()[start..], 2 * ports, weights, mean);
+        };
+        mean(bodies.own.compliance[0], &mut self.forces);
+        self.others.clear();
+        if let Some(others) = &bodies.others {
+            self.others.resize(ports, 0.0);
+            mean(others.compliance[0], &mut self.others);
+        }
     }
 }

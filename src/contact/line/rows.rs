@@ -1,6 +1,7 @@
 //! Gap and slip of a line as affine functions of contact forces, rigid motions and their accelerations.
 
 use super::contact_line::ContactLine;
+use crate::contact::problem::Influence;
 use crate::linalg::vectorised::vectorised;
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -16,14 +17,20 @@ pub struct AffineRow {
     pub constant: f64,
 }
 
+/// Effect of nodal forces on gap and slip.
+#[derive(Clone, Copy)]
+struct Effect<'a> {
+    influence: Influence<'a>,
+    /// Coefficients of the forces in the rim angle [rad/(N/m)].
+    rim_angle: &'a [f64],
+}
+
 impl ContactLine<'_> {
     /// `g` at a closed candidate, `g + c (λ_n − Λ)` at one that yields above the force `Λ` \[m]. Writes the force
     /// coefficients of the ports `window` to `forces`.
     pub fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
-        let (rim, x, port) = (&self.rim, self.grid.x[i], self.grid.port(i) + 1);
-        let compliance =
-            column(self.problem.bodies.relative, port)[window.clone()].iter().zip(&rim.forces[window.clone()]);
-        forces[window].iter_mut().zip(compliance).for_each(|(f, (c, t))| *f = c - x * t);
+        let port = self.grid.port(i) + 1;
+        self.gap_by_forces(i, self.own_forces(), window, forces);
         let mut row = self.gap_terms(i);
         if self.state.yielded[i] {
             let creep = self.creep(i);
@@ -31,6 +38,71 @@ impl ContactLine<'_> {
             row.constant -= creep * self.given.strength.limit[i];
         }
         row
+    }
+
+    /// Effect of the line's own forces.
+    fn own_forces(&self) -> Effect<'_> {
+        Effect { influence: self.problem.bodies.own, rim_angle: &self.rim.forces }
+    }
+
+    /// Effect of the forces of other lines, each weighted with its share of the width; `None`: there are none.
+    fn forces_of_others(&self) -> Option<Effect<'_>> {
+        let influence = self.problem.bodies.others?;
+        Some(Effect { influence, rim_angle: &self.rim.others })
+    }
+
+    /// Writes the change of the gap at a candidate with the forces of another line that has a `share` of the width, at
+    /// the ports `window` to `forces`.
+    pub fn gap_by_other(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
+        let Some(effect) = self.forces_of_others() else { return };
+        self.gap_by_forces(i, effect, window.clone(), forces);
+        forces[window].iter_mut().for_each(|force| *force *= share);
+    }
+
+    /// Writes the change of the slip at a candidate with the forces of another line that has a `share` of the width, at
+    /// the ports `window` to `forces`.
+    pub fn slip_by_other(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
+        let Some(effect) = self.forces_of_others() else { return };
+        let (row, to_right) = (self.upwind.row(i), self.upstream_right());
+        let (stencil, [stretch, _]) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
+        let by_angle = self.slip_by_angle(&stencil, stretch);
+        self.slip_by_forces(i, effect, (stencil, by_angle), window.clone(), forces);
+        forces[window].iter_mut().for_each(|force| *force *= share);
+    }
+
+    fn gap_by_forces(&self, i: usize, effect: Effect, window: Range<usize>, forces: &mut [f64]) {
+        let (x, port) = (self.grid.x[i], self.grid.port(i) + 1);
+        let compliance = column(effect.influence.relative, port)[window.clone()].iter();
+        let both = compliance.zip(&effect.rim_angle[window.clone()]);
+        forces[window].iter_mut().zip(both).for_each(|(f, (c, t))| *f = c - x * t);
+    }
+
+    /// Change of the slip with the forces, given the upwind stencil and the change with the rim angle.
+    fn slip_by_forces(
+        &self,
+        i: usize,
+        effect: Effect,
+        (stencil, by_angle): ([(usize, f64); 3], f64),
+        window: Range<usize>,
+        forces: &mut [f64],
+    ) {
+        let (v, velocity, gain) = (self.traction.rigid[0], self.rim_velocity(), self.problem.time.a0);
+        let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
+        let upstream = stencil.map(|(at, weight)| {
+            let [wheel, rail] = effect.influence.compliance.map(|matrix| of_node(matrix, at));
+            [(rail, -v * weight), (wheel, -velocity * weight)]
+        });
+        let [[a, b], [c, d], [e, f]] = upstream;
+        let own = (of_node(effect.influence.relative, self.grid.port(i)), gain);
+        combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, (&effect.rim_angle[window], by_angle)]);
+    }
+
+    /// Change of the slip with the rim angle [m/s/rad], given the upwind stencil and the stretch of the wheel: a turn of
+    /// the rim tilts the surface and slows the rim.
+    fn slip_by_angle(&self, stencil: &[(usize, f64); 3], stretch: f64) -> f64 {
+        let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
+        let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
+        self.rim_velocity() * tilt + self.problem.radius() * self.problem.time.a0 * stretch
     }
 
     /// The gap at a candidate without that by contact forces and by the rim angle with them \[m].
@@ -64,19 +136,8 @@ impl ContactLine<'_> {
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, row, to_right);
-        // A turn of the rim tilts the surface and slows the rim.
-        let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
-        let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
-        let by_angle = velocity * tilt + problem.radius() * gain * stretch_wheel;
-        let rim = &self.rim;
-        let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
-        let upstream = stencil.map(|(at, weight)| {
-            let [wheel, rail] = bodies.compliance.map(|matrix| of_node(matrix, at));
-            [(rail, -v * weight), (wheel, -velocity * weight)]
-        });
-        let [[a, b], [c, d], [e, f]] = upstream;
-        let own = (of_node(bodies.relative, port), gain);
-        combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, (&rim.forces[window.clone()], by_angle)]);
+        let (rim, by_angle) = (&self.rim, self.slip_by_angle(&stencil, stretch_wheel));
+        self.slip_by_forces(i, self.own_forces(), (stencil, by_angle), window, forces);
         accelerations.iter_mut().zip(rim.accelerations).for_each(|(load, t)| *load += by_angle * t);
         constant += by_angle * (rim.constant - self.frame.rim_angle);
         let motions = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];

@@ -11,7 +11,7 @@ use super::constants::{Constants, LayerSamples, LayerTables, PARTS};
 use super::surface::AtPoints;
 use super::tables::{QUADRATURE, SMOOTH};
 use crate::analytic::HalfPlane;
-use crate::contact::problem::ContactProblem;
+use crate::contact::problem::SingleLine;
 use crate::linalg::POINTS;
 use crate::piecewise::Piecewise;
 use nalgebra::Complex;
@@ -159,7 +159,7 @@ pub struct SeriesLayers {
 
 impl SeriesLayers {
     /// Layers of a problem that come from contact on `patch`; `None` where nothing is warm.
-    pub fn new(constants: &Constants, problem: &ContactProblem, patch: &Arch) -> Option<Self> {
+    pub fn new(constants: &Constants, problem: &SingleLine, patch: &Arch) -> Option<Self> {
         let (force, swelling) = (problem.line.membrane, problem.line.placement.swelling);
         if force.iter().chain(&swelling).all(|layer| layer.is_empty()) {
             return None;

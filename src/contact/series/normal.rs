@@ -68,7 +68,7 @@ impl SeriesLine<'_> {
             + self.warm(&[at], |layers, x| layers.gap.at(x))[0];
         let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(&[at])[0];
         let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid[1] + half_planes;
-        let compliances = problem.line.bodies.compliance;
+        let compliances = problem.line.bodies.own.compliance;
         let smooth: f64 = compliances.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
         let by_load = smooth - 2.0 * half_plane.kernel * (0.5 * pressure.half_width).ln();
         let lifted: f64 = (0..POINTS).map(|k| values[k] * problem.line.bodies.inertial[(2 * k + 1, 1)]).sum();

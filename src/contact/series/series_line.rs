@@ -6,7 +6,7 @@ use super::state::{SeriesState, Tractions};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, dot};
 use super::tables::{POWER, QUADRATURE};
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{AxisDrive, ContactProblem};
+use crate::contact::problem::{AxisDrive, SingleLine};
 
 /// A place of integration with everything that does not depend on shear.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,7 +24,7 @@ pub struct QuadraturePlace {
 /// Contact on a single patch in the present iterate.
 pub struct SeriesLine<'a> {
     pub constants: &'a Constants,
-    pub problem: &'a ContactProblem<'a>,
+    pub problem: SingleLine<'a>,
     pub before: &'a SeriesState,
     pub history: &'a LineHistory,
     /// Hot layers; `None`: the surfaces are cold.
@@ -55,14 +55,14 @@ pub struct SeriesLine<'a> {
 impl<'a> SeriesLine<'a> {
     pub fn new(
         constants: &'a Constants,
-        problem: &'a ContactProblem<'a>,
+        problem: SingleLine<'a>,
         (before, history): (&'a SeriesState, &'a LineHistory),
         height: f64,
     ) -> Self {
         let start = |k: usize| problem.rigid[k].start();
         let hub = problem.rigid[1].target().unwrap_or(height);
         let none = [QuadraturePlace::default(); QUADRATURE];
-        let layers = SeriesLayers::new(constants, problem, &before.tractions.pressure);
+        let layers = SeriesLayers::new(constants, &problem, &before.tractions.pressure);
         Self {
             constants,
             problem,
@@ -74,7 +74,7 @@ impl<'a> SeriesLine<'a> {
             rigid: [start(0), hub, start(2)],
             slope: before.slope,
             rim_angle: history.rim_angle.now,
-            friction: problem.friction.coefficient(0.0),
+            friction: problem.line.friction.coefficient(0.0),
             pressed: none,
             stuck: none,
             moments: Moments::default(),
@@ -180,7 +180,7 @@ impl<'a> SeriesLine<'a> {
     /// Smooth displacements under the present tractions, and the rim angle: the mean of `û_x` over the pressure
     /// vanishes.
     pub fn displace(&mut self) {
-        self.surface = SmoothSurfaces::new(self.problem, &self.moments, &self.pulls, self.accelerations());
+        self.surface = SmoothSurfaces::new(&self.problem, &self.moments, &self.pulls, self.accelerations());
         let (radius, kernel, slide) =
             (self.problem.line.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
         let (mut sum, mut arm) = (0.0, 0.0);

@@ -95,7 +95,7 @@ impl SeriesLine<'_> {
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
         let moments = self.terms();
         let base = Moments { tangential: self.moments.normal.map(|m| self.tractions.slide * m), ..self.moments };
-        let surface = SmoothSurfaces::new(self.problem, &base, &self.pulls, self.accelerations());
+        let surface = SmoothSurfaces::new(&self.problem, &base, &self.pulls, self.accelerations());
         let mut rows = StickEquations::new(STICK + axes.len());
         let kernels = self.convected();
         let places = tables.stick.map(|t| centre + half * t);
@@ -144,7 +144,7 @@ impl SeriesLine<'_> {
 
     /// Effect of tangential forces on the slip by the smooth displacements: by their values and by their slopes.
     fn convected(&self) -> [[AtPoints; POINTS]; 2] {
-        let ([wheel, rail], v, rim) = (self.problem.line.bodies.compliance, self.rigid[0], self.rim_velocity());
+        let ([wheel, rail], v, rim) = (self.problem.line.bodies.own.compliance, self.rigid[0], self.rim_velocity());
         let a0 = self.problem.line.time.a0;
         let entry = |matrix: &nalgebra::DMatrix<f64>, k: usize, l: usize| matrix[(2 * k, 2 * l)];
         let value = |k, l| a0 * (entry(wheel, k, l) + entry(rail, k, l));

@@ -10,7 +10,7 @@ use crate::analytic::HalfPlane;
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{AxisDrive, ContactProblem};
+use crate::contact::problem::{AxisDrive, ContactProblem, SingleLine};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
@@ -62,7 +62,7 @@ impl SeriesSolver {
     }
 
     /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
-    fn check(&self, problem: &ContactProblem, before: &SeriesState) -> Result<(), ContactError> {
+    fn check(&self, problem: &SingleLine, before: &SeriesState) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (problem.line.surfaces, &problem.line.placement, &problem.line.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
         if !surfaces.is_smooth() {
@@ -77,7 +77,7 @@ impl SeriesSolver {
         if !limits.film.is_empty() {
             return refuse("a surface melts");
         }
-        if problem.friction.varies() {
+        if problem.line.friction.varies() {
             return refuse("the friction coefficient depends on the slip");
         }
         if problem.line.time.b1 != 0.0 {
@@ -93,7 +93,7 @@ impl SeriesSolver {
     }
 
     /// Refuses a solution under which steel yields.
-    fn check_limits(problem: &ContactProblem, traction: &Traction) -> Result<(), ContactError> {
+    fn check_limits(problem: &SingleLine, traction: &Traction) -> Result<(), ContactError> {
         let limits = &problem.line.limits;
         // Where it sticks friction shears the steel less; that is for the grid to find out.
         let bears = |x: f64| limits.sheared_at(x, traction.friction.coefficient);
@@ -102,6 +102,33 @@ impl SeriesSolver {
         let any = limits.is_limited()
             && (traction.pressure_max > bears(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
         if any { Err(ContactError::Unsuited { reason: "steel yields" }) } else { Ok(()) }
+    }
+}
+
+impl SeriesSolver {
+    /// Solves the contact of a single patch.
+    fn solve_patch(
+        &self,
+        problem: &SingleLine,
+        (start, before): (&ContactState, &SeriesState),
+        found: &mut ContactState,
+    ) -> Result<(), ContactError> {
+        if problem.line.bodies.own.relative.nrows() != 2 * POINTS {
+            return Err(ContactError::ForeignState);
+        }
+        self.check(problem, before)?;
+        let mut line = SeriesLine::new(&self.constants, *problem, (before, &start.history), start.traction.rigid[1]);
+        stick::solve(&mut line)?;
+        let ContactState { ports, traction, history, energy, solver } = found;
+        match solver {
+            SolverState::Series(state) => (**state).clone_from(before),
+            SolverState::Line(_) | SolverState::Stateless => *solver = SolverState::Series(Box::new(before.clone())),
+        }
+        let SolverState::Series(state) = solver else { return Err(ContactError::ForeignState) };
+        history.copy_from(&start.history);
+        *ports = start.ports;
+        *energy = finish::finish(&line, state, history, traction);
+        Self::check_limits(problem, traction)
     }
 }
 
@@ -128,36 +155,28 @@ impl ContactSolver for SeriesSolver {
     fn solve(
         &self,
         problem: &ContactProblem,
-        start: &ContactState,
-        found: &mut ContactState,
+        start: &[&ContactState],
+        found: &mut [&mut ContactState],
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let before = match &start.solver {
-            SolverState::Series(before) => before,
-            SolverState::Line(_) | SolverState::Stateless => {
-                self.grid.solve(problem, start, found, scratch)?;
-                if let (SolverState::Line(line), false) = (&mut found.solver, problem.line.time.is_stationary()) {
-                    line.rest = line.rest.saturating_sub(1);
-                }
-                return Ok(());
-            }
+        let before = match start {
+            [start] => match &start.solver {
+                SolverState::Series(before) => Some((*start, before)),
+                SolverState::Line(_) | SolverState::Stateless => None,
+            },
+            _ => None,
         };
-        if problem.line.bodies.relative.nrows() != 2 * POINTS {
-            return Err(ContactError::ForeignState);
+        if let Some((start, before)) = before {
+            let [found] = found else { return Err(ContactError::ForeignState) };
+            return self.solve_patch(&problem.single()?, (start, before), found);
         }
-        self.check(problem, before)?;
-        let mut line = SeriesLine::new(&self.constants, problem, (before, &start.history), start.traction.rigid[1]);
-        stick::solve(&mut line)?;
-        let ContactState { ports, traction, history, energy, solver } = found;
-        match solver {
-            SolverState::Series(state) => state.clone_from(before),
-            SolverState::Line(_) | SolverState::Stateless => *solver = SolverState::Series(before.clone()),
+        self.grid.solve(problem, start, found, scratch)?;
+        for (found, problem) in found.iter_mut().zip(&problem.lines) {
+            if let (SolverState::Line(line), false) = (&mut found.solver, problem.time.is_stationary()) {
+                line.rest = line.rest.saturating_sub(1);
+            }
         }
-        let SolverState::Series(state) = solver else { return Err(ContactError::ForeignState) };
-        history.copy_from(&start.history);
-        *ports = start.ports;
-        *energy = finish::finish(&line, state, history, traction);
-        Self::check_limits(problem, traction)
+        Ok(())
     }
 
     fn fits(&self, state: &ContactState) -> bool {

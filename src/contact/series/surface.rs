@@ -1,6 +1,6 @@
 //! Smooth part of the surface displacements: by forces, accelerations and the past, half-planes apart.
 
-use crate::contact::problem::ContactProblem;
+use crate::contact::problem::SingleLine;
 use crate::linalg::POINTS;
 use nalgebra::DMatrix;
 
@@ -45,10 +45,10 @@ pub fn plus<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
 impl SmoothSurfaces {
     /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on
     /// wheel and rail; `accelerations` are the rigid ones.
-    pub fn new(problem: &ContactProblem, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
+    pub fn new(problem: &SingleLine, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
         let bodies = &problem.line.bodies;
         let body = |index: usize, sign: f64| {
-            let (free, compliance) = (bodies.free[index], bodies.compliance[index]);
+            let (free, compliance) = (bodies.free[index], bodies.own.compliance[index]);
             let mut own = PolynomialValues::default();
             for k in 0..POINTS {
                 let (mut t, mut n) = (free[2 * k], free[2 * k + 1]);

@@ -40,21 +40,26 @@ const THERMAL_SCATTER: f64 = 1e-3;
 pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
     inputs.validate()?;
     let goal = Goal::new(model, inputs)?;
-    let mut state = settle(model, tuning, &goal, None, workspace)?;
+    let mut state = settle(model, tuning, &goal, Vec::new(), workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
-        let contact = thermal.contact(&model.contact, &state.contact, goal.drive.temperature);
-        let mut temperatures = match model.config.initial.temperature {
-            StartTemperature::Uniform => thermal.uniform(&contact)?,
-            StartTemperature::Stationary => {
-                thermal.stationary(&state, &contact, brake::tread_heat(model, &goal.drive, state.hub.brake.power))?
+        let lines = state.lines.iter().map(|line| {
+            let contact = thermal.contact(&model.contact, &line.contact, goal.drive.temperature);
+            let mut temperatures = match model.config.initial.temperature {
+                StartTemperature::Uniform => thermal.uniform(&contact)?,
+                StartTemperature::Stationary => {
+                    let tread_heat = brake::tread_heat(model, &goal.drive, state.hub.brake.power);
+                    thermal.stationary(&state.motion, &contact, tread_heat)?
+                }
+            };
+            if let (Some(before), true) = (&line.thermal, averaged > 0) {
+                thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
             }
-        };
-        if let (Some(before), true) = (&state.thermal, averaged > 0) {
-            thermal.average(&mut temperatures, before, 1.0 / f64::from(averaged + 1));
-        }
-        let settled = settle(model, tuning, &goal, Some(temperatures), workspace)?;
+            Ok(Some(temperatures))
+        });
+        let temperatures = lines.collect::<Result<Vec<_>, StepError>>()?;
+        let settled = settle(model, tuning, &goal, temperatures, workspace)?;
         let before = std::mem::replace(&mut change, difference(model, &state, &settled));
         state = settled;
         if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {
@@ -71,13 +76,12 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
 /// whatever the temperatures, of the creepage relative to the one that strains the patch by its own width over the
 /// radius.
 fn difference(model: &Model, before: &State, now: &State) -> f64 {
-    let (from, to) = (&before.contact.traction, &now.contact.traction);
-    let force =
-        (0..2).map(|k| (to.resultant[k] - from.resultant[k]).abs()).fold(0.0, f64::max) / scale(model, to.resultant);
+    let ([from, to], half_width) = ([before, now].map(State::resultant), now.half_width());
+    let force = (0..2).map(|k| (to[k] - from[k]).abs()).fold(0.0, f64::max) / scale(model, to);
     let [v, v_before] = [now, before].map(|state| state.motion.velocity.now);
     let [v_c, v_c_before] = [now, before].map(|state| model.wheel.radius * state.motion.omega.now);
     let speed = v.abs() + v_c.abs();
     let slip = ((v - v_c) - (v_before - v_c_before)).abs() * model.wheel.radius;
-    let creepage = if speed > 0.0 && to.half_width() > 0.0 { slip / (speed * to.half_width()) } else { 0.0 };
+    let creepage = if speed > 0.0 && half_width > 0.0 { slip / (speed * half_width) } else { 0.0 };
     force.max(creepage)
 }

@@ -4,9 +4,11 @@ use super::super::audit;
 use super::super::contact_model::ContactStep;
 use super::super::error::StepError;
 use super::super::flattening;
+use super::super::lines::Line;
 use super::super::model::{Model, Workspace};
-use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State, ThermalState, Weakening};
+use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State, ThermalState};
 use super::super::substeps;
+use super::super::thermal;
 use super::super::zones;
 use super::goal::{Goal, Trial};
 use crate::config::Tuning;
@@ -33,12 +35,12 @@ pub(super) fn scale(model: &Model, resultant: [f64; 3]) -> f64 {
     resultant[1].abs().max(SLIGHT * model.contact.nominal_line_load())
 }
 
-/// Stationary contact at given temperatures.
+/// Stationary contact at given temperatures of every line.
 pub(super) fn settle(
     model: &Model,
     tuning: &Tuning,
     goal: &Goal,
-    thermal: Option<ThermalState>,
+    thermal: Vec<Option<ThermalState>>,
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
     let load = goal.drive.pressing() / model.wheel.width;
@@ -49,20 +51,18 @@ pub(super) fn settle(
         hub: HubForces { prescribed, ..HubForces::default() },
         wheel,
         rail,
-        contact: model.contact.hertzian_guess(load),
+        lines: lines(model, load, thermal),
         available_friction: goal.drive.friction,
-        flattening: flattening::none(model),
-        thermal,
         ..State::default()
     };
-    let radius = model.wheel.radius + state.deformation().radius_growth;
+    let radius = model.rolling_radius(&state);
     let mut trial = goal.trial(radius);
-    let friction = friction(tuning, goal, &state);
+    let friction = &friction(tuning, goal, &state);
     let mut next = state.clone();
     let mut change = f64::INFINITY;
     for number in 0..MAX_PASSES {
         // The first pass finds out where wheel and rail touch, and whether they do.
-        let touching = number > 0 && state.contact.traction.resultant[1] > 0.0;
+        let touching = number > 0 && state.resultant()[1] > 0.0;
         let sought = goal.sought.filter(|_| touching);
         let pass = Pass { model, goal, friction, sought };
         let mut passed = pass.run(&state, &mut trial, workspace, &mut next);
@@ -88,19 +88,36 @@ pub(super) fn settle(
     Ok(complete(model, goal, &trial, state))
 }
 
-/// Friction at given temperatures. A wheel at rest does not slip, although its contact is that of slow rolling.
-fn friction(tuning: &Tuning, goal: &Goal, state: &State) -> Friction {
-    let heating = state.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
+/// Lines that touch and stick under about the `load` [N/m], with given temperatures.
+fn lines(model: &Model, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
+    let mut temperatures = thermal.into_iter();
+    let line = |share: &f64| Line {
+        share: *share,
+        contact: model.contact.hertzian_guess(load),
+        flattening: flattening::none(model),
+        worn: 0.0,
+        thermal: temperatures.next().flatten(),
+    };
+    let mut lines: Vec<_> = model.contact.shares.iter().map(line).collect();
+    thermal::share_growth(&mut lines);
+    lines
+}
+
+/// Friction of every line at given temperatures. A wheel at rest does not slip, although its contact is that of slow
+/// rolling.
+fn friction(tuning: &Tuning, goal: &Goal, state: &State) -> Vec<Friction> {
     let law = FrictionLaw::from(tuning);
     let law = if goal.moving { law } else { law.at_rest() };
-    Friction::local(law, goal.drive.friction, heating, 0.0)
+    let heating = |line: &Line| line.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
+    state.lines.iter().map(|line| Friction::local(law, goal.drive.friction, heating(line), 0.0)).collect()
 }
 
 /// One pass: contact at the present deformation and accelerations, then deformation and accelerations of its forces.
 struct Pass<'a> {
     model: &'a Model,
     goal: &'a Goal,
-    friction: Friction,
+    /// Friction of every line.
+    friction: &'a [Friction],
     /// The axis whose speed is sought in this pass.
     sought: Option<usize>,
 }
@@ -128,26 +145,22 @@ impl Pass<'_> {
         let contact = ContactStep {
             operators: &operators,
             free,
-            rigid: goal.motions(model, trial, self.sought, state.contact.traction.rigid[1], free[0].momentum),
+            rigid: goal.motions(model, trial, self.sought, state.rigid()[1], free[0].momentum),
             time: td,
             duration: 0.0,
-            place: [0.0, -state.contact.rim_angle()],
+            place: [0.0; 2],
             elevation: goal.drive.elevation,
-            deformation: state.deformation(),
-            flattening: &state.flattening,
-            weakening: state.weakening(),
+            cold_steel: false,
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };
-        let mut solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
-        let weakening = state.weakening();
+        let mut solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
         if let Err(ContactError::NotConverged { .. }) = solved
-            && !weakening.strength.is_empty()
+            && state.lines.iter().any(|line| !line.weakening().strength.is_empty())
         {
             // On coarse meshes a very hot contact may find no state that yields: then the first steps yield.
-            let cold = Weakening { film: weakening.film.clone(), ..Weakening::NONE };
-            let contact = ContactStep { weakening: &cold, ..contact };
-            solved = model.contact.solve(&contact, &state.contact, &mut next.contact, &mut workspace.contact);
+            let contact = ContactStep { cold_steel: true, ..contact };
+            solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
         }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
             Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => {
@@ -158,8 +171,8 @@ impl Pass<'_> {
         let accelerations = trial.accelerations;
         model.bodies.commit(&operators, free, accelerations, &td, state, next);
 
-        let resultant = next.contact.traction.resultant;
-        let [v, _, omega] = next.contact.traction.rigid;
+        let resultant = next.resultant();
+        let [v, _, omega] = next.rigid();
         trial.speeds = [v, omega];
         trial.accelerations = goal.accelerations(model.wheel.inertia, trial.speeds, resultant);
         next.hub.force = std::array::from_fn(|k| match goal.drives[k] {
@@ -168,8 +181,11 @@ impl Pass<'_> {
         });
         next.hub.driving = next.hub.force;
         let unbalanced = |k: usize| (trial.accelerations[k] - accelerations[k]).abs() * model.wheel.inertia[k];
-        let (now, before) = (&next.contact.traction.port_forces, &state.contact.traction.port_forces);
-        let change = now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let lines = next.lines.iter().zip(&state.lines).map(|(next, line)| {
+            let (now, before) = (&next.contact.traction.port_forces, &line.contact.traction.port_forces);
+            now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        });
+        let change = lines.fold(0.0, f64::max);
         Ok((0..3).map(unbalanced).fold(change, f64::max) / scale(model, resultant))
     }
 
@@ -177,8 +193,8 @@ impl Pass<'_> {
     fn check_adhesion(&self, state: &State, trial: &Trial, share: f64) -> Result<(), StepError> {
         let width = self.model.wheel.width;
         let asked = self.goal.tangential_force(self.model.wheel.inertia, trial) * width;
-        let load = state.contact.traction.resultant[1] * width;
-        let friction = state.contact.traction.friction.coefficient;
+        let load = state.resultant()[1] * width;
+        let friction = state.friction();
         let carried = friction * load;
         if self.sought.is_none() || asked.abs() < share * carried {
             return Ok(());
@@ -191,15 +207,15 @@ impl Pass<'_> {
 /// Everything of the state that follows from the settled contact.
 fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> State {
     if !goal.moving {
-        state.contact.rest();
+        state.lines.iter_mut().for_each(|line| line.contact.rest());
     }
     let ([velocity, omega], accelerations) = (goal.actual(trial.speeds), trial.accelerations);
-    let traction = &mut state.contact.traction;
-    traction.rigid = [velocity, traction.rigid[1], omega];
+    let [_, height, _] = state.rigid();
+    state.lines.iter_mut().for_each(|line| line.contact.traction.rigid = [velocity, height, omega]);
     state.motion = Motion {
         velocity: History { rate: accelerations[0], ..History::constant(velocity) },
         omega: History { rate: accelerations[2], ..History::constant(omega) },
-        height: History::constant(traction.rigid[1]),
+        height: History::constant(height),
         hub_velocity: History::default(),
         ..state.motion
     };
@@ -209,8 +225,8 @@ fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> Stat
     state.hub.force[2] = goal.given[2].loads().map_or(state.hub.force[2], |[load, _]| load + state.hub.brake.moment);
     state.hub.driving = state.hub.force;
     state.clock.control = substeps::unlimited(model, &state);
-    state.friction_power = state.contact.traction.friction.power;
+    state.friction_power = state.sum(|line| line.contact.traction.friction.power);
     state.audit = audit::start(model, &state);
-    state.pressing = Pressing::constant(state.contact.traction.resultant[1]);
+    state.pressing = Pressing::constant(state.resultant()[1]);
     state
 }

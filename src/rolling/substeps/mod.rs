@@ -151,7 +151,7 @@ fn march(
         place.halve();
     }
     let (mut last_step, mut failures, mut begun, mut counts) = (state.clock.last_step, 0, false, [0, 0]);
-    let (mut flows, mut pressing) = (HeatFlows::default(), state.pressing.begun());
+    let (mut flows, mut pressing) = (Vec::new(), state.pressing.begun());
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
@@ -186,9 +186,10 @@ fn march(
         if control.grows(&found, dt) {
             place.join(fewest);
         }
-        counts = [counts[0] + 1, counts[1] + next.contact.traction.iterations as u64];
-        if let Some(thermal) = &next.thermal {
-            flows.add(dt / ramp.h, &thermal.flows);
+        counts = [counts[0] + 1, counts[1] + next.iterations() as u64];
+        flows.resize(next.lines.len(), HeatFlows::default());
+        for (flows, line) in flows.iter_mut().zip(&next.lines) {
+            line.thermal.iter().for_each(|thermal| flows.add(dt / ramp.h, &thermal.flows));
         }
         pressing.add(next, dt);
         last_step = next.clock.last_step;
@@ -198,8 +199,8 @@ fn march(
     (now.clock.control, now.pressing) = (control.memory, pressing);
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
     now.hub.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
-    if let Some(thermal) = &mut now.thermal {
-        thermal.flows = flows;
+    for (line, flows) in now.lines.iter_mut().zip(flows) {
+        line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
     }
     [now.clock.internal_steps, now.clock.iterations] = counts;
     Ok(())

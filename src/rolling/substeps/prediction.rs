@@ -23,6 +23,7 @@
 //! at standstill, too, and short steps need not follow what the elasticity of the patch takes up. What a prescribed
 //! velocity explains of a missed slip is no error.
 
+use crate::rolling::lines::Line;
 use crate::rolling::model::Model;
 use crate::rolling::state::{Controlled, State};
 
@@ -35,13 +36,14 @@ const AIRBORNE: f64 = 8.0;
 
 /// The predicted quantities of a state.
 pub fn controlled(model: &Model, state: &State) -> Controlled {
-    let (traction, accelerations) = (&state.contact.traction, state.motion.accelerations());
+    let accelerations = state.motion.accelerations();
     Controlled {
-        forces: traction.resultant,
+        forces: state.resultant(),
         resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.hub.driving[k]),
         damper: model.wheel.damper_force(state),
-        slip: traction.friction.tread_slip,
-        temperatures: state.thermal.as_ref().map_or([0.0; 2], |thermal| thermal.loaded_mean),
+        slip: state.tread_slip(),
+        temperatures: [0, 1]
+            .map(|body| state.sum(|line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.loaded_mean[body]))),
         velocity: state.motion.velocity.now,
         omega: state.motion.omega.now,
     }
@@ -79,7 +81,7 @@ impl Found {
         let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let arms = [1.0, 1.0, radius];
-        let flies = !touching(from) && !touching(to);
+        let flies = !from.touches() && !to.touches();
         let force = |k: usize| match flies && !to.hub.prescribed[k] {
             true => missed(&|c| c.resisting[k]).abs() / (AIRBORNE * load * arms[k]),
             false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
@@ -89,7 +91,7 @@ impl Found {
             error = error.max(missed(&|c| c.damper).abs() / load);
         }
         // What slip and temperature of the patch are without a patch is a convention.
-        if touching(from) && touching(to) {
+        if from.touches() && to.touches() {
             let [translation, _, rotation] = to.hub.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
             let explained = missed(&|c| translation * c.velocity - rotation * radius * c.omega).abs();
             let half_width = model.contact.nominal_half_width();
@@ -106,17 +108,13 @@ impl Found {
         let bound = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
         let (heating, molten) = (rise.abs(), hottest > bound && rise > 0.0);
         let overheats = molten && hottest - rise <= bound;
-        let yields = to.contact.traction.yielding.share > 0.0;
-        let strikes = touching(from) != touching(to);
+        let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
+        let strikes = from.touches() != to.touches();
         Self { error, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
     }
 }
 
-fn touching(state: &State) -> bool {
-    !state.contact.traction.patches.is_empty()
-}
-
 /// Highest rise of temperature in the contact [K].
 fn hottest(state: &State) -> f64 {
-    state.thermal.as_ref().map_or(0.0, |thermal| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max))
+    state.largest(Line::hottest)
 }

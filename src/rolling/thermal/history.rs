@@ -5,7 +5,7 @@ use crate::config::{Config, Tuning};
 use crate::damage::{Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 use crate::heat::{HeatModel, HeatState, Observation};
 use crate::piecewise::interpolate;
-use crate::rolling::state::State;
+use crate::rolling::state::Motion;
 
 /// Follows the material of the wheel through the temperature field of the contact.
 #[derive(Clone, Debug)]
@@ -51,11 +51,11 @@ impl MaterialHistory {
         self.spots.begin([temperatures.wheel_max, temperatures.rail_max])
     }
 
-    /// Advances a history by a step of `dt` \[s] that led to `next`.
+    /// Advances a history by a step of `dt` \[s] that ended with the `motion` of the wheel.
     pub fn advance(
         &self,
         damage: &mut Damage,
-        next: &State,
+        motion: &Motion,
         dt: f64,
         criteria: Criteria,
         contact: &ThermalContact,
@@ -65,8 +65,8 @@ impl MaterialHistory {
         let patch = contact.traction.extent();
         let moment = TreadStep {
             dt,
-            angle: next.motion.angle,
-            omega: next.motion.omega.now,
+            angle: motion.angle,
+            omega: motion.omega.now,
             contact_length: patch.map_or(0.0, |patch| patch.high - patch.low),
             contact_reach: patch.map_or(0.0, |patch| patch.high.max(-patch.low)),
             hottest: [temperatures.wheel_max, temperatures.rail_max],

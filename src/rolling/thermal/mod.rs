@@ -13,8 +13,9 @@ mod weakening;
 
 use super::contact_model::ContactModel;
 use super::error::StepError;
+use super::lines::Line;
 use super::profile::{PROFILE_POINTS, profile_points};
-use super::state::{State, ThermalDeformation, ThermalState, Weakening};
+use super::state::{Motion, ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{ContactState, Heating};
 use crate::damage::Criteria;
@@ -181,11 +182,11 @@ impl ThermalModel {
     /// the excess temperature.
     pub fn stationary(
         &self,
-        state: &State,
+        motion: &Motion,
         contact: &ThermalContact,
         tread_heat: f64,
     ) -> Result<ThermalState, StepError> {
-        let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
+        let (v, omega) = (motion.velocity.now, motion.omega.now);
         let mut exchange = Exchange::default();
         contact.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
         let (fields, flows) = self.heat.after_long_rolling(v, omega, &exchange, self.wheel_excess)?;
@@ -201,12 +202,12 @@ impl ThermalModel {
         Ok(thermal)
     }
 
-    /// The heat step that belongs to a mechanical step: from the temperatures `before` with the contact and the motion
-    /// of `next`; `thermal` gives its memory for the result.
+    /// The heat step of a line that belongs to a mechanical step: from the temperatures `before` with the `contact` and the
+    /// `motion` at its end; `thermal` gives its memory for the result.
     pub fn step(
         &self,
         before: &ThermalState,
-        next: &State,
+        motion: &Motion,
         contact: &ThermalContact,
         step: HeatStep,
         mut thermal: ThermalState,
@@ -216,7 +217,7 @@ impl ThermalModel {
         let ThermalScratch { heat, exchange, view } = scratch;
         thermal.weakening.film.clone_from(&before.weakening.film);
         contact.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
-        let (v, omega) = (next.motion.velocity.now, next.motion.omega.now);
+        let (v, omega) = (motion.velocity.now, motion.omega.now);
         thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
         self.observe(contact, dt, &mut thermal, view)?;
         thermal.heating.before = before.heating.now;
@@ -224,7 +225,7 @@ impl ThermalModel {
         thermal.damage.copy_from(&before.damage);
         let seen =
             ObservedStep { field: (&*self.heat, &thermal.fields), observation: &view.seen, zone: self.heat.zone_x() };
-        self.history.advance(&mut thermal.damage, next, dt, criteria, contact, &seen);
+        self.history.advance(&mut thermal.damage, motion, dt, criteria, contact, &seen);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));
@@ -317,6 +318,17 @@ impl ThermalModel {
         let kelvin = |t: &mut f64| *t += self.reference;
         fields.iter_mut().for_each(|field| field.temperature.iter_mut().for_each(kelvin));
         Ok(fields)
+    }
+}
+
+/// Lets the wheel grow by the mean of its bulk temperatures under all lines.
+pub fn share_growth(lines: &mut [Line]) {
+    if lines.len() < 2 {
+        return;
+    }
+    let growth = lines.iter().map(|line| line.share * line.deformation().radius_growth).sum();
+    for thermal in lines.iter_mut().filter_map(|line| line.thermal.as_mut()) {
+        thermal.deformation.radius_growth = growth;
     }
 }
 

@@ -11,26 +11,27 @@
 use super::patch_inverse::KeptInverses;
 use super::pressure_shear::PressureShear;
 use crate::contact::active_set::axes::Axes;
-use crate::contact::active_set::unknowns::Unknowns;
+use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns};
 use crate::contact::line::contact_line::ContactLine;
 use std::ops::Range;
 
 /// Solves the linear problem of a single patch and gives the line its forces and motions; `false`: the closed nodes are
-/// none, or the alternation does not converge. `row` is memory for the coefficients of all ports.
+/// none, or the alternation does not converge. `rows` is memory for the coefficients of all ports.
 pub fn solve(
-    line: &mut ContactLine,
+    lines: &mut [ContactLine],
     axes: &Axes,
     unknowns: &Unknowns,
-    row: &mut [f64],
+    rows: &mut [Vec<f64>],
     (inverses, equations): (&mut KeptInverses, &mut PressureShear),
 ) -> bool {
-    let Some(patch) = unknowns.single_patch(line) else { return false };
+    let ([line], [own]) = (&*lines, unknowns.lines.as_slice()) else { return false };
+    let Some(patch) = own.single_patch(line) else { return false };
     let Some(inverse) = inverses.of(line.problem, line.grid, &patch) else { return false };
-    write_gaps(line, axes, unknowns, patch, equations);
-    write_shear(line, axes, unknowns, row, equations);
+    write_gaps(line, axes, (own, &unknowns.axes), patch, equations);
+    write_shear(line, axes, (own, unknowns), rows, equations);
     let solved = equations.solve(inverse);
     if solved {
-        unknowns.accept(&equations.unknowns, line, axes);
+        unknowns.accept(&equations.unknowns, lines, axes);
     }
     solved
 }
@@ -39,11 +40,11 @@ pub fn solve(
 fn write_gaps(
     line: &ContactLine,
     axes: &Axes,
-    unknowns: &Unknowns,
+    (own, sought): (&LineUnknowns, &[usize]),
     patch: Range<usize>,
     equations: &mut PressureShear,
 ) {
-    let Unknowns { closed, stuck, axes: sought, friction } = unknowns;
+    let LineUnknowns { closed, stuck, friction } = own;
     equations.place.clear();
     equations.place.extend_from_slice(&line.grid.x[patch.clone()]);
     equations.friction.clone_from(friction);
@@ -68,14 +69,20 @@ fn write_gaps(
 }
 
 /// Writes the equations of the stuck nodes and of the motions.
-fn write_shear(line: &ContactLine, axes: &Axes, unknowns: &Unknowns, row: &mut [f64], equations: &mut PressureShear) {
-    let window = unknowns.window(line.grid);
-    for (r, &i) in unknowns.stuck.iter().enumerate() {
-        let slip = axes.equation(line.slip_row(i, window.clone(), row));
-        unknowns.write(equations.row(r), (&slip, row), line.grid, axes);
+fn write_shear(
+    line: &ContactLine,
+    axes: &Axes,
+    (own, unknowns): (&LineUnknowns, &Unknowns),
+    rows: &mut [Vec<f64>],
+    equations: &mut PressureShear,
+) {
+    let window = own.window(line.grid);
+    for (r, &i) in own.stuck.iter().enumerate() {
+        let slip = axes.equation(line.slip_row(i, window.clone(), &mut rows[0]));
+        unknowns.write(equations.row(r), (&slip, rows), line.grid, axes);
     }
     for (r, &axis) in unknowns.axes.iter().enumerate() {
-        let balance = axes.row(axis, line, row);
-        unknowns.write(equations.row(unknowns.stuck.len() + r), (&balance, row), line.grid, axes);
+        let balance = axes.row(axis, std::slice::from_ref(line), rows);
+        unknowns.write(equations.row(own.stuck.len() + r), (&balance, rows), line.grid, axes);
     }
 }

@@ -8,7 +8,7 @@
 use super::patch_inverse::{KeptInverses, compliance};
 use crate::contact::active_set::axes::Axes;
 use crate::contact::active_set::states::{Comparison, closing_state};
-use crate::contact::active_set::unknowns::Unknowns;
+use crate::contact::active_set::unknowns::LineUnknowns;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
 use crate::linalg::InverseFactor;
@@ -48,7 +48,7 @@ pub struct InitialGuess {
 }
 
 /// Memory that the search lends: unknowns, coefficients of all ports, states before, kept inverses.
-type Lent<'a> = (&'a mut Unknowns, &'a mut [f64], &'a mut Vec<NodeStatus>, &'a mut KeptInverses);
+type Lent<'a> = (&'a mut LineUnknowns, &'a mut [Vec<f64>], &'a mut Vec<NodeStatus>, &'a mut KeptInverses);
 
 impl InitialGuess {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
@@ -73,13 +73,13 @@ impl InitialGuess {
         line: &mut ContactLine,
         axes: &Axes,
         comparison: Comparison,
-        (unknowns, row, before, inverses): Lent,
+        (unknowns, rows, before, inverses): Lent,
     ) -> bool {
         line.update_rim();
-        let balance = self.write_base(line, axes, row);
+        let balance = self.write_base(line, axes, rows);
         for _ in 0..MAX_GUESSES {
             unknowns.list_closed(line);
-            let pressed = self.press(line, unknowns, inverses, (row, &balance));
+            let pressed = self.press(line, unknowns, inverses, (&rows[0], &balance));
             if pressed && !self.close(line, comparison, before) {
                 return true;
             }
@@ -91,8 +91,8 @@ impl InitialGuess {
     }
 
     /// Writes the gap without normal forces and height, and the balance of the height, whose force coefficients go to
-    /// `row`; `None` if the height is prescribed.
-    fn write_base(&mut self, line: &ContactLine, axes: &Axes, row: &mut [f64]) -> Option<HeightBalance> {
+    /// `rows`; `None` if the height is prescribed.
+    fn write_base(&mut self, line: &ContactLine, axes: &Axes, rows: &mut [Vec<f64>]) -> Option<HeightBalance> {
         let (free, [v, height, omega]) = (axes.seeks(1), line.traction.rigid);
         let motions = [v, if free { 0.0 } else { height }, omega];
         let of_motions = |by: [f64; 3]| by.iter().zip(motions).map(|(by, value)| by * value).sum::<f64>();
@@ -111,8 +111,8 @@ impl InitialGuess {
             by_height.push(if free { by_motions[1] } else { 0.0 });
         }
         free.then(|| {
-            let balance = axes.row(1, line, row);
-            let of_shear: f64 = forces.iter().enumerate().map(|(i, force)| row[line.grid.port(i)] * force).sum();
+            let balance = axes.row(1, std::slice::from_ref(line), rows);
+            let of_shear: f64 = forces.iter().enumerate().map(|(i, force)| rows[0][line.grid.port(i)] * force).sum();
             let known = -balance.constant - of_motions(balance.motions) - of_shear;
             HeightBalance { by_height: balance.motions[1], known }
         })
@@ -123,7 +123,7 @@ impl InitialGuess {
     fn press(
         &mut self,
         line: &mut ContactLine,
-        unknowns: &Unknowns,
+        unknowns: &LineUnknowns,
         inverses: &mut KeptInverses,
         (row, balance): (&[f64], &Option<HeightBalance>),
     ) -> bool {
@@ -175,7 +175,12 @@ impl InitialGuess {
     }
 
     /// Replaces gaps to be closed by the forces that close them.
-    fn solve_pressures(&mut self, line: &ContactLine, unknowns: &Unknowns, inverses: &mut KeptInverses) -> Option<()> {
+    fn solve_pressures(
+        &mut self,
+        line: &ContactLine,
+        unknowns: &LineUnknowns,
+        inverses: &mut KeptInverses,
+    ) -> Option<()> {
         let Self { normal, factor, product, .. } = self;
         let patch = unknowns.single_patch(line);
         let factor = match patch.and_then(|patch| inverses.factor(line.problem, line.grid, &patch)) {
@@ -217,7 +222,7 @@ impl InitialGuess {
 
 /// Displacements of all ports by normal (`offset` 1) or tangential (0) forces at the candidates.
 fn displace(line: &ContactLine, offset: usize, forces: &[f64], displaced: &mut Vec<f64>) {
-    let relative = line.problem.bodies.relative;
+    let relative = line.problem.bodies.own.relative;
     displaced.clear();
     displaced.resize(relative.nrows(), 0.0);
     let columns = &relative.as_slice()[(line.grid.port(0) + offset) * relative.nrows()..];
@@ -225,7 +230,7 @@ fn displace(line: &ContactLine, offset: usize, forces: &[f64], displaced: &mut V
 }
 
 /// Factorises the compliance of the closed nodes, of which some may yield.
-fn factorise(line: &ContactLine, unknowns: &Unknowns, factor: &mut InverseFactor) -> Option<()> {
+fn factorise(line: &ContactLine, unknowns: &LineUnknowns, factor: &mut InverseFactor) -> Option<()> {
     let (closed, compliance) = (&unknowns.closed, |i, j| compliance(line.problem, line.grid, i, j));
     factor.truncate(0);
     for (n, &i) in closed.iter().enumerate() {

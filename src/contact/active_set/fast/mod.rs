@@ -1,4 +1,4 @@
-//! Shortcuts of the active set: without them every result is the same but for round-off, and takes longer.
+//! Shortcuts of the active set: without them every result is the same but for round-off, and takes longer. They are for a single line.
 //!
 //! This file alone names them. [`initial_guess`] can be deleted by itself, [`alternating`] with its equations
 //! [`pressure_shear`], and [`patch_inverse`], which both use, after them.
@@ -10,7 +10,7 @@ mod pressure_shear;
 
 use super::axes::Axes;
 use super::states::Comparison;
-use super::unknowns::Unknowns;
+use super::unknowns::{LineUnknowns, Unknowns};
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
 
@@ -23,21 +23,29 @@ pub(super) struct Shortcuts {
 }
 
 impl Shortcuts {
-    /// Guesses the closed nodes from which the search starts, with the forces that belong to them. `row` is memory for
-    /// the coefficients of all ports, `before` for the states before an update.
+    /// Guesses the closed nodes of a single line from which the search starts, with the forces that belong to them.
+    /// `rows` is memory for the coefficients of all ports, `before` for the states before an update.
     pub fn guess(
         &mut self,
-        line: &mut ContactLine,
+        lines: &mut [ContactLine],
         axes: &Axes,
         comparison: Comparison,
-        (unknowns, row, before): (&mut Unknowns, &mut [f64], &mut Vec<NodeStatus>),
+        (unknowns, rows, before): (&mut Unknowns, &mut [Vec<f64>], &mut Vec<NodeStatus>),
     ) {
-        self.guess.find(line, axes, comparison, (unknowns, row, before, &mut self.inverses));
+        let [line] = lines else { return };
+        unknowns.lines.resize_with(1, LineUnknowns::default);
+        self.guess.find(line, axes, comparison, (&mut unknowns.lines[0], rows, before, &mut self.inverses));
     }
 
-    /// Solves the linear problem of the present states and gives the line its forces and motions; `false`: it takes all
-    /// equations together.
-    pub fn solve(&mut self, line: &mut ContactLine, axes: &Axes, unknowns: &Unknowns, row: &mut [f64]) -> bool {
-        alternating::solve(line, axes, unknowns, row, (&mut self.inverses, &mut self.alternating))
+    /// Solves the linear problem of the present states of a single line and gives the line its forces and motions;
+    /// `false`: it takes all equations together.
+    pub fn solve(
+        &mut self,
+        lines: &mut [ContactLine],
+        axes: &Axes,
+        unknowns: &Unknowns,
+        rows: &mut [Vec<f64>],
+    ) -> bool {
+        lines.len() == 1 && alternating::solve(lines, axes, unknowns, rows, (&mut self.inverses, &mut self.alternating))
     }
 }

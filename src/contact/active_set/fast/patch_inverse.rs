@@ -48,12 +48,12 @@ pub struct KeptInverses {
 
 /// Normal displacement at candidate `i` per normal force at candidate `j` [m/(N/m)].
 pub fn compliance(problem: &LineProblem, grid: &ContactGrid, i: usize, j: usize) -> f64 {
-    problem.bodies.relative[(grid.port(i) + 1, grid.port(j) + 1)]
+    problem.bodies.own.relative[(grid.port(i) + 1, grid.port(j) + 1)]
 }
 
 impl OfStep {
     fn new(problem: &LineProblem, grid: &ContactGrid) -> Self {
-        let relative = problem.bodies.relative;
+        let relative = problem.bodies.own.relative;
         let nodes = 0..grid.len();
         let of_shear = |j: usize| nodes.clone().map(move |i| relative[(grid.port(i) + 1, grid.port(j))]);
         Self {
@@ -110,7 +110,7 @@ impl OfStep {
 
 /// The column of the first candidate's normal force in the compliance.
 fn first_column<'a>(problem: &LineProblem<'a>, grid: &ContactGrid) -> &'a [f64] {
-    let relative = problem.bodies.relative;
+    let relative = problem.bodies.own.relative;
     &relative.as_slice()[(grid.port(0) + 1) * relative.nrows()..][..relative.nrows()]
 }
 

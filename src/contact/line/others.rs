@@ -1,0 +1,87 @@
+//! Forces of the other lines, by which the bodies displace a line.
+//!
+//! All lines press the same bodies. What the forces of a line do to the surface beneath it beyond what they do to the
+//! bodies as a whole is its own ([`super::kernel::LineKernel`]); the rest acts on all lines alike.
+
+use super::contact_line::{ContactLine, LineScratch};
+use super::grid::ContactGrid;
+use super::vectors::copy;
+use crate::contact::problem::LineProblem;
+use nalgebra::DVector;
+
+/// Forces of the other lines on the ports of wheel and rail, each line weighted with its share of the width.
+#[derive(Default)]
+pub struct OtherLines {
+    /// Contact forces on the wheel [N/m]; empty: there are no other lines.
+    pub forces: DVector<f64>,
+    /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
+    pub pull: [Vec<f64>; 2],
+    /// Contact forces and pulls of all lines together.
+    mean: (DVector<f64>, [Vec<f64>; 2]),
+}
+
+impl OtherLines {
+    /// Takes away all forces; `ports` is the number of ports, or zero where there are no other lines.
+    pub fn reset(&mut self, ports: usize) {
+        if self.forces.len() == ports {
+            self.forces.fill(0.0)
+        } else {
+            self.forces = DVector::zeros(ports)
+        }
+        self.pull.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Forces and pulls of all lines together, as the bodies feel them, from those of the line itself with its `share`
+    /// of the width.
+    pub fn mean<'a>(
+        &'a mut self,
+        share: f64,
+        own: (&'a DVector<f64>, &'a [Vec<f64>; 2]),
+    ) -> (&'a DVector<f64>, &'a [Vec<f64>; 2]) {
+        if self.forces.is_empty() {
+            return own;
+        }
+        let Self { forces, pull, mean } = self;
+        copy(&mut mean.0, forces);
+        mean.0.axpy(share, own.0, 1.0);
+        for ((mean, others), own) in mean.1.iter_mut().zip(pull).zip(own.1) {
+            mean.clone_from(others);
+            add(share, own, mean);
+        }
+        (&mean.0, &mean.1)
+    }
+}
+
+/// Gives each of several lines the displacements by the hot layers of the others.
+pub(in crate::contact) fn exchange_pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScratch]) {
+    for (k, line) in lines.iter().enumerate() {
+        let Some(influence) = &line.bodies.others else { continue };
+        let mut sum = [Vec::new(), Vec::new()];
+        for (_, (other, scratch)) in lines.iter().zip(&*scratch).enumerate().filter(|(j, _)| *j != k) {
+            let pulls = sum.iter_mut().zip(&scratch.given.layers.pull);
+            pulls.for_each(|(sum, pull)| add(other.share, pull, sum));
+        }
+        scratch[k].given.add_pulls_of_others(grid, influence, &sum);
+        scratch[k].others.pull = sum;
+    }
+}
+
+/// Gives each of several lines the contact forces of the others in the present iterate.
+pub(in crate::contact) fn exchange_forces(lines: &mut [ContactLine]) {
+    for k in 0..lines.len() {
+        let (before, rest) = lines.split_at_mut(k);
+        let [line, after @ ..] = rest else { return };
+        line.others.forces.fill(0.0);
+        for other in before.iter().chain(&*after) {
+            line.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
+        }
+    }
+}
+
+/// Adds a multiple of values; no values are zeros.
+fn add(factor: f64, values: &[f64], sum: &mut Vec<f64>) {
+    if sum.len() < values.len() {
+        sum.resize(values.len(), 0.0);
+    }
+    sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
+}

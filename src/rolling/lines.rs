@@ -1,0 +1,150 @@
+//! Contact lines side by side, and what they are together.
+//!
+//! A line has its own contact, temperatures and surfaces; the lines share the wheel, the rail and their rigid motions.
+//! Quantities per metre of width are those of the line's own width, so that those of all lines are added up by their
+//! shares of the width.
+
+use super::state::{Motion, State, ThermalDeformation, ThermalState, Weakening};
+use crate::contact::ContactState;
+use crate::surface::Flattening;
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// One contact line, per metre of its own width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// Share of the contact's width \[1]; those of all lines add up to one.
+    pub share: f64,
+    /// Contact: result of the last step and start of the next one.
+    pub contact: ContactState,
+    /// Material that wheel and rail have lost to yield and wear.
+    pub flattening: [Flattening; 2],
+    /// Mass that wear has taken off the wheel since the start [kg/m].
+    pub worn: f64,
+    /// Temperatures, unless the thermal part is switched off.
+    pub thermal: Option<ThermalState>,
+}
+
+impl Line {
+    /// Thermal deformation that acts on the contact.
+    pub fn deformation(&self) -> &ThermalDeformation {
+        static NONE: ThermalDeformation = ThermalDeformation::NONE;
+        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.deformation)
+    }
+
+    /// Strength of the steel after heat has weakened it.
+    pub fn weakening(&self) -> &Weakening {
+        static NONE: Weakening = Weakening::NONE;
+        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
+    }
+
+    /// Distance \[m] and angle of the rim \[rad] under this line where the wheel has travelled and turned `[distance,
+    /// angle]`.
+    pub fn place(&self, [distance, angle]: [f64; 2]) -> [f64; 2] {
+        [distance, angle - self.contact.rim_angle()]
+    }
+
+    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail under this line.
+    pub fn below(&self, motion: &Motion, radius: f64) -> [f64; 2] {
+        let [distance, angle] = self.place([motion.distance, motion.angle]);
+        [angle * radius, distance]
+    }
+
+    /// Highest rise of temperature in the contact \[K].
+    pub fn hottest(&self) -> f64 {
+        self.thermal.as_ref().map_or(0.0, |thermal| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max))
+    }
+}
+
+impl State {
+    /// Sum of a quantity per metre of width over all lines, by their shares of the width.
+    pub fn sum(&self, of: impl Fn(&Line) -> f64) -> f64 {
+        self.lines.iter().map(|line| line.share * of(line)).sum()
+    }
+
+    /// Largest value of a quantity on any line.
+    pub fn largest(&self, of: impl Fn(&Line) -> f64) -> f64 {
+        self.lines.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The line with the largest value of a quantity, of equal ones the first; `None` without lines.
+    pub fn line_of_largest(&self, of: impl Fn(&Line) -> f64) -> Option<&Line> {
+        let larger = |a: &'_ Line, b: &'_ Line| of(b) > of(a);
+        self.lines.iter().reduce(|a, b| if larger(a, b) { b } else { a })
+    }
+
+    /// Contact forces of all lines on the wheel: x, y [N/m], forward moment about the hub centre \[N].
+    pub fn resultant(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.sum(|line| line.contact.traction.resultant[k]))
+    }
+
+    /// Iterations that the last contact solution took, the same for all lines.
+    pub fn iterations(&self) -> usize {
+        self.lines.first().map_or(0, |line| line.contact.traction.iterations)
+    }
+
+    /// Half the distance between the outermost contact edges of the longest line \[m].
+    pub fn half_width(&self) -> f64 {
+        self.largest(|line| line.contact.traction.half_width())
+    }
+
+    /// Mean of a quantity over all lines, by the normal forces that they carry; without contact by their widths.
+    fn mean_under_load(&self, of: impl Fn(&Line) -> f64) -> f64 {
+        let [_, load, _] = self.resultant();
+        match self.lines.as_slice() {
+            [line] => of(line),
+            _ if load > 0.0 => self.sum(|line| line.contact.traction.resultant[1] * of(line)) / load,
+            _ => self.sum(of),
+        }
+    }
+
+    /// Friction coefficient of all lines together \[1].
+    pub fn friction(&self) -> f64 {
+        self.mean_under_load(|line| line.contact.traction.friction.coefficient)
+    }
+
+    /// Mean slip velocity of the tread in the contact [m/s].
+    pub fn tread_slip(&self) -> f64 {
+        self.mean_under_load(|line| line.contact.traction.friction.tread_slip)
+    }
+
+    /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which the contact forces were found.
+    pub fn rigid(&self) -> [f64; 3] {
+        self.lines.first().map_or([0.0; 3], |line| line.contact.traction.rigid)
+    }
+
+    /// Forces of all lines together on the ports of wheel (0) or rail (1), contact forces and the pull of hot layers
+    /// [N/m].
+    pub fn loads(&self, body: usize) -> Cow<'_, DVector<f64>> {
+        mean(&self.lines, |line| &line.contact.traction.loads[body])
+    }
+
+    /// True if any line has contact.
+    pub fn touches(&self) -> bool {
+        self.lines.iter().any(|line| !line.contact.traction.patches.is_empty())
+    }
+
+    /// Growth of the wheel radius by its bulk temperature \[m].
+    pub fn growth(&self) -> f64 {
+        self.lines.first().map_or(0.0, |line| line.deformation().radius_growth)
+    }
+
+    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre.
+    /// That of the wheel goes by the rim, which torsion turns against the hub.
+    pub fn place(&self, radius: f64) -> [f64; 2] {
+        [(self.motion.angle - self.sum(|line| line.contact.rim_angle())) * radius, self.motion.distance]
+    }
+}
+
+/// Mean of vectors of the lines by their shares of the width; empty without lines.
+pub fn mean<'a>(lines: &'a [Line], of: impl Fn(&'a Line) -> &'a DVector<f64>) -> Cow<'a, DVector<f64>> {
+    match lines {
+        [line] => Cow::Borrowed(of(line)),
+        lines => {
+            let mut mean = DVector::zeros(lines.first().map_or(0, |line| of(line).len()));
+            lines.iter().for_each(|line| mean.axpy(line.share, of(line), 1.0));
+            Cow::Owned(mean)
+        }
+    }
+}
