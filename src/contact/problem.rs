@@ -1,8 +1,8 @@
 //! Condensed contact problem of one step: bodies, wheel and surfaces as the contact knows them.
 //!
 //! The contact is a list of *lines* side by side, each with a share of the width. They share the wheel's rigid motions
-//! and feel each other through the bodies: a line is displaced by its own forces ([`SurfaceResponse`]) and by the forces
-//! of the others ([`Influence`]). Derivation: `docs/theory/lines.md`.
+//! and feel each other through the bodies: a line is displaced by its own forces ([`SurfaceResponse`]) and by the
+//! forces of the others ([`Influence`]). Derivation: `docs/theory/lines.md`.
 
 use super::error::ContactError;
 use super::friction::Friction;

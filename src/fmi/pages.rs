@@ -17,7 +17,7 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 24] = files![include_str:
+const PAGES: [(&str, &str); 25] = files![include_str:
     "profiles.md",
     "coupling.md",
     "theory/README.md",
@@ -32,6 +32,7 @@ const PAGES: [(&str, &str); 24] = files![include_str:
     "theory/kernel-correction.md",
     "theory/patch-contact.md",
     "theory/lever-arms.md",
+    "theory/lines.md",
     "theory/profiles.md",
     "theory/heat.md",
     "theory/material-history.md",

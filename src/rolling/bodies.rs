@@ -1,6 +1,7 @@
 //! The deformable wheel and rail, and their answers for the step sizes in use.
 
-use super::lines::{self, Line};
+use super::line::Line;
+use super::lines;
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
 use crate::contact::line::kernel::{KernelCorrection, LineKernel};

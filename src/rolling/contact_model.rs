@@ -2,9 +2,10 @@
 
 use super::bodies::Operators;
 use super::error::StepError;
-use super::lines::Line;
+use super::line::Line;
 use super::standing;
-use super::state::{State, ThermalDeformation};
+use super::state::State;
+use super::thermal_state::ThermalDeformation;
 use crate::config::Config;
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{

@@ -1,6 +1,6 @@
 //! Fields of a state in the whole bodies, for pictures: in the frame of the rail's contact point, wheel above rail.
 
-use super::lines::Line;
+use super::line::Line;
 use super::model::Model;
 use super::state::State;
 use crate::heat::HeatError;

@@ -5,7 +5,7 @@
 //! the leading edge and back at the trailing one, and since its volume stays, the same depth all around the wheel would
 //! be no dent.
 
-use super::lines::Line;
+use super::line::Line;
 use super::model::Model;
 use super::standing;
 use super::state::State;

@@ -1,61 +1,13 @@
-//! Contact lines side by side, and what they are together.
+//! Sums, means and extremes over the contact lines of a state.
 //!
 //! A line has its own contact, temperatures and surfaces; the lines share the wheel, the rail and their rigid motions.
 //! Quantities per metre of width are those of the line's own width, so that those of all lines are added up by their
 //! shares of the width.
 
-use super::state::{Motion, State, ThermalDeformation, ThermalState, Weakening};
-use crate::contact::ContactState;
-use crate::surface::Flattening;
+use super::line::Line;
+use super::state::State;
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-
-/// One contact line, per metre of its own width.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Line {
-    /// Share of the contact's width \[1]; those of all lines add up to one.
-    pub share: f64,
-    /// Contact: result of the last step and start of the next one.
-    pub contact: ContactState,
-    /// Material that wheel and rail have lost to yield and wear.
-    pub flattening: [Flattening; 2],
-    /// Mass that wear has taken off the wheel since the start [kg/m].
-    pub worn: f64,
-    /// Temperatures, unless the thermal part is switched off.
-    pub thermal: Option<ThermalState>,
-}
-
-impl Line {
-    /// Thermal deformation that acts on the contact.
-    pub fn deformation(&self) -> &ThermalDeformation {
-        static NONE: ThermalDeformation = ThermalDeformation::NONE;
-        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.deformation)
-    }
-
-    /// Strength of the steel after heat has weakened it.
-    pub fn weakening(&self) -> &Weakening {
-        static NONE: Weakening = Weakening::NONE;
-        self.thermal.as_ref().map_or(&NONE, |thermal| &thermal.weakening)
-    }
-
-    /// Distance \[m] and angle of the rim \[rad] under this line where the wheel has travelled and turned `[distance,
-    /// angle]`.
-    pub fn place(&self, [distance, angle]: [f64; 2]) -> [f64; 2] {
-        [distance, angle - self.contact.rim_angle()]
-    }
-
-    /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail under this line.
-    pub fn below(&self, motion: &Motion, radius: f64) -> [f64; 2] {
-        let [distance, angle] = self.place([motion.distance, motion.angle]);
-        [angle * radius, distance]
-    }
-
-    /// Highest rise of temperature in the contact \[K].
-    pub fn hottest(&self) -> f64 {
-        self.thermal.as_ref().map_or(0.0, |thermal| thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max))
-    }
-}
 
 impl State {
     /// Sum of a quantity per metre of width over all lines, by their shares of the width.

@@ -3,7 +3,7 @@
 use super::bodies::{Bodies, OperatorCache};
 use super::contact_model::ContactModel;
 use super::error::ModelError;
-use super::lines::Line;
+use super::line::Line;
 use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
@@ -138,8 +138,8 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one, or if `solver.contact = patch` asks
-    /// for the series, which take a single line.
+    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one, or if `solver.contact = patch`
+    /// asks for the series, which take a single line.
     pub fn with_lines(mut self, shares: Vec<f64>, length: f64) -> Result<Self, ModelError> {
         let sum: f64 = shares.iter().sum();
         let sound = shares.iter().all(|share| *share > 0.0) && (sum - 1.0).abs() < SHARES_ROUND_OFF && length > 0.0;

@@ -1,12 +1,13 @@
 //! Observables of a state, for the whole wheel in SI units.
 
 use super::control::{creepage, per_metre, slide};
-use super::lines::Line;
+use super::line::Line;
 use super::model::Model;
 use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
-use super::state::{State, ThermalState};
+use super::state::State;
 use super::suggested_step::suggested_step;
+use super::thermal_state::ThermalState;
 use crate::damage::surface_fatigue;
 use crate::heat::HeatFlows;
 use crate::mechanics::element_length;
@@ -106,8 +107,8 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
     values
 }
 
-/// Outputs about the material that the surfaces have lost and about heat; all others are zero. Profiles are those of the
-/// line `shown`.
+/// Outputs about the material that the surfaces have lost and about heat; all others are zero. Profiles are those of
+/// the line `shown`.
 fn surface_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
     Outputs {
         flattening: state.largest(|line| line.flattening[0].deepest_dent()),
@@ -206,8 +207,8 @@ fn ratio(a: f64, b: f64) -> f64 {
 /// Elements of the contact between the samples of the tread: as many as the contact resolves.
 const SAMPLING: f64 = 2.0;
 
-/// Present profile of the wheel under its most worn line: positions around the tread and heights over the circle \[m], that is `wheel.profile`
-/// less the depth that yielding and wear have taken off.
+/// Present profile of the wheel under its most worn line: positions around the tread and heights over the circle \[m],
+/// that is `wheel.profile` less the depth that yielding and wear have taken off.
 pub fn tread(model: &Model, state: &State) -> Vec<[f64; 2]> {
     let none = Line::default();
     let line = state.line_of_largest(|line| line.worn).unwrap_or(&none);

@@ -9,7 +9,7 @@
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
-use super::lines::Line;
+use super::line::Line;
 use super::model::{Model, Workspace};
 use super::output_rows::Outputs;
 use super::outputs::observe;

@@ -6,7 +6,7 @@ use super::contact_model::ContactStep;
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
-use super::lines::Line;
+use super::line::Line;
 use super::model::{Model, Workspace};
 use super::state::{Brake, Motion, State};
 use super::thermal::{self, HeatStep, ThermalScratch};

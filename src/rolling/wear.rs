@@ -6,7 +6,7 @@
 
 use super::control::{STANDSTILL, per_metre};
 use super::flattening::Passing;
-use super::lines::Line;
+use super::line::Line;
 use super::model::Model;
 use super::state::State;
 use crate::material::Isotropic;
@@ -31,7 +31,10 @@ pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
     let (velocity, rim) = (next.motion.velocity.now, next.motion.omega.now * model.rolling_radius(state));
     let (passing, motion) = (Passing::of(next), next.motion);
     for (before, line) in state.lines.iter().zip(&mut next.lines) {
-        let [from, to] = [(before, state.motion), (&*line, motion)].map(|(l, m)| l.below(&m, model.wheel.radius));
+        let [from, to] = [(before, state.motion), (&*line, motion)].map(|(line, motion)| {
+            let [distance, angle] = line.place([motion.distance, motion.angle]);
+            [angle * model.wheel.radius, distance]
+        });
         wear_line(model, &Way { dt, velocity, rim, from, to }, &passing, line);
     }
 }

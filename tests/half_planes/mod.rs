@@ -135,7 +135,7 @@ impl HalfPlanes {
         let omega = 10.0 * (1.0 - 0.5 * creepage) / RADIUS;
         let (flat, sound) = (Piecewise::default(), Flattening::none(0.0));
         let ends = [self.grid.nodes()[0], -self.grid.nodes()[0]];
-        let lower = |line: &SideLine| Piecewise { x: ends.to_vec(), value: vec![-line.lower; 2] };
+        let lower = |line: &SideLine| Piecewise { x: ends.to_vec(), value: vec![line.lower; 2] };
         let swollen: Vec<_> = lines.iter().map(|(line, _)| lower(line)).collect();
         let mut problems = Vec::new();
         for ((line, own), swelling) in lines.iter().zip(&swollen) {

@@ -17,7 +17,7 @@ use super::unknowns::Unknowns;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
-use crate::contact::line::{ContactGrid, finish, others, zone};
+use crate::contact::line::{ContactGrid, exchange, finish, zone};
 use crate::contact::problem::ContactProblem;
 use crate::linalg::DenseSystem;
 
@@ -90,12 +90,12 @@ impl<'a> ActiveSet<'a> {
         for ((line, (state, _, traction)), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
             buffers.find_known(grid, line, (state, &traction.port_forces), accelerations);
         }
-        others::exchange_pulls(grid, &problem.lines, buffers);
+        exchange::pulls(grid, &problem.lines, buffers);
         let together = problem.lines.iter().zip(starts).zip(buffers);
         let mut lines: Vec<_> =
             together.map(|((line, start), buffers)| ContactLine::new(grid, line, start, buffers)).collect();
         lines.iter_mut().for_each(|line| line.traction.rigid = problem.rigid.map(|motion| motion.start()));
-        others::exchange_forces(&mut lines);
+        exchange::forces(&mut lines);
         memory.rows.resize_with(lines.len(), Vec::new);
         memory.rows.iter_mut().for_each(|row| row.resize(grid.ports(), 0.0));
         let penalties = lines.iter().map(states::penalty).collect();
@@ -163,8 +163,8 @@ impl<'a> ActiveSet<'a> {
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
     }
 
-    /// Finds the coefficients that the law gives to the slips of the states that they lead to. Each line has a search of
-    /// its own, which begins anew where the other lines have shifted its solution.
+    /// Finds the coefficients that the law gives to the slips of the states that they lead to. Each line has a search
+    /// of its own, which begins anew where the other lines have shifted its solution.
     fn find_coefficients(&mut self) -> Result<(), ContactError> {
         let begun = |line: &ContactLine| CoefficientSearch::new(line.problem.friction.bounds());
         let mut searches: Vec<_> = self.lines.iter().map(begun).collect();
@@ -197,7 +197,7 @@ impl<'a> ActiveSet<'a> {
             linear::solve(lines, grid, axes, unknowns, (rows, system))?;
         }
         solved[usize::from(!alternated)] += 1;
-        others::exchange_forces(lines);
+        exchange::forces(lines);
         for line in lines {
             line.evaluate(axes.sought_accelerations(line.traction.rigid));
         }

@@ -112,7 +112,7 @@ fn slipping_state(line: &ContactLine, i: usize, slipping: NodeStatus, tolerance:
 
 /// State of a node that has just closed: that of the nearest node that was closed `before`, or its own where it founds
 /// a patch.
-pub(super) fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus]) -> NodeStatus {
+fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus]) -> NodeStatus {
     let left = before[..i].iter().rev().position(|s| s.is_active());
     let right = before[i + 1..].iter().position(|s| s.is_active());
     match (left, right) {
@@ -121,6 +121,25 @@ pub(super) fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus])
         (None, Some(r)) => before[i + 1 + r],
         (None, None) => founding_state(line),
     }
+}
+
+/// Takes the state of a node from its normal force or, if it was open `before`, from its `gap` \[m]; returns whether it
+/// changed.
+pub(super) fn guess_state(
+    line: &mut ContactLine,
+    i: usize,
+    gap: f64,
+    comparison: Comparison,
+    before: &[NodeStatus],
+) -> bool {
+    let closed = before[i].is_active();
+    line.state.gap[i] = if closed { 0.0 } else { gap };
+    let indicator = if closed { line.normal(i) } else { -comparison.penalty * gap };
+    if indicator.abs() <= comparison.tolerance || (indicator > 0.0) == closed {
+        return false;
+    }
+    line.state.status[i] = if closed { NodeStatus::Open } else { closing_state(line, i, before) };
+    true
 }
 
 /// State of a node without a past or a neighbour: it sticks, unless the surfaces run against each other, and that by

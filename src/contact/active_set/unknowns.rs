@@ -1,5 +1,5 @@
-//! Unknowns of the linear problem, in their order: of every line normal forces of the closed nodes and tangential forces
-//! of the stuck ones, then motions that are sought.
+//! Unknowns of the linear problem, in their order: of every line normal forces of the closed nodes and tangential
+//! forces of the stuck ones, then motions that are sought.
 
 use super::axes::{Axes, Equation};
 use crate::contact::line::ContactGrid;
@@ -36,6 +36,19 @@ impl Unknowns {
         self.axes.extend(axes.sought());
     }
 
+    /// Lists the normal forces of the closed nodes and the height of the hub, if that is sought, alone.
+    pub fn list_pressures(&mut self, lines: &[ContactLine], axes: &Axes) {
+        self.lines.resize_with(lines.len(), LineUnknowns::default);
+        for (unknowns, line) in self.lines.iter_mut().zip(lines) {
+            unknowns.list_closed(line);
+            unknowns.stuck.clear();
+            unknowns.friction.clear();
+            unknowns.friction.resize(unknowns.closed.len(), 0.0);
+        }
+        self.axes.clear();
+        self.axes.extend(axes.sought().filter(|&axis| axis == 1));
+    }
+
     /// Number of unknowns.
     pub fn len(&self) -> usize {
         self.lines.iter().map(LineUnknowns::len).sum::<usize>() + self.axes.len()
@@ -46,8 +59,8 @@ impl Unknowns {
         self.lines.iter().map(|line| line.closed.len()).sum()
     }
 
-    /// Writes one equation with the coefficients `forces` of all ports of every line, scaled to a largest coefficient of
-    /// one.
+    /// Writes one equation with the coefficients `forces` of all ports of every line, scaled to a largest coefficient
+    /// of one.
     pub fn write(
         &self,
         (target, side): (&mut [f64], &mut f64),

@@ -52,8 +52,8 @@ impl KernelCorrection {
     }
 }
 
-/// Flexibility that every one of several lines side by side has for itself: the surface of a half-plane under the forces
-/// of this line alone, `−κ ln(|x|/L)`.
+/// Flexibility that every one of several lines side by side has for itself: the surface of a half-plane under the
+/// forces of this line alone, `−κ ln(|x|/L)`.
 #[derive(Clone, Copy, Debug)]
 pub struct LineKernel {
     /// Displacement along a line force at the distance x is `−κ ln|x|` and a constant: κ of one body [m/(N/m)].

@@ -3,10 +3,7 @@
 //! All lines press the same bodies. What the forces of a line do to the surface beneath it beyond what they do to the
 //! bodies as a whole is its own ([`super::kernel::LineKernel`]); the rest acts on all lines alike.
 
-use super::contact_line::{ContactLine, LineScratch};
-use super::grid::ContactGrid;
 use super::vectors::copy;
-use crate::contact::problem::LineProblem;
 use nalgebra::DVector;
 
 /// Forces of the other lines on the ports of wheel and rail, each line weighted with its share of the width.
@@ -52,34 +49,8 @@ impl OtherLines {
     }
 }
 
-/// Gives each of several lines the displacements by the hot layers of the others.
-pub(in crate::contact) fn exchange_pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScratch]) {
-    for (k, line) in lines.iter().enumerate() {
-        let Some(influence) = &line.bodies.others else { continue };
-        let mut sum = [Vec::new(), Vec::new()];
-        for (_, (other, scratch)) in lines.iter().zip(&*scratch).enumerate().filter(|(j, _)| *j != k) {
-            let pulls = sum.iter_mut().zip(&scratch.given.layers.pull);
-            pulls.for_each(|(sum, pull)| add(other.share, pull, sum));
-        }
-        scratch[k].given.add_pulls_of_others(grid, influence, &sum);
-        scratch[k].others.pull = sum;
-    }
-}
-
-/// Gives each of several lines the contact forces of the others in the present iterate.
-pub(in crate::contact) fn exchange_forces(lines: &mut [ContactLine]) {
-    for k in 0..lines.len() {
-        let (before, rest) = lines.split_at_mut(k);
-        let [line, after @ ..] = rest else { return };
-        line.others.forces.fill(0.0);
-        for other in before.iter().chain(&*after) {
-            line.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
-        }
-    }
-}
-
 /// Adds a multiple of values; no values are zeros.
-fn add(factor: f64, values: &[f64], sum: &mut Vec<f64>) {
+pub(super) fn add(factor: f64, values: &[f64], sum: &mut Vec<f64>) {
     if sum.len() < values.len() {
         sum.resize(values.len(), 0.0);
     }

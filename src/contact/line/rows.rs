@@ -97,8 +97,8 @@ impl ContactLine<'_> {
         combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, (&effect.rim_angle[window], by_angle)]);
     }
 
-    /// Change of the slip with the rim angle [m/s/rad], given the upwind stencil and the stretch of the wheel: a turn of
-    /// the rim tilts the surface and slows the rim.
+    /// Change of the slip with the rim angle [m/s/rad], given the upwind stencil and the stretch of the wheel: a turn
+    /// of the rim tilts the surface and slows the rim.
     fn slip_by_angle(&self, stencil: &[(usize, f64); 3], stretch: f64) -> f64 {
         let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
         let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();

@@ -23,7 +23,7 @@
 //! at standstill, too, and short steps need not follow what the elasticity of the patch takes up. What a prescribed
 //! velocity explains of a missed slip is no error.
 
-use crate::rolling::lines::Line;
+use crate::rolling::line::Line;
 use crate::rolling::model::Model;
 use crate::rolling::state::{Controlled, State};
 

@@ -13,7 +13,7 @@ use crate::analytic::annulus_growth;
 use crate::config::{Config, CrossSection};
 use crate::heat::Observation;
 use crate::material::Isotropic;
-use crate::rolling::state::ThermalDeformation;
+use crate::rolling::thermal_state::ThermalDeformation;
 
 /// Thermal expansion of wheel and rail.
 #[derive(Clone, Debug)]

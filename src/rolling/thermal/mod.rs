@@ -13,9 +13,10 @@ mod weakening;
 
 use super::contact_model::ContactModel;
 use super::error::StepError;
-use super::lines::Line;
+use super::line::Line;
 use super::profile::{PROFILE_POINTS, profile_points};
-use super::state::{Motion, ThermalDeformation, ThermalState, Weakening};
+use super::state::Motion;
+use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{ContactState, Heating};
 use crate::damage::Criteria;
@@ -202,7 +203,8 @@ impl ThermalModel {
         Ok(thermal)
     }
 
-    /// The heat step of a line that belongs to a mechanical step: from the temperatures `before` with the `contact` and the
+    /// The heat step of a line that belongs to a mechanical step: from the temperatures `before` with the `contact` and
+    /// the
     /// `motion` at its end; `thermal` gives its memory for the result.
     pub fn step(
         &self,

@@ -7,7 +7,7 @@ use crate::heat::{HeatModel, Observation};
 use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
 use crate::piecewise::{Piecewise, interpolate, smear};
 use crate::rolling::error::StepError;
-use crate::rolling::state::ThermalState;
+use crate::rolling::thermal_state::ThermalState;
 use std::f64::consts::PI;
 
 /// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact

@@ -7,7 +7,7 @@
 
 use super::patch_inverse::{KeptInverses, compliance};
 use crate::contact::active_set::axes::Axes;
-use crate::contact::active_set::states::{Comparison, closing_state};
+use crate::contact::active_set::states::{Comparison, guess_state};
 use crate::contact::active_set::unknowns::LineUnknowns;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
@@ -205,16 +205,9 @@ impl InitialGuess {
         before.clone_from(&line.state.status);
         let mut changed = false;
         for i in 0..grid.len() {
-            let old = before[i];
             let gap =
                 base[i] + by_height[i] * line.traction.rigid[1] + displaced[grid.port(i) + 1] - grid.x[i] * turned;
-            line.state.gap[i] = if old.is_active() { 0.0 } else { gap };
-            let indicator = if old.is_active() { line.normal(i) } else { -comparison.penalty * gap };
-            if indicator.abs() <= comparison.tolerance || (indicator > 0.0) == old.is_active() {
-                continue;
-            }
-            line.state.status[i] = if old.is_active() { NodeStatus::Open } else { closing_state(line, i, before) };
-            changed = true;
+            changed |= guess_state(line, i, gap, comparison, before);
         }
         changed
     }

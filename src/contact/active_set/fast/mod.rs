@@ -1,9 +1,10 @@
-//! Shortcuts of the active set: without them every result is the same but for round-off, and takes longer. They are for a single line.
+//! Shortcuts of the active set: without them every result is the same but for round-off, and takes longer.
 //!
-//! This file alone names them. [`initial_guess`] can be deleted by itself, [`alternating`] with its equations
-//! [`pressure_shear`], and [`patch_inverse`], which both use, after them.
+//! This file alone names them. [`guess_of_lines`] and [`initial_guess`] can be deleted by themselves, [`alternating`]
+//! with its equations [`pressure_shear`], and [`patch_inverse`], which both use, after them.
 
 mod alternating;
+mod guess_of_lines;
 mod initial_guess;
 mod patch_inverse;
 mod pressure_shear;
@@ -20,10 +21,11 @@ pub(super) struct Shortcuts {
     inverses: patch_inverse::KeptInverses,
     alternating: pressure_shear::PressureShear,
     guess: initial_guess::InitialGuess,
+    guess_of_lines: guess_of_lines::GuessOfLines,
 }
 
 impl Shortcuts {
-    /// Guesses the closed nodes of a single line from which the search starts, with the forces that belong to them.
+    /// Guesses the closed nodes from which the search starts, with the forces that belong to them.
     /// `rows` is memory for the coefficients of all ports, `before` for the states before an update.
     pub fn guess(
         &mut self,
@@ -32,7 +34,7 @@ impl Shortcuts {
         comparison: Comparison,
         (unknowns, rows, before): (&mut Unknowns, &mut [Vec<f64>], &mut Vec<NodeStatus>),
     ) {
-        let [line] = lines else { return };
+        let [line] = lines else { return self.guess_of_lines.find(lines, axes, comparison, rows) };
         unknowns.lines.resize_with(1, LineUnknowns::default);
         self.guess.find(line, axes, comparison, (&mut unknowns.lines[0], rows, before, &mut self.inverses));
     }

@@ -1,0 +1,32 @@
+//! Exchange of forces between lines side by side.
+
+use super::contact_line::{ContactLine, LineScratch};
+use super::grid::ContactGrid;
+use super::others::add;
+use crate::contact::problem::LineProblem;
+
+/// Gives each of several lines the displacements by the hot layers of the others.
+pub fn pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScratch]) {
+    for (k, line) in lines.iter().enumerate() {
+        let Some(influence) = &line.bodies.others else { continue };
+        let mut sum = [Vec::new(), Vec::new()];
+        for (_, (other, scratch)) in lines.iter().zip(&*scratch).enumerate().filter(|(j, _)| *j != k) {
+            let pulls = sum.iter_mut().zip(&scratch.given.layers.pull);
+            pulls.for_each(|(sum, pull)| add(other.share, pull, sum));
+        }
+        scratch[k].given.add_pulls_of_others(grid, influence, &sum);
+        scratch[k].others.pull = sum;
+    }
+}
+
+/// Gives each of several lines the contact forces of the others in the present iterate.
+pub fn forces(lines: &mut [ContactLine]) {
+    for k in 0..lines.len() {
+        let (before, rest) = lines.split_at_mut(k);
+        let [line, after @ ..] = rest else { return };
+        line.others.forces.fill(0.0);
+        for other in before.iter().chain(&*after) {
+            line.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Temperatures under a contact line and their effects on the contact: the thermal part of a state.
+
+use crate::contact::Heating;
+use crate::damage::Damage;
+use crate::heat::{HeatFlows, HeatState, Temperatures};
+use crate::piecewise::Piecewise;
+use serde::{Deserialize, Serialize};
+
+/// Temperature fields and what the last step found about them, per metre of width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThermalState {
+    /// Both temperature fields.
+    pub fields: HeatState,
+    /// Mean heat flows over the last communication step [W/m].
+    pub flows: HeatFlows,
+    /// Excess temperatures \[K].
+    pub temperatures: Temperatures,
+    /// Mean excess temperatures of the surfaces in the patch: wheel, rail \[K].
+    pub patch_mean: [f64; 2],
+    /// Means weighted with the pressure: the temperatures at which friction acts. The edges of the patch, where nothing
+    /// presses, do not disturb them.
+    pub loaded_mean: [f64; 2],
+    /// Mean of these over the friction coefficient \[K].
+    pub heating: Heating,
+    /// Largest molten thickness so far \[m].
+    pub melted: f64,
+    /// Excess surface temperatures of wheel and rail at the profile points, reversible heating included \[K].
+    pub surface: [Vec<f64>; 2],
+    /// Thermal history of the hot material.
+    pub damage: Damage,
+    /// Heat put in less heat passed on or stored since the start [J/m].
+    pub unaccounted: f64,
+    /// Heat that has gone from one place to another since the start [J/m].
+    pub turned_over: f64,
+    /// How the heat deforms the bodies.
+    pub deformation: ThermalDeformation,
+    /// Strength of the bodies after heat has weakened them.
+    pub weakening: Weakening,
+}
+
+impl ThermalState {
+    /// Excess temperature at which friction acts \[K]: the pressure-weighted mean of both surfaces.
+    pub fn friction_excess(&self) -> f64 {
+        0.5 * (self.loaded_mean[0] + self.loaded_mean[1])
+    }
+}
+
+/// Strength of the steel under the contact after heat has weakened it, over x.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Weakening {
+    /// Share of the yield strength, of the softer body \[1]; empty: all of it.
+    pub strength: Piecewise,
+    /// Share of the friction coefficient, where a surface melts \[1]; empty: all of it.
+    pub film: Piecewise,
+    /// Mean temperature of the wheel less that of the rail over the depth in which the contact pressure acts \[K]:
+    /// which of them is softer; empty: neither.
+    pub warmer_wheel: Piecewise,
+}
+
+impl Weakening {
+    /// None at all.
+    pub const NONE: Self = {
+        const EMPTY: Piecewise = Piecewise::EMPTY;
+        Self { strength: EMPTY, film: EMPTY, warmer_wheel: EMPTY }
+    };
+}
+
+/// Deformation by heat, as far as it acts on the contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThermalDeformation {
+    /// Growth of the wheel radius by the bulk temperature \[m].
+    pub radius_growth: f64,
+    /// Swelling of the hot layers of wheel and rail under the contact \[m].
+    pub swelling: [Piecewise; 2],
+    /// Membrane force of the hot layers of wheel and rail [N/m].
+    pub membrane_force: [Piecewise; 2],
+}
+
+impl ThermalDeformation {
+    /// None at all.
+    pub const NONE: Self = {
+        const EMPTY: Piecewise = Piecewise::EMPTY;
+        Self { radius_growth: 0.0, swelling: [EMPTY, EMPTY], membrane_force: [EMPTY, EMPTY] }
+    };
+
+    /// Moves it by `share` of the way from `before` to where it is.
+    pub fn average(&mut self, before: &Self, share: f64) {
+        let mix = |now: &mut f64, before: f64| *now = before + share * (*now - before);
+        mix(&mut self.radius_growth, before.radius_growth);
+        let layers = self.swelling.iter_mut().chain(&mut self.membrane_force);
+        for (now, before) in layers.zip(before.swelling.iter().chain(&before.membrane_force)) {
+            now.value.iter_mut().zip(&before.value).for_each(|(now, before)| mix(now, *before));
+        }
+    }
+}
