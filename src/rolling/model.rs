@@ -138,12 +138,12 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one, or if `solver.contact = patch`
-    /// asks for the series, which take a single line.
+    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one, or if `solver.contact` is not `grid`:
+    /// the series take a single line.
     pub fn with_lines(mut self, shares: Vec<f64>, length: f64) -> Result<Self, ModelError> {
         let sum: f64 = shares.iter().sum();
         let sound = shares.iter().all(|share| *share > 0.0) && (sum - 1.0).abs() < SHARES_ROUND_OFF && length > 0.0;
-        if !sound || self.config.solver.contact.requires_patch() {
+        if !sound || self.config.solver.contact != ContactMethod::Grid {
             return Err(ModelError::Lines { shares, length });
         }
         let half_plane = Isotropic::from(&self.config.material).half_plane().kernel;
