@@ -97,6 +97,14 @@ choice! {
 }
 
 impl ContactMethod {
+    /// Several contact lines side by side are possible.
+    pub fn takes_lines(self) -> bool {
+        match self {
+            ContactMethod::Grid => true,
+            ContactMethod::Auto | ContactMethod::Patch => false,
+        }
+    }
+
     /// Steps without a single smooth patch fail, instead of being solved on the grid.
     pub fn requires_patch(self) -> bool {
         match self {

@@ -143,7 +143,7 @@ impl Model {
     pub fn with_lines(mut self, shares: Vec<f64>, length: f64) -> Result<Self, ModelError> {
         let sum: f64 = shares.iter().sum();
         let sound = shares.iter().all(|share| *share > 0.0) && (sum - 1.0).abs() < SHARES_ROUND_OFF && length > 0.0;
-        if !sound || self.config.solver.contact != ContactMethod::Grid {
+        if !sound || !self.config.solver.contact.takes_lines() {
             return Err(ModelError::Lines { shares, length });
         }
         let half_plane = Isotropic::from(&self.config.material).half_plane().kernel;
