@@ -74,7 +74,7 @@ pub enum PrepareError {
 
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
-    rolling: rolling::Model,
+    rolling: rolling::RollingModel,
     basis: Option<Arc<(String, Vec<u8>)>>,
     not_kept: Option<String>,
     /// The stationary start computed last, with its inputs: equal instances of a process mostly start alike.
@@ -108,7 +108,7 @@ impl Model {
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
-        rolling::Model::check_size(&config)?;
+        rolling::RollingModel::check_size(&config)?;
         let surfaces = Surfaces::from_config(&config, store.resources()).map_err(ModelError::from)?;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
         if config.solver.response.is_reduced() {
@@ -124,7 +124,7 @@ impl Model {
             (basis, file) = (Some(found), Some(Arc::new((basis_file_name(&config), bytes))));
         }
         let bodies = mechanics::bodies(&config, basis, progress)?;
-        let rolling = rolling::Model::new(config, bodies, surfaces)?;
+        let rolling = rolling::RollingModel::new(config, bodies, surfaces)?;
         Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default(), shelf: Shelf::default() }))
     }
 

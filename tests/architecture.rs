@@ -66,7 +66,7 @@ const LONG_FUNCTIONS: &[(&str, &str)] =
 /// Beginnings of doc comments that name no subject.
 const NO_SUBJECT: [&str; 3] = ["What", "Whether", "The same"];
 /// Type names defined more than once that there are today. Their number may only fall.
-const DEFINED_TWICE: usize = 1;
+const DEFINED_TWICE: usize = 0;
 
 fn src() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")

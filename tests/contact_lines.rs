@@ -11,7 +11,9 @@ use wheelrail::analytic::{carter_force, carter_full_slip, hertz_half_width};
 use wheelrail::config::{Config, ContactMethod, StartTemperature, Wear};
 use wheelrail::mechanics::{Basis, bodies};
 use wheelrail::rolling::outputs::observe;
-use wheelrail::rolling::{Inputs, Model, ModelError, Rotation, State, Translation, Workspace, stationary, substeps};
+use wheelrail::rolling::{
+    Inputs, ModelError, RollingModel, Rotation, State, Translation, Workspace, stationary, substeps,
+};
 use wheelrail::simulation::Outputs;
 use wheelrail::surface::Surfaces;
 
@@ -25,16 +27,16 @@ type Course = fn(&mut Inputs, f64);
 const HALVES: [f64; 2] = [0.5, 0.5];
 
 /// The model of a configuration, with lines of given shares side by side.
-fn model(config: &Config, shares: &[f64]) -> Result<Model, ModelError> {
+fn model(config: &Config, shares: &[f64]) -> Result<RollingModel, ModelError> {
     let found = common::store().find(config).unwrap();
     let basis = found.map_or_else(|| Basis::compute(config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let pair = bodies(config, Some(basis), &mut |_, _| {}).unwrap();
-    let model = Model::new(config.clone(), pair, Surfaces::from_config(config, None).unwrap())?;
+    let model = RollingModel::new(config.clone(), pair, Surfaces::from_config(config, None).unwrap())?;
     if shares.len() == 1 { Ok(model) } else { model.with_lines(shares.to_vec(), REACH) }
 }
 
 /// Outputs of the start and after every one of `steps` steps of `dt` seconds, and the last state.
-fn run(model: &Model, inputs: &Inputs, course: Course, (dt, steps): (f64, usize)) -> (Vec<Outputs>, State) {
+fn run(model: &RollingModel, inputs: &Inputs, course: Course, (dt, steps): (f64, usize)) -> (Vec<Outputs>, State) {
     let (mut workspace, tuning) = (Workspace::default(), &model.config.tuning);
     let mut state = stationary::start(model, tuning, inputs, &mut workspace).unwrap();
     let mut seen = vec![observe(model, &state)];

@@ -17,7 +17,7 @@ use wheelrail::material::Isotropic;
 use wheelrail::mechanics::{Basis, Pair, bodies};
 use wheelrail::piecewise::{Interval, Piecewise};
 use wheelrail::rolling::outputs::observe;
-use wheelrail::rolling::{Inputs, Model, Rotation, State, Translation, Workspace, stationary, substeps};
+use wheelrail::rolling::{Inputs, RollingModel, Rotation, State, Translation, Workspace, stationary, substeps};
 use wheelrail::simulation::Outputs;
 use wheelrail::surface::Surfaces;
 
@@ -198,12 +198,12 @@ impl ContactSolver for Hertz {
 }
 
 /// The model on the toy solver, and one on the solver on the grid.
-fn models() -> [Model; 2] {
+fn models() -> [RollingModel; 2] {
     models_with_place().0
 }
 
 /// The same, with the place of the last problem of the toy solver.
-fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
+fn models_with_place() -> ([RollingModel; 2], Arc<Mutex<[f64; 2]>>) {
     let mut config = preset("railway", 10);
     config.thermal.enabled = false;
     // What damping takes from a rolling wheel it takes by a resistance: a skewed pressure, unlike that of the toy.
@@ -220,27 +220,27 @@ fn models_with_place() -> ([Model; 2], Arc<Mutex<[f64; 2]>>) {
         place: Arc::clone(&place),
     };
     let smooth = || Surfaces::smooth(config.wheel.radius);
-    let toys = Model::with_solver(config.clone(), toys, smooth(), Box::new(toy), None).unwrap();
-    let models = [toys, Model::new(config.clone(), grids, smooth()).unwrap()];
+    let toys = RollingModel::with_solver(config.clone(), toys, smooth(), Box::new(toy), None).unwrap();
+    let models = [toys, RollingModel::new(config.clone(), grids, smooth()).unwrap()];
     (models, place)
 }
 
 /// Rolling under a moment [N m], without the friction that the toy solver does not have: a start with friction is that of a
 /// wheel which friction holds.
-fn driven(model: &Model, moment: f64) -> Inputs {
+fn driven(model: &RollingModel, moment: f64) -> Inputs {
     let mut inputs = Inputs::rolling(&model.config);
     (inputs.drive.moment, inputs.drive.friction) = (moment, 0.0);
     inputs
 }
 
-fn start(model: &Model, inputs: &Inputs) -> (State, Workspace) {
+fn start(model: &RollingModel, inputs: &Inputs) -> (State, Workspace) {
     let mut workspace = Workspace::default();
     let state = stationary::start(model, &model.config.tuning, inputs, &mut workspace).unwrap();
     (state, workspace)
 }
 
 /// Outputs of the start and after each of `steps` steps of 1 ms.
-fn run(model: &Model, inputs: &Inputs, steps: usize) -> Vec<Outputs> {
+fn run(model: &RollingModel, inputs: &Inputs, steps: usize) -> Vec<Outputs> {
     let (mut state, mut workspace) = start(model, inputs);
     let mut seen = vec![observe(model, &state)];
     for _ in 0..steps {

@@ -13,7 +13,7 @@ use wheelrail::heat::{
 use wheelrail::mechanics::{Basis, bodies};
 use wheelrail::piecewise::{Interval, Piecewise};
 use wheelrail::rolling::outputs::observe;
-use wheelrail::rolling::{Inputs, Model, Rotation, State, Translation, Workspace, stationary, substeps};
+use wheelrail::rolling::{Inputs, RollingModel, Rotation, State, Translation, Workspace, stationary, substeps};
 use wheelrail::simulation::Outputs;
 use wheelrail::surface::Surfaces;
 
@@ -182,8 +182,8 @@ impl HeatModel for FlashModel {
     }
 }
 
-/// Model on flash temperatures, and one on tensor meshes.
-fn models(start: StartTemperature) -> [Model; 2] {
+/// RollingModel on flash temperatures, and one on tensor meshes.
+fn models(start: StartTemperature) -> [RollingModel; 2] {
     let mut config = preset("railway", 20);
     config.solver.response = Response::Reduced;
     config.initial.temperature = start;
@@ -193,7 +193,7 @@ fn models(start: StartTemperature) -> [Model; 2] {
     let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let [flash, tensor] = [(); 2].map(|()| {
         let pair = bodies(&config, Some(basis.clone()), &mut |_, _| {}).unwrap();
-        Model::new(config.clone(), pair, Surfaces::smooth(config.wheel.radius)).unwrap()
+        RollingModel::new(config.clone(), pair, Surfaces::smooth(config.wheel.radius)).unwrap()
     });
     [flash.with_heat(|config| Ok(Box::new(FlashModel::new(config)))).unwrap(), tensor]
 }
@@ -207,14 +207,14 @@ fn sliding(config: &Config, creepage: f64) -> Inputs {
     inputs
 }
 
-fn start(model: &Model, inputs: &Inputs) -> (State, Workspace) {
+fn start(model: &RollingModel, inputs: &Inputs) -> (State, Workspace) {
     let mut workspace = Workspace::default();
     let state = stationary::start(model, &model.config.tuning, inputs, &mut workspace).unwrap();
     (state, workspace)
 }
 
 /// Takes a state on by 20 steps of 1 ms; `seen` looks at each.
-fn roll(model: &Model, inputs: &Inputs, mut seen: impl FnMut(Outputs)) -> State {
+fn roll(model: &RollingModel, inputs: &Inputs, mut seen: impl FnMut(Outputs)) -> State {
     let (mut state, mut workspace) = start(model, inputs);
     for _ in 0..20 {
         let mut next = State::default();

@@ -5,12 +5,12 @@
 //! the time: that of distance, angle and height as the outputs show them. The wheel that grows in a heat step lifts its
 //! load, which is work of the heat. Derivation: `docs/theory/lever-arms.md`.
 
-use super::model::Model;
+use super::model::RollingModel;
 use super::state::{Audit, State};
 use crate::multistep::TimeDerivative;
 
 /// Kinetic and elastic energy of a state, with that of steel which yields and springs back [J/m].
-pub fn energy(model: &Model, state: &State) -> f64 {
+pub fn energy(model: &RollingModel, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
@@ -19,13 +19,13 @@ pub fn energy(model: &Model, state: &State) -> f64 {
 }
 
 /// Balance at a stationary start.
-pub fn start(model: &Model, state: &State) -> Audit {
+pub fn start(model: &RollingModel, state: &State) -> Audit {
     let energy = energy(model, state);
     Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
-pub fn advance(model: &Model, td: &TimeDerivative, state: &State, next: &State) -> Audit {
+pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &State) -> Audit {
     let before = &state.audit;
     let impulse: [f64; 3] =
         std::array::from_fn(|k| td.impulse(next.hub.driving[k], state.hub.driving[k], before.impulse[k]));

@@ -6,7 +6,7 @@
 //! Theory: `docs/theory/time-formula.md`.
 
 use super::control::Drive;
-use super::model::Model;
+use super::model::RollingModel;
 use super::state::{Brake, Motion};
 use crate::contact::AxisDrive;
 
@@ -49,6 +49,6 @@ pub fn at_start(drives: &[AxisDrive; 3], velocity: f64, rim: f64, radius: f64) -
 }
 
 /// Heat into the tread of the whole wheel \[W]: that of the input, and the share of the `power` [W/m] of the brake.
-pub fn tread_heat(model: &Model, drive: &Drive, power: f64) -> f64 {
+pub fn tread_heat(model: &RollingModel, drive: &Drive, power: f64) -> f64 {
     drive.tread_heat + model.config.brake.tread_share * power * model.wheel.width
 }

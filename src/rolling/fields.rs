@@ -1,7 +1,7 @@
 //! Fields of a state in the whole bodies, for pictures: in the frame of the rail's contact point, wheel above rail.
 
 use super::line::Line;
-use super::model::Model;
+use super::model::RollingModel;
 use super::state::State;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
@@ -36,7 +36,7 @@ pub struct Fields {
 }
 
 /// Fields of a state of the full response.
-pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
+pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError> {
     let (config, motion) = (&model.config, &state.motion);
     let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
     let mut wheel = wheel_field(config, &state.wheel, motion.omega.now)?.ok_or(FieldError::Reduced)?;
@@ -59,7 +59,7 @@ pub fn fields(model: &Model, state: &State) -> Result<Fields, FieldError> {
 
 /// Absolute temperatures in wheel (about its centre) and rail under the hottest line, with either response; `None` if
 /// they are not computed.
-pub fn temperatures(model: &Model, state: &State) -> Result<Option<[TemperatureField; 2]>, HeatError> {
+pub fn temperatures(model: &RollingModel, state: &State) -> Result<Option<[TemperatureField; 2]>, HeatError> {
     let warmest = state.line_of_largest(Line::hottest).and_then(|line| line.thermal.as_ref());
     match (&model.thermal, warmest) {
         (Some(heat), Some(thermal)) => heat.fields(thermal).map(Some),

@@ -6,7 +6,7 @@
 //! be no dent.
 
 use super::line::Line;
-use super::model::Model;
+use super::model::RollingModel;
 use super::standing;
 use super::state::State;
 use crate::piecewise::Interval;
@@ -16,13 +16,13 @@ use crate::surface::Flattening;
 const WARMER: f64 = 1.0;
 
 /// Undamaged surfaces of wheel and rail.
-pub fn none(model: &Model) -> [Flattening; 2] {
+pub fn none(model: &RollingModel) -> [Flattening; 2] {
     [Flattening::none(std::f64::consts::TAU * model.contact.surfaces.radius), Flattening::none(0.0)]
 }
 
 /// Adds the overlap of the contact in `next` to the dents of the material under every line, where the wheel has
 /// travelled and turned `place` (distance \[m], angle of the hub \[rad]), and notes the work.
-pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
+pub fn indent(model: &RollingModel, state: &State, place: [f64; 2], next: &mut State) {
     let passing = Passing::of(next);
     for (before, line) in state.lines.iter().zip(&mut next.lines) {
         indent_line(model, before, before.place(place), &passing, line);
@@ -30,7 +30,7 @@ pub fn indent(model: &Model, state: &State, place: [f64; 2], next: &mut State) {
 }
 
 /// Adds the overlap of one line to the dents of the material at `place` (distance \[m], angle of the rim \[rad]).
-fn indent_line(model: &Model, state: &Line, place: [f64; 2], passing: &Passing, next: &mut Line) {
+fn indent_line(model: &RollingModel, state: &Line, place: [f64; 2], passing: &Passing, next: &mut Line) {
     next.flattening.clone_from(&state.flattening);
     let traction = &mut next.contact.traction;
     traction.yielding.plastic_work = 0.0;
@@ -81,7 +81,7 @@ impl Passing {
     }
 
     /// Bodies, wheel and rail, whose material stays so long under a patch that it keeps a dent.
-    pub fn stand(&self, model: &Model, patch: Interval) -> [bool; 2] {
+    pub fn stand(&self, model: &RollingModel, patch: Interval) -> [bool; 2] {
         let slowest = standing::slowest(patch, self.step);
         let [velocity, omega] = self.speeds;
         [omega * model.contact.surfaces.radius, velocity].map(|speed| speed.abs() < slowest)

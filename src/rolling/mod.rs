@@ -44,7 +44,7 @@ pub mod zones;
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};
 pub use line::Line;
-pub use model::{Model, Workspace};
+pub use model::{RollingModel, Workspace};
 pub use output_rows::{OutputRow, Outputs, Read};
 pub use profile::PROFILE_POINTS;
 pub use sensitivity::{Difference, Origin};

@@ -22,7 +22,7 @@ use crate::mechanics::{self, Pair};
 use crate::surface::{Flattening, Surfaces};
 
 /// Everything that does not change during a run; instances with equal parameters share it.
-pub struct Model {
+pub struct RollingModel {
     /// Parameters; the tunable ones among them play no part.
     pub config: Config,
     /// Deformable wheel and rail.
@@ -59,7 +59,7 @@ pub struct Workspace {
     pub states: [State; 2],
 }
 
-impl Model {
+impl RollingModel {
     /// Refuses a configuration whose meshes would take more memory and time than is sensible, in microseconds.
     pub fn check_size(config: &Config) -> Result<(), ModelError> {
         mechanics::check_size(config)?;

@@ -2,7 +2,7 @@
 
 use super::control::{creepage, per_metre, slide};
 use super::line::Line;
-use super::model::Model;
+use super::model::RollingModel;
 use super::output_rows::Outputs;
 use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
@@ -18,7 +18,7 @@ use crate::surface::WearLaw;
 ///
 /// Forces, energies and heat are those of all lines together, extremes the largest on any line, means those over the
 /// width or, of friction and slip, over the load. Profiles are those of the line with the largest pressure.
-pub fn observe(model: &Model, state: &State) -> Outputs {
+pub fn observe(model: &RollingModel, state: &State) -> Outputs {
     let width = model.wheel.width;
     let none = Line::default();
     let pressed = state.line_of_largest(|line| line.contact.traction.pressure_max).unwrap_or(&none);
@@ -109,7 +109,7 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
 
 /// Outputs about the material that the surfaces have lost and about heat; all others are zero. Profiles are those of
 /// the line `shown`.
-fn surface_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
+fn surface_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs {
     Outputs {
         flattening: state.largest(|line| line.flattening[0].deepest_dent()),
         flattening_rail: state.largest(|line| line.flattening[1].deepest_dent()),
@@ -121,7 +121,7 @@ fn surface_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
 }
 
 /// The outputs about heat, everything else zero.
-fn thermal_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
+fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs {
     let (Some(heat), Some(thermal)) = (&model.thermal, &shown.thermal) else {
         let cold = vec![0.0; PROFILE_POINTS];
         return Outputs {
@@ -159,7 +159,7 @@ fn thermal_outputs(model: &Model, state: &State, shown: &Line) -> Outputs {
 }
 
 /// Outputs about heat that flows, everything else zero.
-fn flow_outputs(model: &Model, state: &State) -> Outputs {
+fn flow_outputs(model: &RollingModel, state: &State) -> Outputs {
     let width = model.wheel.width;
     let flow = |of: &dyn Fn(&HeatFlows) -> f64| {
         width * state.sum(|line| line.thermal.as_ref().map_or(0.0, |thermal| of(&thermal.flows)))
@@ -209,7 +209,7 @@ const SAMPLING: f64 = 2.0;
 
 /// Present profile of the wheel under its most worn line: positions around the tread and heights over the circle \[m],
 /// that is `wheel.profile` less the depth that yielding and wear have taken off.
-pub fn tread(model: &Model, state: &State) -> Vec<[f64; 2]> {
+pub fn tread(model: &RollingModel, state: &State) -> Vec<[f64; 2]> {
     let none = Line::default();
     let line = state.line_of_largest(|line| line.worn).unwrap_or(&none);
     model.contact.surfaces.tread(&line.flattening[0], SAMPLING * element_length(&model.config))

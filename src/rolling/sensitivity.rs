@@ -10,7 +10,7 @@
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::line::Line;
-use super::model::{Model, Workspace};
+use super::model::{RollingModel, Workspace};
 use super::output_rows::Outputs;
 use super::outputs::observe;
 use super::state::State;
@@ -52,7 +52,7 @@ impl Difference {
 }
 
 /// Sizes over which the outputs bend: they bend much with slip, less with forces.
-fn scales(model: &Model, inputs: &Inputs, state: &State) -> Drive {
+fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
     let config = &model.config;
     let load = config.model.nominal_load;
     let (speed, radius) = (0.1 * state.motion.velocity.now.abs().max(1.0), config.wheel.radius);
@@ -82,7 +82,7 @@ const TRIES: usize = 4;
 /// Outputs a little before and behind `state` along a direction of its inputs; `tuning` are the tunable parameters with
 /// which it was computed.
 pub fn difference(
-    model: &Model,
+    model: &RollingModel,
     tuning: &Tuning,
     state: &State,
     origin: &Origin,
@@ -123,7 +123,7 @@ pub fn difference(
 
 /// Computes a state anew from its origin under other inputs.
 fn repeat(
-    model: &Model,
+    model: &RollingModel,
     tuning: &Tuning,
     origin: &Origin,
     inputs: &Inputs,
@@ -140,7 +140,7 @@ fn repeat(
 }
 
 /// True if two states were computed by the same sequence of decisions.
-fn same_branch(model: &Model, a: &State, b: &State) -> bool {
+fn same_branch(model: &RollingModel, a: &State, b: &State) -> bool {
     let same = |(a, b): (&Line, &Line)| model.contact.solver.same_branch(&a.contact, &b.contact);
     a.lines.iter().zip(&b.lines).all(same)
         && a.hub.brake.locked == b.hub.brake.locked

@@ -7,7 +7,7 @@ use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
 use super::line::Line;
-use super::model::{Model, Workspace};
+use super::model::{RollingModel, Workspace};
 use super::state::{Brake, Motion, State};
 use super::thermal::{self, HeatStep, ThermalScratch};
 use super::wear;
@@ -65,7 +65,7 @@ pub struct Demand<'a> {
 /// Computes the state `next` one internal step of `dt` seconds after `state`; on error `next` is meaningless. The
 /// control of the step size and the counts of the communication step are left to [`super::substeps`].
 pub fn step(
-    model: &Model,
+    model: &RollingModel,
     state: &State,
     demand: &Demand,
     dt: f64,
@@ -92,7 +92,7 @@ pub fn step(
 
 /// True if friction has heated the contact beyond what a molten film lets it: within a step the film is that of its
 /// beginning. Where it has been beyond before, other heat is at work.
-fn overheats(model: &Model, state: &State, next: &State) -> bool {
+fn overheats(model: &RollingModel, state: &State, next: &State) -> bool {
     let Some(model) = &model.thermal else { return false };
     let [before, after] = [state, next].map(|state| model.reference() + state.largest(Line::hottest));
     after > before && after > model.frictionless() && before <= model.hottest()
@@ -100,7 +100,7 @@ fn overheats(model: &Model, state: &State, next: &State) -> bool {
 
 /// Takes the step with the film of `state`.
 fn attempt(
-    model: &Model,
+    model: &RollingModel,
     state: &State,
     demand: &Demand,
     plan: &Plan,
@@ -131,7 +131,7 @@ fn attempt(
 
 /// The heat step of every line.
 fn heat(
-    model: &Model,
+    model: &RollingModel,
     state: &State,
     demand: &Demand,
     dt: f64,
@@ -155,7 +155,7 @@ fn heat(
 }
 
 impl Plan {
-    fn new(model: &Model, state: &State, demand: &Demand, dt: f64) -> Self {
+    fn new(model: &RollingModel, state: &State, demand: &Demand, dt: f64) -> Self {
         let [begin, given] = [demand.begin, demand.target].map(|drive| model.wheel.drives(demand.inputs, drive));
         let available = demand.target.friction;
         let stopped = state.hub.brake.locked && state.motion.omega.before != 0.0;
@@ -192,7 +192,7 @@ impl Plan {
 
 /// Everything mechanical of a step but the energy balance.
 fn solve_and_commit(
-    model: &Model,
+    model: &RollingModel,
     state: &State,
     demand: &Demand,
     plan: &Plan,

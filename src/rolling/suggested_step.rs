@@ -1,6 +1,6 @@
 //! The communication step that a master with an explicit exchange may take.
 
-use super::model::Model;
+use super::model::RollingModel;
 use super::state::State;
 
 /// Share of the limit that is suggested: Jacobi exchange was measured to be stable below 0.19 to 0.33 of `2m/c`
@@ -18,7 +18,7 @@ const SMALLEST: f64 = 1e-6;
 /// (the inertias that the parameters give to the wheel; vehicle included in x) explicit exchange needs `h < 2m/c`
 /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and
 /// moments as inputs leave the stiff motion to this model and set no limit (1 s).
-pub fn suggested_step(model: &Model, state: &State) -> f64 {
+pub fn suggested_step(model: &RollingModel, state: &State) -> f64 {
     let [x, y, rotation] = state.hub.prescribed;
     let [mass, wheel, moment] = model.wheel.inertia;
     let radius = model.rolling_radius(state);

@@ -7,7 +7,7 @@
 use super::control::{STANDSTILL, per_metre};
 use super::flattening::Passing;
 use super::line::Line;
-use super::model::Model;
+use super::model::RollingModel;
 use super::state::State;
 use crate::material::Isotropic;
 use crate::mechanics::element_length;
@@ -23,7 +23,7 @@ const FINEST: f64 = 1e-5;
 
 /// Takes off what friction wears in the step of `dt` seconds from `state` to `next`, whose motion and contact are
 /// complete, and notes mass and work.
-pub fn wear(model: &Model, state: &State, dt: f64, next: &mut State) {
+pub fn wear(model: &RollingModel, state: &State, dt: f64, next: &mut State) {
     next.lines.iter_mut().zip(&state.lines).for_each(|(next, line)| next.worn = line.worn);
     if !model.config.damage.wear.is_on() {
         return;
@@ -52,7 +52,7 @@ struct Way {
 }
 
 /// Takes off what friction wears under one line.
-fn wear_line(model: &Model, way: &Way, passing: &Passing, next: &mut Line) {
+fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line) {
     let (Way { dt, velocity, rim, from, to }, traction) = (way, &next.contact.traction);
     let t_gamma = per_metre(traction.friction.work / dt, *velocity, *rim);
     let law = WearLaw::from(&model.config);
@@ -83,7 +83,7 @@ fn wear_line(model: &Model, way: &Way, passing: &Passing, next: &mut Line) {
 /// Length over which the wear of a step is smoothed \[m], so that the wear under a wave of the pressure does not exceed
 /// that wave: wear per load `dh/dp` \[m/Pa], stiffness `½E*k` of the half-planes under a wave k, and of the waves that
 /// pass the filter `1/(1 + (k ℓ)²)` the stiffest, kℓ = 1. It vanishes with the step.
-fn smoothing_length(model: &Model, wear: f64) -> f64 {
+fn smoothing_length(model: &RollingModel, wear: f64) -> f64 {
     Isotropic::from(&model.config.material).contact_modulus() * wear
 }
 

@@ -6,12 +6,12 @@
 //! are the same in both.
 
 use super::bodies::ports;
-use super::model::Model;
+use super::model::RollingModel;
 use super::state::State;
 use crate::contact::ContactState;
 
 /// The state in the wide zone; `None` if it is there, or there is none.
-pub fn widened(model: &Model, state: &State) -> Option<State> {
+pub fn widened(model: &RollingModel, state: &State) -> Option<State> {
     let lines = state.lines.iter().map(|line| model.contact.solver.widened(&line.contact));
     let contacts = lines.collect::<Option<Vec<_>>>()?;
     let mut wide = state.clone();
@@ -20,7 +20,7 @@ pub fn widened(model: &Model, state: &State) -> Option<State> {
 }
 
 /// Returns a state to the narrow zone if none of its lines needs the wide one any longer.
-pub fn narrow(model: &Model, state: &mut State) {
+pub fn narrow(model: &RollingModel, state: &mut State) {
     let load = model.contact.nominal_line_load();
     let lines = state.lines.iter().map(|line| model.contact.solver.narrowed(&line.contact, load));
     if let Some(contacts) = lines.collect::<Option<Vec<_>>>() {

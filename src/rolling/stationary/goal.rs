@@ -3,7 +3,7 @@
 use super::super::brake;
 use super::super::control::{Drive, Inputs, peripheral_velocity};
 use super::super::error::StepError;
-use super::super::model::Model;
+use super::super::model::RollingModel;
 use crate::contact::{AxisDrive, RigidMotion};
 
 /// Speed of both surfaces together below which the wheel stands [m/s].
@@ -46,7 +46,7 @@ impl Goal {
     /// - a wheel at rest sticks, and the contact carries what moment or force put on it, nothing where both speeds are
     ///   prescribed. Such a contact is that of slow rolling, whose slip stands for the direction of motion;
     /// - without friction nothing holds the wheel, and it rolls without creepage.
-    pub fn new(model: &Model, inputs: &Inputs) -> Result<Self, StepError> {
+    pub fn new(model: &RollingModel, inputs: &Inputs) -> Result<Self, StepError> {
         let (drive, initial, radius) = (inputs.at(0.0), &model.config.initial, model.wheel.radius);
         let given = model.wheel.drives(inputs, &drive);
         let target = |drive: AxisDrive| match drive {
@@ -75,7 +75,7 @@ impl Goal {
     }
 
     /// Refuses speeds beyond those of the model.
-    pub fn check(&self, model: &Model, speeds: [f64; 2]) -> Result<(), StepError> {
+    pub fn check(&self, model: &RollingModel, speeds: [f64; 2]) -> Result<(), StepError> {
         let [velocity, omega] = self.actual(speeds);
         model.wheel.check([velocity, 0.0, omega])
     }
@@ -152,7 +152,7 @@ impl Goal {
     /// the axis `sought`, whose acceleration is that of the trial whatever the speed.
     pub fn motions(
         &self,
-        model: &Model,
+        model: &RollingModel,
         trial: &Trial,
         sought: Option<usize>,
         height: f64,

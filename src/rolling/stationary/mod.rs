@@ -11,7 +11,7 @@ mod settle;
 use super::brake;
 use super::control::Inputs;
 use super::error::StepError;
-use super::model::{Model, Workspace};
+use super::model::{RollingModel, Workspace};
 use super::state::State;
 use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
@@ -37,7 +37,12 @@ const THERMAL_SCATTER: f64 = 1e-3;
 ///
 /// [`StepError::BeyondAdhesion`] if force and moment ask for more than friction carries, and what the contact, the heat
 /// and the ranges of the model refuse.
-pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Workspace) -> Result<State, StepError> {
+pub fn start(
+    model: &RollingModel,
+    tuning: &Tuning,
+    inputs: &Inputs,
+    workspace: &mut Workspace,
+) -> Result<State, StepError> {
     inputs.validate()?;
     let goal = Goal::new(model, inputs)?;
     let mut state = settle(model, tuning, &goal, Vec::new(), workspace)?;
@@ -75,7 +80,7 @@ pub fn start(model: &Model, tuning: &Tuning, inputs: &Inputs, workspace: &mut Wo
 /// Change from one state to the next: of the contact force relative to the load and, since a prescribed force fixes it
 /// whatever the temperatures, of the creepage relative to the one that strains the patch by its own width over the
 /// radius.
-fn difference(model: &Model, before: &State, now: &State) -> f64 {
+fn difference(model: &RollingModel, before: &State, now: &State) -> f64 {
     let ([from, to], half_width) = ([before, now].map(State::resultant), now.half_width());
     let force = (0..2).map(|k| (to[k] - from[k]).abs()).fold(0.0, f64::max) / scale(model, to);
     let [v, v_before] = [now, before].map(|state| state.motion.velocity.now);

@@ -5,7 +5,7 @@ use super::super::contact_model::ContactStep;
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::line::Line;
-use super::super::model::{Model, Workspace};
+use super::super::model::{RollingModel, Workspace};
 use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State};
 use super::super::substeps;
 use super::super::thermal;
@@ -32,13 +32,13 @@ const SLIGHT: f64 = 1e-9;
 const NEARLY_ALL: f64 = 0.99;
 
 /// Contact force that changes are compared with [N/m].
-pub(super) fn scale(model: &Model, resultant: [f64; 3]) -> f64 {
+pub(super) fn scale(model: &RollingModel, resultant: [f64; 3]) -> f64 {
     resultant[1].abs().max(SLIGHT * model.contact.nominal_line_load())
 }
 
 /// Stationary contact at given temperatures of every line.
 pub(super) fn settle(
-    model: &Model,
+    model: &RollingModel,
     tuning: &Tuning,
     goal: &Goal,
     thermal: Vec<Option<ThermalState>>,
@@ -90,7 +90,7 @@ pub(super) fn settle(
 }
 
 /// Lines that touch and stick under about the `load` [N/m], with given temperatures.
-fn lines(model: &Model, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
+fn lines(model: &RollingModel, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
     let mut temperatures = thermal.into_iter();
     let line = |share: &f64| Line {
         share: *share,
@@ -115,7 +115,7 @@ fn friction(tuning: &Tuning, goal: &Goal, state: &State) -> Vec<Friction> {
 
 /// One pass: contact at the present deformation and accelerations, then deformation and accelerations of its forces.
 struct Pass<'a> {
-    model: &'a Model,
+    model: &'a RollingModel,
     goal: &'a Goal,
     /// Friction of every line.
     friction: &'a [Friction],
@@ -206,7 +206,7 @@ impl Pass<'_> {
 }
 
 /// Everything of the state that follows from the settled contact.
-fn complete(model: &Model, goal: &Goal, trial: &Trial, mut state: State) -> State {
+fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) -> State {
     if !goal.moving {
         state.lines.iter_mut().for_each(|line| line.contact.rest());
     }

@@ -21,7 +21,7 @@ mod prediction;
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
-use super::model::{Model, Workspace};
+use super::model::{RollingModel, Workspace};
 use super::state::{State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
@@ -45,7 +45,7 @@ const STEPS_PER_WAVE: f64 = 40.0;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Control of a stationary start: the errors do not limit the step yet.
-pub fn unlimited(model: &Model, state: &State) -> StepControl {
+pub fn unlimited(model: &RollingModel, state: &State) -> StepControl {
     StepControl { step: f64::INFINITY, before: controlled(model, state), ..StepControl::default() }
 }
 
@@ -71,7 +71,7 @@ impl Place {
 
 /// Computes the state `out` after a communication step of `h` seconds under `inputs`; on error `out` is meaningless.
 pub fn advance(
-    model: &Model,
+    model: &RollingModel,
     tuning: &Tuning,
     state: &State,
     inputs: &Inputs,
@@ -121,7 +121,7 @@ impl Ramp<'_> {
 }
 
 /// Longest internal step that resolves the surfaces which the wheel meets in the coming `h` seconds \[s].
-fn resolving_step(model: &Model, state: &State, h: f64) -> f64 {
+fn resolving_step(model: &RollingModel, state: &State, h: f64) -> f64 {
     let (radius, [velocity, _, omega]) = (model.wheel.radius, state.motion.values());
     let speed = velocity.abs().max((radius * omega).abs());
     let patch = 2.0 * model.contact.nominal_half_width();
@@ -131,7 +131,7 @@ fn resolving_step(model: &Model, state: &State, h: f64) -> f64 {
 
 /// Takes all internal steps; `now` is the state after the last one, `next` a buffer.
 fn march(
-    model: &Model,
+    model: &RollingModel,
     tuning: &Tuning,
     state: &State,
     ramp: &Ramp,

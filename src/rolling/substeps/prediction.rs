@@ -24,7 +24,7 @@
 //! velocity explains of a missed slip is no error.
 
 use crate::rolling::line::Line;
-use crate::rolling::model::Model;
+use crate::rolling::model::RollingModel;
 use crate::rolling::state::{Controlled, State};
 
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
@@ -35,7 +35,7 @@ const WARM: f64 = 100.0;
 const AIRBORNE: f64 = 8.0;
 
 /// The predicted quantities of a state.
-pub fn controlled(model: &Model, state: &State) -> Controlled {
+pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
     let accelerations = state.motion.accelerations();
     Controlled {
         forces: state.resultant(),
@@ -74,7 +74,14 @@ pub struct Found {
 impl Found {
     /// Judges the step of `dt` \[s] that led `from` one state `to` the next; the step before took `last_step` \[s].
     /// `before` are the quantities at its beginning.
-    pub fn compare(model: &Model, from: &State, to: &State, before: &Controlled, last_step: f64, dt: f64) -> Self {
+    pub fn compare(
+        model: &RollingModel,
+        from: &State,
+        to: &State,
+        before: &Controlled,
+        last_step: f64,
+        dt: f64,
+    ) -> Self {
         let (now, found) = (controlled(model, from), controlled(model, to));
         let first = to.clock.restarted || last_step == 0.0;
         let ratio = if first { 0.0 } else { dt / last_step };
