@@ -1,9 +1,9 @@
 //! Steps of building the shared library that the compiler does not take alone.
 //!
-//! - The library of an FMU exports the functions of the standard and no others, and needs no libraries but those of the C
-//!   runtime: options for the linker.
-//! - Reduced bases are computed once and stored. A basis is only right for the code that computed it, so the build gives the
-//!   code a digest of its own sources, which becomes part of the key under which a basis is stored.
+//! - The library of an FMU exports the functions of the standard and no others, and needs no libraries but those of the
+//!   C runtime: options for the linker.
+//! - Reduced bases are computed once and stored. A basis is only right for the code that computed it, so the build
+//!   gives the code a digest of its own sources, which becomes part of the key under which a basis is stored.
 
 use std::collections::BTreeMap;
 use std::error::Error;

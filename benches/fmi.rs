@@ -1,6 +1,7 @@
 //! Cost of the FMI layer alone, through the C functions of the shared library, on the default mesh.
 //!
-//! A refused step passes every check but the last and does no mechanics: it stands for what `fmi2DoStep` adds to a step.
+//! A refused step passes every check but the last and does no mechanics: it stands for what `fmi2DoStep` adds to a
+//! step.
 
 #[path = "../tests/slave/mod.rs"]
 mod slave;

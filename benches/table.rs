@@ -1,8 +1,8 @@
-//! One table of what everything costs, as times and as multiples of a fixed reference computation of the same run, so that
-//! tables of different machines and days can be compared: `make bench`.
+//! One table of what everything costs, as times and as multiples of a fixed reference computation of the same run, so
+//! that tables of different machines and days can be compared: `make bench`.
 //!
-//! Every number is the smallest of many short batches: other programs can only add to it. Each run appends one line of JSON to
-//! `results/bench.jsonl`.
+//! Every number is the smallest of many short batches: other programs can only add to it. Each run appends one line of
+//! JSON to `results/bench.jsonl`.
 
 use nalgebra::DMatrix;
 use serde_json::{Map, Value, json};
@@ -115,7 +115,8 @@ fn steps(table: &mut Table, store: &BasisStore) {
     }
 }
 
-/// Wheels one after the other and on all cores. Their moments differ: equal ones would share what belongs to their speeds.
+/// Wheels one after the other and on all cores. Their moments differ: equal ones would share what belongs to their
+/// speeds.
 fn wheels(table: &mut Table, store: &BasisStore) {
     for (name, heat) in [("coupled", true), ("without heat", false)] {
         let model = model(20, heat, store);
@@ -150,8 +151,8 @@ fn starts(table: &mut Table, store: &BasisStore) {
     table.time("start of a further equal wheel", fastest(second));
 }
 
-/// What a wheel adds to the memory of the process: the mean over many, after as many others have used up what earlier work left to
-/// spare.
+/// What a wheel adds to the memory of the process: the mean over many, after as many others have used up what earlier
+/// work left to spare.
 fn memory(table: &mut Table, store: &BasisStore) {
     let shared = model(20, true, store);
     let some = || (0..150).map(|_| braking(&shared, MOMENT)).collect::<Vec<_>>();

@@ -48,9 +48,9 @@ SIGNS = 0.10  # share of the steps
 AUDIT = 0.01  # of the dissipation
 SPREAD = 0.05  # of the result of the finest run
 
-# Steel tyre sliding on a dry steel rail, speed in mph and friction coefficient. D. Galton and G. Westinghouse, Proc. IMechE
-# 1878-79; quoted FROM MEMORY, the table of the reports could not be read. Published and read: the force of a skidding
-# wheel is less than a third of that of a braked, rolling one, and falls with speed and sliding time.
+# Steel tyre sliding on a dry steel rail, speed in mph and friction coefficient. D. Galton and G. Westinghouse, Proc.
+# IMechE 1878-79; quoted FROM MEMORY, the table of the reports could not be read. Published and read: the force of a
+# skidding wheel is less than a third of that of a braked, rolling one, and falls with speed and sliding time.
 GALTON = ((7, 0.088), (14, 0.072), (27, 0.070), (34, 0.065), (41, 0.057), (55, 0.038), (60, 0.027))
 
 OUTPUTS = (

@@ -48,14 +48,15 @@ LEFT = (
 CONVERGED = 0.05  # change of these
 COARSE = ("mesh.elements_per_half_width", 10)  # half of the usual number
 
-# The rail lies on a track: stiffness and damping below a wheel, mass that moves with the rail (one rail of Zhai, Wang and Lin,
-# J. Sound Vib. 270 (2004), put together). On a rigid base the wheel would bounce for ever once its flat has struck.
+# The rail lies on a track: stiffness and damping below a wheel, mass that moves with the rail (one rail of Zhai, Wang
+# and Lin, J. Sound Vib. 270 (2004), put together). On a rigid base the wheel would bounce for ever once its flat has
+# struck.
 TRACK = {"rail.support_stiffness": 81e6, "rail.support_damping": 120e3, "rail.support_mass": 400.0}
 
-# Steel of the independent computation, if the FMU has no parameters for it: start of the martensite transformation [K] by
-# Andrews' formula 539 - 423 C - 30.4 Mn - 17.7 Ni - 12.1 Cr - 7.5 Mo [°C] (read in a second source) for an ASSUMED wheel
-# steel 0.50 C 0.75 Mn 0.25 Cr 0.35 Si; cooling from 800 to 500 °C [K/s] from which no pearlite forms: JUDGEMENT, no value was
-# found for wheel steel.
+# Steel of the independent computation, if the FMU has no parameters for it: start of the martensite transformation [K]
+# by Andrews' formula 539 - 423 C - 30.4 Mn - 17.7 Ni - 12.1 Cr - 7.5 Mo [°C] (read in a second source) for an ASSUMED
+# wheel steel 0.50 C 0.75 Mn 0.25 Cr 0.35 Si; cooling from 800 to 500 °C [K/s] from which no pearlite forms: JUDGEMENT,
+# no value was found for wheel steel.
 STEEL = {"damage.martensite_start": 302.0 + KELVIN, "damage.critical_cooling": 50.0}
 # Coefficient of Koistinen and Marburger, 1 - exp(-b (Ms - T)) [1/K]: the form was read, the value is from memory.
 KOISTINEN = 0.011

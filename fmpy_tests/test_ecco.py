@@ -80,7 +80,8 @@ def test_the_controller_settles_where_the_tolerance_asks_and_keeps_to_its_limits
     assert control.next(h, [Bond(1e9, 1.0)]) == pytest.approx(max(0.2 * h, 1e-4))
     assert control.next(0.09, [Bond(0.0, 1.0)]) == 0.1
     assert StepControl(energy, order, 1e-4, 1e-1).next(0.05, [Bond(0.0, 0.0)], horizon=0.02) == pytest.approx(2e-3)
-    # Twice the residual is tolerated where what passes the bond counts, too; a bond that errs half counts by the mean square.
+    # Twice the residual is tolerated where what passes the bond counts, too; a bond that errs half counts by the mean
+    # square.
     assert StepControl(1.0, order, 1e-4, 1.0, share=0.5).error([Bond(2.0, -2.0)]) == pytest.approx(1.0)
     assert StepControl(1.0, order, 1e-4, 1.0).error([Bond(3.0, 0.0), Bond(-4.0, 0.0)]) == pytest.approx(12.5**0.5)
     with pytest.raises(ValueError, match="energy = 0.0 J"):

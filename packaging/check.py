@@ -25,8 +25,8 @@ NEEDED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-x
 # Part of every Windows.
 SYSTEM = re.compile(r"(kernel32|ntdll|msvcrt|advapi32|ws2_32|userenv|bcrypt|bcryptprimitives|api-ms-win-.*)\.dll")
 TOLERANCE = 1e-9  # relative to the largest value of an output, or of a whole profile, in the run
-# What remains of sums that cancel is compared with the size of these sums: the first is a share of the friction energy, of
-# energies as large as the work of the hub, the second a share of all heat.
+# What remains of sums that cancel is compared with the size of these sums: the first is a share of the friction energy,
+# of energies as large as the work of the hub, the second a share of all heat.
 SCALES = {
     "solver.energy_residual": lambda largest: largest["energy.hub_work"] / largest["energy.friction"],
     "solver.heat_residual": lambda largest: 1.0,

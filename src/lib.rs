@@ -30,30 +30,44 @@
 //!
 //! # Map
 //!
-//! Equations and derivations are pages of their own under [`docs/theory`](../../../docs/theory/README.md); the map names those that belong
-//! to a room. Imports run downward only, from the end of this table to its beginning; a test keeps it so.
+//! Equations and derivations are pages of their own under [`docs/theory`](../../../docs/theory/README.md); the map
+//! names those that belong to a room. Imports run downward only, from the end of this table to its beginning; a test
+//! keeps it so.
 //!
 //! | room | content | theory |
 //! |---|---|---|
 //! | [`config`] | parameters, units and presets: a [`config::table`] of one row each | |
 //! | [`analytic`] | Hertz, Carter and other closed forms: start guesses and tests | |
 //! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
-//! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula](../../../docs/theory/time-formula.md) |
+//! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula] |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
 //! | [`files`] | reading of regular files of bounded size | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
-//! | [`mechanics`] | elasticity and convection; full and reduced bodies behind [`mechanics::BodyResponse`] | [ale-balance](../../../docs/theory/ale-balance.md), [condensation](../../../docs/theory/condensation.md), [damping](../../../docs/theory/damping.md), [rail-ends](../../../docs/theory/rail-ends.md) |
-//! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, modal direct solver | [heat](../../../docs/theory/heat.md) |
-//! | [`surface`] | shapes of both surfaces: profiles from files, waves, roughness, holes, joints, flats; dents; wear | [profiles](../../../docs/theory/profiles.md) |
-//! | [`contact`] | exact Coulomb contact behind [`contact::ContactSolver`], seen by everyone else as its [`contact::Traction`]; friction laws | [contact](../../../docs/theory/contact.md), [edge-consistent-rows](../../../docs/theory/edge-consistent-rows.md), [kernel-correction](../../../docs/theory/kernel-correction.md), [patch-contact](../../../docs/theory/patch-contact.md) |
-//! | [`damage`] | history of hot material: temperatures of places that were heated in one piece, structure of the steel | [material-history](../../../docs/theory/material-history.md) |
-//! | [`rolling`] | stationary and transient rolling, mixed control, observables, energy audit, derivatives | [lever-arms](../../../docs/theory/lever-arms.md), [friction-and-coupling](../../../docs/theory/friction-and-coupling.md) |
+//! | [`mechanics`] | deformable bodies behind [`mechanics::BodyResponse`] | [ale-balance], [condensation], [damping], [rail-ends] |
+//! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, direct solver | [heat] |
+//! | [`surface`] | shapes of both surfaces: files, waves, roughness, holes, joints, flats; dents; wear | [profiles] |
+//! | [`contact`] | Coulomb contact behind [`contact::ContactSolver`]; friction laws | [contact], [patch-contact] |
+//! | [`damage`] | history of hot places of the tread, structure of the steel | [material-history] |
+//! | [`rolling`] | steady and transient rolling, control, outputs, audit | [lever-arms], [friction-and-coupling] |
 //! | [`simulation`] | façade: configuration → shared model → advance → outputs; stored bases, advice | |
 //! | [`wheels`] | many of them, stepped side by side on all cores | |
 //! | [`fmi`] | the FMI 2.0 co-simulation slave around it | |
 //!
 //! The command line is a room of the binary, `src/cli`. How to add to a room: `CONTRIBUTING.md`.
+//!
+//! [ale-balance]: ../../../docs/theory/ale-balance.md
+//! [condensation]: ../../../docs/theory/condensation.md
+//! [contact]: ../../../docs/theory/contact.md
+//! [damping]: ../../../docs/theory/damping.md
+//! [friction-and-coupling]: ../../../docs/theory/friction-and-coupling.md
+//! [heat]: ../../../docs/theory/heat.md
+//! [lever-arms]: ../../../docs/theory/lever-arms.md
+//! [material-history]: ../../../docs/theory/material-history.md
+//! [patch-contact]: ../../../docs/theory/patch-contact.md
+//! [profiles]: ../../../docs/theory/profiles.md
+//! [rail-ends]: ../../../docs/theory/rail-ends.md
+//! [time-formula]: ../../../docs/theory/time-formula.md
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

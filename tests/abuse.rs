@@ -8,15 +8,15 @@
 //! - the status is OK, Discard (steps only) or Error, never Warning, Pending or Fatal, and is the one that the state
 //!   machine of the standard and the declared ranges demand;
 //! - all real outputs are finite and within their declared ranges; temperatures are at least 1 K in calm runs below
-//!   melting (known limit: in wild ones, steps much longer than the passage of a hot spot through the contact undershoot
-//!   where it is carried away);
+//!   melting (known limit: in wild ones, steps much longer than the passage of a hot spot through the contact
+//!   undershoot where it is carried away);
 //! - unless the call was a success that may change outputs, they are those before it, bit for bit;
 //! - a restored state has the outputs of the moment when it was saved;
 //! - after a reset, the first steps are those of a new instance, bit for bit.
 //!
 //! Half of the runs are calm: driven by service moments, forces and loads with steps of at most 2 ms. Only in these the
-//! energy residual is bounded; wild runs step over whole collisions, and then it says nothing (measured: from -1e6 to 1e5).
-//! `tests/endurance.rs` has the bounds of driving.
+//! energy residual is bounded; wild runs step over whole collisions, and then it says nothing (measured: from -1e6 to
+//! 1e5). `tests/endurance.rs` has the bounds of driving.
 #![allow(unsafe_code)]
 
 mod common;
@@ -35,10 +35,11 @@ use wheelrail::fmi::variable::{Causality, Kind, Variable};
 /// Values that no real variable may take, and extremes of the number format.
 const ODD: [f64; 7] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 1e30, -1e30];
 /// Energy that calm runs may create, over that dissipated or the elastic energy of the contact: jumps of inputs within
-/// steps are known to the time formula only by their ends (measured before in 24,000 calls, three times those of the test: 1.4).
+/// steps are known to the time formula only by their ends (measured before in 24,000 calls, three times those of the
+/// test: 1.4).
 const MOST_CREATED: f64 = 5.0;
-/// Energy that calm runs may lose: the time formula damps the vibrations that each jump of the load excites, of about the
-/// elastic energy of the contact each (measured: 11).
+/// Energy that calm runs may lose: the time formula damps the vibrations that each jump of the load excites, of about
+/// the elastic energy of the contact each (measured: 11).
 const MOST_LOST: f64 = 40.0;
 /// Above this the model means nothing, but must stay sane [K].
 const MELTING: f64 = 2000.0;

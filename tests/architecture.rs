@@ -1,6 +1,6 @@
 //! The plan of the house, kept by reading the source: which room may look at which other, that nothing looks back, how
-//! large functions and files may be, and how names and comments are written. Every rule is itself tested on a made-up house
-//! that breaks it. `tools/house.py` lists every case of what is counted here.
+//! large functions and files may be, and how names and comments are written. Every rule is itself tested on a made-up
+//! house that breaks it. `tools/house.py` lists every case of what is counted here.
 
 mod source_map;
 
@@ -112,8 +112,8 @@ fn looks(map: &SourceMap) -> BTreeMap<(&str, &str), &str> {
     found
 }
 
-/// Rooms that are not in the plan or not in the house, imports that the plan does not allow, and permissions that nobody
-/// uses.
+/// Rooms that are not in the plan or not in the house, imports that the plan does not allow, and permissions that
+/// nobody uses.
 fn against_the_plan(map: &SourceMap, plan: &[(&str, &[&str])]) -> Vec<String> {
     let rooms: BTreeSet<&str> = map.modules.iter().map(|module| room(&module.file)).collect();
     let planned: BTreeSet<&str> = plan.iter().map(|(name, _)| *name).collect();

@@ -198,7 +198,8 @@ fn a_released_wheel_rolls_off_under_its_drive_without_a_kick() {
         let expected = (force * (2.0 + build_down - free) - lost) / (mass + moment / 0.46f64.powi(2));
         println!("{step}, {build_down} s: free at {free} s, {v} m/s of {expected}; {slowest:e} rad/s, {kick} rad/s²");
         assert!((v / expected - 1.0).abs() < 1e-3, "{v} m/s, closed form {expected}");
-        // A torque that ends at once sets the spring free; one that fades makes it swing at most by the new acceleration.
+        // A torque that ends at once sets the spring free; one that fades makes it swing at most by the new
+        // acceleration.
         let steady = force / (0.46 * mass + moment / 0.46);
         assert!(build_down == 0.0 || slowest == 0.0 && kick < 2.0 * steady, "{kick} rad/s², steady {steady}");
     }

@@ -1,5 +1,5 @@
-//! From Cattaneo's shift to Carter's rolling: a wheel at rest is loaded by a moment below the friction limit, then rolls
-//! slowly under the constant moment.
+//! From Cattaneo's shift to Carter's rolling: a wheel at rest is loaded by a moment below the friction limit, then
+//! rolls slowly under the constant moment.
 //!
 //! What is compared is the creepage over the distance rolled, under a prescribed tangential force. With prescribed
 //! creepage the force would build up over a distance that grows with the logarithm of the size of the bodies, because
@@ -154,8 +154,8 @@ fn creepage_after_cattaneo_develops_to_carter() {
     let carter = 1.0 - (1.0 - SHARE).sqrt();
     let [coarse, fine] = [100, 200].map(reference);
     let (loaded, free) = (rolled(SHARE, 0.02), rolled(0.0, 0.02));
-    // Near s = a the edge of the slip zone that the shift left at the leading edge reaches the stick zone of rolling: the
-    // creepage has a sharp peak, which a spacing of a/20 rounds off.
+    // Near s = a the edge of the slip zone that the shift left at the leading edge reaches the stick zone of rolling:
+    // the creepage has a sharp peak, which a spacing of a/20 rounds off.
     let tolerances = [0.003, 0.003, 0.003, 0.03, 0.007, 0.005, 0.003, 0.003];
     for (k, tolerance) in tolerances.into_iter().enumerate() {
         let found = loaded[k] - free[k];

@@ -510,7 +510,8 @@ fn exported_shear_velocity_and_temperature_agree_with_the_outputs() {
     for (grid, surface) in [&wheel, &rail].into_iter().zip(&surfaces) {
         assert_close(grid.integral("sigma_xy", surface), -force, 0.03, "tangential force");
     }
-    // Material flows to −x with the speed of the wheel; where it sticks, in the leading half, the surfaces move together.
+    // Material flows to −x with the speed of the wheel; where it sticks, in the leading half, the surfaces move
+    // together.
     let rigid = 3e-4 * 13.9;
     let velocity = |grid: &Grid, k: usize, body: usize| grid.data["velocity"][3 * surfaces[body][k].1];
     let (mut stuck, mut slipping) = (0, 0);

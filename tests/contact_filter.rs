@@ -1,6 +1,6 @@
-//! The contact evens out waves of the rail: by `J₀(2πa/λ)` to first order in the amplitude, for a Hertzian line contact of
-//! half-width a. By reciprocity with the flat punch, whose pressure `1/(π√(a² − x²))` per unit force says how much each place
-//! of the profile lifts the wheel: `∫ cos(2πx/λ)/(π√(a² − x²)) dx = J₀(2πa/λ)`.
+//! The contact evens out waves of the rail: by `J₀(2πa/λ)` to first order in the amplitude, for a Hertzian line contact
+//! of half-width a. By reciprocity with the flat punch, whose pressure `1/(π√(a² − x²))` per unit force says how much
+//! each place of the profile lifts the wheel: `∫ cos(2πx/λ)/(π√(a² − x²)) dx = J₀(2πa/λ)`.
 
 mod common;
 mod half_planes;
@@ -36,8 +36,8 @@ fn height(elements: usize, load: f64, wavelength: f64, phase: f64) -> f64 {
     bodies.roll(load, 0.0, &bodies.start()).unwrap().traction.rigid[1]
 }
 
-/// Shares of a wave of so many half-widths that lift the cylinder, from a crest and a trough below its centre. The loads of
-/// the list let the edges of the contact wander over one spacing of the nodes.
+/// Shares of a wave of so many half-widths that lift the cylinder, from a crest and a trough below its centre. The
+/// loads of the list let the edges of the contact wander over one spacing of the nodes.
 fn shares(elements: usize, length: f64) -> Vec<f64> {
     let share = |k: i32| {
         let load = NOMINAL * (1.0 + f64::from(k) / 8.0 / elements as f64).powi(2);
@@ -52,8 +52,8 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// A small wave changes no node between open and closed, so that the patch feels it with a half-width that is wrong by up to
-/// half a spacing. The filter is the mean over the places that the edges can have between two nodes.
+/// A small wave changes no node between open and closed, so that the patch feels it with a half-width that is wrong by
+/// up to half a spacing. The filter is the mean over the places that the edges can have between two nodes.
 #[test]
 fn a_static_contact_evens_out_waves_by_the_bessel_function() {
     let level = |share: f64| 20.0 * share.abs().log10();
@@ -82,7 +82,8 @@ fn a_static_contact_evens_out_waves_by_the_bessel_function() {
     assert!(even.abs() < 1e-4 * AMPLITUDE, "{even}");
 }
 
-/// The same with elastic wheel and rail: a wheel that stands on waves of its rail under loads that let the edges wander.
+/// The same with elastic wheel and rail: a wheel that stands on waves of its rail under loads that let the edges
+/// wander.
 #[test]
 fn a_standing_wheel_is_lifted_by_what_the_contact_leaves_of_waves() {
     let elements = 20;

@@ -1,5 +1,5 @@
-//! Observables of the contact patch on sampled closed forms: Hertz, Carter, and a hot, skewed patch. The grid is shifted
-//! through one cell, so that the edges take every position between the nodes.
+//! Observables of the contact patch on sampled closed forms: Hertz, Carter, and a hot, skewed patch. The grid is
+//! shifted through one cell, so that the edges take every position between the nodes.
 
 use nalgebra::DVector;
 use std::f64::consts::PI;
@@ -70,8 +70,9 @@ fn hertz_cell(x: f64, h: f64) -> f64 {
     hertz_up_to(x + 0.5 * h) - hertz_up_to(x - 0.5 * h)
 }
 
-/// Nodal forces by an edge as the discrete half-plane answers: `Γ(n + ½)/n! (n + z)`, `n` cells from the outermost node,
-/// tends to `√(n + 2z − ¼)`; it solves the kernel `1/(n + ½)`, and the effective edge lies `2z − ¼` cells outside.
+/// Nodal forces by an edge as the discrete half-plane answers: `Γ(n + ½)/n! (n + z)`, `n` cells from the outermost
+/// node, tends to `√(n + 2z − ¼)`; it solves the kernel `1/(n + ½)`, and the effective edge lies `2z − ¼` cells
+/// outside.
 fn discrete_edge(outermost: f64, cell: f64) -> f64 {
     let (n, z) = (cell.round() as i32, 0.5 * (outermost + 0.25));
     let gamma = (0..n).fold(PI.sqrt(), |product, k| product * (k as f64 + 0.5) / (k as f64 + 1.0));
@@ -101,8 +102,8 @@ fn half_width_of_discrete_hertz_patches_is_right_below_grid_scale() {
     assert!(mean.abs() <= 1e-3 && spread <= 1e-3, "mean {mean}, peak to peak {spread}");
 }
 
-/// Cell forces are not those of a discrete solution at the edges: where the edge enters a cell it is seen a quarter of a
-/// cell too far outside.
+/// Cell forces are not those of a discrete solution at the edges: where the edge enters a cell it is seen a quarter of
+/// a cell too far outside.
 #[test]
 fn half_width_of_integrated_hertz_pressure_is_right_to_a_quarter_of_a_cell() {
     let seen = observed(hertz_cell, |_, _| 0.0);
@@ -142,8 +143,8 @@ fn cell(x: f64, h: f64, f: impl Fn(f64) -> f64) -> f64 {
     half(x - 0.25 * h) + half(x + 0.25 * h)
 }
 
-/// A locked wheel heats the trailing half of its patch, which swells: the pressure leans backwards, or concentrates on a
-/// hot ridge of a fifth of the half-width.
+/// A locked wheel heats the trailing half of its patch, which swells: the pressure leans backwards, or concentrates on
+/// a hot ridge of a fifth of the half-width.
 #[test]
 fn peak_pressure_of_a_hot_skewed_patch_is_that_of_the_profile() {
     let hertz = |x: f64| (1.0 - x * x).max(0.0).sqrt();

@@ -114,8 +114,8 @@ fn the_patch_evens_out_the_first_null_of_its_filter_and_small_waves_act_in_propo
     assert!((ratio - 1.0).abs() < 0.02);
 }
 
-/// The hub drives the wheel up the waves and is driven down again: without damping nothing is lost, and waves of the wheel
-/// take a moment where waves of the rail take a force.
+/// The hub drives the wheel up the waves and is driven down again: without damping nothing is lost, and waves of the
+/// wheel take a moment where waves of the rail take a force.
 #[test]
 fn what_the_hub_does_on_waves_is_stored_and_given_back() {
     let radius = preset("paper_a", 10).wheel.radius;
@@ -142,7 +142,8 @@ fn what_the_hub_does_on_waves_is_stored_and_given_back() {
     assert!((worst[0] / worst[1] - 1.0).abs() < 0.1, "{worst:?}");
 }
 
-/// Energy that is missing on waves of 5 µm at any time of four of them, that which moves, and that which damping takes \[J].
+/// Energy that is missing on waves of 5 µm at any time of four of them, that which moves, and that which damping takes
+/// \[J].
 fn missing(model: Arc<Model>, inputs: &Inputs, length: f64) -> [f64; 3] {
     let (steps, velocity) = (100, inputs.drive.velocity);
     let mut simulation = Simulation::new(model, inputs).unwrap();
@@ -156,10 +157,10 @@ fn missing(model: Arc<Model>, inputs: &Inputs, length: f64) -> [f64; 3] {
     [lost, moved, simulation.outputs().damping_energy]
 }
 
-/// The same with Rayleigh damping, within each wave: the damped layer under the contact answers the forces of before, which
-/// do work on its slope, and the stream carries the static answer of the truncated modes into the rates of the kept ones. The
-/// first cases have 160 and 80 modes, the last two the default. Without what late layers spare the hub a quarter of what is
-/// dissipated with the default modes would be missing, without what the stream carries 3.1 %.
+/// The same with Rayleigh damping, within each wave: the damped layer under the contact answers the forces of before,
+/// which do work on its slope, and the stream carries the static answer of the truncated modes into the rates of the
+/// kept ones. The first cases have 160 and 80 modes, the last two the default. Without what late layers spare the hub a
+/// quarter of what is dissipated with the default modes would be missing, without what the stream carries 3.1 %.
 #[test]
 fn what_the_hub_does_on_damped_waves_is_stored_or_dissipated() {
     let radius = preset("paper_a", 10).wheel.radius;

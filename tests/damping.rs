@@ -126,8 +126,8 @@ fn bounce_on_the_contact_decays_with_the_damper_between_hub_and_vehicle() {
     }
 }
 
-/// All flexibility on which the wheel bounces, residual and correction of the kernel included, has the loss factor `α1 ω`,
-/// so that the ratio is `α1 ω/2`, whatever the shape of contact and bodies.
+/// All flexibility on which the wheel bounces, residual and correction of the kernel included, has the loss factor
+/// `α1 ω`, so that the ratio is `α1 ω/2`, whatever the shape of contact and bodies.
 #[test]
 fn bounce_on_the_contact_decays_with_rayleigh_damping_standing_and_rolling() {
     let guess = 370.0;
@@ -143,9 +143,9 @@ fn bounce_on_the_contact_decays_with_rayleigh_damping_standing_and_rolling() {
     }
 }
 
-/// Each mode gives its share `s_i` of the flexibility under the bounce the loss factor `2 ζ_i ω/ω_i`: `ζ = Σ s_i ζ_i ω/ω_i`,
-/// with `s_i = f_i²/ω_i²/(δP δδ)` from two static states. Contact force and inertia of the bouncing wheel make the modal
-/// force `f_i = φ_iᵀ (δλ − M r_y δP/m)`.
+/// Each mode gives its share `s_i` of the flexibility under the bounce the loss factor `2 ζ_i ω/ω_i`:
+/// `ζ = Σ s_i ζ_i ω/ω_i`, with `s_i = f_i²/ω_i²/(δP δδ)` from two static states. Contact force and inertia of the
+/// bouncing wheel make the modal force `f_i = φ_iᵀ (δλ − M r_y δP/m)`.
 #[test]
 fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     let mut config = heavy_hub(10);
@@ -185,8 +185,8 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     assert!((found / expected - 1.0).abs() < 0.01);
 }
 
-/// Speeds of the centre of mass [m/s] before and after an impact: the wheel is thrown up by its own contact, turned back by a load
-/// until it falls at the share `turned` of the speed of the throw, and falls freely.
+/// Speeds of the centre of mass [m/s] before and after an impact: the wheel is thrown up by its own contact, turned
+/// back by a load until it falls at the share `turned` of the speed of the throw, and falls freely.
 fn impact(model: &Arc<Model>, dt: f64, turned: f64) -> [f64; 2] {
     let mut inputs = frictionless(model, 0.0);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
@@ -227,9 +227,9 @@ fn compression(model: &Arc<Model>) -> Vec<[f64; 2]> {
     (1..=50).map(&mut under).collect()
 }
 
-/// Restitution of a mass on the flexible contact with the loss factor `α1 ω`: in compression and in release the dashpots
-/// take `α1 ∫ v dF`, with the speed of the lossless impact, `½ m v² = ½ m v0² − ∫ F dδ`; their work is that share of the
-/// energy which makes `e = exp(−W/mv0²)` (exact for a linear spring but for `O(ζ²)`).
+/// Restitution of a mass on the flexible contact with the loss factor `α1 ω`: in compression and in release the
+/// dashpots take `α1 ∫ v dF`, with the speed of the lossless impact, `½ m v² = ½ m v0² − ∫ F dδ`; their work is that
+/// share of the energy which makes `e = exp(−W/mv0²)` (exact for a linear spring but for `O(ζ²)`).
 fn restitution(compression: &[[f64; 2]], retardation: f64, speed: f64, mass: f64) -> f64 {
     let (mut energy, mut work, mut before) = (0.5 * mass * speed * speed, 0.0, [0.0, 0.0]);
     for &[load, depth] in compression {
@@ -247,11 +247,12 @@ fn restitution(compression: &[[f64; 2]], retardation: f64, speed: f64, mass: f64
     panic!("the wheel falls faster than its contact bears under the nominal load");
 }
 
-/// The closed form is of first order in the damping ratio. The steps are fixed: their control would refine the coarse ones.
+/// The closed form is of first order in the damping ratio. The steps are fixed: their control would refine the coarse
+/// ones.
 ///
-/// The contact begins and ends anywhere within a step, and the error of the step, at most some `(ω Δt)²` of the speed, depends on
-/// that place. So the loss of a single impact need not come closer with each half of the step. Its mean over wheels that are
-/// turned back to several speeds, and so strike at other places of the step, does.
+/// The contact begins and ends anywhere within a step, and the error of the step, at most some `(ω Δt)²` of the speed,
+/// depends on that place. So the loss of a single impact need not come closer with each half of the step. Its mean over
+/// wheels that are turned back to several speeds, and so strike at other places of the step, does.
 #[test]
 fn rebound_of_a_dropped_wheel_converges_with_the_step_to_the_damped_closed_form() {
     for damping_ratio in [0.01, 0.02] {

@@ -1,5 +1,5 @@
-//! Declared ranges are accepted ranges: a model starts and steps with every parameter at each end of its range, alone or,
-//! where the refusal names another parameter, together with that.
+//! Declared ranges are accepted ranges: a model starts and steps with every parameter at each end of its range, alone
+//! or, where the refusal names another parameter, together with that.
 
 mod common;
 mod heap;
@@ -154,8 +154,8 @@ fn shipped_presets_say_only_what_differs_from_the_default() {
     assert_eq!(common::preset("railway", 20), Config::default());
 }
 
-/// Two bodies that ranges allow, but no memory: metres of rail in cells that a small wheel prescribes; a heat model for a
-/// twentieth of the load on the finest mesh.
+/// Two bodies that ranges allow, but no memory: metres of rail in cells that a small wheel prescribes; a heat model for
+/// a twentieth of the load on the finest mesh.
 #[test]
 fn models_too_large_for_memory_are_refused_by_name_before_memory_is_taken() {
     let mut rail = Config::default();

@@ -1,5 +1,5 @@
-//! Long braking by blocks, in steps that last from one second to minutes: 45 kW at 70 km/h for 34 min, the drag braking of
-//! the European specification for freight wagons (21 ‰ over 40 km).
+//! Long braking by blocks, in steps that last from one second to minutes: 45 kW at 70 km/h for 34 min, the drag braking
+//! of the European specification for freight wagons (21 ‰ over 40 km).
 
 mod common;
 
@@ -25,7 +25,8 @@ struct Braked {
     steps: u64,
 }
 
-/// Brakes a cold wheel that rolls with prescribed velocity against the moment of its blocks, in communication steps of `h`.
+/// Brakes a cold wheel that rolls with prescribed velocity against the moment of its blocks, in communication steps of
+/// `h`.
 fn brake(change: impl FnOnce(&mut Config), h: f64) -> Braked {
     let mut config = preset("railway", 10);
     (config.initial.velocity, config.tuning.max_step) = (SPEED, 500.0);
@@ -52,7 +53,8 @@ fn brake(change: impl FnOnce(&mut Config), h: f64) -> Braked {
 }
 
 impl Braked {
-    /// Mass that has taken at the bulk temperature what blocks and friction have put in and nothing has passed on \[kg].
+    /// Mass that has taken at the bulk temperature what blocks and friction have put in and nothing has passed on
+    /// \[kg].
     fn mass(&self) -> f64 {
         let [friction, rail, hub] = self.passed;
         (POWER * DURATION + friction - rail - hub) / (self.end.temperature_wheel_bulk - 293.0) / 470.0

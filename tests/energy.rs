@@ -83,8 +83,8 @@ fn energy_residual_of_gentle_traction_falls_with_the_step() {
 }
 
 /// Balance of the energy since the start as seen by someone who has nothing but the outputs: what the hub did, with the
-/// exchanged forces and the angles and distances of each step, less the kinetic energy of the masses and what friction and
-/// damping dissipated, relative to the latter; and what the model says of it.
+/// exchanged forces and the angles and distances of each step, less the kinetic energy of the masses and what friction
+/// and damping dissipated, relative to the latter; and what the model says of it.
 fn observed(config: &Config, moment: f64, friction: f64, step: f64, end: f64) -> [f64; 2] {
     let model = model(config.clone());
     let mut inputs = Inputs::rolling(model.config());

@@ -1,4 +1,5 @@
-//! Energy of wheels that leave the rail: as someone finds it who has nothing but the outputs, at steps of a millisecond.
+//! Energy of wheels that leave the rail: as someone finds it who has nothing but the outputs, at steps of a
+//! millisecond.
 
 mod common;
 
@@ -116,14 +117,15 @@ fn a_step_that_starts_afresh_falls_as_far_as_its_work_says() {
             let (o, t) = (simulation.outputs(), f64::from(k) * step);
             let fall = 0.5 * 1e5 / o.wheel_mass * t * t;
             println!("{t} s: {:.6} mm, ½ a t² {:.6} mm", 1e3 * (1e-3 - o.hub_height), 1e3 * fall);
-            // The deformation of the wheel takes part with a percent; backward Euler alone falls twice as far in the first step.
+            // The deformation of the wheel takes part with a percent; backward Euler alone falls twice as far in the
+            // first step.
             assert!(((1e-3 - o.hub_height) / fall - 1.0).abs() < 2e-2);
         }
     }
 }
 
-/// Residual at the end of `end` seconds in steps of `step` under a load that `load` gives, and the time without contact. The work
-/// of the hub must be what the outputs say: load times height.
+/// Residual at the end of `end` seconds in steps of `step` under a load that `load` gives, and the time without
+/// contact. The work of the hub must be what the outputs say: load times height.
 fn residual(config: Config, step: f64, end: f64, load: impl Fn(f64) -> f64) -> [f64; 2] {
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());

@@ -30,8 +30,8 @@ fn run(case: Case, contact: ContactMethod, drive: &Drive) -> Vec<(f64, bool)> {
     (0..60).map(&mut step).collect()
 }
 
-/// Largest difference between the steps of the energy residual in a run whose solver changes and in one on the grid, in the
-/// outputs in which it changes and in the others; and the number of changes.
+/// Largest difference between the steps of the energy residual in a run whose solver changes and in one on the grid, in
+/// the outputs in which it changes and in the others; and the number of changes.
 fn of_changes(case: Case, drive: &Drive) -> ([f64; 2], usize) {
     let [auto, grid] = [ContactMethod::Auto, ContactMethod::Grid].map(|c| run(case, c, drive));
     let (mut largest, mut changes) = ([0.0f64; 2], 0);
@@ -61,9 +61,9 @@ fn load(inputs: &mut Inputs, k: usize) {
     inputs.drive.load = 1e5 * (1.0 + 0.3 * (0.9 * k as f64).sin() * (0.37 * k as f64).cos());
 }
 
-/// Both solvers give the contact an elastic energy; that of the grid comes nearer with the mesh, so the change of the solver
-/// shows less. A run on the grid alone tells it from what else moves the residual in that step: a friction coefficient that
-/// drops at once frees elastic energy of which 6e-3 are missing with either solver.
+/// Both solvers give the contact an elastic energy; that of the grid comes nearer with the mesh, so the change of the
+/// solver shows less. A run on the grid alone tells it from what else moves the residual in that step: a friction
+/// coefficient that drops at once frees elastic energy of which 6e-3 are missing with either solver.
 #[test]
 fn the_energy_residual_does_not_jump_where_the_contact_solver_changes() {
     let [halved, released]: [&Drive; 2] = [&friction(-3000.0), &friction(-6000.0)];

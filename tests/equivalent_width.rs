@@ -40,7 +40,8 @@ struct Ellipse {
 }
 
 impl Ellipse {
-    /// A wheel of radius `wheel` on a head of the smaller radius `head`, both \[m] (Johnson, *Contact Mechanics*, 4.26-4.28).
+    /// A wheel of radius `wheel` on a head of the smaller radius `head`, both \[m] (Johnson, *Contact Mechanics*,
+    /// 4.26-4.28).
     fn new(load: f64, wheel: f64, head: f64, modulus: f64) -> Self {
         // Ratio of the curvatures by the ratio of the axes: (E/q² − K)/(K − E), which grows with the eccentricity.
         let (mut low, mut high) = (1e-9, 1.0 - 1e-9);
@@ -55,8 +56,9 @@ impl Ellipse {
         Self { along, across, pressure: 1.5 * load / (PI * along * across) }
     }
 
-    /// Slope of the tangential force over the creepage \[N], `G a b C₁₁`. C₁₁ from Kalker's table (*Three-Dimensional Elastic
-    /// Bodies in Rolling Contact*, Kluwer 1990, table E3) for b/a = 0.8 and 0.7, linear between, parabolic in Poisson's ratio.
+    /// Slope of the tangential force over the creepage \[N], `G a b C₁₁`. C₁₁ from Kalker's table (*Three-Dimensional
+    /// Elastic Bodies in Rolling Contact*, Kluwer 1990, table E3) for b/a = 0.8 and 0.7, linear between, parabolic in
+    /// Poisson's ratio.
     fn creep_slope(&self, config: &Config) -> f64 {
         let share = (0.8 - self.across / self.along) / 0.1;
         assert!((0.0..=1.0).contains(&share), "outside the tabulated ratios");
@@ -69,9 +71,9 @@ impl Ellipse {
     }
 
     /// The strip in the middle. Under the shear `q₀ √(1 − x²/a² − y²/b²)` the surface of a half-space moves by
-    /// `1/(2πG) ∬ q [(1 − ν)/s + ν (x − ξ)²/s³] dξ dη` (Johnson, 3.7); along the rays from the point, the integral over the
-    /// distance `s` is elementary, which leaves `du/dx = −q₀ x/(2G a² b²) ∫ ((1 − ν) + ν cos²φ) sin²φ/A³ dφ` over half a turn
-    /// with `A² = cos²φ/a² + sin²φ/b²` (derived here; a circle gives Johnson's 3.91).
+    /// `1/(2πG) ∬ q [(1 − ν)/s + ν (x − ξ)²/s³] dξ dη` (Johnson, 3.7); along the rays from the point, the integral over
+    /// the distance `s` is elementary, which leaves `du/dx = −q₀ x/(2G a² b²) ∫ ((1 − ν) + ν cos²φ) sin²φ/A³ dφ` over
+    /// half a turn with `A² = cos²φ/a² + sin²φ/b²` (derived here; a circle gives Johnson's 3.91).
     fn strip(&self, config: &Config) -> Strip {
         const RAYS: i32 = 200;
         let nu = config.material.poissons_ratio;
@@ -87,8 +89,9 @@ impl Ellipse {
     }
 }
 
-/// Widths at which the line contact equals the ellipse \[m]. With `P/w = πE*a²/(4R)`: peak pressure `√(P E*/(πRw))`, half-width
-/// `√(4PR/(πE*w))`, slope of Carter's law `√(πE*PRw)`; the one of the flash temperature at 1 % creepage is searched for.
+/// Widths at which the line contact equals the ellipse \[m]. With `P/w = πE*a²/(4R)`: peak pressure `√(P E*/(πRw))`,
+/// half-width `√(4PR/(πE*w))`, slope of Carter's law `√(πE*PRw)`; the one of the flash temperature at 1 % creepage is
+/// searched for.
 struct Widths {
     pressure: f64,
     half_width: f64,
@@ -116,8 +119,8 @@ impl Widths {
     }
 }
 
-/// A strip along the travel that slips fully, at 1 % creepage: elliptical pressure, and a slip that grows towards the trailing
-/// edge because friction compresses the surface in front and stretches it behind.
+/// A strip along the travel that slips fully, at 1 % creepage: elliptical pressure, and a slip that grows towards the
+/// trailing edge because friction compresses the surface in front and stretches it behind.
 struct Strip {
     half_width: f64,
     pressure: f64,
@@ -133,8 +136,8 @@ impl Strip {
         Self { half_width, pressure, gradient: config.friction.coefficient / config.wheel.radius }
     }
 
-    /// Flash temperature at 1 % creepage \[K]: both bodies have the same temperature. Heat flows into the depth only (fast
-    /// source), so every strip is as if alone (M. Ertz, K. Knothe, *Wear* 253 (2002) 498-508).
+    /// Flash temperature at 1 % creepage \[K]: both bodies have the same temperature. Heat flows into the depth only
+    /// (fast source), so every strip is as if alone (M. Ertz, K. Knothe, *Wear* 253 (2002) 498-508).
     fn flash(&self, config: &Config) -> f64 {
         let m = &config.material;
         let effusivity = (m.conductivity * m.density * m.specific_heat).sqrt();
@@ -193,7 +196,8 @@ impl Line {
             let inputs: Inputs = prescribed(&model, model.config().initial.velocity, creepage);
             Simulation::new(model.clone(), &inputs).unwrap().outputs().clone()
         };
-        // The law of Carter has a kink in its curvature where the wheel rolls freely: the slope is taken on both sides of it.
+        // The law of Carter has a kink in its curvature where the wheel rolls freely: the slope is taken on both sides
+        // of it.
         let [trial, rolling] = [1e-5, 0.0].map(at);
         let free = 1e-5 * rolling.contact_force_x / (rolling.contact_force_x - trial.contact_force_x);
         let [back, forth, sliding] = [free - 1e-5, free + 1e-5, CREEPAGE].map(at);

@@ -159,8 +159,9 @@ fn derivatives_see_the_friction_that_falls() {
     assert!(slope < 0.0 && (slope / quotient - 1.0).abs() < 1e-4);
 }
 
-/// Without a memory slip and friction jump in every internal step: samples of the force look converged at 29.9 kN where the mean is
-/// 24.1 kN. With it the torsion sticks and slips, and what the held speeds put in is what friction and damping take out.
+/// Without a memory slip and friction jump in every internal step: samples of the force look converged at 29.9 kN where
+/// the mean is 24.1 kN. With it the torsion sticks and slips, and what the held speeds put in is what friction and
+/// damping take out.
 #[test]
 fn sampled_force_energy_and_moment_of_a_held_slip_agree_where_friction_falls_by_default() {
     for (load, h) in [(0.5_f64, 1e-4_f64), (0.5, 2e-5), (0.1, 1e-4), (0.95, 1e-4)] {
@@ -193,7 +194,8 @@ fn sampled_force_energy_and_moment_of_a_held_slip_agree_where_friction_falls_by_
             "load {load}, steps of {h} s: {sampled:.0} N sampled, {energy:.0} N by energy, {moment:.0} N by moment"
         );
         assert!((energy / sampled - 1.0).abs() < 0.01, "{energy} for {sampled}");
-        // Samples of the moment, whose swing is larger, scatter a little more under nearly twice the nominal load per patch.
+        // Samples of the moment, whose swing is larger, scatter a little more under nearly twice the nominal load per
+        // patch.
         assert!((moment / sampled - 1.0).abs() < if load > 0.9 { 0.02 } else { 0.01 }, "{moment} for {sampled}");
     }
 }

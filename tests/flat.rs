@@ -21,8 +21,8 @@ fn rolling(model: &Arc<Model>) -> (Simulation, Inputs) {
     (Simulation::new(model.clone(), &inputs).unwrap(), inputs)
 }
 
-/// Takes the angular velocity to `share` of that of rolling within 20 ms and holds it there until `duration` is over, in
-/// steps of `h` seconds; returns for how long the contact was above Ac1.
+/// Takes the angular velocity to `share` of that of rolling within 20 ms and holds it there until `duration` is over,
+/// in steps of `h` seconds; returns for how long the contact was above Ac1.
 fn turn(simulation: &mut Simulation, inputs: &mut Inputs, share: f64, duration: f64, h: f64) -> f64 {
     let (from, to) = (inputs.drive.omega, share * SPEED / simulation.model().config().wheel.radius);
     let ac1 = simulation.tuning().austenitisation;

@@ -1,9 +1,9 @@
 //! The force of a fresh flat on a wheel that keeps contact, against a mass on two half-planes and against `v Δ √(K m)`.
 //!
-//! A rigid wheel of radius r turns about one edge of its flat of length L, then about the other: the path of its centre has a kink
-//! of the angle `Δ = L/r`. A mass m that follows it through a spring K adds `v Δ √(K m)`, if it rings many times while it passes
-//! the flat (`√(K/m) L/v` large) and if the kink is sharp for it: the tilted flat lies on the rail while the contact gives by more
-//! than the lifted edge, for the way `2 δ r/L`.
+//! A rigid wheel of radius r turns about one edge of its flat of length L, then about the other: the path of its centre
+//! has a kink of the angle `Δ = L/r`. A mass m that follows it through a spring K adds `v Δ √(K m)`, if it rings many
+//! times while it passes the flat (`√(K/m) L/v` large) and if the kink is sharp for it: the tilted flat lies on the
+//! rail while the contact gives by more than the lifted edge, for the way `2 δ r/L`.
 
 mod common;
 
@@ -59,8 +59,8 @@ fn pass(config: &Config, velocity: f64, load: f64, step: f64, after: f64) -> (Ve
     (forces, simulation.outputs().wheel_mass)
 }
 
-/// A mass on the contact of two half-planes: pressures that are constant over cells, without tension. The rest of the wheel and of
-/// its track is a spring, which takes the approach to that of the whole.
+/// A mass on the contact of two half-planes: pressures that are constant over cells, without tension. The rest of the
+/// wheel and of its track is a spring, which takes the approach to that of the whole.
 struct Lumped {
     x: Vec<f64>,
     /// Displacement of the cells by forces on them [m/N].
@@ -93,7 +93,8 @@ impl Lumped {
         self.x.iter().map(at).collect()
     }
 
-    /// Force [N] at which the wheel, held `height` \[m] above just touching by a spring of `give` [m/N], rests on the rail.
+    /// Force [N] at which the wheel, held `height` \[m] above just touching by a spring of `give` [m/N], rests on the
+    /// rail.
     fn force(&mut self, gap: &[f64], height: f64, give: f64) -> f64 {
         for _ in 0..50 {
             let active: Vec<usize> = (0..self.x.len()).filter(|&i| self.pressed[i]).collect();
@@ -158,9 +159,10 @@ fn largest(forces: &[f64]) -> f64 {
     forces.iter().copied().fold(f64::MIN, f64::max)
 }
 
-/// On a rigid base the spring of the formula is the contact itself. Its own approach under the strike blunts the kink, whatever
-/// speed, mass and stiffness: the force stays below the formula, by a share that half-planes with a mass say as well. Where the
-/// edges of the flat lie between nodes matters: with 10 elements per half-width the slowest strike comes out 25 % too hard.
+/// On a rigid base the spring of the formula is the contact itself. Its own approach under the strike blunts the kink,
+/// whatever speed, mass and stiffness: the force stays below the formula, by a share that half-planes with a mass say
+/// as well. Where the edges of the flat lie between nodes matters: with 10 elements per half-width the slowest strike
+/// comes out 25 % too hard.
 #[test]
 fn a_flat_on_its_contact_spring_strikes_as_a_mass_on_half_planes_does() {
     let load = 1e5;
@@ -186,7 +188,8 @@ fn a_flat_on_its_contact_spring_strikes_as_a_mass_on_half_planes_does() {
 }
 
 /// The stiff limit: a spring of the track beside which the contact hardly gives. The wheel is as fast as it rings
-/// `3π/2` while it turns about one edge, so that what it falls behind on the arcs has come back when the strike is largest.
+/// `3π/2` while it turns about one edge, so that what it falls behind on the arcs has come back when the strike is
+/// largest.
 #[test]
 fn a_flat_on_a_track_much_softer_than_its_contact_strikes_by_the_formula() {
     let (load, after) = (3e3, 0.25);

@@ -5,7 +5,8 @@ mod common;
 use common::{KMH, model, prescribed, preset};
 use wheelrail::simulation::Simulation;
 
-/// Largest energy that the balance misses and largest stored energy \[J] while a fresh flat of 60 mm passes at 40 km/h without friction.
+/// Largest energy that the balance misses and largest stored energy \[J] while a fresh flat of 60 mm passes at 40 km/h
+/// without friction.
 fn strike(elements: usize, yielding: bool) -> [f64; 2] {
     let (step, velocity) = (2e-5, 40.0 * KMH);
     let mut config = preset("railway", elements);
@@ -26,8 +27,8 @@ fn strike(elements: usize, yielding: bool) -> [f64; 2] {
     most
 }
 
-/// The energy residual is large at the strike because little has been dissipated by then. Against the energy that the strike
-/// stores about 1 % is missing, and it belongs to the mesh, whether steel yields or not.
+/// The energy residual is large at the strike because little has been dissipated by then. Against the energy that the
+/// strike stores about 1 % is missing, and it belongs to the mesh, whether steel yields or not.
 #[test]
 fn what_the_strike_of_a_flat_misses_falls_with_the_element_elastic_and_yielding() {
     for yielding in [false, true] {
@@ -56,8 +57,8 @@ fn pressed(step: f64) -> [f64; 2] {
     most
 }
 
-/// Steel that rolls through keeps no dent and gives way anew in every step. The limit holds however short that is, and the force
-/// converges in the step.
+/// Steel that rolls through keeps no dent and gives way anew in every step. The limit holds however short that is, and
+/// the force converges in the step.
 #[test]
 fn the_limit_of_yielding_steel_holds_in_every_step_size() {
     let limit = 2.968_449_6 * preset("railway", 10).material.yield_strength;

@@ -1,5 +1,5 @@
-//! Notices that are given once in a run, by name, although nothing fails: inputs without effect, values of another unit, moments
-//! that drive backwards.
+//! Notices that are given once in a run, by name, although nothing fails: inputs without effect, values of another
+//! unit, moments that drive backwards.
 
 mod slave;
 

@@ -78,8 +78,8 @@ fn braking_transient() {
     }
 }
 
-/// The front begins at the end of the zone and is one half-width long; its middle travels with the stream, nothing on its way is
-/// colder or warmer than both rails, and the rail holds what has entered.
+/// The front begins at the end of the zone and is one half-width long; its middle travels with the stream, nothing on
+/// its way is colder or warmer than both rails, and the rail holds what has entered.
 #[test]
 fn a_front_of_warmer_rail_travels_with_the_stream_between_both_temperatures() {
     let config = config(1e5, 20.0);

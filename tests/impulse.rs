@@ -28,10 +28,10 @@ fn inertia(config: &Config) -> [f64; 2] {
     [mass, 0.5 * surface * (r.powi(4) - i.powi(4)) + config.wheel.hub_inertia]
 }
 
-/// Momentum and angular momentum less the impulses of force and moment, relative to the largest of these, a second after
-/// they have ended: until then the deformation has momentum of its own. The contact resists rolling with some mN m, whose
-/// impulse is summed up here with the values at the ends of the steps: that limits what is seen of the angular momentum. `held`: values hold during a step, otherwise they
-/// follow their course with its rate.
+/// Momentum and angular momentum less the impulses of force and moment, relative to the largest of these, a second
+/// after they have ended: until then the deformation has momentum of its own. The contact resists rolling with some mN
+/// m, whose impulse is summed up here with the values at the ends of the steps: that limits what is seen of the angular
+/// momentum. `held`: values hold during a step, otherwise they follow their course with its rate.
 fn lost(model: &Arc<Model>, step: f64, held: bool, course: Course) -> [f64; 2] {
     const END: f64 = 0.4;
     let mut inputs = Inputs::rolling(model.config());

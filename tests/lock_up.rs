@@ -31,8 +31,8 @@ fn stop(config: &Config, load: f64, [duration, end, h]: [f64; 3], mut see: impl 
     }
 }
 
-/// Force and temperature of a wheel that is locked within half a second, as means over 50 ms, in which the flashes of the hot
-/// slide (milliseconds, at other instants with other steps) count with their share.
+/// Force and temperature of a wheel that is locked within half a second, as means over 50 ms, in which the flashes of
+/// the hot slide (milliseconds, at other instants with other steps) count with their share.
 #[test]
 fn a_lock_up_does_not_depend_on_the_communication_step() {
     const BINS: usize = 12;
@@ -77,7 +77,8 @@ fn a_wheel_locked_within_a_millisecond_slides_on_at_any_load_speed_and_temperatu
     ];
     for (name, config, load) in cases {
         let [long, short] = [1e-3, 1e-4].map(|h| {
-            // The flashes of the hot slide come every 3 ms, and in the end at other instants with other steps: a mean over five of them.
+            // The flashes of the hot slide come every 3 ms, and in the end at other instants with other steps: a mean
+            // over five of them.
             let mut sum = 0.0;
             stop(&config, load, [1e-3, 0.03, h], |time, force, _| {
                 sum += if time > 0.015 + 1e-6 { force * h } else { 0.0 };

@@ -1,5 +1,6 @@
-//! A locked wheel through the whole model, with heat that does not act back, against the closed solution of two half-planes:
-//! strip sources in the wheel, which stands, moving sources in the rail, and a division of the heat node by node.
+//! A locked wheel through the whole model, with heat that does not act back, against the closed solution of two
+//! half-planes: strip sources in the wheel, which stands, moving sources in the rail, and a division of the heat node
+//! by node.
 
 mod common;
 
@@ -52,9 +53,9 @@ fn exponential_integral(x: f64) -> f64 {
     (-x).exp() / (x + tail)
 }
 
-/// Rise \[K] of the surface of a half-plane at the distance `x` \[m] from the middle of a strip of half-width `half` after the
-/// flux 1 W/m² for `time` \[s] (H. S. Carslaw, J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., 10.3: line sources
-/// `e^{−x²/4κt}/(2πkt)`, integrated over strip and time in closed form).
+/// Rise \[K] of the surface of a half-plane at the distance `x` \[m] from the middle of a strip of half-width `half`
+/// after the flux 1 W/m² for `time` \[s] (H. S. Carslaw, J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., 10.3:
+/// line sources `e^{−x²/4κt}/(2πkt)`, integrated over strip and time in closed form).
 fn strip(x: f64, half: f64, time: f64, conductivity: f64, diffusivity: f64) -> f64 {
     if time <= 0.0 {
         return 0.0;
@@ -75,8 +76,8 @@ fn at(times: &[f64], then: f64) -> Vec<(usize, f64)> {
     if k == 0 { vec![(0, share)] } else { vec![(k, share), (k - 1, 1.0 - share)] }
 }
 
-/// Temperatures of wheel and rail over the reference \[K] in the middle and at their maximum, at [`TIMES`], under the friction
-/// power `power` [W/m] over time with a Hertzian distribution over the half-width `a` \[m].
+/// Temperatures of wheel and rail over the reference \[K] in the middle and at their maximum, at [`TIMES`], under the
+/// friction power `power` [W/m] over time with a Hertzian distribution over the half-width `a` \[m].
 fn closed_solution(config: &Config, a: f64, power: &dyn Fn(f64) -> f64) -> Vec<[f64; 4]> {
     let (m, n) = (&config.material, ELEMENTS);
     let (diffusivity, effusivity) =

@@ -118,8 +118,8 @@ fn a_locked_dry_wheel_keeps_the_limits_of_its_steel_whatever_the_step() {
     }
 }
 
-/// Tangential force [N] and highest temperature [K] of a slide with friction that falls with the slip, step by step, over the
-/// last `window` seconds.
+/// Tangential force [N] and highest temperature [K] of a slide with friction that falls with the slip, step by step,
+/// over the last `window` seconds.
 fn slow_slide(speed: f64, tolerance: f64, h: f64, [end, window]: [f64; 2]) -> (Vec<[f64; 2]>, f64) {
     const LOCKED: f64 = 0.05;
     let mut config = preset("railway_dry", 10);
@@ -143,8 +143,8 @@ fn slow_slide(speed: f64, tolerance: f64, h: f64, [end, window]: [f64; 2]) -> (V
     (seen, simulation.outputs().energy_residual)
 }
 
-/// Share of the steps whose change has the other sign than those before and after, all above `noise`. An oscillation that the steps
-/// resolve does not count: it turns once in many of them.
+/// Share of the steps whose change has the other sign than those before and after, all above `noise`. An oscillation
+/// that the steps resolve does not count: it turns once in many of them.
 fn alternating(values: &[[f64; 2]], which: usize, noise: f64) -> f64 {
     let changes: Vec<f64> = values.windows(2).map(|pair| pair[1][which] - pair[0][which]).collect();
     let turns = |a: f64, b: f64| a * b < 0.0 && a.abs().min(b.abs()) > noise;
@@ -153,7 +153,8 @@ fn alternating(values: &[[f64; 2]], which: usize, noise: f64) -> f64 {
 }
 
 /// Once the surface melts, the torsion oscillates with a period of 3.5 ms.
-/// Where steel begins to yield its friction falls. With a friction that jumped there, 95 % of the steps changed the sign.
+/// Where steel begins to yield its friction falls. With a friction that jumped there, 95 % of the steps changed the
+/// sign.
 #[test]
 fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
     for h in [2.5e-4, 1e-4] {
@@ -166,8 +167,8 @@ fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
     }
 }
 
-/// At 2 m/s the torsion sticks and slips. Without a memory of friction the force depended on the steps by a fifth, or the contact
-/// was heated beyond the liquidus, after 0.236 s in steps of 0.1 ms.
+/// At 2 m/s the torsion sticks and slips. Without a memory of friction the force depended on the steps by a fifth, or
+/// the contact was heated beyond the liquidus, after 0.236 s in steps of 0.1 ms.
 #[test]
 fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
     let means = [1e-3, 1e-4].map(|h| {
@@ -191,8 +192,9 @@ fn rolling(speed: f64, softening: f64) -> (Simulation, Inputs) {
     (Simulation::new(model, &inputs).unwrap(), inputs)
 }
 
-/// Where a place overheated, friction did not come back as long as any was molten: the film only grew, colder than the solidus, too.
-/// In the end a node that heats its neighbours without friction of its own ended the run, at 140 and 160 km/h within 0.5 s.
+/// Where a place overheated, friction did not come back as long as any was molten: the film only grew, colder than the
+/// solidus, too. In the end a node that heats its neighbours without friction of its own ended the run, at 140 and 160
+/// km/h within 0.5 s.
 #[test]
 fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_and_by_brake() {
     for (speed, h, by_brake) in [(140.0, 1e-3_f64, false), (160.0, 2e-4, true)] {
@@ -227,9 +229,9 @@ fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_
     }
 }
 
-/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever. At a slip of 3 % dry
-/// friction falls with the slip, and the torsion sticks and slips: the force is that of the coefficient while the contact slips, which it
-/// does again and again, and below it while it sticks.
+/// With a film that never went, a wheel that had slid for 80 ms rolled with a third of its friction for ever. At a slip
+/// of 3 % dry friction falls with the slip, and the torsion sticks and slips: the force is that of the coefficient
+/// while the contact slips, which it does again and again, and below it while it sticks.
 #[test]
 fn friction_comes_back_when_a_molten_contact_has_cooled() {
     let (mut simulation, mut inputs) = rolling(120.0 * KMH, 0.0);

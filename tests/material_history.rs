@@ -26,8 +26,8 @@ fn wheel(resolution: f64) -> HotSpots {
     })
 }
 
-/// Step of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`. The contact is known
-/// for all of a spot.
+/// Step of a wheel whose tread has the excess temperature `hottest` in the contact, with the angle `angle`. The contact
+/// is known for all of a spot.
 fn moment(dt: f64, angle: f64, omega: f64, hottest: f64) -> TreadStep<'static> {
     let hottest = [hottest, 0.0];
     let surface: (&[f64], &[f64]) = (&[], &[]);
@@ -50,8 +50,8 @@ fn erfc(x: f64) -> f64 {
     }
 }
 
-/// Excess temperature of a half-space at the depth `z` after the flux of `q` for the time `t0`, at the time `t` (Carslaw &
-/// Jaeger, *Conduction of Heat in Solids*, section 2.9).
+/// Excess temperature of a half-space at the depth `z` after the flux of `q` for the time `t0`, at the time `t`
+/// (Carslaw & Jaeger, *Conduction of Heat in Solids*, section 2.9).
 fn half_space(q: f64, t0: f64, z: f64, t: f64) -> f64 {
     let heated = |t: f64| {
         if t <= 0.0 {

@@ -10,7 +10,8 @@ const FLUX: f64 = 2e8;
 
 fn molten_steel() -> HeatConfig {
     with(config(1e6, 200.0 * KMH), |c| {
-        // Even heat knows no cells along the tread: temperatures and thicknesses are those of 20 elements in every digit.
+        // Even heat knows no cells along the tread: temperatures and thicknesses are those of 20 elements in every
+        // digit.
         c.elements_per_half_width = 4;
         c.thermal.reference = 293.0;
         (c.material.solidus, c.material.liquidus, c.material.latent_heat) = (1723.0, 1803.0, 270e3);
@@ -59,7 +60,8 @@ fn enthalpy_solution(c: &HeatConfig, times: &[f64]) -> Vec<[f64; 2]> {
     out
 }
 
-/// Surface temperature, molten thickness, and error of the heat balance at `times`, in `steps` steps up to each of them.
+/// Surface temperature, molten thickness, and error of the heat balance at `times`, in `steps` steps up to each of
+/// them.
 fn heat_model(heat: &Heat, times: &[f64], steps: usize) -> (Vec<[f64; 2]>, f64) {
     let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
     let exchange = even_heat(heat.config());

@@ -129,8 +129,8 @@ fn every_preset_is_valid() {
     assert_eq!(presets::load(Some(&resources), presets::DEFAULT), Ok(Config::default()));
 }
 
-/// Every field of the configuration is a parameter of the interface and has its name there; tunable ones are together in
-/// `tuning`, or in `files` if no result depends on them, and keep the group of their name.
+/// Every field of the configuration is a parameter of the interface and has its name there; tunable ones are together
+/// in `tuning`, or in `files` if no result depends on them, and keep the group of their name.
 #[test]
 fn parameters_are_the_fields_of_the_configuration() {
     let json = serde_json::to_value(Config::default()).unwrap();

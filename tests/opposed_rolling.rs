@@ -1,5 +1,5 @@
-//! A wheel that turns against its travel, up to rω = −V: it slides more than a locked one, and nothing about it is special
-//! where the sum of both velocities, in which creepage is given, vanishes.
+//! A wheel that turns against its travel, up to rω = −V: it slides more than a locked one, and nothing about it is
+//! special where the sum of both velocities, in which creepage is given, vanishes.
 
 mod common;
 

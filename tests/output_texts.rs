@@ -6,8 +6,8 @@ use common::{KMH, model, preset};
 use wheelrail::config::Config;
 use wheelrail::simulation::{Inputs, Outputs, Rotation, Simulation, Translation};
 
-/// Rotates with the angular velocity `omega` of the rolling wheel, which falls to zero in `stop` seconds, while the wheel travels on;
-/// `seen` sees every step of 1 ms.
+/// Rotates with the angular velocity `omega` of the rolling wheel, which falls to zero in `stop` seconds, while the
+/// wheel travels on; `seen` sees every step of 1 ms.
 fn locked(config: Config, [stop, end]: [f64; 2], mut seen: impl FnMut(&Simulation, &Outputs)) {
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
@@ -21,9 +21,9 @@ fn locked(config: Config, [stop, end]: [f64; 2], mut seen: impl FnMut(&Simulatio
     }
 }
 
-/// The peak of a smooth pressure lies between nodes, a little above them; that of steel which yields follows its strength from
-/// node to node. The parabola through the squares of three nodes, none of them negative, rises above the middle one by an eighth at
-/// most; it comes near where a hot patch is pressed most beside a steep edge.
+/// The peak of a smooth pressure lies between nodes, a little above them; that of steel which yields follows its
+/// strength from node to node. The parabola through the squares of three nodes, none of them negative, rises above the
+/// middle one by an eighth at most; it comes near where a hot patch is pressed most beside a steep edge.
 #[test]
 fn the_largest_pressure_is_nowhere_below_the_profile() {
     for name in ["railway", "railway_wet"] {
@@ -61,7 +61,8 @@ fn a_slide_over_waves_uses_all_of_the_friction_and_no_more() {
     assert!(pushed > 1.01);
 }
 
-/// Heat that flows from a warm place to a cold one is what the balance is measured with, whether or not a source supplies any.
+/// Heat that flows from a warm place to a cold one is what the balance is measured with, whether or not a source
+/// supplies any.
 #[test]
 fn the_heat_residual_is_round_off_without_a_source() {
     for (excess, rail, velocity) in

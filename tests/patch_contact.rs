@@ -1,5 +1,5 @@
-//! The contact on a single smooth patch, `solver.contact = patch` and `auto`, on the bodies of the presets: against the converged
-//! reference and the contact on the grid, and what a run has to keep.
+//! The contact on a single smooth patch, `solver.contact = patch` and `auto`, on the bodies of the presets: against the
+//! converged reference and the contact on the grid, and what a run has to keep.
 
 mod common;
 use common::*;
@@ -222,8 +222,9 @@ fn derivatives(heat: bool) {
     }
 }
 
-/// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and takes over
-/// again. How much the force jumps at a change of solver is by what its second difference exceeds that of a run on the grid.
+/// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and
+/// takes over again. How much the force jumps at a change of solver is by what its second difference exceeds that of a
+/// run on the grid.
 #[test]
 fn a_change_of_solver_does_not_make_the_force_jump() {
     [false, true].into_iter().for_each(changes_smoothly);

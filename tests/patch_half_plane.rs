@@ -103,9 +103,9 @@ impl HalfPlanes {
     }
 }
 
-/// The radius is that of a circle, whose curvature grows by `3x²/2r²` towards the edges: 1e-4 here. Compared with the circle
-/// that osculates, forces and pressure agree to that; between loads of a hundredth and a quarter the difference falls with the
-/// square of the half-width.
+/// The radius is that of a circle, whose curvature grows by `3x²/2r²` towards the edges: 1e-4 here. Compared with the
+/// circle that osculates, forces and pressure agree to that; between loads of a hundredth and a quarter the difference
+/// falls with the square of the half-width.
 #[test]
 fn pressure_is_that_of_hertz_on_a_parabola_to_the_square_of_half_width_over_radius() {
     let planes = HalfPlanes::new(true);
@@ -125,8 +125,8 @@ fn pressure_is_that_of_hertz_on_a_parabola_to_the_square_of_half_width_over_radi
     assert!(errors[2] < 1e-7);
 }
 
-/// Carter's solution is in the space of the series, so that nothing but the curvature of the circle and the difference of the
-/// speeds of both surfaces, which he leaves out, is left.
+/// Carter's solution is in the space of the series, so that nothing but the curvature of the circle and the difference
+/// of the speeds of both surfaces, which he leaves out, is left.
 #[test]
 fn force_and_stick_are_those_of_carter() {
     let planes = HalfPlanes::new(false);
@@ -162,8 +162,8 @@ fn force_has_no_ripple_while_the_load_varies() {
     assert!(ripple < 1e-9);
 }
 
-/// From free rolling into creepage at once: the force tends to its steady value within a few half-widths of rolling, from
-/// steps of a fiftieth of one as from steps of a half.
+/// From free rolling into creepage at once: the force tends to its steady value within a few half-widths of rolling,
+/// from steps of a fiftieth of one as from steps of a half.
 #[test]
 fn a_step_of_creepage_ends_in_carters_state_whatever_the_steps() {
     let planes = HalfPlanes::new(false);

@@ -1,5 +1,5 @@
-//! The contact on a single smooth patch in runs with heat, `solver.contact = auto` and `patch`, whose layers swell and pull at the
-//! bodies: against the contact on the grid, also on finer ones.
+//! The contact on a single smooth patch in runs with heat, `solver.contact = auto` and `patch`, whose layers swell and
+//! pull at the bodies: against the contact on the grid, also on finer ones.
 
 mod common;
 use common::*;
@@ -24,8 +24,8 @@ fn heated(method: ContactMethod, elements: usize, share: f64, moment: f64, step:
     seen
 }
 
-/// Layers swell and pull at the bodies: force, pressure and temperature are those of the grid, a tenth of the step and nearly
-/// twice the load included, and the energy is accounted for.
+/// Layers swell and pull at the bodies: force, pressure and temperature are those of the grid, a tenth of the step and
+/// nearly twice the load included, and the energy is accounted for.
 #[test]
 fn a_wheel_with_heat_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
     for (share, moment, step) in [
@@ -59,7 +59,8 @@ fn a_wheel_with_heat_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
     }
 }
 
-/// What remains between both is the grid's error: its temperature rise tends to that on the patch as the mesh is refined.
+/// What remains between both is the grid's error: its temperature rise tends to that on the patch as the mesh is
+/// refined.
 #[test]
 fn the_temperature_on_the_patch_is_the_one_to_which_the_grid_converges() {
     let rise = |method, elements| {
@@ -72,8 +73,8 @@ fn the_temperature_on_the_patch_is_the_one_to_which_the_grid_converges() {
     assert!(fine.abs() < 0.6 * coarse.abs() && fine.abs() < 4e-3);
 }
 
-/// The rail chills a hot wheel, whose tread contracts: it rolls freely at another creepage. The grid, whose elements have to
-/// resolve the root with which the heat begins to flow, tends to what the patch finds.
+/// The rail chills a hot wheel, whose tread contracts: it rolls freely at another creepage. The grid, whose elements
+/// have to resolve the root with which the heat begins to flow, tends to what the patch finds.
 #[test]
 fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_the_grid_tends_to() {
     let shift = |method, elements| {

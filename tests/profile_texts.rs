@@ -53,7 +53,8 @@ const PIECES: [&str; 34] = [
     "roughness(longest = 1e9, shortest = 1e-9, spectrum = EN_ISO_3095)",
 ];
 
-/// Cut, with a piece put in or in the place of another, or with another text behind it; some changes one after the other.
+/// Cut, with a piece put in or in the place of another, or with another text behind it; some changes one after the
+/// other.
 fn mistyped(random: &mut Random) -> String {
     let mut text: Vec<char> = random.of(&TEXTS).chars().collect();
     for _ in 0..=random.below(3) {

@@ -1,5 +1,5 @@
-//! Profiles of rail and wheel: holes, flats and joints, what is kept of them between communication points, and what is said
-//! where they make no sense or are not resolved.
+//! Profiles of rail and wheel: holes, flats and joints, what is kept of them between communication points, and what is
+//! said where they make no sense or are not resolved.
 
 mod common;
 
@@ -66,7 +66,8 @@ fn least_over_a_hole(elements: usize, size: f64) -> f64 {
     outputs.iter().map(|o| o.contact_force_y / inputs.drive.load).fold(1.0, f64::min)
 }
 
-/// The least force over holes of half a cell to eight cells against a grid four and two times as fine: as the guard says.
+/// The least force over holes of half a cell to eight cells against a grid four and two times as fine: as the guard
+/// says.
 #[test]
 fn the_force_over_short_holes_errs_by_less_than_the_guard_says() {
     let said = |elements: usize, size: f64| -> f64 {
@@ -184,7 +185,8 @@ fn a_flat_hits_hardest_at_a_moderate_speed_and_throws_the_wheel_off_the_rail() {
     }
 }
 
-/// The zone of the contact widens to the edges of the flat, on cells that grow outwards: 6, 10 and 20 elements and half the step.
+/// The zone of the contact widens to the edges of the flat, on cells that grow outwards: 6, 10 and 20 elements and half
+/// the step.
 #[test]
 fn a_flat_of_60_mm_runs_at_every_speed_and_converges_in_step_and_mesh() {
     for speed in [20.0, 30.0, 40.0, 60.0, 80.0, 100.0, 140.0] {
@@ -230,8 +232,8 @@ fn states_on_profiles_return_bit_for_bit_and_have_derivatives() {
     assert!((told / found - 1.0).abs() < 1e-5, "{told} {found}");
 }
 
-/// Jenkins (1974): a rail that dips towards a joint and rises behind it turns the wheel's path by an angle; a mass m on the
-/// contact spring K answers with `ΔP = angle · V · √(K m)`.
+/// Jenkins (1974): a rail that dips towards a joint and rises behind it turns the wheel's path by an angle; a mass m on
+/// the contact spring K answers with `ΔP = angle · V · √(K m)`.
 #[test]
 fn a_dipped_joint_makes_the_force_p1_of_jenkins_on_a_rigid_base() {
     let mut config = cold(preset("railway", 10));
@@ -306,8 +308,8 @@ fn profiles_without_meaning_are_refused_by_name_and_unresolved_ones_are_announce
     assert_eq!((simulation.exceeded_limits().count(), outputs.internal_steps), (0, 40));
 }
 
-/// A wheel that sinks between the edges of a hole of the rail, or the rail between those of a hole of the wheel; with the advice
-/// it does so without complaint.
+/// A wheel that sinks between the edges of a hole of the rail, or the rail between those of a hole of the wheel; with
+/// the advice it does so without complaint.
 #[test]
 fn surfaces_that_touch_where_no_contact_is_looked_for_are_refused_with_advice_that_helps() {
     for name in ["rail.profile", "wheel.profile"] {
@@ -343,7 +345,8 @@ fn a_flat_that_the_run_has_made_and_that_outgrows_the_zone_is_refused_with_the_r
     assert!(!advice::failed_step(&error, &config).contains("mesh.reach"));
 }
 
-/// In both directions and at once for a run that starts behind it; not before, not where it is repeated, and not of a dent.
+/// In both directions and at once for a run that starts behind it; not before, not where it is repeated, and not of a
+/// dent.
 #[test]
 fn a_contact_that_passes_the_last_sample_of_a_file_is_told_by_name() {
     let folder = std::env::temp_dir().join(format!("wheelrail-end-{}", std::process::id()));

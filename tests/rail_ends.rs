@@ -37,8 +37,8 @@ fn a_metre_with_quiet_ends_loses_energy_as_the_middle_of_four_metres_does() {
     }
 }
 
-/// Energy of pressure waves that come back from a dashpot as pressure waves, by their angle to the normal: the amplitudes of
-/// both reflected plane waves from the balance of the assembled nodal forces at the end.
+/// Energy of pressure waves that come back from a dashpot as pressure waves, by their angle to the normal: the
+/// amplitudes of both reflected plane waves from the balance of the assembled nodal forces at the end.
 #[test]
 fn reflected_pressure_waves_follow_the_formula_for_plane_waves() {
     let (material, h) = (Isotropic::from(&steel()), 2e-3);
@@ -103,8 +103,8 @@ fn reflected_pressure_waves_follow_the_formula_for_plane_waves() {
     }
 }
 
-/// A wheel that bounces on a high rail, in which its waves can travel, after a jump of its load: force over load, energy that damping and
-/// ends have taken, and what is missing in the balance [J].
+/// A wheel that bounces on a high rail, in which its waves can travel, after a jump of its load: force over load,
+/// energy that damping and ends have taken, and what is missing in the balance [J].
 fn bounce(ends: RailEnds, speed: f64) -> (Vec<f64>, [f64; 2]) {
     let mut config = preset("paper_d", 4);
     config.thermal.enabled = false;
@@ -125,8 +125,8 @@ fn bounce(ends: RailEnds, speed: f64) -> (Vec<f64>, [f64; 2]) {
     (history, [taken, gain - taken - outputs.friction_energy])
 }
 
-/// What is missing in the balance belongs to the jump of the load and is the same with free ends. Rolling changes little of
-/// what is radiated.
+/// What is missing in the balance belongs to the jump of the load and is the same with free ends. Rolling changes
+/// little of what is radiated.
 #[test]
 fn the_energy_that_the_ends_radiate_closes_the_balance() {
     let (free, lost) = bounce(RailEnds::Free, 0.0);

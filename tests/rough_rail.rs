@@ -1,5 +1,5 @@
-//! Probability density of the force on a rough rail, Paper A, figures 8 to 10: trends on a seeded spectrum of our own, since the
-//! measured one is not published.
+//! Probability density of the force on a rough rail, Paper A, figures 8 to 10: trends on a seeded spectrum of our own,
+//! since the measured one is not published.
 
 mod common;
 

@@ -225,8 +225,8 @@ fn models_with_place() -> ([RollingModel; 2], Arc<Mutex<[f64; 2]>>) {
     (models, place)
 }
 
-/// Rolling under a moment [N m], without the friction that the toy solver does not have: a start with friction is that of a
-/// wheel which friction holds.
+/// Rolling under a moment [N m], without the friction that the toy solver does not have: a start with friction is that
+/// of a wheel which friction holds.
 fn driven(model: &RollingModel, moment: f64) -> Inputs {
     let mut inputs = Inputs::rolling(&model.config);
     (inputs.drive.moment, inputs.drive.friction) = (moment, 0.0);

@@ -1,5 +1,6 @@
-//! A second heat model behind the seam of the first: flash temperatures of half-planes that move fast, on a wheel of one
-//! temperature. It has no mesh; what it needs it takes from the exchange, and the rolling motion runs on it unchanged.
+//! A second heat model behind the seam of the first: flash temperatures of half-planes that move fast, on a wheel of
+//! one temperature. It has no mesh; what it needs it takes from the exchange, and the rolling motion runs on it
+//! unchanged.
 
 mod common;
 
@@ -24,8 +25,8 @@ const CREEPAGE: f64 = 0.2;
 /// Velocity of the wheel [m/s].
 const VELOCITY: f64 = 20.0;
 
-/// Lumped wheel under flashes: `T(x) = T_wheel + ∫ q(ξ) / √(π kρc V (ξ − x)) dξ` over all ξ upstream of x, each surface with
-/// half of the friction heat (Carslaw and Jaeger, *Conduction of Heat in Solids*, 10.7, at a high Péclet number).
+/// Lumped wheel under flashes: `T(x) = T_wheel + ∫ q(ξ) / √(π kρc V (ξ − x)) dξ` over all ξ upstream of x, each surface
+/// with half of the friction heat (Carslaw and Jaeger, *Conduction of Heat in Solids*, 10.7, at a high Péclet number).
 ///
 /// Unknowns: temperature of the wheel, temperature of the arriving rail, flashes of the wheel, flashes of the rail.
 struct FlashModel {
@@ -52,8 +53,8 @@ impl FlashModel {
         }
     }
 
-    /// Flashes at all positions of a surface that moves with `speed` [m/s] under the flux `q` [W/m²]: exact integrals over the
-    /// pieces of a piecewise linear flux.
+    /// Flashes at all positions of a surface that moves with `speed` [m/s] under the flux `q` [W/m²]: exact integrals
+    /// over the pieces of a piecewise linear flux.
     fn flashes(&self, q: &Piecewise, speed: f64, share: f64, out: &mut Vec<f64>) {
         let scale = share / (self.effusivity * (PI * speed).sqrt());
         for &x in &self.zone {
@@ -238,8 +239,8 @@ fn elliptical_peak() -> f64 {
     (0..=2000).map(|i| integral(f64::from(i) / 1000.0 - 1.0)).fold(0.0, f64::max)
 }
 
-/// A sliding patch has the pressure of Hertz, and its friction heat is an ellipse but for the elastic slip, which is some percent
-/// of the rigid one.
+/// A sliding patch has the pressure of Hertz, and its friction heat is an ellipse but for the elastic slip, which is
+/// some percent of the rigid one.
 #[test]
 fn stationary_flash_of_a_sliding_patch_is_that_of_an_elliptical_source() {
     let [model, _] = models(StartTemperature::Stationary);
@@ -259,7 +260,8 @@ fn stationary_flash_of_a_sliding_patch_is_that_of_an_elliptical_source() {
     }
 }
 
-/// Equal bodies that hardly slip share the heat in equal parts: both models then see the same flash, while the bulk is cold.
+/// Equal bodies that hardly slip share the heat in equal parts: both models then see the same flash, while the bulk is
+/// cold.
 #[test]
 fn flashes_of_both_models_agree_while_the_bodies_share_the_heat_in_equal_parts() {
     let rises = models(StartTemperature::Uniform).map(|model| {

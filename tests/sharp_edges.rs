@@ -15,8 +15,8 @@ const ELEMENTS: usize = 10;
 const FINE: usize = 40;
 const SIZE: f64 = 0.8;
 
-/// Largest force x and moment over the load and load times radius, largest energy residual and that in the end, over a shape of
-/// depth `depth`.
+/// Largest force x and moment over the load and load times radius, largest energy residual and that in the end, over a
+/// shape of depth `depth`.
 fn over(shape: &str, depth: f64, wheel: bool, free: bool) -> [f64; 4] {
     on_mesh(shape, depth, wheel, free, (ELEMENTS, STEPS), false)
 }
@@ -65,8 +65,8 @@ fn neither_force_nor_energy_depends_on_the_depth_of_a_hole_beyond_what_touches()
     }
 }
 
-/// What the balance misses while an edge passes belongs to the elements beside it: a third of the step changes it by little,
-/// a quarter of the element takes more than half of it away.
+/// What the balance misses while an edge passes belongs to the elements beside it: a third of the step changes it by
+/// little, a quarter of the element takes more than half of it away.
 #[test]
 fn what_is_missing_while_an_edge_passes_falls_with_the_element_and_not_with_the_step() {
     let hole = "hole(position = 0.01, length = LENGTH, depth = DEPTH)";
@@ -82,7 +82,8 @@ fn what_is_missing_while_an_edge_passes_falls_with_the_element_and_not_with_the_
     }
 }
 
-/// Down a step of the rail, and over a raised piece of it; while the edges pass the balance is off by more than afterwards.
+/// Down a step of the rail, and over a raised piece of it; while the edges pass the balance is off by more than
+/// afterwards.
 #[test]
 fn the_energy_balance_closes_after_steps_down_and_up() {
     for shape in ["step(position = 0.01, height = -DEPTH)", "step(position = 0.01, height = DEPTH, length = LENGTH)"] {
@@ -94,7 +95,8 @@ fn the_energy_balance_closes_after_steps_down_and_up() {
     }
 }
 
-/// Steel that rolls through keeps no dent: what an edge presses in springs back behind it, and the pressure on it does the work.
+/// Steel that rolls through keeps no dent: what an edge presses in springs back behind it, and the pressure on it does
+/// the work.
 #[test]
 fn steel_that_yields_under_a_passing_edge_gives_its_work_back() {
     let step = "step(position = 0.01, height = DEPTH, length = 0.5)";

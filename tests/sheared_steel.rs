@@ -1,4 +1,5 @@
-//! Steel that yields under pressure and friction together: slip lines, in a wheel that stands while the rail slides below it.
+//! Steel that yields under pressure and friction together: slip lines, in a wheel that stands while the rail slides
+//! below it.
 
 mod common;
 
@@ -18,7 +19,8 @@ const SLIDES: f64 = 2.0 / (2.0 + PI);
 const SLIDE: f64 = 5.0;
 const PUSH: f64 = 4e-3;
 
-/// Pressure over the strength in shear under which steel flows that bears a shear traction, over the same: Prandtl and Hill.
+/// Pressure over the strength in shear under which steel flows that bears a shear traction, over the same: Prandtl and
+/// Hill.
 fn bearing(shear: f64) -> f64 {
     let shear = shear.abs().min(1.0);
     1.0 + PI - shear.asin() + (1.0 - shear * shear).sqrt()
@@ -80,8 +82,8 @@ fn missing(o: &Outputs) -> f64 {
     o.hub_work - o.stored_energy - o.damping_energy - o.friction_energy - o.plastic_energy
 }
 
-/// A locked wheel that slides: where it yields it bears what the slip lines say, in both directions, on any mesh, in any step, and
-/// friction is Coulomb's as long as the shear is below the strength.
+/// A locked wheel that slides: where it yields it bears what the slip lines say, in both directions, on any mesh, in
+/// any step, and friction is Coulomb's as long as the shear is below the strength.
 #[test]
 fn a_locked_wheel_bears_the_slip_line_pressure_of_its_friction() {
     for (friction, direction, elements, h) in [
@@ -130,9 +132,10 @@ fn a_locked_wheel_bears_the_slip_line_pressure_of_its_friction() {
     }
 }
 
-/// Where the contact sticks its shear is any, in every place another, and so is the pressure that steel bears. In a step it is that
-/// of the ratio of shear to pressure in the step before, to 2e-5. From that of its own shear it differs by up to 0.53 % below 0.7 k, and
-/// by more towards the strength, where the limit falls vertically with the shear: up to 3.07 k instead of 2.57 k at k.
+/// Where the contact sticks its shear is any, in every place another, and so is the pressure that steel bears. In a
+/// step it is that of the ratio of shear to pressure in the step before, to 2e-5. From that of its own shear it differs
+/// by up to 0.53 % below 0.7 k, and by more towards the strength, where the limit falls vertically with the shear: up
+/// to 3.07 k instead of 2.57 k at k.
 #[test]
 fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
     for (elements, h) in [(10, 2.5e-4), (20, 2.5e-4), (10, 1e-4)] {

@@ -69,8 +69,8 @@ fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_s
     }
 }
 
-/// The decelerated wheel loses the power that damping takes: `m V̇ = F_x = −P/V · m/(m + I/r²)`. The balance of forces and
-/// the audit agree about it within 2.5 %.
+/// The decelerated wheel loses the power that damping takes: `m V̇ = F_x = −P/V · m/(m + I/r²)`. The balance of forces
+/// and the audit agree about it within 2.5 %.
 #[test]
 fn without_damping_a_plain_start_is_free_of_any_force_and_with_it_of_all_but_rolling_resistance() {
     for velocity in [5.0, 80.0, -30.0] {
@@ -116,12 +116,12 @@ fn hot(velocity: f64, excess: f64) -> Arc<Model> {
     model(config)
 }
 
-/// The start knows the heat that the tread gives to the rail in passing. Its force is up to 1.7 N at 300 K. The layers that it
-/// heats and chills pull at both surfaces, which shifts the creepage by 1e-5 per 100 K.
+/// The start knows the heat that the tread gives to the rail in passing. Its force is up to 1.7 N at 300 K. The layers
+/// that it heats and chills pull at both surfaces, which shifts the creepage by 1e-5 per 100 K.
 ///
-/// The force changes by 50 N at 100 K, 0.05 % of the load, and by 240 N at 300 K: nothing may be hotter than the wheel, but at the
-/// leading edge the discretisation swings beyond it by 3 % of the difference of temperatures. Every step moves that back, the
-/// start only once. It rings out within 0.1 s. Without that the change is below 2 N.
+/// The force changes by 50 N at 100 K, 0.05 % of the load, and by 240 N at 300 K: nothing may be hotter than the wheel,
+/// but at the leading edge the discretisation swings beyond it by 3 % of the difference of temperatures. Every step
+/// moves that back, the start only once. It rings out within 0.1 s. Without that the change is below 2 N.
 #[test]
 fn a_hot_wheel_rolls_on_freely_with_its_present_radius() {
     let cold = start(&model(railway(30.0, true)), &driven(&model(railway(30.0, true)), 0.0, 0.0));
@@ -214,8 +214,8 @@ fn a_start_under_moment_and_force_has_no_transient() {
     }
 }
 
-/// Noise: largest difference of the creepage from its mean over 5 ms on each side. The moment acts from the start, or comes
-/// on smoothly within 0.2 s.
+/// Noise: largest difference of the creepage from its mean over 5 ms on each side. The moment acts from the start, or
+/// comes on smoothly within 0.2 s.
 #[test]
 fn braking_from_walking_pace_in_short_steps_leaves_the_creepage_quiet() {
     let noise = |initial: Option<f64>, held: bool| {

@@ -33,8 +33,8 @@ fn torsion(config: &Config) -> Torsion {
     hub_torsion(config.wheel.radius, config.wheel.hub_radius, (shear / material.density).sqrt())
 }
 
-/// The law `μ₀ (A + (1 − A) e^{−B s})` with the slope `slope` [s/m] at [`SLIP`]; beyond the range of the interface it may
-/// rise.
+/// The law `μ₀ (A + (1 − A) e^{−B s})` with the slope `slope` [s/m] at [`SLIP`]; beyond the range of the interface it
+/// may rise.
 fn law_of_slope(config: &Config, slope: f64) -> Tuning {
     // At s no such law is steeper than that with B = 1/s.
     let ratio = if slope > 0.0 { 2.0 - RATIO } else { RATIO };
@@ -91,13 +91,14 @@ fn quarter(model: &Model) -> f64 {
     0.25 * TAU / torsion(model.config()).frequency
 }
 
-/// Slip of the tread of the sliding wheel in steps of `h`, after a short dip of the friction available to the share `dip`.
+/// Slip of the tread of the sliding wheel in steps of `h`, after a short dip of the friction available to the share
+/// `dip`.
 fn rings(model: &Arc<Model>, tuning: &Tuning, h: f64, time: f64, dip: f64) -> Vec<f64> {
     rings_after(model, tuning, h, time, |quarters| if quarters < 1.0 { dip } else { 1.0 })
 }
 
-/// Slip of the tread of the sliding wheel in steps of `h`, with this share of the friction available after so many quarters
-/// of a period.
+/// Slip of the tread of the sliding wheel in steps of `h`, with this share of the friction available after so many
+/// quarters of a period.
 fn rings_after(model: &Arc<Model>, tuning: &Tuning, h: f64, time: f64, share: impl Fn(f64) -> f64) -> Vec<f64> {
     let (mut simulation, inputs) = sliding(model, tuning);
     let quarter = quarter(model);
@@ -116,8 +117,8 @@ fn small_swings(model: &Arc<Model>, tuning: &Tuning, h: f64) -> (f64, f64) {
     growth(&slips[(8.0 * quarter(model) / h) as usize..], h)
 }
 
-/// Growth rate [1/s] and frequency [rad/s] of the torsion for friction of this slope, and the rate in closed form: a force
-/// `−μ(s) P` at the rim on the modal mass `m = ρ · rim_area` gives `q̈ + (P μ′/m) q̇ + ω² q = 0`.
+/// Growth rate [1/s] and frequency [rad/s] of the torsion for friction of this slope, and the rate in closed form: a
+/// force `−μ(s) P` at the rim on the modal mass `m = ρ · rim_area` gives `q̈ + (P μ′/m) q̇ + ω² q = 0`.
 fn grown(model: &Arc<Model>, slope: f64, h: f64) -> [f64; 3] {
     let config = model.config();
     let mass = config.material.density * torsion(config).rim_area * config.model.contact_width;
@@ -133,8 +134,8 @@ fn falling_friction_excites_the_torsion_at_half_its_slope_over_the_mass_and_risi
     let exact = torsion(model.config()).frequency;
     assert!((exact / 1777.3 - 1.0).abs() < 1e-3, "{exact}");
     for (h, slopes) in [(2e-5, &[-0.2, -0.4, -0.8, 0.4][..]), (1e-5, &[-0.4])] {
-        // Constant friction neither damps nor excites; what is left is the energy that streams out with the rail, and the
-        // damping of the time formula.
+        // Constant friction neither damps nor excites; what is left is the energy that streams out with the rail, and
+        // the damping of the time formula.
         let [constant, ..] = grown(&model, 0.0, h);
         assert!(constant < 0.0 && constant > -0.1, "{constant}");
         for &slope in slopes {
@@ -186,8 +187,8 @@ fn stick_slip_sets_in_where_the_slope_of_friction_equals_the_modal_damping() {
 /// Periods of the torsion during which friction comes and goes.
 const DRIVEN: f64 = 10.0;
 
-/// Smallest and largest slip, and frequency [rad/s], of stick–slip that friction that comes and goes has driven to its full
-/// size.
+/// Smallest and largest slip, and frequency [rad/s], of stick–slip that friction that comes and goes has driven to its
+/// full size.
 fn limit_cycle(h: f64) -> [f64; 3] {
     let config = heavy_hub().config().clone();
     let model = damped(0.2 * ratio_of_onset(&config, -0.4));
@@ -216,8 +217,8 @@ fn saturated_stick_slip_does_not_depend_on_the_step() {
     assert!((swing - 1.0).abs() < 0.03 && (frequency - 1.0).abs() < 0.03);
 }
 
-/// Communication steps of 1 ms hide the onset from a time formula that damps; the error control refines them as soon as the
-/// swings are large enough to matter.
+/// Communication steps of 1 ms hide the onset from a time formula that damps; the error control refines them as soon as
+/// the swings are large enough to matter.
 #[test]
 fn error_control_finds_the_onset_of_swings_that_matter_in_long_communication_steps() {
     let config = heavy_hub().config().clone();
@@ -238,7 +239,8 @@ fn error_control_finds_the_onset_of_swings_that_matter_in_long_communication_ste
     }
 }
 
-/// Flexibility without mass has no time scale of its own but `P C |μ′|`, some microseconds; steps as short make it chatter.
+/// Flexibility without mass has no time scale of its own but `P C |μ′|`, some microseconds; steps as short make it
+/// chatter.
 #[test]
 fn a_short_memory_of_friction_keeps_local_flexibility_from_chattering_in_very_short_steps() {
     let config = heavy_hub().config().clone();

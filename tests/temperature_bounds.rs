@@ -1,4 +1,5 @@
-//! No temperature below the coldest datum and none far above molten steel, whatever the parameters, the steps and the motion.
+//! No temperature below the coldest datum and none far above molten steel, whatever the parameters, the steps and the
+//! motion.
 
 mod common;
 mod heat_common;
@@ -129,8 +130,8 @@ fn simulate(config: &Config, random: &mut Random) -> Result<Outcome, String> {
     Ok(Outcome::Simulated)
 }
 
-/// Absolute temperatures between which a run must stay [K]: the whole bodies above the lower one, the contact below the upper
-/// one. Brake blocks heat the tread as they are told to.
+/// Absolute temperatures between which a run must stay [K]: the whole bodies above the lower one, the contact below the
+/// upper one. Brake blocks heat the tread as they are told to.
 struct Bounds([f64; 2]);
 
 impl Bounds {
@@ -271,7 +272,8 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
     assert!(completed >= sets as usize / 2, "{completed}");
 }
 
-/// Runs `steps` steps of `dt` seconds within the bounds of temperature, or until one is refused by name; how many were taken.
+/// Runs `steps` steps of `dt` seconds within the bounds of temperature, or until one is refused by name; how many were
+/// taken.
 fn watched(config: Config, change: impl Fn(&mut Inputs), steps: usize, dt: f64) -> usize {
     watched_within(config, 0.0, change, steps, dt)
 }
@@ -390,8 +392,8 @@ fn friction_that_does_not_soften_melts_the_contact_and_heats_it_no_further_at_an
     }
 }
 
-/// Cold, hot and very hot wheels, slow and fast, coarse and fine: a stationary start chills the tread in passing, and no point becomes
-/// colder than its datum.
+/// Cold, hot and very hot wheels, slow and fast, coarse and fine: a stationary start chills the tread in passing, and
+/// no point becomes colder than its datum.
 #[test]
 fn wheels_of_any_temperature_below_the_solidus_start_within_the_bounds_and_roll_or_are_refused_by_name() {
     for (elements, excess, velocity) in [

@@ -1,5 +1,5 @@
-//! Maximum principle of the temperatures: without a source nothing is colder than the coldest or hotter than the hottest of
-//! wheel, arriving rail, hub and air; with friction nothing is colder than the coldest of them.
+//! Maximum principle of the temperatures: without a source nothing is colder than the coldest or hotter than the
+//! hottest of wheel, arriving rail, hub and air; with friction nothing is colder than the coldest of them.
 //!
 //! `WHEELRAIL_EVERY_ROW=1` runs all rows on 10, 20 and 40 elements with more steps and prints their table.
 

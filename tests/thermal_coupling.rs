@@ -100,8 +100,8 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
 
 /// Radial growth of the rim of a uniformly warm annulus in plane strain whose hub neither grows nor warms [m].
 ///
-/// `u = A r + B/r` with `u(r_i) = 0` and `σ_r(r_o) = 2(λ+μ)A − 2μB/r_o² − (3λ+2μ)αT = 0` (Timoshenko & Goodier, *Theory of
-/// Elasticity*, section 150).
+/// `u = A r + B/r` with `u(r_i) = 0` and `σ_r(r_o) = 2(λ+μ)A − 2μB/r_o² − (3λ+2μ)αT = 0` (Timoshenko & Goodier, *Theory
+/// of Elasticity*, section 150).
 fn growth_on_rigid_hub(config: &Config, warmth: f64) -> f64 {
     let (ro, ri, m) = (config.wheel.radius, config.wheel.hub_radius, &config.material);
     let nu = m.poissons_ratio;

@@ -1,19 +1,20 @@
 //! Friction heat, expansion and pressure feed each other in a locked slide: what grows, what decays, and how far both
 //! converge in step and mesh while the steel is elastic and solid.
 //!
-//! Two half-planes of one material, one of which slides over the other at `V` [m/s]: the pressure `p cos kx` makes the heat
-//! `μVp`, which diffuses into the standing body over `1/m₁` and into the moving one over `1/m₂` with `m₁² = s/κ + k²`,
-//! `m₂² = (s + ikV)/κ + k²` and the rate of growth `s`. Both have the surface temperature `T = μVp/(k_c (m₁ + m₂))` with the
-//! conductivity `k_c`. A half-plane with the temperature `T e^{−mz} cos kx` rises by `2α(1 + ν)T/(m + k)`, and `p` presses
-//! both together by `2p/(E*k)` (after R. A. Burton, V. Nerlikar, S. R. Kilaparti, *Wear* 24 (1973) 177–188). For layers
-//! thinner than the wave, `1/m` in place of `1/(m + k)`, as in this model, the equation has the closed solution (derived here)
+//! Two half-planes of one material, one of which slides over the other at `V` [m/s]: the pressure `p cos kx` makes the
+//! heat `μVp`, which diffuses into the standing body over `1/m₁` and into the moving one over `1/m₂` with
+//! `m₁² = s/κ + k²`, `m₂² = (s + ikV)/κ + k²` and the rate of growth `s`. Both have the surface temperature
+//! `T = μVp/(k_c (m₁ + m₂))` with the conductivity `k_c`. A half-plane with the temperature `T e^{−mz} cos kx` rises by
+//! `2α(1 + ν)T/(m + k)`, and `p` presses both together by `2p/(E*k)` (after R. A. Burton, V. Nerlikar, S. R. Kilaparti,
+//! *Wear* 24 (1973) 177–188). For layers thinner than the wave, `1/m` in place of `1/(m + k)`, as in this model, the
+//! equation has the closed solution (derived here)
 //!
 //! ```text
 //! (s + κk²)(s + κk² + ikV) = (HVk)²,    s = −κk² + ½ kV (−i ± √(4H² − 1)),    H = α(1 + ν) E* μ/(ρc)
 //! ```
 //!
-//! Without edges, therefore, every disturbance decays by diffusion while `2H < 1`: with steel up to μ = 1.02. What grows in
-//! a wheel is the bulge of the heated patch as a whole: the patch contracts, and its pressure rises.
+//! Without edges, therefore, every disturbance decays by diffusion while `2H < 1`: with steel up to μ = 1.02. What
+//! grows in a wheel is the bulge of the heated patch as a whole: the patch contracts, and its pressure rises.
 
 mod common;
 
@@ -26,7 +27,8 @@ use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
 /// Speed of the slide [m/s].
 const SPEED: f64 = 60.0 * KMH;
 
-/// The railway wheel without error control and with constant friction; all its tread heat goes into 1.84 mm of the patch.
+/// The railway wheel without error control and with constant friction; all its tread heat goes into 1.84 mm of the
+/// patch.
 fn locked(elements: usize) -> Arc<Model> {
     let mut config = preset("railway", elements);
     (config.tuning.softening, config.tuning.tolerance) = (0.0, 0.0);
@@ -34,8 +36,9 @@ fn locked(elements: usize) -> Arc<Model> {
     model(config)
 }
 
-/// Slides with a locked wheel from a frictionless start; friction rises to `friction` within `rise` [s]. Heat [W] is applied
-/// to the spot between two times [s]. Returns the outputs at `times` [s], which are multiples of the step `h` [s].
+/// Slides with a locked wheel from a frictionless start; friction rises to `friction` within `rise` [s]. Heat [W] is
+/// applied to the spot between two times [s]. Returns the outputs at `times` [s], which are multiples of the step `h`
+/// [s].
 fn slide(model: &Arc<Model>, [friction, rise]: [f64; 2], spot: (f64, [f64; 2]), times: &[f64], h: f64) -> Vec<Outputs> {
     let mut inputs: Inputs = prescribed(model, SPEED, 2.0);
     inputs.drive.friction = 0.0;
@@ -72,7 +75,8 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / largest
 }
 
-/// Runs three steps on the middle mesh and three meshes with the middle step; prints all. Returns the distances of neighbours.
+/// Runs three steps on the middle mesh and three meshes with the middle step; prints all. Returns the distances of
+/// neighbours.
 fn refine(
     what: &str,
     steps: [f64; 3],
@@ -97,8 +101,8 @@ fn refine(
     changes
 }
 
-/// Whether refinement has converged: the last change is below the limit, and smaller than the one before unless that was
-/// below the limit already.
+/// Whether refinement has converged: the last change is below the limit, and smaller than the one before unless that
+/// was below the limit already.
 fn converged(changes: [f64; 2], limit: f64) -> bool {
     changes[1] < limit && changes[1] < changes[0].max(limit)
 }
@@ -122,8 +126,9 @@ fn the_contraction_of_a_locked_patch_converges_in_step_and_mesh() {
 
 /// The dry slide: 5.5 % within the first millisecond, whatever the step and the mesh; then it falls.
 ///
-/// Above 400 °C the feedback of heat lags by three steps more (docs/theory/limits-of-steel.md). In steps of 25 to 100 µs this
-/// changes the course: 3 to 5 % after 1 ms and 9 to 11 % after 2 ms, where steps of 10 µs and less agree on 5.5 and 4.8 %.
+/// Above 400 °C the feedback of heat lags by three steps more (docs/theory/limits-of-steel.md). In steps of 25 to 100
+/// µs this changes the course: 3 to 5 % after 1 ms and 9 to 11 % after 2 ms, where steps of 10 µs and less agree on 5.5
+/// and 4.8 %.
 #[test]
 fn the_first_growth_of_the_pressure_in_a_dry_slide_converges_in_step_and_mesh() {
     let run = |model: &Arc<Model>, h: f64| growth(model, [0.3, 0.002], &[0.001, 0.0015, 0.002], h);
@@ -132,7 +137,8 @@ fn the_first_growth_of_the_pressure_in_a_dry_slide_converges_in_step_and_mesh() 
     assert!(converged(mesh, 0.02), "{mesh:?}");
 }
 
-/// A spot inside the patch is heated for 2 ms. Without edges its pressure decays (see above), and so it does in the patch.
+/// A spot inside the patch is heated for 2 ms. Without edges its pressure decays (see above), and so it does in the
+/// patch.
 #[test]
 fn a_disturbance_inside_the_patch_does_not_grow_at_any_step_and_mesh() {
     let friction = 0.05;
@@ -141,7 +147,8 @@ fn a_disturbance_inside_the_patch_does_not_grow_at_any_step_and_mesh() {
     println!("H = {h:.4}, unstable without edges from a friction coefficient of {:.3} on", 0.5 / coupling(&config));
     assert!(2.0 * h < 1.0);
     let (start, end, times) = (0.06, 0.062, [0.067, 0.072, 0.082, 0.092]);
-    // After 30 ms a third of a megapascal is left: 0.33, 0.35, 0.31 MPa with the three steps, without a trend. Printed only.
+    // After 30 ms a third of a megapascal is left: 0.33, 0.35, 0.31 MPa with the three steps, without a trend. Printed
+    // only.
     let compared = 3;
     let run = |model: &Arc<Model>, h: f64| -> Vec<f64> {
         let of = |heat: f64| slide(model, [friction, 0.01], (heat, [start, end]), &times, h);

@@ -32,7 +32,8 @@ fn errors(heat: bool) -> ([f64; 4], f64) {
     (config.solver.modes_wheel, config.solver.modes_rail) = (20, 10);
     config.thermal.wheel_excess = 20.0;
     config.thermal.enabled = heat;
-    // A uniform start has a transient that begins with the square root of the time, of which no step has the second order.
+    // A uniform start has a transient that begins with the square root of the time, of which no step has the second
+    // order.
     config.initial.temperature = StartTemperature::Stationary;
     config.tuning.tolerance = 0.0;
     let model = model(config);

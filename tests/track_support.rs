@@ -103,8 +103,8 @@ fn two_degrees(mass: [f64; 2], contact: f64, support: f64, damping: f64) -> Comp
     oscillating.into_iter().min_by(|a, b| a.im.total_cmp(&b.im)).unwrap()
 }
 
-/// Frequency [rad/s] and decay rate [1/s] from crossings and extremes of a vibration about zero, sampled every `dt`, without
-/// its first period.
+/// Frequency [rad/s] and decay rate [1/s] from crossings and extremes of a vibration about zero, sampled every `dt`,
+/// without its first period.
 fn vibration(signal: &[f64], dt: f64) -> [f64; 2] {
     let (mut crossings, mut peaks) = (Vec::new(), Vec::new());
     for k in 1..signal.len() - 1 {
@@ -152,8 +152,8 @@ fn a_wheel_bounces_on_its_track_as_two_masses_on_springs_and_a_damper() {
     assert!((decay / -expected.re - 1.0).abs() < 0.01, "{decay} 1/s");
 }
 
-/// A vibration of the wheel on its track loses what the damper takes: the imbalance is of second order over two halvings of
-/// the fixed steps.
+/// A vibration of the wheel on its track loses what the damper takes: the imbalance is of second order over two
+/// halvings of the fixed steps.
 #[test]
 fn the_damper_takes_what_the_vibration_loses() {
     let residual = |step: f64| {
@@ -275,9 +275,9 @@ fn a_held_stop_comes_to_rest_whatever_stopped_it() {
     assert!(found.iter().all(|late| *late < 0.05), "{found:?}");
 }
 
-/// A patch that has slid is hot and rough: near reversals of the motion its expansion makes the forces jump from step to step, so
-/// that the control takes steps down to some 20 µs, in which the contact has to be solved to round-off. On a coarse mesh
-/// and from a low speed to save time; from 2 m/s with ten elements 3.5 % of the first swing are left.
+/// A patch that has slid is hot and rough: near reversals of the motion its expansion makes the forces jump from step
+/// to step, so that the control takes steps down to some 20 µs, in which the contact has to be solved to round-off. On
+/// a coarse mesh and from a low speed to save time; from 2 m/s with ten elements 3.5 % of the first swing are left.
 #[test]
 fn a_locked_wheel_comes_to_rest_on_its_hot_patch() {
     let model = model(preset("railway", 6));
@@ -316,7 +316,8 @@ fn both_responses_move_alike_on_their_track() {
     }
 }
 
-/// A ramp of the brake in 0.1 s: the restraint shows while the force changes, by its creep `ḃ = Ḟ/k`, and not in the end.
+/// A ramp of the brake in 0.1 s: the restraint shows while the force changes, by its creep `ḃ = Ḟ/k`, and not in the
+/// end.
 #[test]
 fn a_braking_ramp_feels_the_restraint_only_while_the_force_changes() {
     let run = |config: Config| -> Vec<Outputs> {

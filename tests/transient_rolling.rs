@@ -144,8 +144,8 @@ fn controlled_fast_ramp_matches_the_reference() {
     }
     println!("peak utilisation {utilisation:.4}, peak creepage {creepage:.4e}");
     assert!((utilisation - 0.5477).abs() <= 0.002, "{utilisation}");
-    // The reference was not checked against the mesh, and backward Euler, with which it was computed, damps the ringing of
-    // the wheel's torsion on top of the ramp: its peak is lower.
+    // The reference was not checked against the mesh, and backward Euler, with which it was computed, damps the ringing
+    // of the wheel's torsion on top of the ramp: its peak is lower.
     assert!((0.98..=1.08).contains(&(creepage / 2.939e-4)), "{creepage}");
 }
 

@@ -19,10 +19,10 @@ fn rolls_freely(excess: f64, conductance: f64) -> Outputs {
     simulation.outputs().clone()
 }
 
-/// Without conduction to the rail a hot wheel is a larger one. With it the rail chills the tread while both stick to each
-/// other: the tread contracts, the rail expands, and the wheel rolls freely at a creepage of about `4.8e-7 ΔT/√V`
-/// (V in m/s), at 28 m/s 9e-8 per kelvin: no error of the radius, since it vanishes without thermal expansion of the layer.
-/// So 100 K are within 1e-5 of the cold creepage, and 300 K are not.
+/// Without conduction to the rail a hot wheel is a larger one. With it the rail chills the tread while both stick to
+/// each other: the tread contracts, the rail expands, and the wheel rolls freely at a creepage of about `4.8e-7 ΔT/√V`
+/// (V in m/s), at 28 m/s 9e-8 per kelvin: no error of the radius, since it vanishes without thermal expansion of the
+/// layer. So 100 K are within 1e-5 of the cold creepage, and 300 K are not.
 #[test]
 fn free_rolling_of_a_hot_wheel_has_the_creepage_of_the_cold_one_but_for_the_chill_of_its_tread() {
     for (conductance, tolerance, loss) in [(0.0, [1e-7, 1e-7], 1e-6), (1e8, [1e-5, 3e-5], 1.0)] {
@@ -129,8 +129,8 @@ fn nothing_is_lost_per_metre_at_standstill() {
     assert!((o.t_gamma * 0.02 / o.friction_power - 1.0).abs() < 1e-12 && o.friction_power > 1e3);
 }
 
-/// A line contact of 100 kN has a peak of some 755 MPa: with 550 MPa yield strength the surface is fatigued from 0.42 of the
-/// load on. Wear follows from the energy that the contact itself reports.
+/// A line contact of 100 kN has a peak of some 755 MPa: with 550 MPa yield strength the surface is fatigued from 0.42
+/// of the load on. Wear follows from the energy that the contact itself reports.
 #[test]
 fn fatigue_and_wear_follow_from_the_other_outputs() {
     let model = model(preset("railway", 10));

@@ -59,8 +59,8 @@ fn every_start_has_the_given_temperatures_whatever_heats_and_brakes_it() {
     }
 }
 
-/// Friction and radius of the start are those of the uniform temperatures: `1 − K (T − T_ref)` of the mean of both surfaces, here half
-/// of the excess, and the growth of a ring that is warm throughout.
+/// Friction and radius of the start are those of the uniform temperatures: `1 − K (T − T_ref)` of the mean of both
+/// surfaces, here half of the excess, and the growth of a ring that is warm throughout.
 #[test]
 fn friction_and_radius_at_the_start_are_those_of_the_given_temperatures() {
     let slides = |excess: f64| {
@@ -134,8 +134,8 @@ fn a_wheel_that_nothing_presses_down_is_refused_by_its_loads_alone() {
     );
 }
 
-/// Both starts come to the same temperatures of the contact, the uniform one in the time in which the wheel turns some times: the flash
-/// lies over a wheel that hardly warms.
+/// Both starts come to the same temperatures of the contact, the uniform one in the time in which the wheel turns some
+/// times: the flash lies over a wheel that hardly warms.
 #[test]
 fn the_flash_temperature_of_a_uniform_start_becomes_the_stationary_one() {
     let flash = |temperature: StartTemperature, steps: usize| {

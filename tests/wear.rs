@@ -1,5 +1,5 @@
-//! Wear that changes the wheel: what is taken off is what the wear rate says, it stays on the material, it makes a flat of a slide,
-//! and the profile that is left can be loaded again.
+//! Wear that changes the wheel: what is taken off is what the wear rate says, it stays on the material, it makes a flat
+//! of a slide, and the profile that is left can be loaded again.
 
 mod common;
 
@@ -119,8 +119,8 @@ fn slide(elements: usize, step: f64) -> (Simulation, Inputs) {
     (simulation, inputs)
 }
 
-/// Archard's sum: the whole contact wears by the same depth. Shorter steps and finer meshes give the same flat, and what the
-/// pressure does on the way of the steel that is gone is accounted for.
+/// Archard's sum: the whole contact wears by the same depth. Shorter steps and finer meshes give the same flat, and
+/// what the pressure does on the way of the steel that is gone is accounted for.
 #[test]
 fn a_slide_grinds_a_flat_that_does_not_depend_on_the_steps() {
     let found = [(6, 1e-3), (6, 2.5e-4), (12, 1e-3)].map(|(elements, step)| {
@@ -219,8 +219,8 @@ fn a_wheel_that_spins_on_the_spot_wears_the_rail_as_well() {
     assert!((rail / outputs.worn_mass - 1.0).abs() < 1e-12 && outputs.worn_depth_rail > 5.0 * outputs.worn_depth);
 }
 
-/// The FMU writes the profile when it is terminated, and reads it as that of another run; what could not be written is refused
-/// before the run.
+/// The FMU writes the profile when it is terminated, and reads it as that of another run; what could not be written is
+/// refused before the run.
 #[test]
 fn the_fmu_saves_the_profile_of_its_wheel_and_loads_it() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));

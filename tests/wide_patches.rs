@@ -14,9 +14,9 @@ fn ports(simulation: &Simulation) -> usize {
     simulation.state().lines[0].contact.traction.port_forces.len()
 }
 
-/// The default wheel with `elements` per half-width and room for three times the half-width in uniform nodes: laid out for
-/// nine times the load with as many times more elements as the half-width grows, so that all nodes of its zone have the
-/// spacing of the first.
+/// The default wheel with `elements` per half-width and room for three times the half-width in uniform nodes: laid out
+/// for nine times the load with as many times more elements as the half-width grows, so that all nodes of its zone have
+/// the spacing of the first.
 fn laid_out_for(share: f64, elements: usize, change: impl Fn(&mut Config)) -> Arc<Model> {
     let mut config = preset("railway", (share.sqrt() * elements as f64).round() as usize);
     config.model.nominal_load *= share;
@@ -46,8 +46,8 @@ fn patches_under_ten_times_the_nominal_load_are_those_of_hertz() {
             let width = o.contact_half_width / a - 1.0;
             let pressure = o.contact_pressure_max / hertz_peak_pressure(load, a) - 1.0;
             assert!((o.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9);
-            // The approach of a line contact over its load falls by 2/(πE*) with the logarithm of its half-width, whatever
-            // the size of the bodies; 1.5 %: they are finite.
+            // The approach of a line contact over its load falls by 2/(πE*) with the logarithm of its half-width,
+            // whatever the size of the bodies; 1.5 %: they are finite.
             let now = [a, o.contact_approach / load, ratio];
             let fall = before
                 .replace(now)
@@ -74,9 +74,9 @@ fn difference(a: &[Outputs], b: &[Outputs], output: impl Fn(&Outputs) -> f64) ->
     a.iter().zip(b).map(|(a, b)| (output(a) - output(b)).abs()).fold(0.0, f64::max) / size
 }
 
-/// Forces within 1 %, temperatures within 3 %: the depth of the first thermal layer follows from the nominal load, too, and
-/// the elements along the surface are coarse in the wings. Layers that swell have a depth that follows from the nominal load: without them.
-/// Hot steel that yields would leave the wings.
+/// Forces within 1 %, temperatures within 3 %: the depth of the first thermal layer follows from the nominal load, too,
+/// and the elements along the surface are coarse in the wings. Layers that swell have a depth that follows from the
+/// nominal load: without them. Hot steel that yields would leave the wings.
 #[test]
 fn a_sliding_contact_in_the_wings_is_that_of_a_model_laid_out_for_it() {
     let runs = [(1.0, 20), (9.0, 8)].map(|(laid_out, elements)| {
@@ -84,7 +84,8 @@ fn a_sliding_contact_in_the_wings_is_that_of_a_model_laid_out_for_it() {
             (config.physics.thermal_expansion, config.physics.yielding) = (false, false);
             // A molten film holds friction by its thickness, which differs by 3 % between these meshes.
             config.material.latent_heat = 0.0;
-            // From a cold start both alternate for long between friction at its floor and above it, by up to 8 %, each at its own steps.
+            // From a cold start both alternate for long between friction at its floor and above it, by up to 8 %, each
+            // at its own steps.
             config.initial.temperature = StartTemperature::Stationary;
         });
         let mut inputs = prescribed(&model, 60.0 * KMH, 1.0);
@@ -112,8 +113,8 @@ fn a_sliding_contact_in_the_wings_is_that_of_a_model_laid_out_for_it() {
     assert!(wings.iter().all(|o| o.contact_half_width > 2.4 * 6.0e-3));
 }
 
-/// The load rises to five times the nominal one and falls again while the wheel brakes, by less than 2 % of the nominal one
-/// in a step: faster changes restart the time formula, and what is nominal is not the same in both models.
+/// The load rises to five times the nominal one and falls again while the wheel brakes, by less than 2 % of the nominal
+/// one in a step: faster changes restart the time formula, and what is nominal is not the same in both models.
 #[test]
 fn a_load_that_comes_and_goes_leaves_forces_and_energy_as_in_one_zone() {
     let runs = [(1.0, 20), (6.25, 8)].map(|(laid_out, elements)| {

@@ -48,9 +48,9 @@ fn integral_of_erf(x: f64) -> f64 {
 
 /// Mean temperature of a strip of the width `w` \[m] under the flux 1 W/m² since `time` \[s], on a half-space.
 ///
-/// A strip source that is held for dτ leaves `dτ/(ρc √(πκτ))` times the share of its heat that is still below the strip, a
-/// Gaussian in the distance across (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2nd ed., 10.5), whose mean over the
-/// strip is `(L/w) ∫ erf(u) du` from 0 to `w/L`, `L = √(4κτ)`.
+/// A strip source that is held for dτ leaves `dτ/(ρc √(πκτ))` times the share of its heat that is still below the
+/// strip, a Gaussian in the distance across (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2nd ed., 10.5), whose
+/// mean over the strip is `(L/w) ∫ erf(u) du` from 0 to `w/L`, `L = √(4κτ)`.
 fn mean_of_the_strip(w: f64, time: f64, diffusivity: f64, heat_capacity: f64) -> f64 {
     const STEPS: i32 = 400;
     let h = time.sqrt() / f64::from(STEPS);
@@ -90,8 +90,8 @@ fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_6
     }
 }
 
-/// Section of the real wheel times its circumferences: rim, web and boss. The part that conducts ends a little deeper than the
-/// real rim, whose flanks are further from the contact; the web is shorter by that.
+/// Section of the real wheel times its circumferences: rim, web and boss. The part that conducts ends a little deeper
+/// than the real rim, whose flanks are further from the contact; the web is shorter by that.
 #[test]
 fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
     let content = |config: &HeatConfig| {
@@ -142,8 +142,8 @@ fn a_warm_wheel_loses_heat_to_the_air_from_tread_rim_and_web() {
 }
 
 /// A rail that streams through the friction heat of an elliptic pressure. To first order the mean over the strip loses
-/// `√(κt/π)/w` to the sides, `t` the time since the leading edge: half a per cent at 36 km/h. That is physics of a strip, which
-/// an infinitely wide contact does not have; nothing else changes.
+/// `√(κt/π)/w` to the sides, `t` the time since the leading edge: half a per cent at 36 km/h. That is physics of a
+/// strip, which an infinitely wide contact does not have; nothing else changes.
 #[test]
 fn the_flash_temperature_loses_little_to_the_sides() {
     for speed in [10.0, 30.0, 60.0] {

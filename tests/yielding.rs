@@ -46,15 +46,16 @@ fn locked(model: &Arc<Model>) -> Inputs {
     inputs
 }
 
-/// Prandtl: the mean pressure of a rigid-plastic indentation is `(2 + π)/√3` yield strengths; unloaded, the dent stays, and
-/// pressed again as hard, nothing yields any more.
+/// Prandtl: the mean pressure of a rigid-plastic indentation is `(2 + π)/√3` yield strengths; unloaded, the dent stays,
+/// and pressed again as hard, nothing yields any more.
 #[test]
 fn an_indented_line_contact_bears_the_plastic_pressure_and_keeps_its_flattening() {
     let (strength, width) = (200e6, 0.014);
     let mut means = Vec::new();
     for elements in [10, 20] {
         let mut config = standing(strength, elements);
-        // Prandtl's punch bears no shear; a contact that sticks bears a little, and that lowers its limit (`sheared_steel`).
+        // Prandtl's punch bears no shear; a contact that sticks bears a little, and that lowers its limit
+        // (`sheared_steel`).
         config.friction.coefficient = 0.0;
         let model = model(config);
         let mut inputs = locked(&model);
@@ -97,8 +98,8 @@ fn an_indented_line_contact_bears_the_plastic_pressure_and_keeps_its_flattening(
     assert!((means[0] / means[1] - 1.0).abs() < 0.02, "{means:?}");
 }
 
-/// Between the wide nodes of the wings a dent keeps a little less than the overlap: the work is that of what it keeps. Counted
-/// with the whole overlap it would be 0.3 % too much on either mesh, however short the steps.
+/// Between the wide nodes of the wings a dent keeps a little less than the overlap: the work is that of what it keeps.
+/// Counted with the whole overlap it would be 0.3 % too much on either mesh, however short the steps.
 #[test]
 fn a_dent_in_the_wings_of_the_zone_takes_the_energy_that_goes_missing() {
     for elements in [10, 20] {

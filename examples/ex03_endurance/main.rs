@@ -4,8 +4,8 @@
 //! 2. A scenario of traction, coasting, braking, locked slides, wet and dry (`scenario.rs`), step by step.
 //! 3. Failures, growth of memory and the energy audit, counted by phase of driving.
 //!
-//! `cargo run --release --example ex03_endurance -- --steps 1000000` prints failures, growth of memory and the energy audit,
-//! by phase of driving, and fails if a limit is exceeded.
+//! `cargo run --release --example ex03_endurance -- --steps 1000000` prints failures, growth of memory and the energy
+//! audit, by phase of driving, and fails if a limit is exceeded.
 
 #[path = "../../tests/heap/mod.rs"]
 mod heap;

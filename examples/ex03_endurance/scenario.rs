@@ -64,7 +64,8 @@ impl Cycle {
     }
 }
 
-/// Energy that appeared or vanished, and what friction dissipated, during one phase over the whole run, whole wheel [J].
+/// Energy that appeared or vanished, and what friction dissipated, during one phase over the whole run, whole wheel
+/// [J].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Balance {
     pub steps: u64,

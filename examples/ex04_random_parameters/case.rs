@@ -12,7 +12,8 @@ use wheelrail::fmi::variable::{Access, Causality, Kind, Value, Variable};
 
 /// Communication steps of a case.
 const STEPS: usize = 5;
-/// Temperature below the coldest source that counts as none \[K], and the same relative to the span of the sources \[1].
+/// Temperature below the coldest source that counts as none \[K], and the same relative to the span of the sources
+/// \[1].
 const COLDER: f64 = 0.1;
 const COLDER_SHARE: f64 = 0.005;
 /// Residual of the energy balance beyond which a warning has to say why \[1].
@@ -31,8 +32,8 @@ pub enum Verdict {
     Discarded(String),
     /// A refusal or a discarded step whose message names no variable.
     Unexplained(String),
-    /// An output that is not finite, outside its declared range or colder than every source, or energy that is missing without
-    /// a warning, although its call succeeded.
+    /// An output that is not finite, outside its declared range or colder than every source, or energy that is missing
+    /// without a warning, although its call succeeded.
     Wrong(String),
 }
 
@@ -139,8 +140,8 @@ impl Case {
         Ok(None)
     }
 
-    /// Temperature below which nothing may fall \[K]: that of the coldest source. Without heat, with reversible cooling or with
-    /// brake blocks that cool there is none.
+    /// Temperature below which nothing may fall \[K]: that of the coldest source. Without heat, with reversible cooling
+    /// or with brake blocks that cool there is none.
     fn coldest(&self, instance: &mut Instance) -> Result<f64, CallError> {
         let reversible = matches!(one(instance, "physics.thermoelastic_heating")?, Value::Boolean(true));
         let enabled = matches!(one(instance, "thermal.enabled")?, Value::Boolean(true));

@@ -122,7 +122,8 @@ fn wait(child: &mut Child) -> Option<&'static str> {
 /// Processor time of a process [s]; nothing where it is not known.
 fn busy(id: u32) -> Option<f64> {
     let status = std::fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
-    // Behind the name in brackets: user and system time are the twelfth and thirteenth field, in hundredths of a second.
+    // Behind the name in brackets: user and system time are the twelfth and thirteenth field, in hundredths of a
+    // second.
     let fields = status.rsplit(')').next()?.split_whitespace().skip(11).take(2);
     Some(fields.filter_map(|text| text.parse::<f64>().ok()).sum::<f64>() / 100.0)
 }

@@ -4,9 +4,9 @@
 //! space of blocks is built with full reorthogonalisation (Golub & Van Loan, *Matrix Computations*, 4th ed., 10.3.6),
 //! followed by one inverse iteration and a Rayleigh–Ritz projection on the pencil itself.
 //!
-//! The iteration is not `partial_self_adjoint_eigen` of faer 0.24.4, which finds the same frequencies to 2e-12 but takes
-//! 1.7 s in place of 0.8 s for the even modes of the default wheel, ends neither for its odd ones nor for 40 modes of a
-//! rail of 20 m × 0.02 m within 40 s, and panics where the space reaches the size of the matrix.
+//! The iteration is not `partial_self_adjoint_eigen` of faer 0.24.4, which finds the same frequencies to 1e-11 but
+//! takes 1.7 s in place of 0.8 s for the even modes of the default wheel, did not end within 40 s for its odd ones and
+//! for 40 modes of a rail of 20 m × 0.02 m (tolerance 1e-9), and panics where the space reaches the matrix size.
 
 use super::blocks::{product, solved};
 use super::krylov::{Krylov, Oscillator, RitzPairs, dense_eigen, noise};

@@ -46,8 +46,8 @@ fn count(requested: usize, given_back: usize) {
     }
 }
 
-// SAFETY: every call is passed on to the system's allocator unchanged; the counters are plain cells without destructors,
-// so counting neither allocates nor panics.
+// SAFETY: every call is passed on to the system's allocator unchanged; the counters are plain cells without
+// destructors, so counting neither allocates nor panics.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size(), 0);

@@ -133,8 +133,8 @@ impl SourceMap {
         }
     }
 
-    /// The other files that each file imports from or names, in the order of [`Self::modules`]. An imported module counts
-    /// through what is used of it, a re-exported name as the file that defines it.
+    /// The other files that each file imports from or names, in the order of [`Self::modules`]. An imported module
+    /// counts through what is used of it, a re-exported name as the file that defines it.
     pub fn imports(&self) -> Vec<BTreeSet<usize>> {
         (0..self.modules.len()).map(|from| self.imports_of(from)).collect()
     }

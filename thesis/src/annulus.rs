@@ -1,5 +1,5 @@
-//! The test of \[B] § 4: heat in a rotating annulus with a uniform source and cold rims, whose exact temperature does not
-//! depend on the rotation.
+//! The test of \[B] § 4: heat in a rotating annulus with a uniform source and cold rims, whose exact temperature does
+//! not depend on the rotation.
 
 use crate::Error;
 use crate::flow::Flow;

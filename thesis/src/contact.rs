@@ -6,8 +6,8 @@ use crate::dual::Dual;
 /// Constants of the contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
-    /// Penalty stiffness `ε_n` \[Pa]. The traction on a gap is `ε_n/h` times it, the force of a node that times its length:
-    /// with that length as `h` it drops out.
+    /// Penalty stiffness `ε_n` \[Pa]. The traction on a gap is `ε_n/h` times it, the force of a node that times its
+    /// length: with that length as `h` it drops out.
     pub penalty: f64,
     /// Friction coefficient \[1].
     pub friction: f64,
@@ -28,7 +28,8 @@ pub struct Pair {
     pub centre: [f64; 2],
 }
 
-/// How the nodes of a contact element came where they are within a time step: backward differences give `d_t u` (\[D] (17)).
+/// How the nodes of a contact element came where they are within a time step: backward differences give `d_t u` (\[D]
+/// (17)).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Past {
     /// Displacements of slave, upstream node and both masters at the beginning of the step \[m].
@@ -84,8 +85,8 @@ impl Law {
     /// Forces of a pair for the displacements \[m] of slave, upstream node and both masters, angular velocity forward
     /// [rad/s] and velocity [m/s]; `None` where the gap is open.
     ///
-    /// Normal and tangent are those of the deformed segment. The velocity of deformed material is `(1 + ∇u)·v̄`, with ∇u of
-    /// the boundary element upstream on the wheel and of the segment on the rail.
+    /// Normal and tangent are those of the deformed segment. The velocity of deformed material is `(1 + ∇u)·v̄`, with
+    /// ∇u of the boundary element upstream on the wheel and of the segment on the rail.
     pub fn forces(&self, pair: &Pair, u: &[[f64; 2]; 4], omega: f64, velocity: f64) -> Option<Forces> {
         self.forces_in_time(pair, u, &Past::default(), omega, velocity)
     }

@@ -1,5 +1,6 @@
-//! Displacements, temperatures and velocities in one Newton iteration (\[B] (33) and § 5.3, \[D] (21) to (28)): thermal strain acts on the bodies and
-//! their contact, contact and friction act on the temperatures. The Gough–Joule term is left out, as in \[D] § 3.
+//! Displacements, temperatures and velocities in one Newton iteration (\[B] (33) and § 5.3, \[D] (21) to (28)): thermal
+//! strain acts on the bodies and their contact, contact and friction act on the temperatures. The Gough–Joule term is
+//! left out, as in \[D] § 3.
 
 use crate::Error;
 use crate::dual::Dual;
@@ -174,8 +175,8 @@ impl<M: Motions> Coupled<'_, M> {
         }
     }
 
-    /// Heat by which residuals are measured [W/m]: that of the arcs and of a contact that slides with the creep velocity, or, where nothing heats, what
-    /// a kelvin conducts.
+    /// Heat by which residuals are measured [W/m]: that of the arcs and of a contact that slides with the creep
+    /// velocity, or, where nothing heats, what a kelvin conducts.
     fn scale(&self) -> f64 {
         let parameters = &self.motions.system().parameters;
         let [omega, velocity] = self.warming.heating.motion;
@@ -186,7 +187,8 @@ impl<M: Motions> Coupled<'_, M> {
     }
 }
 
-/// What the nodes of a place in contact (slave, left, right) give [W/m], and its derivatives by their temperatures [W/(m K)].
+/// What the nodes of a place in contact (slave, left, right) give [W/m], and its derivatives by their temperatures
+/// [W/(m K)].
 struct Exchange {
     flows: [(usize, Dual); 3],
     by_theta: [[f64; 3]; 3],
@@ -224,7 +226,8 @@ impl<M: Motions> Equations for Coupled<'_, M> {
     }
 }
 
-/// A step \[s] of wheel, rail and their temperatures under what is prescribed of rotation and travel; returns the number of Newton's steps and the heat.
+/// A step \[s] of wheel, rail and their temperatures under what is prescribed of rotation and travel; returns the
+/// number of Newton's steps and the heat.
 pub fn advance(
     rolling: &mut Rolling,
     warming: &mut Warming,

@@ -1,5 +1,5 @@
-//! Matrices as sums of constant ones with coefficients of the velocities (\[D] § 5.2.1, (20) and Appendix A): assembled once, combined in
-//! every step.
+//! Matrices as sums of constant ones with coefficients of the velocities (\[D] § 5.2.1, (20) and Appendix A): assembled
+//! once, combined in every step.
 
 use crate::elastic;
 use crate::mesh::Mesh;
@@ -37,15 +37,15 @@ pub enum Part {
 
 const PARTS: usize = 6;
 
-/// The parts over the unknowns. Two rows more sum up what acts on the hub: the moment about the centre, forward, and the force
-/// along the rail (`A_M` and `A_F` of \[D] (24)).
+/// The parts over the unknowns. Two rows more sum up what acts on the hub: the moment about the centre, forward, and
+/// the force along the rail (`A_M` and `A_F` of \[D] (24)).
 pub struct Decomposition {
     /// Number of unknowns.
     pub size: usize,
     /// Rows and columns of all entries, and the value of each part there.
     entries: Vec<(usize, usize, [f64; PARTS])>,
-    /// Forces of the accelerated frame [N/m] for a unit square of the angular velocity, angular acceleration and acceleration,
-    /// on the left side of the equations.
+    /// Forces of the accelerated frame [N/m] for a unit square of the angular velocity, angular acceleration and
+    /// acceleration, on the left side of the equations.
     pub squared: Vec<f64>,
     /// For a unit angular acceleration.
     pub spun: Vec<f64>,
@@ -67,7 +67,8 @@ impl Decomposition {
         let gyroscopic = of_wheel(elastic::gyroscopic(&wheel, density, |[x, y]| [y, -x]));
         let passing = of_rail(elastic::gyroscopic(&rail, density, |_| [-1.0, 0.0]));
         let mass = of_wheel(elastic::mass(&wheel, density));
-        // A linear field is its own interpolation: products with places and with a unit motion are the integrals of the loads.
+        // A linear field is its own interpolation: products with places and with a unit motion are the integrals of the
+        // loads.
         let places: Vec<f64> = wheel.places.iter().flatten().copied().chain(vec![0.0; size - by]).collect();
         let forward: Vec<f64> = (0..size).map(|i| if i < by && i % 2 == 0 { 1.0 } else { 0.0 }).collect();
         let (spun, sped) = (gyroscopic.multiply(&places), mass.multiply(&forward));
@@ -102,7 +103,8 @@ impl Decomposition {
         sum
     }
 
-    /// The derivative of these forces by the displacements at the end of a step of backward Euler \[s], with the rows of the hub.
+    /// The derivative of these forces by the displacements at the end of a step of backward Euler \[s], with the rows
+    /// of the hub.
     pub fn of_step(&self, course: Course, step: f64) -> impl Iterator<Item = (usize, usize, f64)> {
         let (mut sum, of_v) = (self.of_displacements(course), self.of_rates(course.motion));
         sum.iter_mut().zip(of_v).for_each(|(sum, v)| *sum += v / step);

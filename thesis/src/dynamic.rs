@@ -1,7 +1,9 @@
-//! Rolling in time with friction as \[D] § 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the velocities,
-//! contact at the end of the step, and one Newton iteration for the displacements and for the velocities that are found.
+//! Rolling in time with friction as \[D] § 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the
+//! velocities, contact at the end of the step, and one Newton iteration for the displacements and for the velocities
+//! that are found.
 //!
-//! Moment and force may be prescribed at once here: the wheel's own inertia tells its velocity, which no stationary state does.
+//! Moment and force may be prescribed at once here: the wheel's own inertia tells its velocity, which no stationary
+//! state does.
 
 use crate::Error;
 use crate::contact::Law;

@@ -1,5 +1,5 @@
-//! Triangles in plane strain, linear or quadratic, and what a stationary stream of material adds (\[B] (33), stationary): matrices without
-//! velocities, as the decomposition of \[D] (20) wants them.
+//! Triangles in plane strain, linear or quadratic, and what a stationary stream of material adds (\[B] (33),
+//! stationary): matrices without velocities, as the decomposition of \[D] (20) wants them.
 
 use crate::mesh::{Mesh, edges};
 use crate::rail::Plate;
@@ -19,8 +19,8 @@ pub fn stiffness(space: &Space, young: f64, poisson: f64) -> Matrix {
     })
 }
 
-/// `3Kα ∫ (∇N) N` [N/(m K)] (`−K_uθ` of \[B] (33)): forces of temperatures on nodes, rows 2i and 2i + 1 of node i, one column for each node; with the
-/// thermal expansion \[1/K].
+/// `3Kα ∫ (∇N) N` [N/(m K)] (`−K_uθ` of \[B] (33)): forces of temperatures on nodes, rows 2i and 2i + 1 of node i, one
+/// column for each node; with the thermal expansion \[1/K].
 pub fn expansion(space: &Space, [young, poisson, expansion]: [f64; 3]) -> Matrix {
     let stress = young * expansion / (1.0 - 2.0 * poisson);
     let mut matrix = Matrix::new(2 * space.places.len());
@@ -71,8 +71,8 @@ fn along(velocity: &impl Fn([f64; 2]) -> [f64; 2], point: &Point, function: usiz
     v[0] * slope[0] + v[1] * slope[1]
 }
 
-/// `ρ ∮ (c_P n n + c_S t t) N N` [kg/(m s)] on the vertical ends of a plate (Lysmer and Kuhlemeyer; \[A] § 2.5), for Young's modulus
-/// \[Pa], Poisson's ratio and density [kg/m³].
+/// `ρ ∮ (c_P n n + c_S t t) N N` [kg/(m s)] on the vertical ends of a plate (Lysmer and Kuhlemeyer; \[A] § 2.5), for
+/// Young's modulus \[Pa], Poisson's ratio and density [kg/m³].
 pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) -> Matrix {
     let shear = 0.5 * young / (1.0 + poisson);
     let pressure = 2.0 * shear * (1.0 - poisson) / (1.0 - 2.0 * poisson);
@@ -88,8 +88,9 @@ pub fn dashpots(mesh: &Mesh, plate: Plate, [young, poisson, density]: [f64; 3]) 
     matrix
 }
 
-/// `ρ ∮ (v·n) N (v·∇N)` [kg/m³] on the vertical ends of a plate of linear triangles, through which material passes with `v = −e_x`, to be taken `V²`
-/// times (\[B] (33), \[D] (35)): what makes an end free of the traction `P·n` instead of the natural one, which carries the stream's momentum, too.
+/// `ρ ∮ (v·n) N (v·∇N)` [kg/m³] on the vertical ends of a plate of linear triangles, through which material passes with
+/// `v = −e_x`, to be taken `V²` times (\[B] (33), \[D] (35)): what makes an end free of the traction `P·n` instead of
+/// the natural one, which carries the stream's momentum, too.
 pub fn open_ends(mesh: &Mesh, plate: Plate, density: f64) -> Matrix {
     let mut matrix = Matrix::new(2 * mesh.nodes.len());
     let at_end = |node: usize| mesh.nodes[node][0].abs() > 0.5 * plate.length - 1e-9;
@@ -168,7 +169,8 @@ mod tests {
         }
     }
 
-    /// With it a uniform stretch, whose material has no acceleration, needs no forces at all; without it the ends would be pushed.
+    /// With it a uniform stretch, whose material has no acceleration, needs no forces at all; without it the ends would
+    /// be pushed.
     #[test]
     fn the_term_of_the_ends_makes_them_blind_to_a_uniform_stretch() {
         let (plate, density) = (Plate { length: 1.0, height: 0.1 }, 8000.0);

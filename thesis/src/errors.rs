@@ -5,7 +5,8 @@
 pub enum Kind {
     /// The thesis says so, in numbers or more than once, and a recomputation shows otherwise.
     Thesis,
-    /// A slip of a letter, sign or dot, of the thesis or of its conversion into the text at hand; other places of the thesis show what is meant.
+    /// A slip of a letter, sign or dot, of the thesis or of its conversion into the text at hand; other places of the
+    /// thesis show what is meant.
     Text,
     /// The thesis is measured by something that we chose.
     Ours,

@@ -39,7 +39,8 @@ impl Flow<'_> {
         }
     }
 
-    /// Element with the weight `w + τ ρc v·∇w`; `tau` [m³ K/W] of the gradients of the element's functions [1/m] at a place.
+    /// Element with the weight `w + τ ρc v·∇w`; `tau` [m³ K/W] of the gradients of the element's functions [1/m] at a
+    /// place.
     fn weighted(&self, corners: &[[f64; 2]; 3], order: Order, tau: impl Fn(&[[f64; 2]]) -> f64) -> Element {
         let n = order.count();
         let curvature = laplacians(corners, order);
@@ -146,7 +147,8 @@ mod tests {
         // With τ from the limit of a vanishing stream the weights are unchanged, since v itself vanishes.
         let (upwinded, upwinded_load) = flow(&still).weighted(&CORNERS, Order::Linear, |_| 7.0);
         assert_eq!((&matrix, &load), (&upwinded, &upwinded_load));
-        // Linear functions are harmonic, so a bubble does not see them: same matrix; and constants keep all of the load.
+        // Linear functions are harmonic, so a bubble does not see them: same matrix; and constants keep all of the
+        // load.
         let (bubble, bubble_load) = flow(&still).element(&CORNERS, Order::Linear, Scheme::Bubble);
         assert!((matrix - bubble).amax() < 1e-13);
         assert!((load.sum() - bubble_load.sum()).abs() < 1e-13);
@@ -154,7 +156,8 @@ mod tests {
 
     #[test]
     fn stabilised_elements_hold_exact_solutions_that_their_functions_contain() {
-        // v·∇θ = s/ρc for linear θ: consistent schemes leave the residual of an inner patch, here of the whole weight 1.
+        // v·∇θ = s/ρc for linear θ: consistent schemes leave the residual of an inner patch, here of the whole weight
+        // 1.
         let stream = |_: [f64; 2]| [0.8, -0.5];
         let flow = Flow { source: 2.0 * (0.8 * 3.0 - 0.5 * 2.0), ..flow(&stream) };
         for order in [Order::Linear, Order::Quadratic] {

@@ -1,5 +1,5 @@
-//! Stationary heat of rolling wheel and rail on triangles (\[B] §§ 2 to 5, \[C] § 4): bubbles or SUPG in the wheel, SUPG in the rail,
-//! conductance and friction heat at the nodes in contact.
+//! Stationary heat of rolling wheel and rail on triangles (\[B] §§ 2 to 5, \[C] § 4): bubbles or SUPG in the wheel,
+//! SUPG in the rail, conductance and friction heat at the nodes in contact.
 //!
 //! The contact is given: its expansion by these temperatures, some micrometres at most, does not act back.
 
@@ -62,7 +62,8 @@ pub struct Warmth {
     pub means: [f64; 2],
     /// Heat from the wheel to the rail by conduction, and friction heat into both bodies [W/m].
     pub flows: [f64; 2],
-    /// Heat that leaves through nodes at the reference, those of the wheel and those of the rail, by their reactions [W/m].
+    /// Heat that leaves through nodes at the reference, those of the wheel and those of the rail, by their reactions
+    /// [W/m].
     pub leaves: [f64; 2],
 }
 
@@ -174,7 +175,8 @@ impl Heating<'_> {
         ((given + self.let_in(&warmth.space, &warmth.theta) - warmth.leaves.iter().sum::<f64>()) / given).abs()
     }
 
-    /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they are no streamlines.
+    /// Heat that the chords of the rims let in [W/m], `−ρc ∮ v·n θ`: the convective form has no term on them, and they
+    /// are no streamlines.
     pub fn let_in(&self, space: &Space, theta: &[f64]) -> f64 {
         let mut sum = 0.0;
         for &(a, b, middle) in &space.sides {

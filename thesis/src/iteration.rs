@@ -9,7 +9,8 @@ const TOLERANCE: f64 = 1e-9;
 const ITERATIONS: usize = 80;
 /// Halvings of a step at most.
 const HALVINGS: usize = 14;
-/// Full steps at most that are taken although the residual grows: nodes that change segments or touch anew make it jump.
+/// Full steps at most that are taken although the residual grows: nodes that change segments or touch anew make it
+/// jump.
 const JUMPS: usize = 6;
 
 /// Equations that Newton's iteration solves.

@@ -3,8 +3,8 @@
 //! The product solves the same equations by other means. Nothing of this crate enters it; here the thesis's own schemes
 //! exist, run and are compared. `docs/thesis.md` goes through them equation by equation.
 //!
-//! `[A]` to `[D]` are the papers of the thesis, `[I]` its introduction: a number in brackets is an equation, one after § a section, and figures and
-//! tables have their names.
+//! `[A]` to `[D]` are the papers of the thesis, `[I]` its introduction: a number in brackets is an equation, one after
+//! § a section, and figures and tables have their names.
 //!
 //! SI units, per metre of width. x points in travel direction, y up.
 #![forbid(unsafe_code)]

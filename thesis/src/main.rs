@@ -1,7 +1,9 @@
-//! `wheelrail-thesis [--full] [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads and writes the report.
+//! `wheelrail-thesis [--full] [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads and writes the
+//! report.
 //!
-//! Ends with an error if a figure shows something else than it must, a quoted number has the wrong status, or, of all figures without `--full`, if
-//! a value is not the one of `thesis/values.csv`. How long it took is said, and fails nothing.
+//! Ends with an error if a figure shows something else than it must, a quoted number has the wrong status, or, of all
+//! figures without `--full`, if a value is not the one of `thesis/values.csv`. How long it took is said, and fails
+//! nothing.
 
 use std::collections::BTreeMap;
 use std::io::Write;

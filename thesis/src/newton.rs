@@ -1,4 +1,5 @@
-//! One Newton iteration for all unknowns (\[B] § 5.3, \[C] § 5.3, \[D] § 5.3), and the same iteration on the contact alone.
+//! One Newton iteration for all unknowns (\[B] § 5.3, \[C] § 5.3, \[D] § 5.3), and the same iteration on the contact
+//! alone.
 
 use crate::Error;
 use crate::contact::Law;
@@ -8,7 +9,8 @@ use crate::sparse::Matrix;
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 
-/// What drives the wheel (\[D] (23) to (28)). Moment and force at once would prescribe the creepage twice and the velocity not at all.
+/// What drives the wheel (\[D] (23) to (28)). Moment and force at once would prescribe the creepage twice and the
+/// velocity not at all.
 #[derive(Clone, Copy, Debug)]
 pub enum Drive {
     /// Both velocities are prescribed.
@@ -64,7 +66,8 @@ impl Newton<'_> {
         }
     }
 
-    /// Derivative of the residual (\[D] (40) to (44)): contact included, and with a prescribed moment or force one more column and row.
+    /// Derivative of the residual (\[D] (40) to (44)): contact included, and with a prescribed moment or force one more
+    /// column and row.
     pub fn tangent(&self, state: &State, touches: &[Touch]) -> Matrix {
         let system = self.system;
         let full = system.stiffness(state.motion);
@@ -205,8 +208,8 @@ pub fn frictionless(system: &System) -> Result<State, Error> {
     newton.solve(&State { q, motion: rest }).map(|(state, _)| state)
 }
 
-/// Rolling by velocity stepping (\[C] § 5.3): velocities grow from a thousandth to their full values by factors of √10 with the
-/// creepage kept; a step that fails is halved on the logarithmic scale. The steps are taken on the contact
+/// Rolling by velocity stepping (\[C] § 5.3): velocities grow from a thousandth to their full values by factors of √10
+/// with the creepage kept; a step that fails is halved on the logarithmic scale. The steps are taken on the contact
 /// alone, which changes nothing but their cost. Returns the state and all Newton steps.
 pub fn rolling(system: &System, motion: Motion) -> Result<(State, usize), Error> {
     let mut state = frictionless(system)?;
@@ -314,7 +317,8 @@ impl Condensed {
         tangent.lu().solve(&residual).map(|step| self.values(state) - step)
     }
 
-    /// Solves from a start as [`Newton::solve`] does, which takes the same steps; of the result only the kept unknowns are true.
+    /// Solves from a start as [`Newton::solve`] does, which takes the same steps; of the result only the kept unknowns
+    /// are true.
     pub fn solve(&self, newton: &Newton<'_>, start: &State) -> Result<(State, usize), Error> {
         iterate(&OnContact { condensed: self, newton }, start)
     }

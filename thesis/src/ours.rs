@@ -25,7 +25,8 @@ impl Product {
         Self::with(preset, |config| config.physics.centrifugal = centrifugal)
     }
 
-    /// A preset with changes, of steel that does not yield, as in the thesis. Reduced bases are kept in the target directory.
+    /// A preset with changes, of steel that does not yield, as in the thesis. Reduced bases are kept in the target
+    /// directory.
     pub fn with(preset: &str, change: impl FnOnce(&mut Config)) -> Result<Self, String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let file = root.join("resources").join(format!("{preset}.json"));
@@ -99,7 +100,8 @@ impl Run {
         self.simulation.state().lines[0].thermal.as_ref().map(|thermal| thermal.temperatures).unwrap_or_default()
     }
 
-    /// Largest part of the heat put in that a body neither passes on nor stores \[1], by the nodal reactions of its equations; NaN without heat.
+    /// Largest part of the heat put in that a body neither passes on nor stores \[1], by the nodal reactions of its
+    /// equations; NaN without heat.
     pub fn heat_imbalance(&self) -> f64 {
         let Some(thermal) = &self.simulation.state().lines[0].thermal else { return f64::NAN };
         let flows = &thermal.flows;

@@ -1,4 +1,5 @@
-//! Paper A as it was computed: meshes, parameters and waves of its studies, for the thesis's own scheme and for the product.
+//! Paper A as it was computed: meshes, parameters and waves of its studies, for the thesis's own scheme and for the
+//! product.
 
 use crate::Error;
 use crate::mesh::Mesh;
@@ -45,8 +46,8 @@ impl Meshes {
     }
 }
 
-/// Meshes of \[A] § 3.1: `global` refinements of the wheel, `columns` nodes along a rail of seven rows at 0.1 m, refined under the contact down
-/// to one and a half of the wheel's smallest element.
+/// Meshes of \[A] § 3.1: `global` refinements of the wheel, `columns` nodes along a rail of seven rows at 0.1 m,
+/// refined under the contact down to one and a half of the wheel's smallest element.
 pub fn meshes(base: f64, global: usize, columns: usize, plate: Plate) -> Meshes {
     let wheel = wheel::early(ANNULUS, PATCH, base, global);
     let sizes = (0..wheel.triangles.len()).map(|t| rivara::longest(&wheel.corners(t)));
@@ -113,7 +114,8 @@ pub fn harmonic(points: &[[f64; 2]], length: f64) -> f64 {
     2.0 * sum[0].hypot(sum[1]) / kept.len() as f64
 }
 
-/// Steps of equal length nearest to `step` that divide a wave of `length` \[m] at this velocity, and how many of them: 25 ms, and five waves.
+/// Steps of equal length nearest to `step` that divide a wave of `length` \[m] at this velocity, and how many of them:
+/// 25 ms, and five waves.
 fn division(length: f64, velocity: f64, step: f64) -> (f64, usize) {
     let period = length / velocity;
     let per_wave = (period / step).round().max(1.0);
@@ -160,8 +162,8 @@ fn answer(product: &Product, length: f64, velocity: f64, step: f64) -> Result<f6
     Ok(harmonic(&follow(&mut product.rolling(velocity, 0.0, |_| ())?, step, steps)?, length))
 }
 
-/// Amplitude on waves of the given amplitude and length \[m] that pass with the angular frequency `omega` [rad/s], by the product with 20 elements in
-/// half a contact.
+/// Amplitude on waves of the given amplitude and length \[m] that pass with the angular frequency `omega` [rad/s], by
+/// the product with 20 elements in half a contact.
 pub fn our_answer(wave: [f64; 2], omega: f64) -> Result<f64, String> {
     let velocity = omega * wave[1] / TAU;
     let product = product(&waves_of(wave), |config| config.mesh.elements_per_half_width = 20)?;

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 pub enum Status {
     /// Recomputed by simulation, within the tolerance of its entry: it could have failed.
     Agrees,
-    /// Recomputed within the tolerance from other stated numbers alone, by arithmetic or a closed form: no simulation can fail it.
+    /// Recomputed within the tolerance from other stated numbers alone, by arithmetic or a closed form: no simulation
+    /// can fail it.
     Follows,
     /// Recomputed within the tolerance, but something of ours was chosen so that it comes out.
     Fitted,

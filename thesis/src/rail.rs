@@ -1,4 +1,5 @@
-//! Mesh of the rail: a plate whose top runs from `(−b/2, 0)` to `(b/2, 0)`, refined under the contact (\[A] § 3.1, \[C] § 5.1).
+//! Mesh of the rail: a plate whose top runs from `(−b/2, 0)` to `(b/2, 0)`, refined under the contact (\[A] § 3.1, \[C]
+//! § 5.1).
 
 use crate::mesh::Mesh;
 use crate::rivara;
@@ -31,8 +32,8 @@ pub fn coarse(plate: Plate, columns: usize, rows: usize) -> Mesh {
     mesh
 }
 
-/// The thesis's plate: `columns` by seven nodes, refined in a box of `2 patch × patch` \[m] under the contact until edges are
-/// shorter than `size` \[m].
+/// The thesis's plate: `columns` by seven nodes, refined in a box of `2 patch × patch` \[m] under the contact until
+/// edges are shorter than `size` \[m].
 pub fn rolling(plate: Plate, columns: usize, patch: f64, size: f64) -> Mesh {
     refined(coarse(plate, columns, 7), patch, size)
 }

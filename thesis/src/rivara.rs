@@ -1,9 +1,9 @@
 //! Longest-edge refinement of triangles after M. C. Rivara, *Int. J. Numer. Methods Engng* 20 (1984) 745–756: the only
 //! refinement of the thesis (\[A] § 3.1, \[B] § 6.2).
 //!
-//! From a triangle that is to be cut one follows longest edges, each to the neighbour behind it, until both sides agree on
-//! the longest one or the boundary is reached. That edge is halved on both sides, and the walk begins again until the
-//! triangle itself is cut. Meshes stay conforming, and no angle falls below half the smallest one at the beginning.
+//! From a triangle that is to be cut one follows longest edges, each to the neighbour behind it, until both sides agree
+//! on the longest one or the boundary is reached. That edge is halved on both sides, and the walk begins again until
+//! the triangle itself is cut. Meshes stay conforming, and no angle falls below half the smallest one at the beginning.
 
 use crate::mesh::{Mesh, edge, edges};
 use std::collections::HashMap;
@@ -52,8 +52,8 @@ pub fn longest(corners: &[[f64; 2]; 3]) -> f64 {
     })
 }
 
-/// The longest edge of a triangle. Edges of equal length are told apart by their nodes: all triangles agree on one order
-/// of all edges, so that walks along growing edges end even where whole meshes have equal diagonals.
+/// The longest edge of a triangle. Edges of equal length are told apart by their nodes: all triangles agree on one
+/// order of all edges, so that walks along growing edges end even where whole meshes have equal diagonals.
 fn longest_edge(mesh: &Mesh, t: usize) -> (usize, usize) {
     let length = |(a, b): (usize, usize)| {
         let (a, b) = (mesh.nodes[a], mesh.nodes[b]);

@@ -1,8 +1,9 @@
-//! Stationary rolling of wheel and rail on triangles: what is linear, and the search for contact (\[C] §§ 3 to 5, \[D] § 5).
+//! Stationary rolling of wheel and rail on triangles: what is linear, and the search for contact (\[C] §§ 3 to 5, \[D]
+//! § 5).
 //!
-//! Both bodies are of linear triangles, as in Paper A, or the wheel of quadratic ones, as in Papers B to D; contact is between corners
-//! in both cases. The hub is rigid, held in x and free in y, where it carries the load;
-//! the base of the rail is held; its ends let material pass free of traction, by the Robin term of \[B] (33) and \[D] (35).
+//! Both bodies are of linear triangles, as in Paper A, or the wheel of quadratic ones, as in Papers B to D; contact is
+//! between corners in both cases. The hub is rigid, held in x and free in y, where it carries the load; the base of the
+//! rail is held; its ends let material pass free of traction, by the Robin term of \[B] (33) and \[D] (35).
 
 use crate::contact::{Forces, Law, Pair, Past};
 use crate::mesh::Mesh;
@@ -92,8 +93,8 @@ pub struct Touch {
 }
 
 impl System {
-    /// Assembles both bodies. `wheel` lies about the origin, the surface of `rail` at y = 0; nodes of the tread within `reach`
-    /// \[m] of the contact may touch.
+    /// Assembles both bodies. `wheel` lies about the origin, the surface of `rail` at y = 0; nodes of the tread within
+    /// `reach` \[m] of the contact may touch.
     pub fn new(parameters: Parameters, wheel: &Mesh, rail: &Mesh, reach: f64) -> Self {
         Self::with_order(parameters, wheel, rail, reach, Order::Linear)
     }
@@ -180,7 +181,8 @@ impl System {
     /// The same at the end of a time step; `past`: displacements at its beginning, and its inverse \[1/s].
     pub fn touches_in_time(&self, u: &[f64], past: Option<(&[f64], f64)>, motion: Motion, law: Law) -> Vec<Touch> {
         let at = |node: usize| [u[2 * node], u[2 * node + 1]];
-        // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between two normals.
+        // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between
+        // two normals.
         let x = |node: usize| self.places[node][0];
         let touch = |&[slave, upstream]: &[usize; 2]| {
             // A node right above one of the rail has the segment upstream, whatever the last digits of their places.
@@ -223,7 +225,8 @@ impl System {
         found
     }
 
-    /// Places of the tread's nodes that may touch \[m], and the forces of a Hertzian pressure on them; the same of the rail.
+    /// Places of the tread's nodes that may touch \[m], and the forces of a Hertzian pressure on them; the same of the
+    /// rail.
     pub fn hertz(&self, half_width: f64, peak: f64) -> Vec<f64> {
         let mut load = vec![0.0; self.places.len() * 2];
         let pressure = |x: f64| peak * (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();

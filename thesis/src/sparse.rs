@@ -60,8 +60,8 @@ impl Matrix {
         y
     }
 
-    /// Replaces the rows of `fixed` by those of the identity. Returns the former rows: times the solution, less the former load, they are what holds
-    /// the fixed unknowns.
+    /// Replaces the rows of `fixed` by those of the identity. Returns the former rows: times the solution, less the
+    /// former load, they are what holds the fixed unknowns.
     pub fn fix(&mut self, fixed: &[usize]) -> Self {
         let mut is_fixed = vec![false; self.size];
         fixed.iter().for_each(|row| is_fixed[*row] = true);
@@ -70,8 +70,9 @@ impl Matrix {
         Self { size: self.size, entries: held }
     }
 
-    /// LU factors with partial pivoting, of rows whose largest entries are one: pivots are chosen by size, and a row that fixes a
-    /// temperature is to count as much as one of a strong stream. Without that the heat of an annulus balances a hundred times worse.
+    /// LU factors with partial pivoting, of rows whose largest entries are one: pivots are chosen by size, and a row
+    /// that fixes a temperature is to count as much as one of a strong stream. Without that the heat of an annulus
+    /// balances a hundred times worse.
     pub fn factorise(&self) -> Result<Factors, Error> {
         let singular = |reason: String| Error::Singular { size: self.size, reason };
         let mut largest = vec![0.0_f64; self.size];
@@ -115,7 +116,8 @@ impl Factors {
     }
 }
 
-/// Entries in the order of their keys, which are below `size`; those of one key stay in their order. The time is linear in both.
+/// Entries in the order of their keys, which are below `size`; those of one key stay in their order. The time is linear
+/// in both.
 fn sorted(
     entries: &[(usize, usize, f64)],
     size: usize,
@@ -172,7 +174,8 @@ mod tests {
         assert!(matches!(outcome, Err(Error::Singular { size: 3, .. })));
     }
 
-    /// A row of springs, both ends held and one of them displaced: what holds the ends is the one force that all carry, in balance, however stiff they are.
+    /// A row of springs, both ends held and one of them displaced: what holds the ends is the one force that all carry,
+    /// in balance, however stiff they are.
     #[test]
     fn rows_that_were_fixed_give_the_forces_that_hold_what_they_fix() {
         for stiffness in [1e-11, 1.0, 1e11] {

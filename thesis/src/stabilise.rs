@@ -1,4 +1,5 @@
-//! Stabilisation of convection: streamline upwinding (\[I] § 5.2.1, \[D] § 5.2.3) and quasi-residual-free bubbles (\[B] Fig. 2).
+//! Stabilisation of convection: streamline upwinding (\[I] § 5.2.1, \[D] § 5.2.3) and quasi-residual-free bubbles (\[B]
+//! Fig. 2).
 
 /// How an element treats convection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +30,8 @@ pub fn upwind(half_peclet: f64) -> f64 {
 
 /// Intrinsic time of SUPG, `τ = h/(2ρc|v|) (coth P − 1/P)` [m³ K/W], for the weight `w + τ ρc v·∇w`.
 ///
-/// `length` \[m] along the stream, `capacity` ρc [J/(m³ K)], `speed` [m/s], `conductivity` [W/(m K)]. Without a stream it
-/// is the limit `h²/12k`.
+/// `length` \[m] along the stream, `capacity` ρc [J/(m³ K)], `speed` [m/s], `conductivity` [W/(m K)]. Without a stream
+/// it is the limit `h²/12k`.
 pub fn intrinsic_time(length: f64, capacity: f64, speed: f64, conductivity: f64) -> f64 {
     let half_peclet = 0.5 * capacity * speed * length / conductivity;
     if half_peclet == 0.0 {
@@ -39,12 +40,13 @@ pub fn intrinsic_time(length: f64, capacity: f64, speed: f64, conductivity: f64)
     0.25 * length * length / conductivity * upwind(half_peclet) / half_peclet
 }
 
-/// Half Péclet numbers up to which `coth P ≈ 1/P + P/3` and from which on `coth P ≈ 1` (\[D] § 5.2.3): either changes the share of upwinding by a
-/// hundredth at most.
+/// Half Péclet numbers up to which `coth P ≈ 1/P + P/3` and from which on `coth P ≈ 1` (\[D] § 5.2.3): either changes
+/// the share of upwinding by a hundredth at most.
 pub const SPLIT: [f64; 2] = [0.38, 2.9];
 
-/// `(ρc|v|)² τ` of SUPG as `a + b |v| + c |v|²` with constants a [W/(m K)], b [J/(m² K)] and c [J s/(m³ K)], where one of the two approximations of \[D] § 5.2.3 holds at
-/// all speeds [m/s] from the first to the second; `None` where the half Péclet number comes into the range between them.
+/// `(ρc|v|)² τ` of SUPG as `a + b |v| + c |v|²` with constants a [W/(m K)], b [J/(m² K)] and c [J s/(m³ K)], where one
+/// of the two approximations of \[D] § 5.2.3 holds at all speeds [m/s] from the first to the second; `None` where the
+/// half Péclet number comes into the range between them.
 pub fn split_time(length: f64, capacity: f64, [slowest, fastest]: [f64; 2], conductivity: f64) -> Option<[f64; 3]> {
     let half_peclet = |speed: f64| 0.5 * capacity * speed * length / conductivity;
     if half_peclet(fastest) <= SPLIT[0] {
@@ -56,16 +58,17 @@ pub fn split_time(length: f64, capacity: f64, [slowest, fastest]: [f64; 2], cond
     }
 }
 
-/// Length along the stream, `2|v|/Σ|v·∇Nᵢ|` \[m]; `gradients` [1/m] of all shape functions of the element at a place. Those of linear
-/// functions give the longest chord through a corner, those of quadratic ones less, the less the nearer to a corner. Zero without a stream.
+/// Length along the stream, `2|v|/Σ|v·∇Nᵢ|` \[m]; `gradients` [1/m] of all shape functions of the element at a place.
+/// Those of linear functions give the longest chord through a corner, those of quadratic ones less, the less the nearer
+/// to a corner. Zero without a stream.
 pub fn stream_length(gradients: &[[f64; 2]], velocity: [f64; 2]) -> f64 {
     let sum: f64 = gradients.iter().map(|g| (g[0] * velocity[0] + g[1] * velocity[1]).abs()).sum();
     if sum == 0.0 { 0.0 } else { 2.0 * velocity[0].hypot(velocity[1]) / sum }
 }
 
-/// Place of the bubble's node on its streamline, as share of the way from inflow to outflow: where the exact solution with
-/// zero ends is stationary, `ln((e^P − 1)/P)/P` of the full Péclet number `P = ρc|v|h/k` \[1]. ½ without a stream, 1 in a
-/// strong one.
+/// Place of the bubble's node on its streamline, as share of the way from inflow to outflow: where the exact solution
+/// with zero ends is stationary, `ln((e^P − 1)/P)/P` of the full Péclet number `P = ρc|v|h/k` \[1]. ½ without a stream,
+/// 1 in a strong one.
 pub fn bubble_position(peclet: f64) -> f64 {
     if peclet.abs() < 1e-3 {
         0.5 + peclet / 24.0

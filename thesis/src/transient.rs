@@ -1,8 +1,8 @@
-//! Rolling in time as \[A] §§ 2 and 3 compute it: linear triangles, no friction, Lagrange multipliers on the nodes of the tread,
-//! an irregular profile as offset of the gaps, Rayleigh damping, free or non-reflecting ends, one θ scheme.
+//! Rolling in time as \[A] §§ 2 and 3 compute it: linear triangles, no friction, Lagrange multipliers on the nodes of
+//! the tread, an irregular profile as offset of the gaps, Rayleigh damping, free or non-reflecting ends, one θ scheme.
 //!
-//! Velocities are prescribed and constant, so that all matrices are: they are factorised once, and a step is one solution
-//! and a small search for the nodes in contact. Gaps are vertical and linear in the displacements.
+//! Velocities are prescribed and constant, so that all matrices are: they are factorised once, and a step is one
+//! solution and a small search for the nodes in contact. Gaps are vertical and linear in the displacements.
 
 use crate::Error;
 use crate::contact::Law;

@@ -122,8 +122,8 @@ pub fn points(corners: &[[f64; 2]; 3], order: Order) -> [Point; 7] {
     })
 }
 
-/// Places of integration of a rule that is exact for polynomials of degree two to five (three points; four, one of them negative; six after Dunavant 1985;
-/// those of [`points`]).
+/// Places of integration of a rule that is exact for polynomials of degree two to five (three points; four, one of them
+/// negative; six after Dunavant 1985; those of [`points`]).
 pub fn points_of_degree(corners: &[[f64; 2]; 3], order: Order, degree: usize) -> Vec<Point> {
     let area = 0.5 * double_area(corners);
     // Share of two coordinates, and weight of each of the three points that have it.

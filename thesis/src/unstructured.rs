@@ -1,5 +1,5 @@
-//! Meshes without any order for the rotating annulus of \[B] § 4, "deliberately unstructured" there: refined after Rivara, relaxed to
-//! triangles of good shape, then disturbed at random.
+//! Meshes without any order for the rotating annulus of \[B] § 4, "deliberately unstructured" there: refined after
+//! Rivara, relaxed to triangles of good shape, then disturbed at random.
 
 use crate::mesh::{Mesh, edges};
 use crate::rivara;
@@ -80,8 +80,8 @@ fn smooth(mesh: &mut Mesh, inner: &[usize]) {
     }
 }
 
-/// Turns edges between two triangles until the mesh is one of Delaunay (Lawson 1977): no two angles that face each other across an edge
-/// make more than half a turn.
+/// Turns edges between two triangles until the mesh is one of Delaunay (Lawson 1977): no two angles that face each
+/// other across an edge make more than half a turn.
 fn flip(mesh: &mut Mesh) {
     loop {
         let mut beside: HashMap<(usize, usize), usize> = HashMap::new();

@@ -1,6 +1,7 @@
-//! Heat in time steps as \[D] § 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the velocities, and stabilisation
-//! that is assembled again only when a velocity has changed by a given share (\[D] § 5.2.2), but for SUPG in the rail where it joins the sums (\[D] § 5.2.3).
-//! The capacity is not stabilised, as in \[D] (28).
+//! Heat in time steps as \[D] § 5.3.2 computes it: backward Euler, matrices as sums with coefficients of the
+//! velocities, and stabilisation that is assembled again only when a velocity has changed by a given share (\[D] §
+//! 5.2.2), but for SUPG in the rail where it joins the sums (\[D] § 5.2.3). The capacity is not stabilised, as in \[D]
+//! (28).
 
 use crate::Error;
 use crate::flow::Flow;
@@ -98,8 +99,8 @@ impl Split {
 type Key = (f64, [f64; 2], Vec<Spot>);
 
 impl<'a> Warming<'a> {
-    /// Starts from temperatures over the reference \[K], or cold. Bodies, material and contact are those of `heating`; its velocities, places
-    /// in contact and arcs are given anew in every step.
+    /// Starts from temperatures over the reference \[K], or cold. Bodies, material and contact are those of `heating`;
+    /// its velocities, places in contact and arcs are given anew in every step.
     pub fn new(heating: Heating<'a>, tolerance: f64, theta: Option<Vec<f64>>) -> Self {
         let spaces = heating.spaces();
         let galerkin =
@@ -116,8 +117,9 @@ impl<'a> Warming<'a> {
         Self { heating, spaces, parts, split, stabilisation, tolerance, fixed, arcs, assemblies, kept, theta }
     }
 
-    /// Takes SUPG of the rail into the sums, for all speeds [m/s] from the first to the second, where the half Péclet number of an element stays small
-    /// or large. Other elements are assembled as before. Returns the share of the elements that need not be.
+    /// Takes SUPG of the rail into the sums, for all speeds [m/s] from the first to the second, where the half Péclet
+    /// number of an element stays small or large. Other elements are assembled as before. Returns the share of the
+    /// elements that need not be.
     pub fn split(&mut self, speeds: [f64; 2]) -> f64 {
         let split = Split::new(&self.heating, &self.spaces, speeds);
         let share = split.within.iter().filter(|within| **within).count() as f64 / split.within.len() as f64;
@@ -169,7 +171,8 @@ impl<'a> Warming<'a> {
         Matrix::sum(&self.terms(motion))
     }
 
-    /// Heat that conduction and convection take from every node [W/m]: the matrix for velocities times temperatures over the reference \[K].
+    /// Heat that conduction and convection take from every node [W/m]: the matrix for velocities times temperatures
+    /// over the reference \[K].
     pub fn flow(&self, motion: [f64; 2], theta: &[f64]) -> Vec<f64> {
         let mut flow = vec![0.0; theta.len()];
         for (factor, part) in self.terms(motion) {

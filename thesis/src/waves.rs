@@ -21,7 +21,8 @@ pub fn steel() -> Material {
     Material { youngs_modulus: 200e9, density: 8000.0, ..Config::default().material }
 }
 
-/// Plate `|x| ≤ length/2`, `−height ≤ y ≤ 0` of square cells of the size `h` \[m] on a fixed base; all of its top are ports.
+/// Plate `|x| ≤ length/2`, `−height ≤ y ≤ 0` of square cells of the size `h` \[m] on a fixed base; all of its top are
+/// ports.
 pub fn plate(length: f64, height: f64, h: f64) -> Mesh {
     let [along, up] = [length, height].map(|size| (size / h).round() as usize);
     let mut mesh = Mesh::default();
@@ -89,8 +90,8 @@ impl Push {
         FRAC_PI_2 / FREQUENCY / f64::from(self.quarter)
     }
 
-    /// Energy in the central metre [J/m] over time by the trapezoidal rule, from the end of the push, a quarter period of a point
-    /// load of 5·10⁴ rad/s on the middle of the top, to eleven times that.
+    /// Energy in the central metre [J/m] over time by the trapezoidal rule, from the end of the push, a quarter period
+    /// of a point load of 5·10⁴ rad/s on the middle of the top, to eleven times that.
     pub fn energies(&self) -> Result<Vec<f64>, Box<dyn Error>> {
         let mesh = plate(self.length, 0.1, self.size);
         let [mass, stiffness] = central(&mesh)?;

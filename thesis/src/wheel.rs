@@ -17,8 +17,8 @@ pub struct Annulus {
     pub inner: f64,
 }
 
-/// Coarse mesh: two triangles for each of `sectors` and each of the rings between the `radii` \[m], from the hub outward.
-/// A node of every ring lies on the negative y axis, where the contact is.
+/// Coarse mesh: two triangles for each of `sectors` and each of the rings between the `radii` \[m], from the hub
+/// outward. A node of every ring lies on the negative y axis, where the contact is.
 pub fn coarse(radii: &[f64], sectors: usize) -> Mesh {
     let mut mesh = Mesh::default();
     for (k, radius) in radii.iter().enumerate() {
@@ -45,8 +45,8 @@ pub fn rims(mesh: &Mesh, annulus: Annulus) -> (Vec<usize>, Vec<usize>) {
     nodes.into_iter().partition(|node| mesh.nodes[*node][0].hypot(mesh.nodes[*node][1]) > middle)
 }
 
-/// Moves all nodes radially so that the tread becomes a circle, `r ← r_i + (r − r_i)(r_o − r_i)/(ρ(φ) − r_i)` with the radius
-/// ρ of the polygon; then the nodes of the hub onto theirs.
+/// Moves all nodes radially so that the tread becomes a circle, `r ← r_i + (r − r_i)(r_o − r_i)/(ρ(φ) − r_i)` with the
+/// radius ρ of the polygon; then the nodes of the hub onto theirs.
 pub fn make_round(mesh: &mut Mesh, annulus: Annulus) {
     let (tread, hub) = rims(mesh, annulus);
     let angle = |node: [f64; 2]| node[0].atan2(-node[1]).rem_euclid(TAU);
@@ -73,8 +73,8 @@ pub fn make_round(mesh: &mut Mesh, annulus: Annulus) {
     }
 }
 
-/// Moves the hub so that the centre of gravity of the mesh is where that of the annulus is, in the origin; inside, nodes
-/// follow as an elastic body whose tread is held (Poisson's ratio `poisson`). Returns the way of the hub \[m].
+/// Moves the hub so that the centre of gravity of the mesh is where that of the annulus is, in the origin; inside,
+/// nodes follow as an elastic body whose tread is held (Poisson's ratio `poisson`). Returns the way of the hub \[m].
 ///
 /// A mesh without hub of area `A_h` has `A c = A_full c_full − A_h c_hub`; the full polygon stays, so the hub moves by
 /// `A c/A_h`: a hundred times the error itself for a hub of a tenth of the radius.
@@ -104,9 +104,9 @@ fn polygon_area(mesh: &Mesh, nodes: &[usize]) -> f64 {
     corners.iter().enumerate().map(|(i, a)| 0.5 * (a[0] * next(i)[1] - a[1] * next(i)[0])).sum()
 }
 
-/// Mesh of a rolling wheel as \[C] § 5.1 builds it: refined about the contact, as `graded` does, until the edges there would be
-/// shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the longest edges of
-/// the tread, the round rims, and the centre of gravity.
+/// Mesh of a rolling wheel as \[C] § 5.1 builds it: refined about the contact, as `graded` does, until the edges there
+/// would be shorter than `size` \[m] after `global` refinements of everything, each of which halves areas; then the
+/// longest edges of the tread, the round rims, and the centre of gravity.
 pub fn rolling(annulus: Annulus, patch: f64, size: f64, global: usize, poisson: f64) -> Result<Mesh, Error> {
     let mut mesh = graded(annulus, patch, size * 2.0_f64.powf(0.5 * global as f64), global);
     refine_tread(&mut mesh, annulus);
@@ -122,8 +122,8 @@ pub fn early(annulus: Annulus, patch: f64, base: f64, global: usize) -> Mesh {
     mesh
 }
 
-/// Refined in ever smaller discs about the contact, the last one with a radius of at least `patch` \[m], until edges there are
-/// shorter than `base` \[m]; then `global` refinements of everything.
+/// Refined in ever smaller discs about the contact, the last one with a radius of at least `patch` \[m], until edges
+/// there are shorter than `base` \[m]; then `global` refinements of everything.
 fn graded(annulus: Annulus, patch: f64, base: f64, global: usize) -> Mesh {
     let mut mesh = coarse(&[annulus.inner, (annulus.inner * annulus.outer).sqrt(), annulus.outer], 12);
     let mut disc = 0.5 * annulus.outer;

@@ -1,4 +1,5 @@
-//! All tests of this crate in one program, so that short ones fill the time of a core while a long one runs on the other.
+//! All tests of this crate in one program, so that short ones fill the time of a core while a long one runs on the
+//! other.
 
 mod annulus;
 mod coupled;

@@ -1,4 +1,5 @@
-//! Heat in a rotating annulus, figures 5 to 7 of Paper B: which scheme keeps the temperature that the rotation cannot change.
+//! Heat in a rotating annulus, figures 5 to 7 of Paper B: which scheme keeps the temperature that the rotation cannot
+//! change.
 
 use wheelrail_thesis::annulus::{INNER, OUTER, exact, hottest, solve};
 use wheelrail_thesis::stabilise::Scheme;
@@ -9,8 +10,8 @@ use wheelrail_thesis::wheel::Annulus;
 const ANNULUS: Annulus = Annulus { outer: OUTER, inner: INNER };
 /// Angular velocity of 50 km/h [rad/s].
 const OMEGA: f64 = 27.8;
-/// Temperatures that the specification has from an independent computation on 711 and 2775 triangles, over the exact one: linear and
-/// quadratic, each without stabilisation, with SUPG, with bubbles.
+/// Temperatures that the specification has from an independent computation on 711 and 2775 triangles, over the exact
+/// one: linear and quadratic, each without stabilisation, with SUPG, with bubbles.
 const PAIRS: [[[f64; 3]; 2]; 2] = [[[0.16, 0.02, 0.02], [1.0, 0.59, 0.92]], [[0.68, 0.15, 0.15], [0.98, 0.91, 0.993]]];
 const COUNTS: [f64; 2] = [711.0, 2775.0];
 /// The largest distance from them that the specification allows.
@@ -35,8 +36,9 @@ fn the_exact_temperature_is_that_of_the_reference() {
     assert!((hottest() - 0.2318).abs() < 5e-5 && (exact(hottest()) - 0.63133).abs() < 5e-6);
 }
 
-/// All twelve numbers hold on one mesh of each size. Those of stabilised schemes hold on every mesh, those without stabilisation hang on the mesh:
-/// of twelve that differ by random shifts of a tenth of an edge, linear elements have the specification's number on few.
+/// All twelve numbers hold on one mesh of each size. Those of stabilised schemes hold on every mesh, those without
+/// stabilisation hang on the mesh: of twelve that differ by random shifts of a tenth of an edge, linear elements have
+/// the specification's number on few.
 #[test]
 fn six_pairs_of_temperatures_are_those_of_the_specification_on_meshes_of_its_size() {
     for (size, count, pairs, band) in
@@ -54,11 +56,13 @@ fn six_pairs_of_temperatures_are_those_of_the_specification_on_meshes_of_its_siz
                     found[order][scheme]
                 );
             }
-            // In words of [B] 4: only quadratic elements keep the temperature, and bubbles keep more of it than upwinding.
+            // In words of [B] 4: only quadratic elements keep the temperature, and bubbles keep more of it than
+            // upwinding.
             let [linear, quadratic] = found;
             assert!(linear.iter().zip(quadratic).all(|(linear, quadratic)| *linear < quadratic - 0.1));
             assert!(quadratic[1] < quadratic[0].min(quadratic[2]) && quadratic[2] < 1.0);
-            // Upwinding dissipates more than no stabilisation; on the coarse meshes linear elements have next to nothing with either.
+            // Upwinding dissipates more than no stabilisation; on the coarse meshes linear elements have next to
+            // nothing with either.
             assert!(size > 0.05 || linear[0] > linear[1].max(linear[2]));
             (low, high) = (low.min(linear[0]), high.max(linear[0]));
         }
@@ -75,8 +79,9 @@ fn without_rotation_all_schemes_are_right() {
     assert!(quadratic.iter().all(|ratio| (ratio - 1.0).abs() < 1e-2));
 }
 
-/// Elements of a strong stream have entries of 1e6 beside the ones of fixed rows: in rows as they are, not scaled, 2.7e-10 of the heat of quadratic
-/// ones is missing. With scaled rows it is round-off, 1.4e-11 at most on twelve meshes.
+/// Elements of a strong stream have entries of 1e6 beside the ones of fixed rows: in rows as they are, not scaled,
+/// 2.7e-10 of the heat of quadratic ones is missing. With scaled rows it is round-off, 1.4e-11 at most on twelve
+/// meshes.
 #[test]
 fn the_heat_of_the_source_leaves_through_the_rims_to_ten_digits() {
     for (order, seed) in

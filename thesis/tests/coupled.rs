@@ -1,4 +1,5 @@
-//! Displacements and temperatures in one iteration: thermal expansion, tangent, agreement with motion and heat one after the other, balances.
+//! Displacements and temperatures in one iteration: thermal expansion, tangent, agreement with motion and heat one
+//! after the other, balances.
 
 use wheelrail::analytic::annulus_growth;
 use wheelrail_thesis::contact::Law;
@@ -114,8 +115,8 @@ fn a_warm_wheel_grows_as_the_closed_form_of_a_ring_on_a_rigid_hub() {
     }
 }
 
-/// Largest difference of the tangent from differences where every unknown is away from its solution: of each block of forces, efforts of the hub and
-/// heat by displacements, velocities and temperatures, over its largest entry.
+/// Largest difference of the tangent from differences where every unknown is away from its solution: of each block of
+/// forces, efforts of the hub and heat by displacements, velocities and temperatures, over its largest entry.
 fn tangent_error<M: Motions>(coupled: &Coupled<M>, at: &Warm) -> f64 {
     let system = coupled.motions.system();
     let first = system.size + coupled.motions.found().len();
@@ -147,7 +148,8 @@ fn tangent_error<M: Motions>(coupled: &Coupled<M>, at: &Warm) -> f64 {
             *off = off.max((exact - difference).abs());
         }
     }
-    // Without unknown velocities there are no efforts; in stationary rolling they do not depend on the velocities but by the contact.
+    // Without unknown velocities there are no efforts; in stationary rolling they do not depend on the velocities but
+    // by the contact.
     let exists = |i: usize, j: usize| match (i, j) {
         (1, 1) => coupled.rate > 0.0,
         _ => (i != 1 && j != 1) || !coupled.motions.found().is_empty(),
@@ -212,8 +214,8 @@ impl Equations for Held<'_> {
     }
 }
 
-/// One iteration for all ends where motion and heat, computed in turn until nothing changes, end; without expansion the second turn
-/// changes nothing.
+/// One iteration for all ends where motion and heat, computed in turn until nothing changes, end; without expansion the
+/// second turn changes nothing.
 #[test]
 fn one_iteration_ends_where_motion_and_heat_in_turn_end() {
     for (of, expansion) in [(LINEAR, 0.0), (QUADRATIC, 0.0), (LINEAR, EXPANSION), (QUADRATIC, EXPANSION)] {
@@ -253,8 +255,8 @@ fn one_iteration_ends_where_motion_and_heat_in_turn_end() {
     }
 }
 
-/// Under a tenth and nearly twice of the load, in braking, sliding and a hundred times as warm the iteration ends, heat balances, the contact carries
-/// the load, and a step in time from there on changes nothing.
+/// Under a tenth and nearly twice of the load, in braking, sliding and a hundred times as warm the iteration ends, heat
+/// balances, the contact carries the load, and a step in time from there on changes nothing.
 #[test]
 fn light_heavy_braked_sliding_and_hot_wheels_end_in_balance_and_stay_there() {
     let cases = [(0.1, -2e-4, 3e3), (1.9, -2e-4, 3e3), (1.0, 2e-4, 3e3), (1.0, 0.1, 3e3), (1.0, -2e-4, 3e5)];
@@ -289,7 +291,8 @@ fn light_heavy_braked_sliding_and_hot_wheels_end_in_balance_and_stay_there() {
     }
 }
 
-/// A wheel that is locked within eight steps slides on at the limit. Its heat balances in every step, and what it has grown where it slides lifts the hub.
+/// A wheel that is locked within eight steps slides on at the limit. Its heat balances in every step, and what it has
+/// grown where it slides lifts the hub.
 #[test]
 fn a_wheel_that_locks_slides_on_in_balance_and_its_warm_contact_lifts_the_hub() {
     let (system, meshes) = bodies(Order::Linear);
@@ -325,7 +328,8 @@ fn a_wheel_that_locks_slides_on_in_balance_and_its_warm_contact_lifts_the_hub() 
     assert!(warm.2 > cold.2);
 }
 
-/// Moments and forces on the hub, with the forces of thermal stress on it, give back the velocities that need them, and the temperatures with them.
+/// Moments and forces on the hub, with the forces of thermal stress on it, give back the velocities that need them, and
+/// the temperatures with them.
 #[test]
 fn moment_and_force_give_back_velocities_and_temperatures() {
     let (system, meshes) = bodies(Order::Linear);
@@ -394,9 +398,9 @@ fn heat_balances_in_every_step_and_long_steps_end_in_stationary_rolling() {
     assert!(worst < 1e-8 && largest(&off) < 1e-6);
 }
 
-/// The whole model with heated arcs: the hub rises by what a ring of the same mean temperature grows, the closed form of the product for its bulk, although
-/// the heat lies in the tread and arrives in two arcs. An evenly warm wheel then rolls on its larger radius, with the creep force that a cold one has at a
-/// creepage larger by growth over radius.
+/// The whole model with heated arcs: the hub rises by what a ring of the same mean temperature grows, the closed form
+/// of the product for its bulk, although the heat lies in the tread and arrives in two arcs. An evenly warm wheel then
+/// rolls on its larger radius, with the creep force that a cold one has at a creepage larger by growth over radius.
 #[test]
 fn the_hub_rises_by_the_growth_of_a_ring_of_the_mean_temperature_and_the_wheel_rolls_on_the_larger_radius() {
     let (system, meshes) = bodies(Order::Quadratic);
@@ -429,14 +433,17 @@ fn the_hub_rises_by_the_growth_of_a_ring_of_the_mean_temperature_and_the_wheel_r
         );
         assert!((rise / grown - 1.0).abs() < 1e-4);
         assert!((evenly - larger).abs() < 0.01 * (larger - none));
-        // The layer that the contact heats slides a little more still: on these coarse meshes by a fifth of the growth's part.
+        // The layer that the contact heats slides a little more still: on these coarse meshes by a fifth of the
+        // growth's part.
         assert!(real > evenly && real - evenly < 0.3 * (evenly - none));
     }
 }
 
-/// A locked wheel that slides in a stationary state. A node at the edge of its contact exchanges heat at full conductance as soon as it touches: it cools, shrinks
-/// and opens; open, it is warm, grows and touches. Newton's iteration finds a state for expansions that leave it closed and for those that leave it open, and none
-/// between; Barber (*Journal of Elasticity* 8, 1978) found that cooled punches have none. Friction heat alone begins at zero where a node touches: one is found.
+/// A locked wheel that slides in a stationary state. A node at the edge of its contact exchanges heat at full
+/// conductance as soon as it touches: it cools, shrinks and opens; open, it is warm, grows and touches. Newton's
+/// iteration finds a state for expansions that leave it closed and for those that leave it open, and none between;
+/// Barber (*Journal of Elasticity* 8, 1978) found that cooled punches have none. Friction heat alone begins at zero
+/// where a node touches: one is found.
 #[test]
 fn newton_finds_no_stationary_state_of_a_locked_wheel_where_a_node_that_touches_cools_and_opens() {
     let (system, meshes) = bodies(Order::Linear);

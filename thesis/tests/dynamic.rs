@@ -99,8 +99,8 @@ fn the_tangent_of_a_step_is_that_of_differences_with_moment_and_force_at_once() 
     assert!(worst < 1e-6);
 }
 
-/// Prescribed velocities tell moment and force; these, prescribed at once, give back the velocities: braking and traction, under a tenth and
-/// nearly twice of the load, and a wheel that is locked within eight steps and slides on.
+/// Prescribed velocities tell moment and force; these, prescribed at once, give back the velocities: braking and
+/// traction, under a tenth and nearly twice of the load, and a wheel that is locked within eight steps and slides on.
 #[test]
 fn moment_and_force_at_once_give_back_the_velocities_that_need_them() {
     for (load, rate, locks) in
@@ -126,8 +126,8 @@ fn moment_and_force_at_once_give_back_the_velocities_that_need_them() {
     }
 }
 
-/// A wheel that is driven from rolling freely on: what its hub and its contact give it is the momentum of the rigid wheel, but for
-/// what the deformation has.
+/// A wheel that is driven from rolling freely on: what its hub and its contact give it is the momentum of the rigid
+/// wheel, but for what the deformation has.
 #[test]
 fn moment_and_force_at_once_speed_up_a_wheel_as_newton_says() {
     let (system, meshes) = bodies(1.0);

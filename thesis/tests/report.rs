@@ -5,8 +5,8 @@ use wheelrail_thesis::figures::{self, ALL, Extent, Figure, ITEMS, MISSING};
 use wheelrail_thesis::quoted::Status;
 use wheelrail_thesis::{errors, quoted, report};
 
-/// Figures that are computed here; `make thesis` computes all of them, also those that take long (ends and resonance of A T3 and A 12, the thesis's own
-/// steps in time of D 7 to D 10).
+/// Figures that are computed here; `make thesis` computes all of them, also those that take long (ends and resonance of
+/// A T3 and A 12, the thesis's own steps in time of D 7 to D 10).
 const QUICK: [&str; 30] = [
     "I 4.2",
     "I 5.1",
@@ -111,7 +111,8 @@ fn quoted_numbers_belong_to_items_and_open_ones_to_what_is_missing() {
     }
 }
 
-/// `make thesis FULL=1`: more points on the same curves, finer meshes beside the same ones, and every number of the quick report.
+/// `make thesis FULL=1`: more points on the same curves, finer meshes beside the same ones, and every number of the
+/// quick report.
 #[test]
 fn in_full_figures_have_sixteen_points_a_curve_and_the_numbers_of_the_quick_report() {
     let grow: Vec<&str> = ALL.iter().filter(|(_, recipe)| recipe.grows()).map(|(name, _)| *name).collect();

@@ -3,7 +3,8 @@
 use wheelrail_thesis::mesh::Mesh;
 use wheelrail_thesis::rivara;
 
-/// Rectangle of right triangles, all diagonals of one length: the mesh on which ties must be broken alike from both sides.
+/// Rectangle of right triangles, all diagonals of one length: the mesh on which ties must be broken alike from both
+/// sides.
 fn rectangle(columns: usize, rows: usize, width: f64, height: f64) -> Mesh {
     let mut mesh = Mesh::default();
     for j in 0..=rows {

@@ -221,7 +221,8 @@ fn a_prescribed_moment_gives_back_the_creepage_that_needs_it() {
     assert!(error.abs() < 1e-8);
 }
 
-/// Prescribed by a run under prescribed velocities: the force on the hub that it finds, and from there the velocity that the force finds.
+/// Prescribed by a run under prescribed velocities: the force on the hub that it finds, and from there the velocity
+/// that the force finds.
 #[test]
 fn a_prescribed_force_gives_back_the_velocity_that_needs_it_and_that_velocity_the_force() {
     for (load, creepage, mistaken) in
@@ -240,7 +241,8 @@ fn a_prescribed_force_gives_back_the_velocity_that_needs_it_and_that_velocity_th
         let free = Newton { system: &system, law: parameters.law, drive: Drive::Force(0.0) };
         let (residual, touches) = free.residual(&state);
         let force = *residual.last().unwrap();
-        // The hub is pushed against what the contact does to the wheel; momentum that streams through the rail is its own affair.
+        // The hub is pushed against what the contact does to the wheel; momentum that streams through the rail is its
+        // own affair.
         let [forward, _] = resultant(&touches);
         assert!((force + forward).abs() < 1e-6 * parameters.load, "{force} {forward}");
         let mut start = state.clone();
@@ -269,7 +271,8 @@ fn a_force_beyond_friction_finds_no_velocity_and_is_refused() {
     assert!(outcome.is_err());
 }
 
-/// Hub's way down \[m] under the load at rest, and unknowns, with so many refinements of the whole wheel and the same edges in the contact.
+/// Hub's way down \[m] under the load at rest, and unknowns, with so many refinements of the whole wheel and the same
+/// edges in the contact.
 fn approach(order: Order, share: f64, global: usize) -> (f64, usize) {
     let a = half_width();
     let wheel = wheel::rolling(PARAMETERS.annulus, 1.5 * a, share * a, global, PARAMETERS.poisson).unwrap();
@@ -278,7 +281,8 @@ fn approach(order: Order, share: f64, global: usize) -> (f64, usize) {
     (-frictionless(&system).unwrap().q[system.size - 1], system.size)
 }
 
-/// Away from the contact quadratic triangles need no refinement. In it, where both touch at corners only, they are softer, and less so on shorter edges.
+/// Away from the contact quadratic triangles need no refinement. In it, where both touch at corners only, they are
+/// softer, and less so on shorter edges.
 #[test]
 fn a_quadratic_wheel_is_right_on_a_coarse_mesh_but_for_its_contact() {
     let way = |order, share, global| approach(order, share, global).0;

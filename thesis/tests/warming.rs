@@ -1,4 +1,5 @@
-//! Heat in the thesis's steps of time: balance, stationary states, decomposed matrices and stabilisation that lags behind.
+//! Heat in the thesis's steps of time: balance, stationary states, decomposed matrices and stabilisation that lags
+//! behind.
 
 use wheelrail_thesis::contact::Law;
 use wheelrail_thesis::heat::{Heating, Spot, spots};
@@ -108,8 +109,9 @@ fn decomposed_matrices_are_those_assembled_anew_but_for_stabilisation_that_lags(
     }
 }
 
-/// With a Galerkin wheel all stabilisation is the rail's. From 50 to 10 km/h every element has a large Péclet number, so that nothing is assembled
-/// again and the sum is what would be; where the rail nearly stands small ones join, and those between the ranges are assembled.
+/// With a Galerkin wheel all stabilisation is the rail's. From 50 to 10 km/h every element has a large Péclet number,
+/// so that nothing is assembled again and the sum is what would be; where the rail nearly stands small ones join, and
+/// those between the ranges are assembled.
 #[test]
 fn supg_of_the_rail_joins_the_sums_where_peclet_numbers_are_small_or_large() {
     let (meshes, spots) = bodies();

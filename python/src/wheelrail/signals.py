@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Coefficients of windows, sum of a_k (-1)^k cos(2 pi k n/N). The flat top (D'Antona and Ferrero, Digital Signal Processing
-# for Measurement Systems, 2006) returns the amplitude of a sine wherever it lies between two lines.
+# Coefficients of windows, sum of a_k (-1)^k cos(2 pi k n/N). The flat top (D'Antona and Ferrero, Digital Signal
+# Processing for Measurement Systems, 2006) returns the amplitude of a sine wherever it lies between two lines.
 WINDOWS = {
     "none": (1.0,),
     "hann": (0.5, 0.5),

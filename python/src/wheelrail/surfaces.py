@@ -2,15 +2,15 @@
 
 import numpy as np
 
-# Contact filter of CNOSSOS-EU for 100 kN and a wheel of 920 mm: wavelength [m] and level [dB]. Directive (EU) 2015/996 as
-# amended by (EU) 2021/1226, Table G-2.
+# Contact filter of CNOSSOS-EU for 100 kN and a wheel of 920 mm: wavelength [m] and level [dB]. Directive (EU) 2015/996
+# as amended by (EU) 2021/1226, Table G-2.
 CNOSSOS = (
     (0.1, -0.3), (0.08, -0.6), (0.063, -1.0), (0.05, -1.8), (0.04, -3.2), (0.0315, -5.4), (0.025, -8.7), (0.02, -12.2),
 )  # fmt: skip
 # First zero of J0 over 2 pi: the wavelength of the first null is the half-width over this.
 FIRST_NULL = 2.404825557695773 / (2.0 * np.pi)
-# Limit of rail roughness of EN ISO 3095:2013 [dB re 1e-6 m] by number of the one-third octave, 10 lg(wavelength/1 m): as in the
-# profiles of the FMU (Directive (EU) 2015/996 as amended by (EU) 2021/1226, Table G-1, network E).
+# Limit of rail roughness of EN ISO 3095:2013 [dB re 1e-6 m] by number of the one-third octave, 10 lg(wavelength/1 m):
+# as in the profiles of the FMU (Directive (EU) 2015/996 as amended by (EU) 2021/1226, Table G-1, network E).
 EN_ISO_3095 = dict(
     zip(
         range(3, -32, -1),

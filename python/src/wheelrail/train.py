@@ -48,7 +48,8 @@ class Contacts:
         self.places = np.array(positions, float)
         self.seen = None
         self.met = [(0.0, 0.0)] * len(wheelsets)
-        # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not. Other stops may need the cores meanwhile.
+        # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not. Other stops may need
+        # the cores meanwhile.
         self.team = Team(None if any(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets) else 1, patience=0.0)
 
     def step(self, h, forces, loads, torques, sand, lifted):

@@ -20,12 +20,12 @@ import numpy as np
 
 GRAVITY = 9.81  # m/s2
 AXLES = 4
-# Of one coach: bodies that pitch, in order: car body, leading bogie, trailing bogie; three coordinates each, then x of the
-# wheelsets.
+# Of one coach: bodies that pitch, in order: car body, leading bogie, trailing bogie; three coordinates each, then x of
+# the wheelsets.
 BODY, LEADING, TRAILING = 0, 3, 6
 SIZE = 9 + AXLES
-# Newmark's beta: bodies move by the trapezoidal rule; accelerations of wheelsets change linearly, as under the ramping forces
-# of the FMU, so that what is predicted is what they do.
+# Newmark's beta: bodies move by the trapezoidal rule; accelerations of wheelsets change linearly, as under the ramping
+# forces of the FMU, so that what is predicted is what they do.
 SHARE_AFTER = np.array([0.25] * 9 + [1.0 / 6.0] * AXLES)
 KEPT = 200  # inverted matrices, one for every pattern of rolling and sliding wheelsets
 

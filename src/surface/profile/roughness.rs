@@ -6,8 +6,8 @@
 //! height and slope and read by cubic interpolation.
 //!
 //! The same seed gives the same bits on every machine: phases come from the generator SplitMix64 (Steele, Lea, Flood,
-//! *Fast splittable pseudorandom number generators*, OOPSLA 2014), functions from the crate `libm`, and nothing depends on
-//! the order in which anything is computed. The phase of a wave depends on the seed and on its number alone.
+//! *Fast splittable pseudorandom number generators*, OOPSLA 2014), functions from the crate `libm`, and nothing depends
+//! on the order in which anything is computed. The phase of a wave depends on the seed and on its number alone.
 
 use std::f64::consts::TAU;
 

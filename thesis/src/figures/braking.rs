@@ -1,4 +1,5 @@
-//! Paper D, figures 16 and 17: braking with a prescribed moment, by the product and the thesis's own method beside balances of momentum and Carter.
+//! Paper D, figures 16 and 17: braking with a prescribed moment, by the product and the thesis's own method beside
+//! balances of momentum and Carter.
 
 use super::{Figure, curve, must, rolling};
 use crate::annulus::{INNER, OUTER};
@@ -33,7 +34,8 @@ pub(super) fn paper_d() -> Result<Product, String> {
     })
 }
 
-/// What is drawn of a motion: time, V, rω, moment, force, contact force, creepage, temperature of the wheel at the contact point over the reference.
+/// What is drawn of a motion: time, V, rω, moment, force, contact force, creepage, temperature of the wheel at the
+/// contact point over the reference.
 pub(super) type Row = [f64; 8];
 
 pub(super) fn row(t: f64, run: &Run) -> Row {
@@ -98,8 +100,9 @@ fn share_of_peak(t: f64, [ramp, hold]: [f64; 2]) -> f64 {
     (t / ramp).min((2.0 * ramp + hold - t) / ramp).clamp(0.0, 1.0)
 }
 
-/// The same by the thesis's own step in time, on linear triangles with edges of `edge` half-widths in the contact: moment and no force on the
-/// hub prescribed at once. Rows as of the product, with the creepage over that of rolling freely, which such a mesh has.
+/// The same by the thesis's own step in time, on linear triangles with edges of `edge` half-widths in the contact:
+/// moment and no force on the hub prescribed at once. Rows as of the product, with the creepage over that of rolling
+/// freely, which such a mesh has.
 fn by_method(peak: f64, times: [f64; 2], edge: f64) -> Result<Vec<Row>, String> {
     let said = |error: crate::Error| error.to_string();
     let (system, [wheel, rail]) = rolling::triangles(edge, 1)?;

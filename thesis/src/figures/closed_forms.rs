@@ -129,7 +129,8 @@ fn frequencies() -> Result<(f64, f64), String> {
     Ok(((stiffness / MASS).sqrt(), hub_torsion(RADIUS_A, 0.1 * RADIUS_A, shear).frequency))
 }
 
-/// Angular frequency [rad/s] of the tread that turns about its held hub, on linear triangles: the lowest mode, by inverse iteration.
+/// Angular frequency [rad/s] of the tread that turns about its held hub, on linear triangles: the lowest mode, by
+/// inverse iteration.
 fn torsion_of_mesh(wheel: &Mesh) -> Result<f64, Error> {
     let ([young, poisson, density], space) = (STEEL, Space::new(wheel, Order::Linear));
     let (mut stiffness, mass) = (elastic::stiffness(&space, young, poisson), elastic::mass(&space, density));
@@ -166,8 +167,8 @@ pub(super) fn filter(length: f64) -> f64 {
     bessel(TAU * hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON)) / length)
 }
 
-/// Amplitude of the force over that of the wave as the patch sees it [N/m²] at an angular frequency [rad/s]: `|K* m ω²/(K* − m ω²)|` with
-/// `K* = K (1 + iωα)`.
+/// Amplitude of the force over that of the wave as the patch sees it [N/m²] at an angular frequency [rad/s]:
+/// `|K* m ω²/(K* − m ω²)|` with `K* = K (1 + iωα)`.
 pub(super) fn unfiltered(omega: f64) -> f64 {
     let stiffness = MASS * 2922.0 * 2922.0;
     let (inertia, loss) = (MASS * omega * omega, stiffness * omega * DAMPING);

@@ -1,4 +1,5 @@
-//! Paper A, tables 1 to 3 and figures 11 and 12: a wheel on waves, by the thesis's scheme, the product and the closed form.
+//! Paper A, tables 1 to 3 and figures 11 and 12: a wheel on waves, by the thesis's scheme, the product and the closed
+//! form.
 
 use super::closed_forms::{corrugation_force, filter, unfiltered};
 use super::{Extent, Figure, curve, must};
@@ -247,11 +248,13 @@ fn vertex([[x0, y0], [x1, y1], [x2, y2]]: [[f64; 2]; 3]) -> f64 {
     0.5 * (x0 + x1) - 0.5 * left * (x2 - x0) / (right - left)
 }
 
-/// Waves of 0.5 µm and so many lengths \[m] that pass with this angular frequency [rad/s]; the patch evens out the last ones.
+/// Waves of 0.5 µm and so many lengths \[m] that pass with this angular frequency [rad/s]; the patch evens out the last
+/// ones.
 const FILTERED: [f64; 6] = [0.05, 0.03, 0.02, 0.017, 0.015, 0.01308];
 const PASSING: f64 = 2000.0;
 
-/// Share of the force that the patch leaves over the length of the waves; the share at the last length, and how far shares are from `|J₀|` at most.
+/// Share of the force that the patch leaves over the length of the waves; the share at the last length, and how far
+/// shares are from `|J₀|` at most.
 fn filtered() -> Result<(Plot, f64, f64), String> {
     let size = 0.5e-6;
     let left = |length: f64| Ok([length, a::our_answer([size, length], PASSING)? / (size * unfiltered(PASSING))]);

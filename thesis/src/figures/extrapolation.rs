@@ -1,4 +1,5 @@
-//! Mean temperature of the wheel of Paper C on graded meshes whose edges are halved all at once: its order, and where it goes.
+//! Mean temperature of the wheel of Paper C on graded meshes whose edges are halved all at once: its order, and where
+//! it goes.
 //!
 //! The contact is Carter's in closed form, so that only the scheme for the heat is measured.
 
@@ -44,7 +45,8 @@ fn mirrored(list: &[f64]) -> Vec<f64> {
     list.iter().rev().map(|s| -s).chain(list[1..].iter().copied()).collect()
 }
 
-/// Two triangles, whose diagonals alternate, in each cell of a grid of nodes; `closed` joins the last column to the first.
+/// Two triangles, whose diagonals alternate, in each cell of a grid of nodes; `closed` joins the last column to the
+/// first.
 fn grid(columns: usize, rows: usize, closed: bool, place: impl Fn(usize, usize) -> [f64; 2]) -> Mesh {
     let mut mesh = Mesh::default();
     for j in 0..rows {
@@ -63,8 +65,8 @@ fn grid(columns: usize, rows: usize, closed: bool, place: impl Fn(usize, usize) 
     mesh
 }
 
-/// Wheel and rail after so many halvings of all edges, and so many of those in the contact and inward of it alone; the columns of both that are in
-/// contact: places \[m], first nodes.
+/// Wheel and rail after so many halvings of all edges, and so many of those in the contact and inward of it alone; the
+/// columns of both that are in contact: places \[m], first nodes.
 fn meshes(times: usize, local: u32) -> ([Mesh; 2], Vec<f64>, [usize; 2]) {
     let (a, parts) = (half_width(LOAD), 2_usize.pow(local));
     let touching: Vec<f64> = (0..=2 * parts).map(|i| 0.5 * a * i as f64 / parts as f64).collect();
@@ -145,8 +147,9 @@ pub(super) fn sequence(count: usize, corners_only: bool) -> Result<Sequence, Str
     Ok(found)
 }
 
-/// What the contact at corners lacks of the wheel's mean under the contact in the weights of the elements \[1], with the same friction power, on meshes
-/// whose edges in the contact alone are halved from one to the next, after so many halvings of all.
+/// What the contact at corners lacks of the wheel's mean under the contact in the weights of the elements \[1], with
+/// the same friction power, on meshes whose edges in the contact alone are halved from one to the next, after so many
+/// halvings of all.
 pub(super) fn lacking(times: usize, locals: std::ops::Range<u32>) -> Result<Vec<f64>, String> {
     let lack = |local: u32| {
         let (bodies, touching, first) = meshes(times, local);
@@ -196,8 +199,8 @@ mod tests {
         assert!((mean / REFERENCE - 1.0).abs() < 0.05 && lost < 0.9 * REFERENCE);
     }
 
-    /// The friction power is the same to the last digits, so it is the resistance of a point to heat that is lost, and it goes with the edges. Three meshes with
-    /// longer ones do not show that yet: there it seems to stay.
+    /// The friction power is the same to the last digits, so it is the resistance of a point to heat that is lost, and
+    /// it goes with the edges. Three meshes with longer ones do not show that yet: there it seems to stay.
     #[test]
     fn what_the_contact_at_corners_lacks_halves_with_the_edges_once_they_are_short() {
         let (bodies, touching, first) = meshes(0, 4);

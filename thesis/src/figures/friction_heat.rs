@@ -1,4 +1,5 @@
-//! Paper C: tractions and friction heat of stationary rolling and sliding, by the product beside Carter, references and balances.
+//! Paper C: tractions and friction heat of stationary rolling and sliding, by the product beside Carter, references and
+//! balances.
 
 use super::mesh_heat::half_width;
 use super::{Extent, Figure, balanced, carter, curve, largest, maps, must};
@@ -126,7 +127,8 @@ fn per_heat() -> f64 {
     (square * (OUTER / INNER).ln() / (square - INNER * INNER) - 0.5) / (TAU * CONDUCTIVITY)
 }
 
-/// How far the mean temperatures are from what the heat to the hub, along the radius, and the heat to the rail make \[1].
+/// How far the mean temperatures are from what the heat to the hub, along the radius, and the heat to the rail make
+/// \[1].
 fn imbalance(run: &Run) -> [f64; 2] {
     let (outputs, warmth) = (run.outputs(), run.warmth());
     let rail = outputs.heat_to_rail / (2.0 * CAPACITY * outputs.wheel_velocity * HEIGHT);

@@ -1,5 +1,5 @@
-//! Paper B, figure 17: the heat of the tread switched on and off, by the product, the thesis's own steps in time, and an annulus that conducts along
-//! the radius.
+//! Paper B, figure 17: the heat of the tread switched on and off, by the product, the thesis's own steps in time, and
+//! an annulus that conducts along the radius.
 
 use super::mesh_heat::{self, Thermal};
 use super::paper_b::{CAPACITY, HEAT, LOAD, SPEED, heated, paper_b};
@@ -12,8 +12,8 @@ use crate::quoted::Status;
 use crate::warming::Warming;
 use std::f64::consts::PI;
 
-/// Mean temperatures of wheel and rail over time \[s] with the heat on for `on` \[s] and off as long, in equal steps, and the largest
-/// residual of the heat balance.
+/// Mean temperatures of wheel and rail over time \[s] with the heat on for `on` \[s] and off as long, in equal steps,
+/// and the largest residual of the heat balance.
 fn on_and_off(on: f64, step: f64) -> Result<(Vec<[f64; 3]>, f64), String> {
     let product = paper_b(|config| (config.tuning.max_step, config.tuning.tolerance) = (500.0, 0.0))?;
     let mut run = product.rolling(SPEED, 0.0, |_| ())?;
@@ -29,8 +29,8 @@ fn on_and_off(on: f64, step: f64) -> Result<(Vec<[f64; 3]>, f64), String> {
     Ok((history, residual))
 }
 
-/// Mean temperature \[K] every 5 s of an annulus that is heated at its rim for `on` \[s] and as long not, loses `loss` [W/(m K)] there,
-/// and conducts along the radius alone: finite volumes, backward Euler.
+/// Mean temperature \[K] every 5 s of an annulus that is heated at its rim for `on` \[s] and as long not, loses `loss`
+/// [W/(m K)] there, and conducts along the radius alone: finite volumes, backward Euler.
 fn radial(on: f64, loss: f64, inner: f64) -> Vec<f64> {
     const CELLS: usize = 200;
     const STEP: f64 = 5.0;
@@ -67,8 +67,9 @@ fn radial(on: f64, loss: f64, inner: f64) -> Vec<f64> {
     means
 }
 
-/// The same by the thesis's own steps in time, bubbles in a quadratic wheel and contact without friction, so many seconds each; the last entries of a
-/// row are what is missing in the heat balance and what the chords of the rims let in [W/m].
+/// The same by the thesis's own steps in time, bubbles in a quadratic wheel and contact without friction, so many
+/// seconds each; the last entries of a row are what is missing in the heat balance and what the chords of the rims let
+/// in [W/m].
 fn by_method(on: f64, step: f64) -> Result<Vec<[f64; 5]>, String> {
     let bodies = mesh_heat::meshes(LOAD, mesh_heat::BASE, 1)?;
     let law = Law { penalty: 5e12, friction: 0.0, regularisation: 1.0 };

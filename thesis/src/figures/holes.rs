@@ -32,7 +32,8 @@ fn over(velocity: f64, damping: f64, elements: usize, step: f64) -> Result<Vec<[
     a::follow(&mut product.rolling(velocity, 0.0, |_| ())?, step, (0.12 / velocity / step) as usize)
 }
 
-/// Pressure on the nodes of the tread when the middle of the hole is at three places \[m] ahead of the contact, by the thesis's method.
+/// Pressure on the nodes of the tread when the middle of the hole is at three places \[m] ahead of the contact, by the
+/// thesis's method.
 fn instants(places: [f64; 3]) -> Result<Vec<Vec<[f64; 2]>>, String> {
     let mesh = standard();
     let profile = a::profile(&hole(DISCONTINUITY[0], DISCONTINUITY[1], DISCONTINUITY[2]))?;
@@ -164,8 +165,8 @@ struct Other {
     force: [f64; 2],
 }
 
-/// Shallower, deeper and shorter holes in steps of 1 µs, and how far the force on those deeper than the wheel reaches into the hole, from 50 nm on,
-/// differs from the one given.
+/// Shallower, deeper and shorter holes in steps of 1 µs, and how far the force on those deeper than the wheel reaches
+/// into the hole, from 50 nm on, differs from the one given.
 fn assumed(force: [f64; 2]) -> Result<(Vec<Other>, f64), String> {
     let shallow = [10e-9, 12e-9, 15e-9, 20e-9, 30e-9, 50e-9, 1e-6, 0.2e-3].map(|depth| [SMALL[1], depth]);
     let short = [0.1e-3, 0.12e-3, 0.15e-3].map(|length| [length, SMALL[2]]);

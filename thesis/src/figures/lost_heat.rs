@@ -1,4 +1,5 @@
-//! Text to Paper C, figure 12: the mean temperatures of wheel and rail, and which change of the scheme gives the thesis's numbers.
+//! Text to Paper C, figure 12: the mean temperatures of wheel and rail, and which change of the scheme gives the
+//! thesis's numbers.
 
 use super::extrapolation::{Sequence, lacking, limit, sequence};
 use super::friction_heat::pictures;
@@ -18,7 +19,8 @@ use std::f64::consts::TAU;
 /// Stated means of wheel and rail \[K].
 const STATED: [f64; 2] = [2.26e-6, 4.45e-9];
 const LINEAR: (Order, Scheme) = (Order::Linear, Scheme::Supg);
-/// Size of edges under the contact before any refinement of the whole wheel, so that there are about the thesis's 8017 triangles without one.
+/// Size of edges under the contact before any refinement of the whole wheel, so that there are about the thesis's 8017
+/// triangles without one.
 const FINE: f64 = 0.1;
 
 /// A change of the scheme, and the means \[K] of wheel and rail that it gives.
@@ -103,7 +105,8 @@ fn changes(described: &Rolled) -> Result<Vec<Candidate>, String> {
     Ok(all)
 }
 
-/// Rolled meshes of one base over refinements of the whole wheel, and the wheel's means \[K] with linear SUPG and with quadratic bubbles.
+/// Rolled meshes of one base over refinements of the whole wheel, and the wheel's means \[K] with linear SUPG and with
+/// quadratic bubbles.
 fn refinement(levels: std::ops::Range<usize>) -> Result<(Vec<Rolled>, [Vec<f64>; 2]), String> {
     let rolled = levels.map(|global| Rolled::new(BASE, global)).collect::<Result<Vec<_>, _>>()?;
     let means = |wheel| rolled.iter().map(|mesh| Ok(mesh.warmth(wheel)?.means[0])).collect::<Result<Vec<_>, String>>();
@@ -122,7 +125,8 @@ fn halved(name: &str, sequence: &Sequence) -> Curve {
     curve(Source::Method, name, points.collect())
 }
 
-/// Mean temperature of an annulus with a cold hub over the heat into its tread \[K m/W]: a fast wheel is axisymmetric but for its skin.
+/// Mean temperature of an annulus with a cold hub over the heat into its tread \[K m/W]: a fast wheel is axisymmetric
+/// but for its skin.
 fn per_heat() -> f64 {
     let square = OUTER * OUTER;
     (square * (OUTER / INNER).ln() / (square - INNER * INNER) - 0.5) / (TAU * CONDUCTIVITY)
@@ -283,9 +287,10 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
 mod tests {
     use super::*;
 
-    /// The specification expected the described scheme within a factor of three of the stated mean on a mesh of the thesis's size. That was an estimate, and it is
-    /// refuted: the mesh described and one refined at the contact alone, both of about 8017 triangles, are too warm by a factor of 20. Linear triangles on
-    /// the second have what is stated.
+    /// The specification expected the described scheme within a factor of three of the stated mean on a mesh of the
+    /// thesis's size. That was an estimate, and it is refuted: the mesh described and one refined at the contact alone,
+    /// both of about 8017 triangles, are too warm by a factor of 20. Linear triangles on the second have what is
+    /// stated.
     #[test]
     fn the_described_wheel_is_twenty_times_warmer_than_stated_on_meshes_of_its_size_and_a_linear_one_as_stated() {
         let sizes = [Rolled::new(BASE, 2), Rolled::new(FINE, 0)].map(Result::unwrap);

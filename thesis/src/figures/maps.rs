@@ -60,7 +60,8 @@ fn between(column: &[[f64; 2]], depth: f64) -> f64 {
 /// Cells of a map along the surface and in depth.
 const CELLS: [usize; 2] = [150, 60];
 
-/// A map from `from` to `to` \[m] along the surface and `depth` \[m] deep, in equal levels of the temperature; `contact` is where half of it ends \[m].
+/// A map from `from` to `to` \[m] along the surface and `depth` \[m] deep, in equal levels of the temperature;
+/// `contact` is where half of it ends \[m].
 pub(super) fn map(nodes: &[Node], wheel: bool, [from, to]: [f64; 2], depth: f64, contact: f64) -> Plot {
     let columns = Columns::new(nodes);
     let cell = [(to - from) / CELLS[0] as f64, depth / CELLS[1] as f64];

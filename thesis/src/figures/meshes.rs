@@ -15,7 +15,8 @@ use std::f64::consts::PI;
 /// A rectangle \[m]: from its left lower corner to its right upper one.
 type Window = [[f64; 2]; 2];
 
-/// Edges of a mesh that is shifted upward by `up` \[m], within a window, in millimetres; those shorter than `shortest` \[m] would not be seen.
+/// Edges of a mesh that is shifted upward by `up` \[m], within a window, in millimetres; those shorter than `shortest`
+/// \[m] would not be seen.
 fn edges(mesh: &Mesh, up: f64, [low, high]: Window, shortest: f64) -> Vec<[f64; 2]> {
     let place = |node: usize| [mesh.nodes[node][0], mesh.nodes[node][1] + up];
     let within = |[x, y]: [f64; 2]| (low[0]..=high[0]).contains(&x) && (low[1]..=high[1]).contains(&y);

@@ -1,4 +1,5 @@
-//! Figures and tables of the thesis, one function each: the thesis's method, ours, the closed form and the quoted number.
+//! Figures and tables of the thesis, one function each: the thesis's method, ours, the closed form and the quoted
+//! number.
 
 mod annulus;
 mod braking;

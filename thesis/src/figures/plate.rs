@@ -7,7 +7,8 @@ use crate::waves::{Push, deviation, steel};
 use wheelrail::config::RailEnds;
 use wheelrail::material::Isotropic;
 
-/// Elements of Paper A with the three steps in a quarter period that come next to its 10 µs; half the size with eight steps.
+/// Elements of Paper A with the three steps in a quarter period that come next to its 10 µs; half the size with eight
+/// steps.
 const COARSE: (f64, i32) = (1.0 / 30.0, 3);
 const FINE: (f64, i32) = (1.0 / 60.0, 8);
 /// Paper A's velocity [m/s].

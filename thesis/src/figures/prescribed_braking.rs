@@ -9,8 +9,8 @@ use wheelrail::analytic::{carter_full_slip, contact_modulus, hertz_half_width};
 
 /// Time in which the tread slows down in both examples \[s].
 const TREAD: f64 = 1.1;
-/// Time in which the velocity of travel falls linearly in example b, and length of its quadratic end in both \[s]; assumed. In example a friction
-/// alone slows the wheel down.
+/// Time in which the velocity of travel falls linearly in example b, and length of its quadratic end in both \[s];
+/// assumed. In example a friction alone slows the wheel down.
 const TRAVEL: f64 = 2.5;
 const ROUNDING: f64 = 0.3;
 /// Time that is looked at, and step \[s]; the thesis has 100 steps of 0.1 s.

@@ -30,7 +30,8 @@ fn said(error: crate::Error) -> String {
     error.to_string()
 }
 
-/// Wheel and rail that roll without creepage: linear triangles with `edge` half-widths in the contact, so many refinements of the whole wheel.
+/// Wheel and rail that roll without creepage: linear triangles with `edge` half-widths in the contact, so many
+/// refinements of the whole wheel.
 pub(super) struct Bodies {
     system: System,
     meshes: [Mesh; 2],
@@ -49,8 +50,8 @@ impl Bodies {
         Rolling::new(&self.system, wheel, rail, self.start.clone())
     }
 
-    /// Utilisation over the share of the duration in so many steps, the mean of traction and braking, which leaves out the force that an uneven
-    /// mesh has by itself.
+    /// Utilisation over the share of the duration in so many steps, the mean of traction and braking, which leaves out
+    /// the force that an uneven mesh has by itself.
     pub(super) fn forces(&self, duration: f64, steps: usize) -> Result<Points, String> {
         let one_way = |sign: f64| {
             let mut run = self.rolling();
@@ -84,8 +85,8 @@ impl Bodies {
         Ok(all)
     }
 
-    /// Temperatures over the reference \[K] of the node of the tread that is nearest to the nominal contact point over the share of the duration:
-    /// displacements and temperatures in one iteration, upwinding in both bodies.
+    /// Temperatures over the reference \[K] of the node of the tread that is nearest to the nominal contact point over
+    /// the share of the duration: displacements and temperatures in one iteration, upwinding in both bodies.
     pub(super) fn temperatures(&self, duration: f64, steps: usize) -> Result<Points, String> {
         let motion = self.start.motion;
         let thermal = Thermal {

@@ -1,4 +1,5 @@
-//! Paper D, section 6.1: six ramps of the creepage at constant velocity, by the product beside references and stationary rolling.
+//! Paper D, section 6.1: six ramps of the creepage at constant velocity, by the product beside references and
+//! stationary rolling.
 
 use super::ramp_steps::{Bodies, CREEPAGE, GROWTH, Points, SPEED, creepage};
 use super::{Figure, curve, largest, must};
@@ -235,7 +236,8 @@ pub fn temperature() -> Result<Figure, String> {
     let still = product.rolling(SPEED, CREEPAGE, |_| ())?.warmth();
     let references = [still.wheel_centre / 0.018_735_81 - 1.0, still.rail_centre / 0.017_768_66 - 1.0];
     let slowest = ends[5];
-    // The thesis's own method, displacements and temperatures in one iteration: simulations 2 and 6, the last also on a finer mesh.
+    // The thesis's own method, displacements and temperatures in one iteration: simulations 2 and 6, the last also on a
+    // finer mesh.
     let (bodies, finer) = (Bodies::new(EDGE, 1)?, Bodies::new(0.5 * EDGE, 1)?);
     let [quick, slow] =
         [bodies.temperatures(DURATIONS[1], METHOD_STEPS)?, bodies.temperatures(DURATIONS[5], METHOD_STEPS)?];

@@ -67,8 +67,8 @@ pub fn paper_c() -> Result<Figure, String> {
     })
 }
 
-/// Wheel and rail of Paper D in linear triangles, whose edges in the contact are `edge` of its half-width, after so many refinements of
-/// the whole wheel, and their meshes.
+/// Wheel and rail of Paper D in linear triangles, whose edges in the contact are `edge` of its half-width, after so
+/// many refinements of the whole wheel, and their meshes.
 pub(super) fn triangles(edge: f64, global: usize) -> Result<(System, [Mesh; 2]), String> {
     let law = Law { penalty: 5e12, friction: 0.4, regularisation: 1e-4 };
     let annulus = Annulus { outer: OUTER, inner: INNER };
@@ -92,7 +92,8 @@ pub(super) fn share_of_limit(system: &System, touches: &[Touch]) -> f64 {
     forward / (system.parameters.law.friction * up)
 }
 
-/// Forces over creepage by penalty, tanh and velocity stepping on linear triangles, whose edges in the contact are `edge` of its half-width.
+/// Forces over creepage by penalty, tanh and velocity stepping on linear triangles, whose edges in the contact are
+/// `edge` of its half-width.
 fn thesis_path(creepages: &[f64], edge: f64) -> Result<Vec<[f64; 2]>, String> {
     let (system, _) = triangles(edge, 1)?;
     let newton = Newton { system: &system, law: system.parameters.law, drive: Drive::Velocity };
@@ -103,7 +104,8 @@ fn thesis_path(creepages: &[f64], edge: f64) -> Result<Vec<[f64; 2]>, String> {
     creepages.iter().map(force).collect()
 }
 
-/// Smallest creepage, traction negative, at which nothing of the contact sticks, within 1e-6: by halving the interval in which that begins.
+/// Smallest creepage, traction negative, at which nothing of the contact sticks, within 1e-6: by halving the interval
+/// in which that begins.
 fn slides_from(product: &Product) -> Result<f64, String> {
     let (mut sticks, mut slides) = (4e-4, 8e-4);
     while slides - sticks > 1e-6 {

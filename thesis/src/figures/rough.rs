@@ -1,4 +1,5 @@
-//! Paper A, figures 7 to 10: a wheel on a rough rail. The measured rail is not at hand; ours has its own spectrum and seed.
+//! Paper A, figures 7 to 10: a wheel on a rough rail. The measured rail is not at hand; ours has its own spectrum and
+//! seed.
 
 use super::{Figure, corrugation::standard, curve, must};
 use crate::paper_a::{self as a, LOAD, SPEED, STEP, case};
@@ -7,7 +8,8 @@ use crate::quoted::Status;
 use crate::transient::Case;
 use std::f64::consts::TAU;
 
-/// Levels in dB re 1 µm of the one-third octaves from 12.5 cm to 4 cm, with peaks at 8 and 5 cm as the thesis's source has them.
+/// Levels in dB re 1 µm of the one-third octaves from 12.5 cm to 4 cm, with peaks at 8 and 5 cm as the thesis's source
+/// has them.
 const LEVELS: [f64; 6] = [0.0, 2.0, 7.0, 2.0, 7.0, 0.0];
 /// Length of the rail that is analysed, and what is rolled before it \[m].
 const WAY: f64 = 8.3;

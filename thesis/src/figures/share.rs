@@ -13,8 +13,9 @@ use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz
 const LOAD: f64 = 100e3;
 const CREEPAGE: f64 = 1.9e-4;
 const LAW: Law = Law { penalty: 5e12, friction: 0.4, regularisation: 1e-4 };
-/// Edges under the contact over half of it before the wheel is refined as a whole: a row fixed before anything was computed, each 2^(−1/2) of the one before
-/// down to about that of figure B 11. All of them are shown with each number of refinements.
+/// Edges under the contact over half of it before the wheel is refined as a whole: a row fixed before anything was
+/// computed, each 2^(−1/2) of the one before down to about that of figure B 11. All of them are shown with each number
+/// of refinements.
 const EDGES: [f64; 4] = [0.8, 0.566, 0.4, 0.283];
 /// Refinements of the whole wheel; in full, one more.
 const REFINEMENTS: [usize; 3] = [1, 2, 3];
@@ -25,8 +26,8 @@ fn row(extent: Extent) -> Vec<(f64, usize)> {
     EDGES.iter().flat_map(|base| refinements.iter().map(move |global| (*base, *global))).collect()
 }
 
-/// Shares of the limit in traction and braking on edges of a tenth of the half-width, where the law counts for more and the mesh for less than on any mesh of the
-/// thesis.
+/// Shares of the limit in traction and braking on edges of a tenth of the half-width, where the law counts for more and
+/// the mesh for less than on any mesh of the thesis.
 struct Softened {
     /// By tanh.
     tanh: [f64; 2],

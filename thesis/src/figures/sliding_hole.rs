@@ -11,7 +11,8 @@ use crate::quoted::Status;
 /// Load [N/m] and velocity [m/s].
 const LOAD: f64 = 100e3;
 const SPEED: f64 = 50.0 / 3.6;
-/// Place of the hole's middle, its length and its depth \[m]; the depth is assumed, the place follows from the first instant.
+/// Place of the hole's middle, its length and its depth \[m]; the depth is assumed, the place follows from the first
+/// instant.
 const HOLE: [f64; 3] = [2.26e-3, 0.5e-3, 20e-6];
 
 /// How a run is computed: stiffness-proportional damping \[s], elements across half of the contact, time step \[s].
@@ -28,7 +29,8 @@ const COARSER: [Numerics; 2] = [Numerics { step: 2e-6, ..SHOWN }, Numerics { ele
 /// Damping and step of the thesis.
 const THESIS: Numerics = Numerics { damping: DAMPING, elements: 20, step: 1e-5 };
 
-/// A state: time \[s], force over load, temperatures over the reference at the contact point of wheel and rail \[K], length in contact \[m].
+/// A state: time \[s], force over load, temperatures over the reference at the contact point of wheel and rail \[K],
+/// length in contact \[m].
 type Instant = [f64; 5];
 
 /// Length of the contact that carries pressure \[m].
@@ -63,8 +65,8 @@ fn locked(Numerics { damping, elements, step }: Numerics, heat: bool, duration: 
     Ok(points)
 }
 
-/// When the contact reaches the hole and leaves it \[s]: it is shorter by a tenth of the hole after a tenth of it has come in, and before the last tenth
-/// goes out.
+/// When the contact reaches the hole and leaves it \[s]: it is shorter by a tenth of the hole after a tenth of it has
+/// come in, and before the last tenth goes out.
 fn passage(points: &[Instant]) -> [f64; 2] {
     let part = 0.1 * HOLE[1];
     let short = || points.iter().filter(|point| point[4] < points[0][4] - part).map(|point| point[0]);

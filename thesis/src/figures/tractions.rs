@@ -1,4 +1,5 @@
-//! Paper D, figure 9: pressures and tractions during two ramps of the creepage, beside stationary rolling, Hertz and Carter.
+//! Paper D, figure 9: pressures and tractions during two ramps of the creepage, beside stationary rolling, Hertz and
+//! Carter.
 
 use super::mesh_heat::half_width;
 use super::ramp_steps::{Bodies, GROWTH, SPEED, creepage};

@@ -11,8 +11,8 @@ use wheelrail::analytic::hertz_peak_pressure;
 /// Height of the rail \[m].
 const HEIGHT: f64 = 0.1;
 
-/// Mean temperature of the rail that takes all the heat [K]: behind the contact, on half of its length, every cross-section carries
-/// it away.
+/// Mean temperature of the rail that takes all the heat [K]: behind the contact, on half of its length, every
+/// cross-section carries it away.
 fn rail_mean(velocity: f64) -> f64 {
     HEAT / (2.0 * CAPACITY * velocity * HEIGHT)
 }

@@ -1,4 +1,5 @@
-//! Validation of Paper A against Hertz: what the thesis's method and the product have for the largest pressure, on two plates.
+//! Validation of Paper A against Hertz: what the thesis's method and the product have for the largest pressure, on two
+//! plates.
 
 use super::{Predicate, curve, must};
 use crate::paper_a::{self, BASE, PLATE, SPEED};
@@ -30,7 +31,8 @@ pub(super) struct Validation {
     ours: [f64; 2],
 }
 
-/// All readings on a mesh of n_r = 5 and 61 nodes to the metre, on a plate `scale` times as large; `peak` is Hertz' pressure \[Pa].
+/// All readings on a mesh of n_r = 5 and 61 nodes to the metre, on a plate `scale` times as large; `peak` is Hertz'
+/// pressure \[Pa].
 fn readings(base: f64, scale: f64, peak: f64) -> Result<[f64; READINGS.len()], String> {
     let plate = Plate { length: scale * PLATE.length, height: scale * PLATE.height };
     let bodies = paper_a::meshes(base, 5, (60.0 * scale) as usize + 1, plate);
