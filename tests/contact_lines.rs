@@ -52,8 +52,8 @@ fn run(model: &RollingModel, inputs: &Inputs, course: Course, (dt, steps): (f64,
     (seen, state)
 }
 
-/// Largest difference of two runs in the outputs of `rows`, profiles included, over the largest amount of that output or a
-/// thousandth of its usual size.
+/// Largest difference of two runs in the outputs of `rows`, profiles included, over the largest amount of that output
+/// or a thousandth of its usual size.
 fn difference(a: &[Outputs], b: &[Outputs], rows: impl Fn(&str) -> bool) -> (f64, &'static str) {
     use wheelrail::rolling::{OutputRow, Read};
     let values = |row: &OutputRow, outputs: &Outputs| match row.read {
@@ -87,8 +87,8 @@ const RATES: [&str; 5] = [
     "energy.stored",
 ];
 
-/// Runs one line and lines of each of the given `shares`, and asserts that they agree: forces, creepage, temperatures and energies to
-/// 1e-8, those that magnify round-off to 1e-5.
+/// Runs one line and lines of each of the given `shares`, and asserts that they agree: forces, creepage, temperatures
+/// and energies to 1e-8, those that magnify round-off to 1e-5.
 fn compare(name: &str, (config, inputs): (&Config, &Inputs), course: Course, steps: (f64, usize), shares: &[&[f64]]) {
     let (one, _) = run(&model(config, &[1.0]).unwrap(), inputs, course, steps);
     for shares in shares {
@@ -162,8 +162,8 @@ fn lines_of_a_part_of_the_width_and_equal_load_are_one_line_under_falling_fricti
     compare("falling friction", (&config, &with_speeds(&config)), keep, (1e-3, 30), &[&[0.3, 0.7]]);
 }
 
-/// At rest nodes that unload pass from stick to slip and back within the tolerance of the states, so that only the start is
-/// compared there.
+/// At rest nodes that unload pass from stick to slip and back within the tolerance of the states, so that only the
+/// start is compared there.
 #[test]
 fn stationary_lines_of_a_part_of_the_width_and_equal_load_are_one_line_hot_fast_and_at_rest() {
     let load = |inputs: &mut Inputs, t: f64| inputs.drive.load = if t < 2.5e-3 { 1e4 } else { 1.9e5 };
@@ -197,8 +197,8 @@ fn approach(load: f64, length: f64) -> f64 {
     2.0 * load / (PI * modulus()) * ((2.0 * length / a).ln() + 0.5)
 }
 
-/// Wheels of different height on two lines of different width: the loads differ by what the flexibility of each line for
-/// itself allows, whatever the bodies that both press are like.
+/// Wheels of different height on two lines of different width: the loads differ by what the flexibility of each line
+/// for itself allows, whatever the bodies that both press are like.
 #[test]
 fn a_lower_wheel_takes_more_load_by_the_closed_form_of_hertz() {
     let planes = HalfPlanes::new(40);
@@ -216,8 +216,8 @@ fn a_lower_wheel_takes_more_load_by_the_closed_form_of_hertz() {
     }
 }
 
-/// Each line creeps by its own load and its own friction: its force is that of Carter, and forces of the other line that
-/// stretch the surface of both alike change it by what they stretch.
+/// Each line creeps by its own load and its own friction: its force is that of Carter, and forces of the other line
+/// that stretch the surface of both alike change it by what they stretch.
 #[test]
 fn lines_of_different_load_and_friction_each_have_the_creep_force_of_carter() {
     let planes = HalfPlanes::new(40);

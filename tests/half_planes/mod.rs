@@ -98,7 +98,8 @@ impl HalfPlanes {
     }
 
     /// Stationary rolling of lines side by side at mean speed 10 m/s. Each has the displacements of [`LineKernel`] with
-    /// the reach `length` [m] for itself; `shared` are those by the forces of all, of each half-plane, at the distance x.
+    /// the reach `length` [m] for itself; `shared` are those by the forces of all, of each half-plane, at the distance
+    /// x.
     pub fn roll_lines(
         &self,
         lines: &[SideLine],
