@@ -56,7 +56,7 @@ fn layer(c: &mut Criterion) {
     c.bench_function("deserialize", |b| b.iter(|| assert_eq!(slave.deserialize(&bytes, &mut state), fmi2OK)));
 }
 
-/// What a second wheel like one that rolls already costs until it can step.
+/// Cost of a second wheel like one that rolls already, until it can step.
 fn second_instance(c: &mut Criterion) {
     let dll = load();
     let first = Slave::new(&dll);

@@ -151,7 +151,7 @@ fn starts(table: &mut Table, store: &BasisStore) {
     table.time("start of a further equal wheel", fastest(second));
 }
 
-/// What a wheel adds to the memory of the process: the mean over many, after as many others have used up what earlier
+/// Memory that a wheel adds to the process: the mean over many, after as many others have used up what earlier
 /// work left to spare.
 fn memory(table: &mut Table, store: &BasisStore) {
     let shared = model(20, true, store);

@@ -71,7 +71,7 @@ struct Saved {
     outputs: Option<Vec<u64>>,
 }
 
-/// What a call may answer.
+/// Answers that a call may give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Expect {
     Ok,
@@ -90,7 +90,7 @@ struct Master<'a> {
     seed: u64,
     phase: Phase,
     time: f64,
-    /// Whether the run since the last initialization has been free of jumps.
+    /// True while the run since the last initialization has been free of jumps.
     calm: bool,
     saved: Vec<Saved>,
     /// All real outputs, where they can be read.
@@ -529,7 +529,7 @@ impl<'a> Master<'a> {
                 }
                 let expected = if legal { Expect::Either } else { Expect::Refused };
                 self.check("ExitInitializationMode".to_owned(), status, expected, true);
-                // What has no stationary state, or was terminated, starts anew.
+                // A run without a stationary state, or terminated, starts anew.
                 if status != fmi2OK && (legal || self.phase == Phase::Terminated) {
                     self.reset();
                 }

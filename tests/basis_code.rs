@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use wheelrail::mechanics::basis::CODE;
 
-/// What a basis depends on, besides the configuration.
+/// Sources on which a basis depends, besides the configuration.
 const SOURCES: [&str; 5] = ["src/analytic.rs", "src/fem", "src/linalg", "src/material.rs", "src/mechanics"];
 
 /// Relative names of a file, or of all files in a directory.

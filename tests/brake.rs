@@ -192,7 +192,7 @@ fn a_released_wheel_rolls_off_under_its_drive_without_a_kick() {
             },
         );
         let end = simulation.outputs();
-        // What is left of a fading torque is an impulse against the drive.
+        // The rest of a fading torque is an impulse against the drive.
         let (free, v) = (free.unwrap(), end.wheel_velocity);
         let lost = 0.5 * (build_down - free).max(0.0) * torque(free) / 0.46;
         let expected = (force * (2.0 + build_down - free) - lost) / (mass + moment / 0.46f64.powi(2));

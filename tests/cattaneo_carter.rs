@@ -1,7 +1,7 @@
 //! From Cattaneo's shift to Carter's rolling: a wheel at rest is loaded by a moment below the friction limit, then
 //! rolls slowly under the constant moment.
 //!
-//! What is compared is the creepage over the distance rolled, under a prescribed tangential force. With prescribed
+//! The creepage is compared over the distance rolled, under a prescribed tangential force. With prescribed
 //! creepage the force would build up over a distance that grows with the logarithm of the size of the bodies, because
 //! the tangential displacement of a half-plane under a line load is known only up to a constant times the force. Under
 //! constant force that constant has no rate: the creepage depends on s/a, F/μP and the full slip μa/R alone. What is
@@ -110,7 +110,7 @@ fn interpolate(values: &[f64], position: f64) -> f64 {
     values[i] + (position - i as f64) * (values[i + 1] - values[i])
 }
 
-/// The same from the model under a tangential force of `load` times its limit, with steps of `share` half-widths.
+/// Answer of the model under a tangential force of `load` times its limit, with steps of `share` half-widths.
 fn rolled(load: f64, share: f64) -> Vec<f64> {
     let mut config = preset("paper_d", 20);
     config.physics.centrifugal = false;

@@ -141,7 +141,7 @@ fn scenarios_are_linear_between_rows_and_choices_switch_on_time() {
     let table = Table::parse(&succeed(&arguments));
     assert_eq!(table.column("time").len(), 13);
     for (i, t) in table.column("time").iter().enumerate() {
-        // What is reported after a step is what acted at its end, before a jump.
+        // Outputs after a step are those at its end, before a jump.
         let moment = if *t < 4.5e-3 { -1e6 * t } else { -2000.0 };
         assert_close(table.column("hub.moment")[i], moment, 1e-9, &format!("moment at {t} s"));
         let velocity = if *t < 4.5e-3 { 10.0 + 5.0 * t } else { 10.02 - 5.0 * (t - 0.004) };
@@ -333,7 +333,7 @@ fn steady_rolling_has_the_patch_of_hertz_and_adhesion_rises_to_full_slip() {
     assert!(shown.contains("force_x") && shown.contains("[kN]") && shown.lines().count() == 3, "{shown}");
 }
 
-/// What a `.vtu` file holds.
+/// Contents of a `.vtu` file.
 struct Grid {
     points: Vec<[f64; 3]>,
     cells: Vec<[usize; 4]>,

@@ -82,7 +82,7 @@ fn a_static_contact_evens_out_waves_by_the_bessel_function() {
     assert!(even.abs() < 1e-4 * AMPLITUDE, "{even}");
 }
 
-/// The same with elastic wheel and rail: a wheel that stands on waves of its rail under loads that let the edges
+/// Contact filter of elastic wheel and rail: a wheel that stands on waves of its rail under loads that let the edges
 /// wander.
 #[test]
 fn a_standing_wheel_is_lifted_by_what_the_contact_leaves_of_waves() {

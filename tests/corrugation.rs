@@ -157,7 +157,7 @@ fn missing(model: Arc<Model>, inputs: &Inputs, length: f64) -> [f64; 3] {
     [lost, moved, simulation.outputs().damping_energy]
 }
 
-/// The same with Rayleigh damping, within each wave: the damped layer under the contact answers the forces of before,
+/// Growth with Rayleigh damping, within each wave: the damped layer under the contact answers the forces of before,
 /// which do work on its slope, and the stream carries the static answer of the truncated modes into the rates of the
 /// kept ones. The first cases have 160 and 80 modes, the last two the default. Without what late layers spare the hub a
 /// quarter of what is dissipated with the default modes would be missing, without what the stream carries 3.1 %.

@@ -25,7 +25,7 @@ fn cold(change: impl Fn(&mut Damping)) -> Arc<Model> {
     model(config)
 }
 
-/// What is left of the power is that of the undamped model at the same creepage.
+/// The rest of the power is that of the undamped model at the same creepage.
 #[test]
 fn stationary_rolling_costs_what_friction_and_damping_dissipate() {
     let undamped = cold(|d| d.modal = false);

@@ -34,7 +34,7 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
     words.filter(|word| is_path(word))
 }
 
-/// Whether a word is a path of this repository.
+/// True for a word that is a path of this repository.
 fn is_path(word: &str) -> bool {
     const ROOMS: [&str; 9] =
         ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/", "packaging/", "python/"];

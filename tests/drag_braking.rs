@@ -14,7 +14,7 @@ const SPEED: f64 = 70.0 * KMH;
 const POWER: f64 = 45e3;
 const DURATION: f64 = 2040.0;
 
-/// What a run leaves behind.
+/// Results of a run.
 struct Braked {
     end: Outputs,
     /// Energies over the run: of friction, into the rail, into the hub \[J].

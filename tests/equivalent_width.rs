@@ -174,7 +174,7 @@ fn with_width(width: f64) -> Config {
     config
 }
 
-/// What a model computes for the line contact.
+/// Line contact as a model computes it.
 #[derive(Debug)]
 struct Line {
     /// Peak pressure \[Pa].

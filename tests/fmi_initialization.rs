@@ -71,7 +71,7 @@ fn a_value_that_is_no_value_is_refused_with_a_short_message_for_every_variable()
             }
             Kind::Boolean => slave.refused(slave.set_c_boolean(name, 7), &[&format!("{name} = 7 ")]),
             Kind::String if *name == "preset" => slave.refused(slave.set_string(name, "x y"), &[name, "x y"]),
-            // What a profile needs of other parameters is known at the end.
+            // Parameters that a profile needs are known at the end.
             Kind::String => {
                 let slave = Slave::coarse(&dll);
                 assert_eq!(slave.set_string(name, "x y"), fmi2OK);
@@ -200,7 +200,7 @@ fn a_tolerance_given_deliberately_is_used_unless_the_parameter_is_set_and_the_lo
     let plain = run(None, None);
     assert_eq!((plain.0, plain.1), (default, false));
     assert!(plain.2.ends_with("of preset \"railway\""), "{}", plain.2);
-    // What fmpy hands back from the model description changes nothing.
+    // Start values that fmpy hands back from the model description change nothing.
     assert_eq!(run(Some(default), None), plain);
     // Tolerances of the master's own solver are not ours.
     for usual in [1e-3, 1e-4, 1e-6, 2.0] {

@@ -1,4 +1,4 @@
-//! What the compiled library tells its master, and how long texts live.
+//! Messages of the compiled library to its master, and how long texts live.
 #![allow(unsafe_code)]
 
 mod slave;

@@ -22,7 +22,7 @@ fn resident() -> i64 {
     line.split_whitespace().nth(1).unwrap().parse().unwrap()
 }
 
-/// Whether the library is mapped into this process.
+/// True while the library is mapped into this process.
 fn mapped() -> bool {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
     maps.contains(library().to_str().unwrap())

@@ -198,7 +198,7 @@ fn under_another_preset_written_values_win_and_one_warning_counts_them() {
                 inputs.1
             );
         }
-        // What is set on purpose is not worth a word.
+        // A value set on purpose is not worth a word.
         let deliberate = run(|slave| {
             preset(slave, name);
             assert_eq!(slave.set_real("friction.coefficient", 0.123), fmi2OK);

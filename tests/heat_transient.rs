@@ -95,7 +95,7 @@ fn a_front_of_warmer_rail_travels_with_the_stream_between_both_temperatures() {
         for k in 0..steps {
             let flows = heat.advance(&mut state, dt, velocity, velocity / RADIUS, &exchange, &mut scratch);
             let content = heat.heat_content(&state).unwrap()[1];
-            // What was ahead has become warmer at once, before the first step.
+            // The rail ahead has become warmer at once, before the first step.
             entered = Some(entered.unwrap_or(content - before - dt * flows.stored_rail) + dt * flows.stored_rail);
             assert!((content - before - entered.unwrap()).abs() < 1e-9 * content.abs(), "step {k}");
             for t in &heat.observed(&state).surface[1] {

@@ -16,7 +16,7 @@ const SETTLED: f64 = 0.05;
 /// `(2 + π)/√3`.
 const INDENTATION: f64 = 2.968_449_6;
 
-/// What a slide shows.
+/// Findings of a slide.
 #[derive(Debug)]
 struct Slide {
     /// Highest pressure over that at which cold steel flows [1].
@@ -25,7 +25,7 @@ struct Slide {
     mean_pressure: f64,
     /// Highest temperature of wheel and rail [K].
     temperature: f64,
-    /// The same over the liquidus [K].
+    /// Excess over the liquidus [K].
     superheat: f64,
     /// Mean force while it slides [N].
     force: f64,

@@ -59,7 +59,7 @@ fn a_wheel_with_heat_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
     }
 }
 
-/// What remains between both is the grid's error: its temperature rise tends to that on the patch as the mesh is
+/// The difference between both is the grid's error: its temperature rise tends to that on the patch as the mesh is
 /// refined.
 #[test]
 fn the_temperature_on_the_patch_is_the_one_to_which_the_grid_converges() {

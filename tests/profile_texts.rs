@@ -109,7 +109,7 @@ fn two_thousand_mistyped_profiles_are_surfaces_or_refused_by_name() {
     assert!(surfaces > 250 && refused > 2000, "{surfaces} {refused}");
 }
 
-/// What a text may cost is bounded before anything is computed: by its length, and by the samples of all its roughness.
+/// The cost of a text is bounded before anything is computed: by its length, and by the samples of all its roughness.
 #[test]
 fn texts_that_would_take_long_are_refused_by_name() {
     let rough = "roughness(spectrum = EN_ISO_3095, shortest = 8e-4, length = 50)";

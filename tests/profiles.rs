@@ -297,7 +297,7 @@ fn profiles_without_meaning_are_refused_by_name_and_unresolved_ones_are_announce
     let both = [Limit::Sampling, Limit::Energy];
     announced("step(position = 0.1, height = 1e-5)", 2e-3, &both, &["40.00 mm", "3.01 mm"]);
     announced("sinusoid(amplitude = 1e-6, wavelength = 0.02)", 1e-3, &both, &["20.00 mm", "5.00 mm", "0"]);
-    // What the steps do not resolve they do when they are chosen by the profile.
+    // Steps that do not resolve it do so when they are chosen by the profile.
     let mut config = cold(preset("railway", 6));
     config.rail.profile = "sinusoid(amplitude = 1e-6, wavelength = 0.02)".into();
     config.tuning.max_step = 0.0;

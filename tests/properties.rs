@@ -68,8 +68,8 @@ const UNDIRECTED: [Output; 11] = [
     ("friction coefficient", |o| o.friction),
 ];
 
-/// What an output of a run is compared with: its largest value, but forces and moments at least with the load, powers
-/// with that of the load at a creepage of one per cent, and small differences of velocities with the velocities.
+/// Scale with which an output of a run is compared: its largest value, but forces and moments at least with the load,
+/// powers with that of the load at a creepage of one per cent, and small differences of velocities with the velocities.
 fn scale(run: &[Outputs], (name, of): Output) -> f64 {
     let largest = |of: fn(&Outputs) -> f64| run.iter().map(|o| of(o).abs()).fold(0.0, f64::max);
     let (load, velocity) = (largest(|o| o.contact_force_y), largest(|o| o.wheel_velocity));

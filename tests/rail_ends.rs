@@ -125,8 +125,8 @@ fn bounce(ends: RailEnds, speed: f64) -> (Vec<f64>, [f64; 2]) {
     (history, [taken, gain - taken - outputs.friction_energy])
 }
 
-/// What is missing in the balance belongs to the jump of the load and is the same with free ends. Rolling changes
-/// little of what is radiated.
+/// Energy that is missing in the balance belongs to the jump of the load and is the same with free ends. Rolling
+/// changes little of what is radiated.
 #[test]
 fn the_energy_that_the_ends_radiate_closes_the_balance() {
     let (free, lost) = bounce(RailEnds::Free, 0.0);

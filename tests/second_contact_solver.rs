@@ -66,7 +66,7 @@ impl Hertz {
         height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port]
     }
 
-    /// What is left of the balance of a free axis [N/m, N].
+    /// Unbalance of a free axis [N/m, N].
     fn unbalance(&self, problem: &SingleLine, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
         let motion = &problem.rigid[axis];
         let mut sum = motion.momentum + (problem.line.bodies.momentum.row(axis) * forces)[0];
@@ -202,11 +202,11 @@ fn models() -> [RollingModel; 2] {
     models_with_place().0
 }
 
-/// The same, with the place of the last problem of the toy solver.
+/// Models on the toy solver and on the grid, with the place of the last problem of the toy solver.
 fn models_with_place() -> ([RollingModel; 2], Arc<Mutex<[f64; 2]>>) {
     let mut config = preset("railway", 10);
     config.thermal.enabled = false;
-    // What damping takes from a rolling wheel it takes by a resistance: a skewed pressure, unlike that of the toy.
+    // Damping takes power from a rolling wheel by a resistance: a skewed pressure, unlike that of the toy.
     config.damping.modal = false;
     config.solver.response = Response::Reduced;
     let basis = common::store().find(&config).unwrap();

@@ -110,7 +110,7 @@ fn derivatives_under_prescribed_motion_are_those_of_the_repeated_step() {
     });
 }
 
-/// The same model as a shared one.
+/// Shared model.
 fn model_of(model: &Model) -> Arc<Model> {
     common::model(model.config().clone())
 }

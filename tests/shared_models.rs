@@ -18,7 +18,7 @@ fn coarse(radius: f64) -> Config {
     config
 }
 
-/// Whether the basis was computed to prepare the model.
+/// True if the basis was computed to prepare the model.
 fn computed(config: &Config, store: &BasisStore) -> (Arc<Model>, bool) {
     let mut heard = false;
     let model = Model::prepare(config.clone(), store, &mut |what, _| heard |= what.contains("modes")).unwrap();

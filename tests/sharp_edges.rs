@@ -21,7 +21,7 @@ fn over(shape: &str, depth: f64, wheel: bool, free: bool) -> [f64; 4] {
     on_mesh(shape, depth, wheel, free, (ELEMENTS, STEPS), false)
 }
 
-/// The same with so many elements per half-width and steps for the hole, on elastic or on yielding steel.
+/// Passage of an edge with so many elements per half-width and steps for the hole, on elastic or on yielding steel.
 fn on_mesh(shape: &str, depth: f64, wheel: bool, free: bool, mesh: (usize, f64), yields: bool) -> [f64; 4] {
     let (elements, steps) = mesh;
     let mut config = preset("railway", elements);
@@ -65,8 +65,8 @@ fn neither_force_nor_energy_depends_on_the_depth_of_a_hole_beyond_what_touches()
     }
 }
 
-/// What the balance misses while an edge passes belongs to the elements beside it: a third of the step changes it by
-/// little, a quarter of the element takes more than half of it away.
+/// Energy that the balance misses while an edge passes belongs to the elements beside it: a third of the step changes
+/// it by little, a quarter of the element takes more than half of it away.
 #[test]
 fn what_is_missing_while_an_edge_passes_falls_with_the_element_and_not_with_the_step() {
     let hole = "hole(position = 0.01, length = LENGTH, depth = DEPTH)";

@@ -26,7 +26,7 @@ fn bearing(shear: f64) -> f64 {
     1.0 + PI - shear.asin() + (1.0 - shear * shear).sqrt()
 }
 
-/// The same where the shear is a share of the pressure, by halving.
+/// Limit where the shear is a share of the pressure, by halving.
 fn sliding(ratio: f64) -> f64 {
     let (mut low, mut high) = (1.0, 2.0 + PI);
     for _ in 0..60 {
@@ -77,7 +77,7 @@ fn lead(
     (inputs.drive.load, inputs.rate.load) = (load, 0.0);
 }
 
-/// What the audit does not find of the plastic work [J].
+/// Plastic work that the audit does not find [J].
 fn missing(o: &Outputs) -> f64 {
     o.hub_work - o.stored_energy - o.damping_energy - o.friction_energy - o.plastic_energy
 }
@@ -157,7 +157,7 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
             for &(x, [p, shear, overlap]) in now {
                 let [p_before, shear_before, _] =
                     before.iter().find(|node| node.0 == x).map_or([0.0; 3], |node| node.1);
-                // What opens or closes takes the ratio of a neighbour.
+                // A node that opens or closes takes the ratio of a neighbour.
                 if p_before > 0.0 {
                     let limit = sliding(shear_before / p_before);
                     assert!(p <= limit * (1.0 + 1e-4) && shear < 1.0001, "{x}: {p} k of {limit} k, under {shear} k");

@@ -17,7 +17,7 @@ fn railway(velocity: f64, heat: bool) -> Config {
     config
 }
 
-/// The same with the temperatures of rolling as at the start for ever, so that nothing is left to settle.
+/// Configuration with the temperatures of rolling for ever at the start, so that nothing is left to settle.
 fn settled(velocity: f64, heat: bool) -> Config {
     let mut config = railway(velocity, heat);
     config.initial.temperature = StartTemperature::Stationary;
@@ -54,7 +54,7 @@ fn inertia(config: &Config) -> [f64; 2] {
     [mass, wheel_inertia(config) * width + config.wheel.hub_inertia]
 }
 
-/// What is left is the rolling resistance of the damping, up to 0.03 N at 80 m/s; it does not change.
+/// The rest is the rolling resistance of the damping, up to 0.03 N at 80 m/s; it does not change.
 #[test]
 fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_step() {
     for velocity in [0.0, 0.1, 5.0, 30.0, 80.0, -30.0] {

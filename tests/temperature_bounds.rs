@@ -82,7 +82,7 @@ fn set(seed: u64) -> (Config, Random, String) {
     (config, random, text)
 }
 
-/// Whether a message names a parameter or an input.
+/// True for a message that names a parameter or an input.
 fn named(message: &str) -> bool {
     ["drive.", "mesh."].iter().any(|group| message.contains(group))
         || Config::rows().iter().any(|row| message.contains(row.name))
@@ -153,7 +153,7 @@ impl Bounds {
         self.0 = [self.0[0].min(source - SLIGHT), self.0[1].max(source + SLIGHT)];
     }
 
-    /// What is wrong with a state.
+    /// Faults of a state.
     fn broken(&self, simulation: &Simulation) -> Option<String> {
         let [low, high] = self.0;
         let fields = simulation.temperature_fields().unwrap();
@@ -247,7 +247,7 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
                     break;
                 }
             };
-            // What is lifted is taken elsewhere: heat contents grow by what is stored.
+            // Lifted heat is taken elsewhere: heat contents grow by what is stored.
             let [before, after] = [&state, &next].map(|state| heat.heat_content(state).unwrap());
             let stored = [flows.stored_wheel, flows.stored_rail].map(|flow| dt * flow);
             let error = |i: usize| (after[i] - before[i] - stored[i]).abs() / (1.0 + after[i].abs() + before[i].abs());
@@ -278,7 +278,7 @@ fn watched(config: Config, change: impl Fn(&mut Inputs), steps: usize, dt: f64) 
     watched_within(config, 0.0, change, steps, dt)
 }
 
-/// The same with temperatures up to `highest` \[K] allowed, where that is more than the bounds allow.
+/// Run with temperatures up to `highest` \[K] allowed, where that is more than the bounds allow.
 fn watched_within(config: Config, highest: f64, change: impl Fn(&mut Inputs), steps: usize, dt: f64) -> usize {
     let model = common::model(config.clone());
     let mut inputs = Inputs::rolling(&config);

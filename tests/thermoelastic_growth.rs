@@ -101,7 +101,7 @@ fn refine(
     changes
 }
 
-/// Whether refinement has converged: the last change is below the limit, and smaller than the one before unless that
+/// Convergence of a refinement: the last change is below the limit, and smaller than the one before unless that
 /// was below the limit already.
 fn converged(changes: [f64; 2], limit: f64) -> bool {
     changes[1] < limit && changes[1] < changes[0].max(limit)

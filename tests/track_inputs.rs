@@ -1,4 +1,4 @@
-//! What a master tells of the track: gradient, height and temperature of the rail; and what it learns of the wheel.
+//! Inputs of the track from a master: gradient, height and temperature of the rail; and outputs of the wheel.
 
 mod common;
 

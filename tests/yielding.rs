@@ -26,7 +26,7 @@ fn press(simulation: &mut Simulation, inputs: &mut Inputs, to: f64) -> Outputs {
     press_in(200, simulation, inputs, to)
 }
 
-/// The same within 0.1 s in a number of steps.
+/// Change of the load within 0.1 s in a number of steps.
 fn press_in(steps: i32, simulation: &mut Simulation, inputs: &mut Inputs, to: f64) -> Outputs {
     let (from, h) = (inputs.drive.load, 0.1 / f64::from(steps));
     for k in 1..=steps {

@@ -3,7 +3,7 @@
 use crate::AXLES;
 use crate::parameters::Parameters;
 
-/// What the valve of an axle does.
+/// Position of the valve of an axle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Valve {
     /// Follows the control pressure.
@@ -70,7 +70,7 @@ impl Brakes {
 pub struct SlideProtection {
     /// Reference speed \[m/s].
     pub reference: f64,
-    /// What the valves do.
+    /// Positions of the valves.
     pub valves: [Valve; AXLES],
     waited: f64,
     before: [f64; AXLES],

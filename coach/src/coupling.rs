@@ -21,7 +21,7 @@ const STANDING: f64 = 0.02;
 /// Times its mass counts a wheelset that is held.
 const IMMOBILE: f64 = 1e6;
 
-/// What the outside says of an axle.
+/// Input of an axle from outside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
     /// Way since the start \[m].
@@ -36,7 +36,7 @@ pub struct Seen {
     pub torque: f64,
 }
 
-/// What the coach does to an axle during the next step.
+/// Action of the coach on an axle during the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Driven {
     /// Force of the suspension along the track \[N].
@@ -55,7 +55,7 @@ pub struct Running {
     pub motion: Motion,
     /// Its brakes.
     pub brakes: Brakes,
-    /// What the axles get during the next step.
+    /// Actions on the axles during the next step.
     pub driven: [Driven; AXLES],
     met: bool,
 }

@@ -5,7 +5,7 @@ use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, StepError};
 
 const DRY: f64 = 0.3;
 
-/// What the driver does at present.
+/// Present action of the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// Standing with the brake released.
@@ -16,7 +16,7 @@ pub enum Phase {
     Coast,
     /// Service brake on a dry rail.
     Brake,
-    /// The same brake on a suddenly wet rail: the wheel loses its grip until it blocks.
+    /// Full brake on a suddenly wet rail: the wheel loses its grip until it blocks.
     Skid,
     /// Blocked wheel sliding on the wet rail.
     Slide,
@@ -33,7 +33,7 @@ pub const PHASES: [Phase; 9] = {
     [Rest, Accelerate, Coast, Brake, Skid, Slide, Recover, Stop, Hold]
 };
 
-/// What differs from cycle to cycle.
+/// Values that differ from cycle to cycle.
 #[derive(Clone, Copy, Debug)]
 struct Cycle {
     /// Speed at which traction ends [m/s].
@@ -152,7 +152,7 @@ impl Drive {
         }
     }
 
-    /// Whether the phase has reached its goal.
+    /// True once the phase has reached its goal.
     fn complete(&self) -> bool {
         let (outputs, time) = (self.simulation.outputs(), self.age as f64 * self.step);
         let (speed, top) = (outputs.wheel_velocity, self.cycle.top_speed);

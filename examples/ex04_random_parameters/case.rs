@@ -38,7 +38,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Whether the slave behaved as the model description promises.
+    /// True where the slave behaved as the model description promises.
     pub fn acceptable(&self) -> bool {
         !matches!(self, Verdict::Unexplained(_) | Verdict::Wrong(_))
     }
@@ -242,7 +242,7 @@ fn too_cold(instance: &mut Instance, coldest: f64) -> Result<Option<String>, Cal
     Ok(None)
 }
 
-/// What is missing in the energy balance.
+/// Energy that is missing in the balance.
 fn unbalanced(instance: &mut Instance) -> Result<Option<String>, CallError> {
     let residual = real(instance, "solver.energy_residual")?;
     Ok((residual.abs() > UNBALANCED).then(|| format!("solver.energy_residual = {residual} without a warning")))
@@ -263,7 +263,7 @@ fn real(instance: &mut Instance, name: &str) -> Result<f64, CallError> {
     }
 }
 
-/// Whether a message names a variable of the interface or an argument of the call.
+/// True for a message that names a variable of the interface or an argument of the call.
 fn named(message: &str) -> bool {
     let mut names = variables().iter().map(|v| v.name).chain(ARGUMENTS);
     names.any(|name| message.contains(name))

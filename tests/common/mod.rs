@@ -73,7 +73,7 @@ pub fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config
     model(config)
 }
 
-/// Whether the contact was found on a patch.
+/// True where the contact was found on a patch.
 pub fn is_patch(simulation: &Simulation) -> bool {
     matches!(simulation.state().lines[0].contact.solver, SolverState::Series(_))
 }

@@ -206,7 +206,7 @@ impl HalfPlanes {
     }
 }
 
-/// What the solver on the grid remembers.
+/// Memory of the solver on the grid.
 pub fn grid_state(state: &ContactState) -> &LineState {
     match &state.solver {
         SolverState::Line(grid) => grid,
@@ -214,7 +214,7 @@ pub fn grid_state(state: &ContactState) -> &LineState {
     }
 }
 
-/// The same to change.
+/// Memory of the solver on the grid, to be changed.
 pub fn grid_state_mut(state: &mut ContactState) -> &mut LineState {
     match &mut state.solver {
         SolverState::Line(grid) => grid,

@@ -82,7 +82,7 @@ unsafe extern "C" {
     fn snprintf(buffer: *mut c_char, size: usize, format: *const c_char, ...) -> c_int;
 }
 
-/// What `printf` of the C library makes of a format without arguments.
+/// Text that `printf` of the C library makes of a format without arguments.
 fn printed(format: &CStr) -> String {
     let mut buffer = vec![0u8; format.count_bytes() + 1];
     // SAFETY: no text is longer than a format that asks for no arguments.

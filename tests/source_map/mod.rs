@@ -55,7 +55,7 @@ impl SourceMap {
         Self::from_files(|file| std::fs::read_to_string(src.join(file)).ok())
     }
 
-    /// The same from any source of files.
+    /// Reads modules and imports from any source of files.
     pub fn from_files(read: impl Fn(&str) -> Option<String>) -> Self {
         let mut map = Self { modules: Vec::new(), at: BTreeMap::new() };
         for root in ["lib", "main"] {
@@ -106,7 +106,7 @@ impl SourceMap {
         start.map_or(Place::Elsewhere, |module| self.descend(module, &path[1..], depth))
     }
 
-    /// The same from inside a module on: `super` may follow, children, imported names and items.
+    /// Place of a path from inside a module on: `super` may follow, children, imported names and items.
     fn descend(&self, module: usize, path: &[String], depth: usize) -> Place {
         match path.first().map(String::as_str) {
             None => Place::Module(module),
@@ -118,7 +118,7 @@ impl SourceMap {
         }
     }
 
-    /// The same for a path that begins with a name: a child, an imported name, or something from elsewhere.
+    /// Place of a path that begins with a name: a child, an imported name, or something from elsewhere.
     fn resolve_name(&self, module: usize, path: &[String], depth: usize) -> Place {
         let here = &self.modules[module];
         let child = [&here.path[..], &path[..1]].concat();

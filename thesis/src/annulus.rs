@@ -45,7 +45,7 @@ pub fn solve(mesh: Mesh, order: Order, scheme: Scheme, omega: f64) -> Result<Fie
     solve_by(mesh, order, scheme, omega, 5)
 }
 
-/// The same with a quadrature of the given degree, 2 to 5.
+/// System with a quadrature of the given degree, 2 to 5.
 pub fn solve_by(mesh: Mesh, order: Order, scheme: Scheme, omega: f64, degree: usize) -> Result<Field, Error> {
     let space = Space::new(&mesh, order);
     let velocity = |[x, y]: [f64; 2]| [omega * y, -omega * x];

@@ -38,7 +38,7 @@ pub struct Past {
     pub rate: f64,
 }
 
-/// What a contact element does; forces [N/m] on the slave node and the two ends of the segment.
+/// Answer of a contact element: forces [N/m] on the slave node and the two ends of the segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces {
     /// Gap \[m].
@@ -91,7 +91,7 @@ impl Law {
         self.forces_in_time(pair, u, &Past::default(), omega, velocity)
     }
 
-    /// The same in a time step: the slip has a part of the rates, too.
+    /// Answer in a time step: the slip has a part of the rates, too.
     pub fn forces_in_time(
         &self,
         pair: &Pair,

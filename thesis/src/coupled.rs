@@ -100,7 +100,7 @@ impl<M: Motions> Coupled<'_, M> {
         lacking
     }
 
-    /// What a place in contact takes from its nodes, with derivatives (\[B] (44), \[C] (17) to (19), \[D] § 4).
+    /// Quantities of a place in contact from its nodes, with derivatives (\[B] (44), \[C] (17) to (19), \[D] § 4).
     fn exchange(&self, touch: &Touch, theta: &[f64]) -> Exchange {
         let [conductance, heated] = self.warming.heating.contact;
         let [slave, _, left, right] = touch.nodes;
@@ -187,7 +187,7 @@ impl<M: Motions> Coupled<'_, M> {
     }
 }
 
-/// What the nodes of a place in contact (slave, left, right) give [W/m], and its derivatives by their temperatures
+/// Heat of the nodes of a place in contact (slave, left, right) [W/m], and its derivatives by their temperatures
 /// [W/(m K)].
 struct Exchange {
     flows: [(usize, Dual); 3],

@@ -25,11 +25,11 @@ pub enum Part {
     Elastic,
     /// Convection of velocities along the wheel, times `−ω²`.
     Turning,
-    /// The same along the rail, times `−V²`.
+    /// Convection along the rail, times `−V²`.
     Streaming,
     /// `ρ ∫ N (v·∇N)` in the wheel for a unit angular velocity: times `2ω` with rates, times `ω̇` with displacements.
     Gyroscopic,
-    /// The same in the rail for a unit velocity: `2V` and `V̇`.
+    /// Convection in the rail for a unit velocity: `2V` and `V̇`.
     Passing,
     /// Mass.
     Mass,

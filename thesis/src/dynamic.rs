@@ -13,7 +13,7 @@ use crate::mesh::Mesh;
 use crate::rolling::{Motion, State, System, Touch};
 use crate::sparse::Matrix;
 
-/// What is prescribed of rotation or travel at the end of a step.
+/// Prescription of rotation or travel at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub enum Prescribed {
     /// Angular velocity, forward [rad/s], or velocity [m/s]; what drives the hub is found.
@@ -76,7 +76,7 @@ impl<'a> Rolling<'a> {
     }
 }
 
-/// What a time step ends with; as in [`Rolling`].
+/// Result of a time step; as in [`Rolling`].
 pub struct End {
     state: State,
     rates: Vec<f64>,
@@ -96,7 +96,7 @@ impl TimeStep<'_> {
         self.before.system.parameters.law
     }
 
-    /// What the step ends with where this state solves its equations.
+    /// Result of the step where this state solves its equations.
     pub fn end(&self, state: State) -> End {
         let (forces, touches) = self.forces(&state);
         let size = self.before.system.size;
@@ -151,7 +151,7 @@ impl TimeStep<'_> {
             (velocity, Part::Streaming, Part::Passing, &parts.sped),
         ];
         let mut columns = rolled.map(|(speed, squared, convected, load)| {
-            // What is convected are the rates, twice, and with the acceleration the displacements.
+            // The rates are convected, twice, and with the acceleration the displacements.
             let carried: Vec<f64> = v.iter().zip(&state.q).map(|(v, u)| 2.0 * v + u / self.step).collect();
             let (first, second) = (parts.multiply(squared, &state.q), parts.multiply(convected, &carried));
             let terms = first.iter().zip(second).zip(load.iter());

@@ -25,7 +25,7 @@ impl Kind {
         }
     }
 
-    /// What it means, in a sentence.
+    /// Meaning, in a sentence.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Thesis => "The thesis says so, in numbers or more than once; a recomputation shows otherwise.",
@@ -44,9 +44,9 @@ pub struct Mistake {
     pub kind: Kind,
     /// Where it stands.
     pub place: &'static str,
-    /// What it says.
+    /// Statement of the thesis.
     pub says: &'static str,
-    /// What is right.
+    /// Correct statement.
     pub right: &'static str,
     /// Why.
     pub proof: &'static str,

@@ -4,7 +4,7 @@ use crate::stabilise::{Scheme, bubble_position, intrinsic_time, stream_length};
 use crate::triangle::{Order, laplacians, linear_gradients, place, points_of_degree};
 use nalgebra::{DMatrix, DVector};
 
-/// What streams and conducts.
+/// Medium that streams and conducts.
 pub struct Flow<'a> {
     /// Heat capacity of the volume ρc [J/(m³ K)].
     pub capacity: f64,

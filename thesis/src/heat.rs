@@ -29,7 +29,7 @@ pub struct Spot {
     pub friction: f64,
 }
 
-/// What is heated and how.
+/// Heated body and its heating.
 #[derive(Clone, Copy)]
 pub struct Heating<'a> {
     /// Wheel and rail.
@@ -48,7 +48,7 @@ pub struct Heating<'a> {
     pub contact: [f64; 2],
     /// Heat into each of the arcs of 45° at ±90° from the contact [W/m].
     pub arcs: f64,
-    /// Whether the hub is held at the reference.
+    /// True with the hub held at the reference.
     pub cold_hub: bool,
 }
 
@@ -120,7 +120,7 @@ impl Heating<'_> {
         self.flowing(spaces, [self.wheel.1, Scheme::Supg], self.material[1], self.motion)
     }
 
-    /// The same with given schemes, conductivity and velocities.
+    /// Assembly with given schemes, conductivity and velocities.
     pub(crate) fn flowing(&self, spaces: &[Space; 2], schemes: [Scheme; 2], k: f64, motion: [f64; 2]) -> Matrix {
         let [omega, velocity] = motion;
         let turning = |[x, y]: [f64; 2]| [omega * y, -omega * x];
@@ -142,7 +142,7 @@ impl Heating<'_> {
         self.assemble_some(spaces, |body, _, corners| Some(element(body, corners)))
     }
 
-    /// The same where the element, by its number, has a part.
+    /// Assembly over the elements that take part, by their number.
     pub(crate) fn assemble_some(
         &self,
         spaces: &[Space; 2],
@@ -195,7 +195,7 @@ impl Heating<'_> {
     pub(crate) fn exchange(&self, first: usize, matrix: &mut Matrix, load: &mut [f64]) {
         for spot in self.spots {
             let [(left, a), (right, b)] = spot.masters;
-            // What they weigh in the difference of the temperatures, and of the heat of their side.
+            // Weights in the difference of the temperatures, and of the heat of their side.
             let nodes = [(spot.slave, 1.0, 1.0), (first + left, -a, a), (first + right, -b, b)];
             for (row, weight, share) in nodes {
                 for (column, other, _) in nodes {

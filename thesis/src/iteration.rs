@@ -18,7 +18,7 @@ pub trait Equations {
     /// Unknowns.
     type State: Clone;
 
-    /// What the equations lack in a state.
+    /// Residual of the equations in a state.
     fn residual(&self, state: &Self::State) -> Vec<f64>;
 
     /// Newton's step of a state.

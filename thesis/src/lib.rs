@@ -50,7 +50,7 @@ pub enum Error {
     Singular {
         /// Number of unknowns.
         size: usize,
-        /// What the factorisation says.
+        /// Message of the factorisation.
         reason: String,
     },
     /// A Newton iteration that does not end.

@@ -78,7 +78,7 @@ impl Mesh {
         self.edge_counts().into_iter().filter(|(_, count)| *count == 1).map(|(edge, _)| edge).collect()
     }
 
-    /// Whether no edge belongs to more than two triangles, every triangle runs counter-clockwise and no node lies on an
+    /// True if no edge belongs to more than two triangles, every triangle runs counter-clockwise and no node lies on an
     /// edge of the boundary without being one of its ends, which is what a hanging node looks like.
     pub fn is_conforming(&self) -> bool {
         let sound = (0..self.triangles.len()).all(|t| double_area(&self.corners(t)) > 0.0);

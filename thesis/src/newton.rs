@@ -9,7 +9,7 @@ use crate::sparse::Matrix;
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 
-/// What drives the wheel (\[D] (23) to (28)). Moment and force at once would prescribe the creepage twice and the
+/// Drive of the wheel (\[D] (23) to (28)). Moment and force at once would prescribe the creepage twice and the
 /// velocity not at all.
 #[derive(Clone, Copy, Debug)]
 pub enum Drive {
@@ -26,7 +26,7 @@ pub type Residual = Vec<f64>;
 
 /// An iteration on a system.
 pub struct Newton<'a> {
-    /// What is solved.
+    /// Problem that is solved.
     pub system: &'a System,
     /// Contact law, mostly the system's own.
     pub law: Law,
@@ -57,7 +57,7 @@ impl Newton<'_> {
         (residual, touches)
     }
 
-    /// What is prescribed instead of a velocity: weights of the forces on the hub, and what their sum must be.
+    /// Prescription instead of a velocity: weights of the forces on the hub, and what their sum must be.
     fn prescribed(&self) -> Option<(&[f64], f64)> {
         match self.drive {
             Drive::Velocity => None,
@@ -241,7 +241,7 @@ pub fn resultant(touches: &[Touch]) -> [f64; 2] {
     [0, 1].map(|axis| touches.iter().map(|touch| touch.forces.on[0][axis].value).sum())
 }
 
-/// The same iteration on the unknowns of the contact and the hub: all others are linear and eliminated once.
+/// Iteration on the unknowns of the contact and the hub: all others are linear and eliminated once.
 pub struct Condensed {
     /// Unknowns that are kept.
     pub kept: Vec<usize>,

@@ -7,7 +7,7 @@ use wheelrail::contact::Traction;
 use wheelrail::heat::{TemperatureField, Temperatures};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
-/// What is read off a stationary state.
+/// Readings of a stationary state.
 #[derive(Clone, Copy, Debug)]
 pub struct Stationary {
     /// `F_x/(μ F_y)`, traction positive \[1].
@@ -67,7 +67,7 @@ impl Product {
 /// A motion from a stationary state on.
 pub struct Run {
     simulation: Simulation,
-    /// What the next steps are to prescribe.
+    /// Prescription of the next steps.
     pub inputs: Inputs,
 }
 

@@ -25,7 +25,7 @@ pub const GAP: [f64; 2] = [f64::NAN; 2];
 pub const LEVELS: usize = 10;
 
 impl Source {
-    /// Whether places are drawn, so that both axes have one scale.
+    /// True if places are drawn, so that both axes have one scale.
     fn is_picture(self) -> bool {
         matches!(self, Self::Mesh | Self::Level(_))
     }
@@ -36,7 +36,7 @@ impl Source {
 pub struct Curve {
     /// Whose it is.
     pub source: Source,
-    /// What it shows.
+    /// Title.
     pub name: String,
     /// Its points in the units of the axes.
     pub points: Vec<[f64; 2]>,
@@ -47,7 +47,7 @@ pub struct Curve {
 pub struct Plot {
     /// Quantity and unit along x and y.
     pub axes: [String; 2],
-    /// What is drawn.
+    /// Curves.
     pub curves: Vec<Curve>,
 }
 
@@ -71,7 +71,7 @@ fn shade(level: usize) -> String {
 }
 
 impl Plot {
-    /// What is wrong with it: curves that look alike.
+    /// Flaws of the plot: curves that look alike.
     pub fn flaw(&self) -> Option<String> {
         let curves = self.curves.iter().filter(|curve| !curve.source.is_picture()).count();
         (curves > COLOURS.len())
@@ -218,7 +218,7 @@ mod tests {
             let (found, mut read) = (ticks(range), texts(range));
             println!("{read:?}");
             assert!(found.len() >= 3 && found.iter().all(|(at, _)| (range[0]..=range[1]).contains(at)));
-            // What is written is the number, and only that.
+            // The number is written, and only that.
             let parsed = |text: &str| text.parse::<f64>().unwrap();
             assert!(found.iter().all(|(at, text)| (parsed(text) - at).abs() <= 1e-9 * at.abs()), "{found:?}");
             read.dedup();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// What a recomputation says about a number.
+/// Verdict of a recomputation on a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Recomputed by simulation, within the tolerance of its entry: it could have failed.
@@ -59,7 +59,8 @@ impl Status {
         }
     }
 
-    /// Whether the recomputed value must be the quoted one (`Some(true)`), must differ from it, or is not compared.
+    /// Relation of the recomputed value to the quoted one: it must be equal (`Some(true)`), must differ from it, or is
+    /// not compared.
     fn demands(self) -> Option<bool> {
         match self {
             Self::Agrees | Self::Follows | Self::Fitted => Some(true),
@@ -77,7 +78,7 @@ pub const ARITHMETIC: &str = "closed.";
 pub struct Quoted {
     /// Figure, table or text: `A 12`, `D 18`.
     pub item: String,
-    /// What it is.
+    /// Quantity.
     pub quantity: String,
     /// The number, in `unit`.
     pub value: f64,
@@ -85,7 +86,7 @@ pub struct Quoted {
     pub to: Option<f64>,
     /// Unit.
     pub unit: String,
-    /// What became of it.
+    /// Status.
     pub status: Status,
     /// Name of the recomputed value, where there is one.
     pub computed: Option<String>,
@@ -143,7 +144,7 @@ fn entry(table: &BTreeMap<&str, &str>) -> Result<Quoted, String> {
 }
 
 impl Quoted {
-    /// What contradicts its status, whatever is recomputed.
+    /// Contradictions to its status, whatever is recomputed.
     fn sound(&self) -> Option<&'static str> {
         let (demands, computed) = (self.status.demands(), self.computed.as_deref());
         let arithmetic = computed.is_some_and(|name| name.starts_with(ARITHMETIC));
@@ -161,7 +162,7 @@ impl Quoted {
         }
     }
 
-    /// Whether the status is what the recomputed value says; an error where that value does not exist.
+    /// True if the status is what the recomputed value says; an error where that value does not exist.
     pub fn holds(&self, values: &BTreeMap<String, f64>) -> Result<bool, String> {
         let (Some(name), Some(tolerance)) = (&self.computed, self.tolerance) else { return Ok(true) };
         let value = values.get(name).ok_or_else(|| format!("{}: no figure computes {name}", self.item))?;
@@ -191,7 +192,7 @@ mod tests {
         assert!(with("status = \"agrees\"").is_err());
         assert!(with("status = \"agrees\"\ncomputed = \"x\"\ntolerance = 0.05").is_ok());
         assert!(with("status = \"agrees\"\ncomputed = \"x\"\ntolerance = 0.06").is_err());
-        // What cannot fail does not agree, and what can fail does not follow.
+        // A statement that cannot fail does not agree, and one that can fail does not follow.
         let closed = "computed = \"closed.x\"\ntolerance = 0.01";
         assert!(with(&format!("status = \"agrees\"\n{closed}")).is_err());
         assert!(with(&format!("status = \"follows\"\n{closed}")).is_ok());

@@ -135,7 +135,7 @@ pub const COMMITTED: &str = include_str!("../values.csv");
 /// Largest relative difference to them \[1], and what counts as nothing whatever the unit.
 const SAME: [f64; 2] = [1e-3, 1e-12];
 
-/// What differs between two tables of values: numbers by more than a thousandth, and names that only one of them has.
+/// Differences between two tables of values: numbers by more than a thousandth, and names that only one of them has.
 pub fn departures(committed: &str, found: &str) -> Vec<String> {
     let table = |text: &str| -> BTreeMap<String, f64> {
         let rows = text.lines().skip(1).filter_map(|line| line.rsplit_once(','));

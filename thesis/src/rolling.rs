@@ -15,7 +15,7 @@ use crate::{elastic, rail};
 /// Nodes nearer to each other than this along the rail lie above one another \[m].
 const SAME: f64 = 1e-12;
 
-/// What rolls on what.
+/// Wheel and rail.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameters {
     /// Wheel.
@@ -99,7 +99,7 @@ impl System {
         Self::with_order(parameters, wheel, rail, reach, Order::Linear)
     }
 
-    /// The same with linear or quadratic triangles in the wheel.
+    /// Wheel and rail with linear or quadratic triangles in the wheel.
     pub fn with_order(parameters: Parameters, wheel: &Mesh, rail: &Mesh, reach: f64, order: Order) -> Self {
         let [turned, streamed] = [Space::new(wheel, order), Space::new(rail, Order::Linear)];
         let Parameters { young, poisson, density, annulus, .. } = parameters;
@@ -178,7 +178,7 @@ impl System {
         self.touches_in_time(u, None, motion, law)
     }
 
-    /// The same at the end of a time step; `past`: displacements at its beginning, and its inverse \[1/s].
+    /// Equations at the end of a time step; `past`: displacements at its beginning, and its inverse \[1/s].
     pub fn touches_in_time(&self, u: &[f64], past: Option<(&[f64], f64)>, motion: Motion, law: Law) -> Vec<Touch> {
         let at = |node: usize| [u[2 * node], u[2 * node + 1]];
         // Displacements are a hundredth of a segment. If they chose it, a node above the end of one would jump between

@@ -38,7 +38,7 @@ impl Matrix {
         Self { size, entries: parts.iter().flat_map(scaled).collect() }.compressed()
     }
 
-    /// The same matrix with one entry for each position, row by row.
+    /// Matrix with one entry for each position, row by row.
     pub fn compressed(self) -> Self {
         let by_columns = sorted(&self.entries, self.size, |entry| entry.1);
         let mut entries = sorted(&by_columns, self.size, |entry| entry.0);

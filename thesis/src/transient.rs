@@ -61,7 +61,7 @@ pub struct Rolling {
     /// Constant forces on the unknowns.
     load: Vec<f64>,
     factors: Factors,
-    /// What a step takes from displacements and velocities before.
+    /// History of displacements and velocities that a step needs.
     before: [Matrix; 2],
     /// Displacements that a unit force on each pair makes within a step, and gaps.
     columns: Vec<Vec<f64>>,
@@ -278,7 +278,7 @@ fn rest(
     let shift = factors.solve(down)?;
     let free = free_gaps(pairs, &loaded, 0.0, profile);
     let lift = DVector::from_iterator(pairs.len(), pairs.iter().map(|pair| opening(pair, &shift)));
-    // What the contact has to carry: the load without the resultant of an uneven mesh's centrifugal forces.
+    // Load that the contact has to carry: that without the resultant of an uneven mesh's centrifugal forces.
     let total = |u: &[f64]| stiffness.multiply(u)[hub] - load[hub];
     let (mut low, mut high) = (-0.01 * system.parameters.annulus.outer, 0.01 * system.parameters.annulus.outer);
     let mut best = (loaded.clone(), vec![0.0; pairs.len()]);

@@ -39,15 +39,15 @@ pub struct Warming<'a> {
     pub spaces: [Space; 2],
     /// Conduction, convection for a unit angular velocity and for a unit velocity, and heat capacity.
     parts: [Matrix; 4],
-    /// What SUPG in the rail adds where it is a sum, if it is one anywhere.
+    /// Contribution of SUPG in the rail where it is a sum, if it is one anywhere.
     split: Option<Split>,
-    /// What other stabilisation adds, and the velocities for which it was assembled.
+    /// Contribution of other stabilisation, and the velocities for which it was assembled.
     stabilisation: ([f64; 2], Matrix),
     /// Relative change of a velocity that it outlasts \[1].
     tolerance: f64,
     /// Nodes that are held at the reference, in ascending order.
     fixed: Vec<usize>,
-    /// What a watt in each arc gives to every node \[1].
+    /// Share of a watt in each arc that every node gets \[1].
     arcs: Vec<f64>,
     /// How often it was assembled.
     pub assemblies: usize,
@@ -127,7 +127,7 @@ impl<'a> Warming<'a> {
         share
     }
 
-    /// What stabilisation adds that is no sum.
+    /// Contribution of stabilisation that is no sum.
     fn lagging(&self, motion: [f64; 2]) -> Matrix {
         let [omega, velocity] = motion;
         let (heating, schemes) = (&self.heating, [self.heating.wheel.1, Scheme::Supg]);
@@ -191,7 +191,7 @@ impl<'a> Warming<'a> {
         self.arcs.iter().map(|share| self.heating.arcs * share)
     }
 
-    /// What changes the matrix with the angular velocity (0) or the velocity (1), without stabilisation (\[D] § 5.3.1).
+    /// Change of the matrix with the angular velocity (0) or the velocity (1), without stabilisation (\[D] § 5.3.1).
     pub fn by_velocity(&self, k: usize) -> &Matrix {
         &self.parts[1 + k]
     }

@@ -1,4 +1,4 @@
-//! What longest-edge refinement keeps.
+//! Invariants of longest-edge refinement.
 
 use wheelrail_thesis::mesh::Mesh;
 use wheelrail_thesis::rivara;

@@ -72,7 +72,7 @@ fn the_tangent_of_a_contact_element_is_that_of_differences() {
             }
         }
     }
-    // What acts on the wheel acts back on the rail.
+    // Forces on the wheel act back on the rail.
     for axis in 0..2 {
         let sum: f64 = exact.on.iter().map(|force| force[axis].value).sum();
         assert!(sum.abs() < 1e-9 * exact.on[0][1].value);
@@ -312,7 +312,7 @@ fn a_quadratic_wheel_rolls_like_a_linear_one_with_as_many_unknowns() {
     assert!((linear - quadratic).abs() < 0.01);
 }
 
-/// What the meshes of wheel and rail add to the force. It is the same on mirrored meshes.
+/// Force that the meshes of wheel and rail add. It is the same on mirrored meshes.
 #[test]
 fn the_force_without_creepage_fades_with_the_edges_in_the_contact() {
     let a = half_width();

@@ -62,7 +62,7 @@ fn heat_that_is_put_in_is_stored_or_leaves_in_every_step() {
     }
 }
 
-/// What is stationary stays so, and a cold wheel comes to it.
+/// A stationary state stays so, and a cold wheel comes to it.
 #[test]
 fn the_stationary_temperatures_are_those_that_time_steps_keep_and_reach() {
     let (meshes, spots) = bodies();

@@ -64,7 +64,7 @@ fn written(guid: &str) -> String {
     xml.push_str("  </ModelVariables>\n  <ModelStructure>\n");
     let outputs: Vec<usize> =
         (1..).zip(&table).filter(|(_, variable)| variable.causality() == "output").map(|(index, _)| index).collect();
-    // What the coach does in the next step follows from the steps before: outputs depend on no input of the moment.
+    // The action of the coach in the next step follows from the steps before: outputs depend on no input of the moment.
     for list in ["Outputs", "InitialUnknowns"] {
         let _ = writeln!(xml, "    <{list}>");
         for index in &outputs {

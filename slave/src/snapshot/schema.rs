@@ -253,7 +253,7 @@ mod tests {
         Number(f32),
     }
 
-    /// The same names as in [`other`], one number wider, deep inside an enumeration.
+    /// Names as in [`other`], one number wider, deep inside an enumeration.
     #[allow(dead_code)]
     mod one {
         #[derive(serde::Deserialize)]

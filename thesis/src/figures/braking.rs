@@ -34,8 +34,8 @@ pub(super) fn paper_d() -> Result<Product, String> {
     })
 }
 
-/// What is drawn of a motion: time, V, rω, moment, force, contact force, creepage, temperature of the wheel at the
-/// contact point over the reference.
+/// Columns that are drawn of a motion: time, V, rω, moment, force, contact force, creepage, temperature of the wheel at
+/// the contact point over the reference.
 pub(super) type Row = [f64; 8];
 
 pub(super) fn row(t: f64, run: &Run) -> Row {
@@ -100,7 +100,7 @@ fn share_of_peak(t: f64, [ramp, hold]: [f64; 2]) -> f64 {
     (t / ramp).min((2.0 * ramp + hold - t) / ramp).clamp(0.0, 1.0)
 }
 
-/// The same by the thesis's own step in time, on linear triangles with edges of `edge` half-widths in the contact:
+/// Motion by the thesis's own step in time, on linear triangles with edges of `edge` half-widths in the contact:
 /// moment and no force on the hub prescribed at once. Rows as of the product, with the creepage over that of rolling
 /// freely, which such a mesh has.
 fn by_method(peak: f64, times: [f64; 2], edge: f64) -> Result<Vec<Row>, String> {

@@ -162,7 +162,7 @@ fn bessel(x: f64) -> f64 {
     sum
 }
 
-/// What the patch leaves of waves of a `length` \[m] \[1].
+/// Share that the patch leaves of waves of a `length` \[m] \[1].
 pub(super) fn filter(length: f64) -> f64 {
     bessel(TAU * hertz_half_width(LOAD_A, RADIUS_A, contact_modulus(YOUNG, POISSON)) / length)
 }

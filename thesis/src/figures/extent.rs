@@ -6,7 +6,7 @@ const POINTS: usize = 16;
 /// How much is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// What shows each figure within minutes.
+    /// Extent that shows each figure within minutes.
     Quick,
     /// Finer meshes and more points.
     Full,
@@ -21,7 +21,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// What belongs to number `i` of the list.
+    /// Entry of a list that belongs to point `i` of the axis.
     pub(super) fn listed<'a, T>(&self, found: &'a [T], i: usize) -> &'a T {
         &found[self.every * i]
     }

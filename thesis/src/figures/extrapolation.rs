@@ -147,9 +147,9 @@ pub(super) fn sequence(count: usize, corners_only: bool) -> Result<Sequence, Str
     Ok(found)
 }
 
-/// What the contact at corners lacks of the wheel's mean under the contact in the weights of the elements \[1], with
-/// the same friction power, on meshes whose edges in the contact alone are halved from one to the next, after so many
-/// halvings of all.
+/// Temperature that the contact at corners lacks of the wheel's mean under the contact in the weights of the elements
+/// \[1], with the same friction power, on meshes whose edges in the contact alone are halved from one to the next,
+/// after so many halvings of all.
 pub(super) fn lacking(times: usize, locals: std::ops::Range<u32>) -> Result<Vec<f64>, String> {
     let lack = |local: u32| {
         let (bodies, touching, first) = meshes(times, local);
@@ -211,7 +211,7 @@ mod tests {
         println!("lacks {lack:.4?}; friction power {:.1e}", power(true) / power(false) - 1.0);
         assert!((power(true) / power(false) - 1.0).abs() < 1e-12);
         assert!(lack.windows(2).all(|pair| (pair[0] / pair[1] - 2.0).abs() < 0.15));
-        // What the last two extrapolate to.
+        // Value to which the last two extrapolate.
         assert!((2.0 * lack[2] - lack[1]).abs() < 5e-3);
     }
 }

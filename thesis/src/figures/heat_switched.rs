@@ -67,7 +67,7 @@ fn radial(on: f64, loss: f64, inner: f64) -> Vec<f64> {
     means
 }
 
-/// The same by the thesis's own steps in time, bubbles in a quadratic wheel and contact without friction, so many
+/// Temperatures by the thesis's own steps in time, bubbles in a quadratic wheel and contact without friction, so many
 /// seconds each; the last entries of a row are what is missing in the heat balance and what the chords of the rims let
 /// in [W/m].
 fn by_method(on: f64, step: f64) -> Result<Vec<[f64; 5]>, String> {

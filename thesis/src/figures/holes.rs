@@ -181,7 +181,7 @@ fn assumed(force: [f64; 2]) -> Result<(Vec<Other>, f64), String> {
     Ok((all, worst))
 }
 
-/// The same by the thesis's scheme: backward Euler, steps of 1 µs, no damping.
+/// Motion by the thesis's scheme: backward Euler, steps of 1 µs, no damping.
 fn small_by_the_thesis() -> Result<Vec<[f64; 2]>, String> {
     let [load, velocity] = B;
     let [wheel, rail] = mesh_heat::meshes(load, mesh_heat::BASE, 2)?;

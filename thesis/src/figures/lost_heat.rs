@@ -35,7 +35,7 @@ impl Candidate {
         [0, 1].map(|body| (self.means[body] / STATED[body]).ln().abs().exp())
     }
 
-    /// Whether the wheel is within a factor of three and the rail within two.
+    /// True where the wheel is within a factor of three and the rail within two.
     fn explains(&self) -> bool {
         let [wheel, rail] = self.misses();
         wheel < 3.0 && rail < 2.0

@@ -53,7 +53,7 @@ pub(super) fn roll(load: f64, law: Law, bodies: &[Mesh; 2], creepage: f64) -> Re
     Ok((forward / (law.friction * up), spots(&system, &state)))
 }
 
-/// What the heat of rolling depends on beside mesh and contact; as in [`Heating`].
+/// Parameters of the heat of rolling beside mesh and contact; as in [`Heating`].
 #[derive(Clone, Copy)]
 pub(super) struct Thermal {
     /// Functions and stabilisation of the wheel.
@@ -64,7 +64,7 @@ pub(super) struct Thermal {
     pub contact: [f64; 2],
     /// Heat into each arc [W/m].
     pub arcs: f64,
-    /// Whether the hub is held at the reference.
+    /// True with the hub held at the reference.
     pub cold_hub: bool,
 }
 
@@ -75,7 +75,7 @@ impl Thermal {
     }
 }
 
-/// What is heated.
+/// Heating of both bodies.
 pub(super) fn heating<'a>([first, second]: &'a [Mesh; 2], spots: &'a [Spot], thermal: Thermal) -> Heating<'a> {
     let Thermal { wheel, motion, contact, arcs, cold_hub } = thermal;
     let material = [CAPACITY, CONDUCTIVITY];

@@ -58,9 +58,9 @@ struct Pair {
     contact: f64,
     /// Stated numbers of triangles and nodes, and how far they may be off \[1].
     stated: Option<([usize; 2], f64)>,
-    /// Whether the wheel's middles of edges are nodes, too.
+    /// True if the wheel's middles of edges are nodes, too.
     quadratic: bool,
-    /// Whether its centre of gravity was corrected.
+    /// True if its centre of gravity was corrected.
     centred: bool,
 }
 

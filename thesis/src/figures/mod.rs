@@ -42,7 +42,7 @@ use crate::quoted::Status;
 pub struct Predicate {
     /// In words.
     pub says: String,
-    /// Whether it is so.
+    /// Truth of the statement.
     pub holds: bool,
 }
 
@@ -51,13 +51,13 @@ pub struct Predicate {
 pub struct Figure {
     /// Its name in the thesis: `I 5.1`, `B 5`.
     pub item: &'static str,
-    /// What it shows.
+    /// Title.
     pub title: &'static str,
-    /// What came out.
+    /// Outcome.
     pub status: Status,
     /// Parameters; assumed ones are marked in words.
     pub parameters: &'static str,
-    /// What was found, in words.
+    /// Finding, in words.
     pub finding: String,
     /// Drawings.
     pub plots: Vec<Plot>,
@@ -68,7 +68,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// What is wrong with it: nothing that tests it, something that does not hold, or curves that look alike.
+    /// Flaws of the item: nothing that tests it, something that does not hold, or curves that look alike.
     pub fn flaws(&self) -> Vec<String> {
         if self.predicates.is_empty() {
             return vec![format!("{}: nothing tests it", self.item)];
@@ -138,7 +138,7 @@ pub enum Recipe {
 }
 
 impl Recipe {
-    /// Whether it has more points or meshes in full.
+    /// True if it has more points or meshes in full.
     pub fn grows(self) -> bool {
         matches!(self, Self::Extended(_))
     }
@@ -152,7 +152,7 @@ impl Recipe {
     }
 }
 
-/// What is recomputed so far, with the items that each function covers.
+/// Recomputed items, with the function that covers each.
 pub const ALL: &[(&str, Recipe)] = &[
     ("I 4.2", Recipe::Fixed(introduction::rod)),
     ("I 5.1", Recipe::Fixed(introduction::schemes)),
@@ -200,7 +200,7 @@ pub const ALL: &[(&str, Recipe)] = &[
     ("D 19–21", Recipe::Fixed(sliding_hole::sharp)),
 ];
 
-/// What is not recomputed yet.
+/// Items that are not recomputed yet.
 pub const MISSING: &[&str] = &[];
 
 /// A statement and whether it holds.

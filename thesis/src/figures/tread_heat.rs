@@ -32,7 +32,7 @@ fn rail_plot(axis: &str, places: &[f64], means: &[f64]) -> Plot {
     plot
 }
 
-/// Whether a mean rises from each value to the next, and by less than a thousandth in all.
+/// True for a mean that rises from each value to the next, and by less than a thousandth in all.
 fn slight(means: &[f64]) -> bool {
     means.windows(2).all(|pair| pair[1] > pair[0]) && means[means.len() - 1] < 1.001 * means[0]
 }

@@ -18,7 +18,7 @@ const READINGS: [&str; 5] = [
     "stress of a triangle of the wheel",
     "mean stress of the triangles at a node of the wheel",
 ];
-/// What the thesis states for its plate and for one five times as large, over Hertz.
+/// Values of the thesis for its plate and for one five times as large, over Hertz.
 const STATED: [f64; 2] = [0.968, 0.997];
 
 /// Largest pressures over Hertz'.
@@ -121,7 +121,7 @@ impl Validation {
         ]
     }
 
-    /// What must hold.
+    /// Conditions that must hold.
     pub(super) fn predicates(&self) -> Vec<Predicate> {
         let ([small, large], [low, high]) = (self.ours, self.range());
         let [nodal, equal, ellipse, triangle, node] = self.read[1];
