@@ -13,7 +13,7 @@ use super::super::thermal_state::ThermalState;
 use super::super::zones;
 use super::goal::{Goal, Trial};
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, ContactError, Friction, FrictionLaw, Heating};
+use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
@@ -155,20 +155,7 @@ impl Pass<'_> {
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };
-        let mut solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
-        if let Err(ContactError::NotConverged { .. }) = solved
-            && state.lines.iter().any(|line| !line.weakening().strength.is_empty())
-        {
-            // On coarse meshes a very hot contact may find no state that yields: then the first steps yield.
-            let contact = ContactStep { cold_steel: true, ..contact };
-            solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
-        }
-        solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
-            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => {
-                beyond
-            }
-            _ => model.contact.failure(error, 0.0, 0.0),
-        })?;
+        self.solve(contact, (state, trial), &mut workspace.contact, next)?;
         let accelerations = trial.accelerations;
         model.bodies.commit(&operators, free, accelerations, &td, state, next);
 
@@ -188,6 +175,31 @@ impl Pass<'_> {
         });
         let change = lines.fold(0.0, f64::max);
         Ok((0..3).map(unbalanced).fold(change, f64::max) / scale(model, resultant))
+    }
+
+    /// Solves the contact; `contact` is its problem.
+    fn solve(
+        &self,
+        contact: ContactStep,
+        (state, trial): (&State, &Trial),
+        scratch: &mut ContactScratch,
+        next: &mut State,
+    ) -> Result<(), StepError> {
+        let model = self.model;
+        let mut solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
+        if let Err(ContactError::NotConverged { .. }) = solved
+            && state.lines.iter().any(|line| !line.weakening().strength.is_empty())
+        {
+            // On coarse meshes a very hot contact may find no state that yields: then the first steps yield.
+            let contact = ContactStep { cold_steel: true, ..contact };
+            solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
+        }
+        solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
+            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => {
+                beyond
+            }
+            _ => model.contact.failure(error, 0.0, 0.0),
+        })
     }
 
     /// Refuses a tangential force beyond a `share` of what friction carries.

@@ -22,7 +22,7 @@ mod prediction;
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
-use super::state::{State, StepControl};
+use super::state::{Pressing, State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
@@ -129,6 +129,47 @@ fn resolving_step(model: &RollingModel, state: &State, h: f64) -> f64 {
     (wave / (STEPS_PER_WAVE * speed)).min(AUTOMATIC)
 }
 
+/// Number of pieces into which `solver.max_step`, or the surfaces, divide a communication step of `h` seconds.
+fn fewest_pieces(model: &RollingModel, tuning: &Tuning, state: &State, h: f64) -> Result<u64, StepError> {
+    let max_step = if tuning.max_step > 0.0 { tuning.max_step } else { resolving_step(model, state, h) };
+    let pieces = (h / max_step - 1e-9).ceil().max(1.0) as u64;
+    if pieces > MOST_PIECES {
+        return Err(StepError::TooManySteps { step: h, max_step, pieces, most: MOST_PIECES });
+    }
+    Ok(pieces)
+}
+
+/// Sums and means over the internal steps of a communication step.
+#[derive(Default)]
+struct Sums {
+    /// Internal steps, and their contact iterations.
+    counts: [u64; 2],
+    /// Mean heat flows of every line [W/m].
+    flows: Vec<HeatFlows>,
+    pressing: Pressing,
+}
+
+impl Sums {
+    /// Adds the internal step of `dt` seconds that ended in `next`, one of a communication step of `h` seconds.
+    fn add(&mut self, next: &State, dt: f64, h: f64) {
+        self.counts = [self.counts[0] + 1, self.counts[1] + next.iterations() as u64];
+        self.flows.resize(next.lines.len(), HeatFlows::default());
+        for (flows, line) in self.flows.iter_mut().zip(&next.lines) {
+            line.thermal.iter().for_each(|thermal| flows.add(dt / h, &thermal.flows));
+        }
+        self.pressing.add(next, dt);
+    }
+
+    /// Gives a state what its communication step has summed up.
+    fn give(self, state: &mut State) {
+        state.pressing = self.pressing;
+        for (line, flows) in state.lines.iter_mut().zip(self.flows) {
+            line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
+        }
+        [state.clock.internal_steps, state.clock.iterations] = self.counts;
+    }
+}
+
 /// Takes all internal steps; `now` is the state after the last one, `next` a buffer.
 fn march(
     model: &RollingModel,
@@ -139,19 +180,14 @@ fn march(
     now: &mut State,
     next: &mut State,
 ) -> Result<(), StepError> {
-    let longest = if tuning.max_step > 0.0 { tuning.max_step } else { resolving_step(model, state, ramp.h) };
-    let fewest = (ramp.h / longest - 1e-9).ceil().max(1.0) as u64;
-    if fewest > MOST_PIECES {
-        let (step, max_step) = (ramp.h, longest);
-        return Err(StepError::TooManySteps { step, max_step, pieces: fewest, most: MOST_PIECES });
-    }
+    let fewest = fewest_pieces(model, tuning, state, ramp.h)?;
     let mut place = Place { done: 0, pieces: fewest };
     let mut control = Control::new(tuning, state.clock.control);
     while !control.allows(ramp.h / place.pieces as f64) {
         place.halve();
     }
-    let (mut last_step, mut failures, mut begun, mut counts) = (state.clock.last_step, 0, false, [0, 0]);
-    let (mut flows, mut pressing) = (Vec::new(), state.pressing.begun());
+    let (mut last_step, mut failures, mut begun) = (state.clock.last_step, 0, false);
+    let mut sums = Sums { pressing: state.pressing.begun(), ..Sums::default() };
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
@@ -181,27 +217,17 @@ fn march(
             return Err(StepError::Overheated { temperature: found.hottest, highest });
         }
         control.memory.before = controlled(model, from);
-        place.done += 1;
-        failures = 0;
+        (place.done, failures) = (place.done + 1, 0);
         if control.grows(&found, dt) {
             place.join(fewest);
         }
-        counts = [counts[0] + 1, counts[1] + next.iterations() as u64];
-        flows.resize(next.lines.len(), HeatFlows::default());
-        for (flows, line) in flows.iter_mut().zip(&next.lines) {
-            line.thermal.iter().for_each(|thermal| flows.add(dt / ramp.h, &thermal.flows));
-        }
-        pressing.add(next, dt);
-        last_step = next.clock.last_step;
-        begun = true;
+        sums.add(next, dt, ramp.h);
+        (last_step, begun) = (next.clock.last_step, true);
         std::mem::swap(now, next);
     }
-    (now.clock.control, now.pressing) = (control.memory, pressing);
+    now.clock.control = control.memory;
     now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
     now.hub.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
-    for (line, flows) in now.lines.iter_mut().zip(flows) {
-        line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
-    }
-    [now.clock.internal_steps, now.clock.iterations] = counts;
+    sums.give(now);
     Ok(())
 }
