@@ -10,9 +10,10 @@ use std::f64::consts::PI;
 use wheelrail::analytic::{carter_force, carter_full_slip, hertz_half_width};
 use wheelrail::config::{Config, ContactMethod, StartTemperature, Wear};
 use wheelrail::mechanics::{Basis, bodies};
+use wheelrail::piecewise::Piecewise;
 use wheelrail::rolling::outputs::observe;
 use wheelrail::rolling::{
-    Inputs, ModelError, RollingModel, Rotation, State, Translation, Workspace, stationary, substeps,
+    Inputs, Line, ModelError, RollingModel, Rotation, State, Translation, Workspace, stationary, substeps,
 };
 use wheelrail::simulation::Outputs;
 use wheelrail::surface::Surfaces;
@@ -235,6 +236,40 @@ fn lines_of_different_load_and_friction_each_have_the_creep_force_of_carter() {
             assert!((force - carter).abs() < 3e-3 * line.friction * load);
         }
     }
+}
+
+/// Smallest ratio of the loads of the first and the last line while a dent of the wheel under the first one passes, that
+/// ratio at the end, and the largest and the last energy residual.
+fn dent_passes(shares: &[f64], step: f64) -> ([f64; 2], [f64; 2]) {
+    let mut config = small("railway");
+    (config.thermal.enabled, config.tuning.max_step) = (false, step);
+    let model = model(&config, shares).unwrap();
+    let (mut workspace, inputs) = (Workspace::default(), Inputs::rolling(&config));
+    let mut state = stationary::start(&model, &config.tuning, &inputs, &mut workspace).unwrap();
+    let x: Vec<f64> = (-60..=60).map(|k| 1e-3 * f64::from(k)).collect();
+    let value = x.iter().map(|x| 50e-6 * (0.5 * PI * x / 0.06).cos().powi(2)).collect();
+    state.lines[0].flattening[0].indent(0.1, &Piecewise { x, value }, 5e-4);
+    let (mut ratio, mut residual) = ([f64::INFINITY; 2], [0.0; 2]);
+    for _ in 0..16 {
+        let mut next = State::default();
+        substeps::advance(&model, &config.tuning, &state, &inputs, 5e-4, &mut workspace, &mut next).unwrap();
+        state = next;
+        let load = |line: &Line| line.contact.traction.resultant[1];
+        let now = load(&state.lines[0]) / state.lines.last().map_or(0.0, load);
+        let missing = observe(&model, &state).energy_residual;
+        (ratio, residual) = ([ratio[0].min(now), now], [f64::max(residual[0], missing.abs()), missing]);
+    }
+    println!("{shares:?}, {step:e} s: ratio of the loads {ratio:?}, residual {residual:?}");
+    (ratio, residual)
+}
+
+/// While a dent passes under one of two lines, the other one takes over load, and the flexibility that each has for itself
+/// stores energy and gives it back: what the balance misses falls with the square of the step.
+#[test]
+fn energy_is_balanced_while_a_dent_passes_one_of_two_lines() {
+    let [(coarse, missing), (fine, less)] = [1e-4, 2.5e-5].map(|step| dent_passes(&[0.4, 0.6], step));
+    assert!(fine[0] < 0.6 && (coarse[0] / fine[0] - 1.0).abs() < 1e-3 && (fine[1] - 1.0).abs() < 1e-9);
+    assert!(less[0] < 5e-4 && missing[0] / less[0] > 8.0, "{missing:?} {less:?}");
 }
 
 #[test]
