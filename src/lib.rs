@@ -44,7 +44,7 @@
 //! | [`files`] | reading of regular files of bounded size | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
-//! | [`mechanics`] | bodies behind [`mechanics::BodyResponse`] | [ale-balance], [condensation], [damping], [rail-ends] |
+//! | [`mechanics`] | bodies: [`mechanics::BodyResponse`] | [ale-balance], [condensation], [damping], [rail-ends] |
 //! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, direct solver | [heat] |
 //! | [`surface`] | shapes of both surfaces: files, waves, roughness, holes, joints, flats; dents; wear | [profiles] |
 //! | [`contact`] | Coulomb contact behind [`contact::ContactSolver`]; friction laws | [contact], [patch-contact] |

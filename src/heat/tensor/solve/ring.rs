@@ -203,8 +203,8 @@ impl<V: Copy> Filled<'_, V> {
 
     /// The steps of [`factorise`] for the registers `at..at + B`.
     ///
-    /// A function of its own beside [`Self::eliminate`]: both share the pivot alone, and one for both would ask in every
-    /// row of the vectorised loop which of them it is.
+    /// A function of its own beside [`Self::eliminate`]: both share the pivot alone, and one for both would ask in
+    /// every row of the vectorised loop which of them it is.
     #[inline(always)]
     fn finish<const B: usize>(
         &mut self,
