@@ -62,7 +62,7 @@ def transfer(v, deceleration):
 
 @pytest.mark.parametrize("payload", [0.0, 20000.0])
 def test_load_transfer_is_that_of_a_rigid_coach(low_adhesion, payload):
-    low_adhesion.vehicle.body.payload, low_adhesion.speed = payload, 15.0
+    low_adhesion.vehicle.body.payload, low_adhesion.speed, low_adhesion.step = payload, 15.0, 0.01
     table = stopped(low_adhesion)
     time, speed = report.column(table, "time"), report.column(table, "speed")
     steady = (time > 9.0) & (time < 13.0)
@@ -77,7 +77,7 @@ def test_load_transfer_is_that_of_a_rigid_coach(low_adhesion, payload):
 
 @pytest.mark.parametrize("speed", [10.0, 38.8889])
 def test_a_dry_stop_is_as_long_as_the_closed_form_says(low_adhesion, speed):
-    low_adhesion.speed = speed
+    low_adhesion.speed, low_adhesion.step, low_adhesion.hold = speed, 0.01, 0.0
     found, expected = distance(stopped(low_adhesion)), closed_form(low_adhesion)
     print(f"{speed:g} m/s: {found:.3f} m, closed form {expected:.3f} m")
     assert found == pytest.approx(expected, rel=0.005)
@@ -122,7 +122,7 @@ def test_energy_of_a_stop_goes_into_brakes_contacts_and_dampers(low_adhesion):
     for part in (v.primary, v.secondary):
         part.longitudinal_damping = part.vertical_damping = 0.0
     v.traction_rod.damping = 0.0
-    low_adhesion.step, low_adhesion.speed, low_adhesion.hold = 0.0025, 20.0, 0.0
+    low_adhesion.step, low_adhesion.speed, low_adhesion.hold = 0.0025, 12.0, 0.0
     table = stopped(low_adhesion)
     moving = report.column(table, "speed") > 5.0
     last = np.flatnonzero(moving)[-1]

@@ -17,7 +17,7 @@ from wheelrail.brake import Valve
 from wheelrail.parallel import HeldCoach
 from wheelrail.vehicle import AXLES
 
-STEP, END = 2e-3, 24.0  # s
+STEP, END = 5e-3, 24.0  # s
 TOLERANCE = 1e-11  # over the largest value of an output
 # Outputs of the coach by axle, and the names of the wheel's inputs they drive.
 DRIVEN = {f"axle{k}.{name}": (k - 1, target) for k in range(1, AXLES + 1) for name, target in ssp.TO_WHEEL.items()}

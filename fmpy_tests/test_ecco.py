@@ -7,7 +7,7 @@ import pytest
 import ex07_suspension as suspension
 from wheelrail.ecco import Bond, StepControl, work
 
-SHORT = {"mesh.elements_per_half_width": 10}
+SHORT = {"mesh.elements_per_half_width": 6}
 
 
 @pytest.fixture

@@ -4,6 +4,8 @@ import pytest
 
 from wheelrail import Refused
 
+COARSE = {"mesh.elements_per_half_width": 10}
+
 
 def drive(wheel, outputs, first, count):
     """Steps with inputs that change every time, control switches included; all outputs of all steps."""
@@ -20,7 +22,7 @@ def drive(wheel, outputs, first, count):
 
 
 def test_restored_state_repeats_every_bit(start, outputs):
-    wheel = start({"initial.velocity": 20.0})
+    wheel = start(COARSE | {"initial.velocity": 20.0})
     drive(wheel, outputs, 0, 25)
     saved = wheel.save()
     before = wheel.get(*outputs)
@@ -34,7 +36,7 @@ def test_restored_state_repeats_every_bit(start, outputs):
 
 
 def test_serialized_state_continues_in_another_instance(start, outputs):
-    one, other = start({"initial.velocity": 20.0}), start({"initial.velocity": 5.0, "vehicle.mass": 500.0})
+    one, other = start(COARSE | {"initial.velocity": 20.0}), start(COARSE | {"initial.velocity": 5.0, "vehicle.mass": 500.0})
     drive(one, outputs, 0, 25)
     saved = one.save()
     data = one.slave.serializeFMUstate(saved[0])
@@ -49,7 +51,7 @@ def test_serialized_state_continues_in_another_instance(start, outputs):
 
 @pytest.mark.parametrize("damage", [lambda data: data[: len(data) // 2], lambda data: b"\0" * len(data), lambda _: b""])
 def test_damaged_bytes_are_refused_and_the_run_goes_on(start, outputs, damage):
-    wheel, twin = start({"initial.velocity": 20.0}), start({"initial.velocity": 20.0})
+    wheel, twin = start(COARSE | {"initial.velocity": 20.0}), start(COARSE | {"initial.velocity": 20.0})
     saved = wheel.save()
     data = wheel.slave.serializeFMUstate(saved[0])
     with pytest.raises(Refused):
@@ -59,12 +61,12 @@ def test_damaged_bytes_are_refused_and_the_run_goes_on(start, outputs, damage):
 
 
 def test_reset_repeats_the_run_bit_by_bit(start, outputs):
-    wheel, fresh = start({"initial.velocity": 20.0}), start({"initial.velocity": 20.0})
+    wheel, fresh = start(COARSE | {"initial.velocity": 20.0}), start(COARSE | {"initial.velocity": 20.0})
     drive(wheel, outputs, 0, 30)
     wheel.slave.reset()
     wheel.time = 0.0
     wheel.slave.setupExperiment(startTime=0.0)
-    wheel.set({"initial.velocity": 20.0})
+    wheel.set(COARSE | {"initial.velocity": 20.0})
     wheel.slave.enterInitializationMode()
     wheel.slave.exitInitializationMode()
     assert drive(wheel, outputs, 0, 30) == drive(fresh, outputs, 0, 30)

@@ -19,7 +19,7 @@ def coach():
     """A short stop with coarse steps."""
     s = scenario.load(LOW_ADHESION)
     s.speed, s.step = 8.0, 0.01
-    s.wheel |= {"mesh.elements_per_half_width": 10}
+    s.wheel |= {"mesh.elements_per_half_width": 6}
     return s
 
 

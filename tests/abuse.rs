@@ -235,7 +235,11 @@ impl<'a> Master<'a> {
         let legal = !self.chance(0.1);
         let h = match (legal, self.calm) {
             (true, true) => self.random.logarithmic(1e-6, 2e-3),
-            (true, false) if self.chance(0.1) => self.random.logarithmic(1e-2, 1.0),
+            (true, false) if self.chance(0.1) => {
+                // A second takes as long as hundreds of other calls.
+                let longest = if self.chance(0.1) { 1.0 } else { 0.1 };
+                self.random.logarithmic(1e-2, longest)
+            }
             (true, false) => self.random.logarithmic(1e-6, 1e-2),
             _ => self.random.of(&[0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 3601.0]),
         };

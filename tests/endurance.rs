@@ -9,7 +9,7 @@ use scenario::{Drive, PHASES};
 
 #[test]
 fn thirty_thousand_steps_of_mixed_driving_keep_energy_and_memory() {
-    let mut config = common::preset("railway", 20);
+    let mut config = common::preset("railway", 10);
     config.initial.velocity = 0.0;
     let mut drive = Drive::new(common::model(config), 1e-3).unwrap();
     let (mut worst, mut start) = (0.0f64, 0);

@@ -66,7 +66,7 @@ fn a_slide_of_two_seconds_leaves_a_flat_of_martensite_independent_of_ring_mesh_a
     let with = |resolution: f64, h: f64| {
         let mut config = coarse();
         config.damage.resolution = resolution;
-        flat(config, 2.0, 10.0, h)
+        flat(config, 2.0, 4.0, h)
     };
     let [usual, fine, long] = [with(1.0, 1e-3), with(0.5, 1e-3), with(1.0, 5e-3)];
     assert!(usual.flats == 1 && usual.ac1_depth > 1e-3 && usual.cooling_rate > 100.0);

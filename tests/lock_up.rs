@@ -8,7 +8,7 @@ use wheelrail::simulation::{Drive, Inputs, Rotation, Simulation};
 
 /// The railway wheel with few elements per half-width.
 fn coarse(velocity: f64) -> Config {
-    let mut config = preset("railway", 6);
+    let mut config = preset("railway", 4);
     config.initial.velocity = velocity;
     config
 }

@@ -96,7 +96,7 @@ fn closed_solution(config: &Config, a: f64, power: &dyn Fn(f64) -> f64) -> Vec<[
     // Times that grow, through those of the comparison.
     let mut times = vec![0.0];
     for (&start, &end) in [1e-5_f64].iter().chain(&TIMES).zip(&TIMES) {
-        let steps = ((end / start).ln() / 0.04).ceil();
+        let steps = ((end / start).ln() / 0.055).ceil();
         times.extend((0..steps as usize).map(|k| start * (end / start).powf(k as f64 / steps)));
     }
     times.push(TIMES[TIMES.len() - 1]);

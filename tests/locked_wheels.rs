@@ -10,7 +10,7 @@ use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
 /// Time in which the rotation is stopped [s].
 const LOCK: f64 = 0.02;
 /// End of the slide [s].
-const END: f64 = 0.3;
+const END: f64 = 0.15;
 /// Time from which on the slide counts [s].
 const SETTLED: f64 = 0.05;
 /// `(2 + π)/√3`.
@@ -122,7 +122,7 @@ fn a_locked_dry_wheel_keeps_the_limits_of_its_steel_whatever_the_step() {
 /// over the last `window` seconds.
 fn slow_slide(speed: f64, tolerance: f64, h: f64, [end, window]: [f64; 2]) -> (Vec<[f64; 2]>, f64) {
     const LOCKED: f64 = 0.05;
-    let mut config = preset("railway_dry", 10);
+    let mut config = preset("railway_dry", 6);
     config.initial.velocity = speed;
     config.tuning.tolerance = tolerance;
     let model = model(config);
@@ -183,7 +183,7 @@ fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
 
 /// A dry wheel with friction that falls with the slip: inputs that hold its speed, and the simulation.
 fn rolling(speed: f64, softening: f64) -> (Simulation, Inputs) {
-    let mut config = preset("railway_dry", 10);
+    let mut config = preset("railway_dry", 6);
     config.initial.velocity = speed;
     config.tuning.softening = softening;
     let model = model(config);

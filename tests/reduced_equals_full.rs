@@ -7,7 +7,7 @@ use wheelrail::simulation::Simulation;
 
 #[test]
 fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
-    let mut config = preset("paper_d", 20);
+    let mut config = preset("paper_d", 10);
     let reduced = model(config.clone());
     config.solver.response = Response::Full;
     let full = model(config);
@@ -25,10 +25,10 @@ fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
     let mut a = Simulation::new(reduced.clone(), &inputs).unwrap();
     let mut b = Simulation::new(full.clone(), &inputs).unwrap();
     let mut worst = 0.0f64;
-    for k in 1..=100 {
-        inputs.drive.omega = omega(&reduced, 50.0 * KMH, -8e-4 * (k as f64 / 70.0).min(1.0));
-        a.advance(&inputs, 1e-5).unwrap();
-        b.advance(&inputs, 1e-5).unwrap();
+    for k in 1..=50 {
+        inputs.drive.omega = omega(&reduced, 50.0 * KMH, -8e-4 * (k as f64 / 35.0).min(1.0));
+        a.advance(&inputs, 2e-5).unwrap();
+        b.advance(&inputs, 2e-5).unwrap();
         let (a, b) = (a.outputs(), b.outputs());
         worst = worst.max((a.contact_force_x - b.contact_force_x).abs() / inputs.drive.load);
         worst = worst.max((a.contact_force_y - b.contact_force_y).abs() / inputs.drive.load);

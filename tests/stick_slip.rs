@@ -283,7 +283,7 @@ fn both_responses(h: f64, time: f64) -> [Vec<f64>; 2] {
 fn reduced_and_full_response_swing_alike() {
     let h = 5e-5;
     // After the dip, whose jump excites modes that the reduced response has not.
-    let [reduced, full] = both_responses(h, 0.006).map(|slips| slips[20..].to_vec());
+    let [reduced, full] = both_responses(h, 0.0045).map(|slips| slips[20..].to_vec());
     let (low, high) = range(&full);
     let differences = reduced.iter().zip(&full).map(|(a, b)| (a - b).abs() / (high - low));
     let worst = differences.fold(0.0, f64::max);

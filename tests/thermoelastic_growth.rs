@@ -119,7 +119,7 @@ fn coupling(config: &Config) -> f64 {
 fn the_contraction_of_a_locked_patch_converges_in_step_and_mesh() {
     let times = [0.02, 0.05, 0.1, 0.15, 0.2];
     let run = |model: &Arc<Model>, h: f64| growth(model, [0.04, 0.01], &times, h);
-    let (step, mesh) = refine("pressure over the cold one less 1", [5e-4, 2.5e-4, 1.25e-4], [10, 20, 40], &run);
+    let (step, mesh) = refine("pressure over the cold one less 1", [5e-4, 2.5e-4, 1.25e-4], [8, 16, 32], &run);
     assert!(converged(step, 0.01), "{step:?}");
     assert!(converged(mesh, 0.02), "{mesh:?}");
 }
@@ -132,7 +132,7 @@ fn the_contraction_of_a_locked_patch_converges_in_step_and_mesh() {
 #[test]
 fn the_first_growth_of_the_pressure_in_a_dry_slide_converges_in_step_and_mesh() {
     let run = |model: &Arc<Model>, h: f64| growth(model, [0.3, 0.002], &[0.001, 0.0015, 0.002], h);
-    let (step, mesh) = refine("pressure over the cold one less 1, dry", [1e-5, 5e-6, 2.5e-6], [10, 20, 40], &run);
+    let (step, mesh) = refine("pressure over the cold one less 1, dry", [1e-5, 5e-6, 2.5e-6], [8, 16, 32], &run);
     assert!(converged(step, 0.02), "{step:?}");
     assert!(converged(mesh, 0.02), "{mesh:?}");
 }
@@ -162,5 +162,5 @@ fn a_disturbance_inside_the_patch_does_not_grow_at_any_step_and_mesh() {
         assert!(all[1..].iter().all(|later| *later < 1.2 * all[0]), "{all:?}");
         all[..compared].to_vec()
     };
-    refine("disturbance after 5, 10, 20 ms", [5e-4, 2.5e-4, 1.25e-4], [10, 20, 40], &run);
+    refine("disturbance after 5, 10, 20 ms", [5e-4, 2.5e-4, 1.25e-4], [8, 16, 32], &run);
 }

@@ -258,8 +258,8 @@ mod tests {
                 let op = body.operator(td.a0).unwrap();
                 let n = op.surface.nrows();
                 let mut state = BodyState::zeros(body.state_len());
-                let run = (1..=60).map(|k| {
-                    let level = (f64::from(k) / 20.0).min(1.0);
+                let run = (1..=30).map(|k| {
+                    let level = (f64::from(k) / 10.0).min(1.0);
                     let forces = DVector::from_fn(n, |i, _| match (i.abs_diff(n / 2) < 8, i % 2) {
                         (true, 1) => -2e4 * level,
                         (true, _) => 4e3 * level,

@@ -223,12 +223,12 @@ mod tests {
                 // A short step of backward Euler supplies the acceleration after the release.
                 let (start, none) = (TimeDerivative { a0: 1e7, a1: -1e7, a2: 0.0, b1: 0.0 }, DVector::zeros(ports));
                 let mut state = after(body, &body.operator(start.a0).unwrap(), &loaded, &start, &none);
-                let dt = 2e-5;
+                let dt = 4e-5;
                 let td = trapezoidal(dt);
                 let op = body.operator(td.a0).unwrap();
                 let initial = body.energy(&state, &none, [0.0; 3]);
                 let mut dissipated = 0.0;
-                for _ in 0..200 {
+                for _ in 0..100 {
                     let next = after(body, &op, &state, &td, &none);
                     let velocity = 0.5 * (&state.velocity + &next.velocity);
                     let step = dt * body.dissipation(&BodyState { velocity, ..next.clone() }, 0.0);

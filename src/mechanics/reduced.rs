@@ -308,7 +308,7 @@ mod tests {
         }
     }
 
-    /// 40 BDF2 steps of 0.5 ms of a rolling body under a ramped load; tolerance 1e-3 of the largest displacement.
+    /// 24 BDF2 steps of 0.5 ms of a rolling body under a ramped load; tolerance 1e-3 of the largest displacement.
     #[test]
     fn reduced_and_full_bodies_move_alike() {
         let dt = 5e-4;
