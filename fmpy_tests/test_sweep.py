@@ -21,7 +21,7 @@ def many():
     """64 short stops."""
     s = scenario.load(TRAIN / "low_adhesion.json")
     s.step, s.hold = 0.01, 0.0
-    s.sweep.speed, s.sweep.adhesion = [1.5, 2.0, 3.0, 4.0], [0.05, 0.08, 0.12, 0.2]
+    s.sweep.speed, s.sweep.adhesion = [0.5, 1.0, 1.5, 4.0], [0.05, 0.08, 0.12, 0.2]
     s.sweep.payload, s.sweep.slide_high = [0.0, 10000.0], [0.15, 0.25]
     return s
 

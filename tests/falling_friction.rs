@@ -165,7 +165,7 @@ fn derivatives_see_the_friction_that_falls() {
 #[test]
 fn sampled_force_energy_and_moment_of_a_held_slip_agree_where_friction_falls_by_default() {
     for (load, h) in [(0.5_f64, 1e-4_f64), (0.5, 2e-5), (0.1, 1e-4), (0.95, 1e-4)] {
-        let mut config = preset("railway", 20);
+        let mut config = preset("railway", 10);
         config.thermal.enabled = false;
         config.model.nominal_load = 200e3;
         (config.initial.velocity, config.friction.coefficient) = (15.0, 0.4);

@@ -169,7 +169,9 @@ fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
 
 fn goes_back(heat: bool) {
     // The moment jumps in such a way that the grid takes over in between.
-    let model = solved_by(ContactMethod::Auto, "railway", |config| config.thermal.enabled = heat);
+    let model = solved_by(ContactMethod::Auto, "railway", |config| {
+        (config.mesh.elements_per_half_width, config.thermal.enabled) = (10, heat);
+    });
     let (mut simulation, inputs, _) = braked(&model, 30);
     assert!(is_patch(&simulation));
     let checkpoint = simulation.checkpoint().clone();

@@ -381,8 +381,8 @@ fn a_nearly_perfect_conductance_in_a_locked_slide_cools_nothing_below_the_coldes
 
 #[test]
 fn friction_that_does_not_soften_melts_the_contact_and_heats_it_no_further_at_any_step() {
-    for (steps, dt) in [(300, 1e-3), (750, 2e-4), (1800, 5e-5)] {
-        let mut config = common::preset("railway", 10);
+    for (steps, dt) in [(150, 1e-3), (300, 2e-4), (800, 5e-5)] {
+        let mut config = common::preset("railway", 6);
         (config.tuning.softening, config.initial.velocity) = (0.0, 60.0 / 3.6);
         let dry = |inputs: &mut Inputs| {
             locked(inputs);

@@ -104,12 +104,12 @@ fn the_tangent_of_a_step_is_that_of_differences_with_moment_and_force_at_once() 
 #[test]
 fn moment_and_force_at_once_give_back_the_velocities_that_need_them() {
     for (load, rate, locks) in
-        [(1.0, 3e-5, false), (1.0, -3e-5, false), (0.1, 1e-5, false), (1.9, 4e-5, false), (1.0, 3e-5, true)]
+        [(1.0, 4e-5, false), (1.0, -4e-5, false), (0.1, 1.3e-5, false), (1.9, 5.3e-5, false), (1.0, 4e-5, true)]
     {
         let (system, meshes) = bodies(load);
         let (mut first, mut second) = (start(&system, &meshes, 0.0), start(&system, &meshes, 0.0));
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for k in 1..=12 {
+        for k in 1..=9 {
             let velocity = VELOCITY * (1.0 - 2e-5 * f64::from(k));
             let held = if locks { 1.0 - f64::from(k.min(8)) / 8.0 } else { 1.0 };
             let target = held * omega(rate * f64::from(k), velocity);
@@ -178,7 +178,7 @@ fn a_ramp_of_the_creepage_converges_with_the_order_of_backward_euler() {
         }
         utilisation(&rolling)
     };
-    let found = [15, 30, 60].map(force);
+    let found = [10, 20, 40].map(force);
     let changes = [found[1] - found[0], found[2] - found[1]];
     let order = (changes[0] / changes[1]).log2();
     println!("{found:.5?}, changes {changes:.5?}, order {order:.3}");
