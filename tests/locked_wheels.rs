@@ -118,8 +118,8 @@ fn a_locked_dry_wheel_keeps_the_limits_of_its_steel_whatever_the_step() {
     }
 }
 
-/// Tangential force [N] and highest temperature [K] of a slide with friction that falls with the slip, step by step, over the
-/// last `window` seconds, in steps of `h`; before them in steps of `approach` [s].
+/// Tangential force [N] and highest temperature [K] of a slide with friction that falls with the slip, step by step,
+/// over the last `window` seconds, in steps of `h`; before them in steps of `approach` [s].
 fn slow_slide(speed: f64, tolerance: f64, [approach, h]: [f64; 2], [end, window]: [f64; 2]) -> (Vec<[f64; 2]>, f64) {
     const LOCKED: f64 = 0.05;
     let mut config = preset("railway_dry", 6);

@@ -103,8 +103,8 @@ fn reflected_pressure_waves_follow_the_formula_for_plane_waves() {
     }
 }
 
-/// A wheel that bounces on a high rail, in which its waves can travel, after a jump of its load: force over load, energy that damping and
-/// ends have taken, and what is missing in the balance [J], in steps of `h` [s] over 10 ms.
+/// A wheel that bounces on a high rail, in which its waves can travel, after a jump of its load: force over load,
+/// energy that damping and ends have taken, and what is missing in the balance [J], in steps of `h` [s] over 10 ms.
 fn bounce(ends: RailEnds, speed: f64, h: f64) -> (Vec<f64>, [f64; 2]) {
     let mut config = preset("paper_d", 4);
     config.thermal.enabled = false;
@@ -125,8 +125,8 @@ fn bounce(ends: RailEnds, speed: f64, h: f64) -> (Vec<f64>, [f64; 2]) {
     (history, [taken, gain - taken - outputs.friction_energy])
 }
 
-/// What is missing in the balance belongs to the jump of the load and the step, whose square it follows: 1.8 % of what is radiated
-/// in steps of 50 µs, 0.42 % in half as long ones. Rolling changes little of what is radiated.
+/// Energy that is missing in the balance belongs to the jump of the load and falls with the square of the step: 1.8 % of
+/// what is radiated in steps of 50 µs, 0.42 % in half as long ones. Rolling changes little of what is radiated.
 #[test]
 fn the_energy_that_the_ends_radiate_closes_the_balance() {
     let [coarse, fine] = [5e-5, 2.5e-5].map(|h| {
@@ -134,7 +134,9 @@ fn the_energy_that_the_ends_radiate_closes_the_balance() {
         let (quiet, taken) = bounce(RailEnds::Nonreflecting, 0.0, h);
         let (radiated, differ) = (taken[0] - lost[0], deviation(&free, &quiet));
         let missing = (taken[1] - lost[1]) / radiated;
-        println!("{h} s: {radiated:.3e} J radiated, of which {missing:.1e} are missing; free against quiet force {differ:.1e}");
+        println!(
+            "{h} s: {radiated:.3e} J radiated, of which {missing:.1e} are missing; free against quiet force {differ:.1e}"
+        );
         assert!(radiated > 0.5 * lost[0]);
         [missing.abs(), taken[0]]
     });
