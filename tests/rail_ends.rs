@@ -125,8 +125,8 @@ fn bounce(ends: RailEnds, speed: f64, h: f64) -> (Vec<f64>, [f64; 2]) {
     (history, [taken, gain - taken - outputs.friction_energy])
 }
 
-/// Energy that is missing in the balance belongs to the jump of the load and falls with the square of the step: 1.8 % of
-/// what is radiated in steps of 50 µs, 0.42 % in half as long ones. Rolling changes little of what is radiated.
+/// Energy that is missing in the balance belongs to the jump of the load and falls with the square of the step: 1.8 %
+/// of what is radiated in steps of 50 µs, 0.42 % in half as long ones. Rolling changes little of what is radiated.
 #[test]
 fn the_energy_that_the_ends_radiate_closes_the_balance() {
     let [coarse, fine] = [5e-5, 2.5e-5].map(|h| {

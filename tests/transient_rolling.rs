@@ -161,9 +161,9 @@ impl Ramp {
     }
 }
 
-/// Vibrations of the undamped wheel, which the kinks of the moment excite, ring on top of the ramp at 5 kHz and more. The
-/// mean of the creepage over 0.4 ms leaves them out. Its largest value is 2.840e-4 with an error of 0.006e-4: this model
-/// in steps of 1 to 20 µs, on meshes of 6 to 20 elements, with 40 to 160 modes of the wheel.
+/// Vibrations of the undamped wheel, which the kinks of the moment excite, ring on top of the ramp at 5 kHz and more.
+/// The mean of the creepage over 0.4 ms leaves them out. Its largest value is 2.840e-4 with an error of 0.007e-4: this
+/// model in steps of 1 to 20 µs, on meshes of 6 to 20 elements, with 40 to 160 modes of the wheel.
 #[test]
 fn controlled_fast_ramp_matches_the_reference() {
     let ramp = Ramp::run(20, 1e-5, 1e-2);
@@ -174,9 +174,9 @@ fn controlled_fast_ramp_matches_the_reference() {
 }
 
 /// The peak of the ringing creepage itself needs steps that resolve it: 3.015e-4 in steps of 20 µs, 3.136e-4 of 10,
-/// 3.548e-4 of 5, 3.604e-4 of 2.5, 3.759e-4 of 1.25, 3.772e-4 of 1, 3.780e-4 of 0.75 and 3.785e-4 of 0.5 µs. By the square
-/// of the step it tends to 3.789e-4 with an error of 0.005e-4; with 20 elements it is 3.789e-4 in steps of 0.6 µs. It
-/// belongs to the 80 modes of the model: 3.58e-4 with 160.
+/// 3.548e-4 of 5, 3.604e-4 of 2.5, 3.759e-4 of 1.25, 3.772e-4 of 1, 3.780e-4 of 0.75 and 3.785e-4 of 0.5 µs. By the
+/// square of the step it tends to 3.789e-4 with an error of 0.005e-4; with 20 elements it is 3.789e-4 in steps of
+/// 0.6 µs. It belongs to the 80 modes of the model: 3.58e-4 with 160.
 #[test]
 fn the_peak_of_a_fast_ramp_is_that_of_ever_shorter_steps() {
     let peak = Ramp::run(10, 1e-6, 2.5e-3).peak(1e-6);
