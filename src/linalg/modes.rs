@@ -179,28 +179,26 @@ mod tests {
     /// its lowest frequency carries the round-off of the stiffest cells).
     #[test]
     fn modes_of_long_low_rails_are_found_although_they_crowd() {
-        for (length, height, counts) in
-            [(0.12, 2.0, &[1, 10][..]), (5.0, 0.1, &[1, 10]), (20.0, 0.02, &[1, 10]), (100.0, 0.02, &[10])]
-        {
+        for (length, height) in [(0.12, 2.0), (5.0, 0.1), (20.0, 0.02), (100.0, 0.02)] {
             let mut config = paper_d(4);
             (config.rail.length, config.rail.height) = (length, height);
             let BodySystem { stiffness, mass, .. } = rail_system(&config).unwrap();
             let factor = Cholesky::new(&stiffness).unwrap();
-            let modes = |count: usize| lowest_modes(&stiffness, &factor, &mass, count, &mut |_| {}).unwrap();
-            let twenty = modes(20);
-            let (kx, mx) = (stiffness.multiply_columns(&twenty.shapes), mass.multiply_columns(&twenty.shapes));
-            for (j, square) in twenty.squared_frequencies.iter().enumerate() {
+            let [one, twenty, forty] =
+                [1, 20, 40].map(|count| lowest_modes(&stiffness, &factor, &mass, count, &mut |_| {}).unwrap());
+            let (kx, mx) = (stiffness.multiply_columns(&forty.shapes), mass.multiply_columns(&forty.shapes));
+            for (j, square) in forty.squared_frequencies.iter().enumerate() {
                 let residual = (kx.column(j) - mx.column(j) * *square).norm() / kx.column(j).norm();
                 assert!(residual < 1e-6, "rail of {length} m, mode {j}: {residual:e}");
             }
-            for fewer in counts.iter().map(|count| modes(*count)) {
-                for (few, many) in fewer.squared_frequencies.iter().zip(&twenty.squared_frequencies) {
+            for fewer in [one, twenty] {
+                for (few, many) in fewer.squared_frequencies.iter().zip(&forty.squared_frequencies) {
                     assert!((few / many - 1.0).abs() < 1e-7, "rail of {length} m: {few} against {many}");
                 }
             }
             let shifted =
                 |square: f64| Cholesky::new(&CsrMatrix::combination(1.0, &stiffness, -square, &mass).unwrap());
-            let lowest = twenty.squared_frequencies[0];
+            let lowest = forty.squared_frequencies[0];
             assert!(shifted(lowest * (1.0 - 1e-6)).is_ok() && shifted(lowest * (1.0 + 1e-6)).is_err());
         }
     }
