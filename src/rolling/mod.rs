@@ -4,7 +4,9 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | [`state`], [`control`], [`error`] | data of a restart; inputs; failures |
+//! | [`state`], [`line`](mod@line), [`thermal_state`] | data of a restart: shared ones, those of a contact line, its temperatures |
+//! | [`lines`] | sums, means and extremes over all lines |
+//! | [`control`], [`error`] | inputs; failures |
 //! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`flattening`], [`wear`] | changes of the surfaces by yielding and friction in a step |
