@@ -176,13 +176,13 @@ mod tests {
     use super::*;
 
     /// Convection and diffusion on a line, preconditioned with the diagonal or not at all.
-    struct Line {
+    struct ConvectedLine {
         convection: f64,
         shift: f64,
         diagonal: bool,
     }
 
-    impl LinearSystem for Line {
+    impl LinearSystem for ConvectedLine {
         fn apply(&mut self, x: &[f64], out: &mut [f64]) {
             for i in 0..x.len() {
                 let before = if i > 0 { x[i - 1] } else { 0.0 };
@@ -204,7 +204,7 @@ mod tests {
         (0..n).map(|i| (1.0 + i as f64).sin()).collect()
     }
 
-    fn residual(system: &mut Line, x: &[f64], b: &[f64]) -> f64 {
+    fn residual(system: &mut ConvectedLine, x: &[f64], b: &[f64]) -> f64 {
         let mut out = vec![0.0; x.len()];
         system.apply(x, &mut out);
         out.iter_mut().zip(b).for_each(|(o, b)| *o -= b);
@@ -215,7 +215,7 @@ mod tests {
     fn solution_of_an_unsymmetric_system_has_the_residual_asked_for() {
         let mut gmres = Gmres::default();
         for (n, diagonal) in [(1, false), (30, false), (200, true), (200, false)] {
-            let mut system = Line { convection: 0.4, shift: 1.0, diagonal };
+            let mut system = ConvectedLine { convection: 0.4, shift: 1.0, diagonal };
             let b = load(n);
             let mut x = b.clone();
             let iterations = gmres.solve(&mut system, &mut x, 1e-12, 1e-10).unwrap();
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn exact_preconditioner_needs_no_iteration_and_zero_stays_zero() {
-        let mut system = Line { convection: 0.0, shift: 0.0, diagonal: true };
+        let mut system = ConvectedLine { convection: 0.0, shift: 0.0, diagonal: true };
         let mut zero = vec![0.0; 10];
         assert_eq!(Gmres::default().solve(&mut system, &mut zero, 1e-12, 1e-12), Ok(0));
         assert!(zero.iter().all(|x| *x == 0.0));
@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn restarts_reach_a_solution_that_one_space_does_not_contain() {
-        let mut system = Line { convection: 0.1, shift: 5e-3, diagonal: false };
+        let mut system = ConvectedLine { convection: 0.1, shift: 5e-3, diagonal: false };
         let b = load(400);
         let mut x = b.clone();
         let iterations = Gmres::default().solve(&mut system, &mut x, 1e-10, 1e-10).unwrap();
@@ -256,8 +256,8 @@ mod tests {
 
     #[test]
     fn singular_systems_are_refused_with_the_residual_and_leave_the_load_alone() {
-        struct Projection;
-        impl LinearSystem for Projection {
+        struct SingularProjection;
+        impl LinearSystem for SingularProjection {
             fn apply(&mut self, x: &[f64], out: &mut [f64]) {
                 out.copy_from_slice(x);
                 out[0] = 0.0;
@@ -266,7 +266,7 @@ mod tests {
         }
         let b = vec![1.0; 4];
         let mut x = b.clone();
-        let stopped = Gmres::default().solve(&mut Projection, &mut x, 1e-10, 1e-10).unwrap_err();
+        let stopped = Gmres::default().solve(&mut SingularProjection, &mut x, 1e-10, 1e-10).unwrap_err();
         assert!((stopped.residual - 0.5).abs() < 1e-12, "{stopped}");
         assert_eq!(x, b);
     }
@@ -275,7 +275,9 @@ mod tests {
     fn results_do_not_depend_on_what_was_solved_before() {
         let solve = |gmres: &mut Gmres, n: usize| {
             let mut x = load(n);
-            gmres.solve(&mut Line { convection: 0.3, shift: 0.5, diagonal: true }, &mut x, 1e-12, 1e-12).unwrap();
+            gmres
+                .solve(&mut ConvectedLine { convection: 0.3, shift: 0.5, diagonal: true }, &mut x, 1e-12, 1e-12)
+                .unwrap();
             x
         };
         let mut used = Gmres::default();
