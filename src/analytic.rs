@@ -28,6 +28,18 @@ impl HalfPlane {
     }
 }
 
+/// Digamma function of a positive number, by its recurrence and its asymptotic series (Abramowitz & Stegun, 6.3.5 and
+/// 6.3.18).
+pub fn digamma(mut x: f64) -> f64 {
+    let mut below = 0.0;
+    while x < 10.0 {
+        below += 1.0 / x;
+        x += 1.0;
+    }
+    let y = 1.0 / (x * x);
+    x.ln() - 0.5 / x - y * (1.0 / 12.0 - y * (1.0 / 120.0 - y * (1.0 / 252.0 - y * (1.0 / 240.0 - y / 132.0)))) - below
+}
+
 /// Half-width of the Hertzian line contact `a = √(4PR/(πE*))` \[m]; `load` [N/m] (Johnson, 4.43).
 pub fn hertz_half_width(load: f64, radius: f64, contact_modulus: f64) -> f64 {
     (4.0 * load * radius / (PI * contact_modulus)).sqrt()
@@ -272,5 +284,13 @@ mod tests {
         let thermal = (3.0 * lame + 2.0 * shear) * alpha * temperature;
         let stress = (lame + 2.0 * shear) * slope + lame * growth / outer - thermal;
         assert!(stress.abs() < 1e-12 * thermal, "{stress:e} against {thermal:e}");
+    }
+
+    #[test]
+    fn digamma_has_its_known_values() {
+        const EULER: f64 = 0.577_215_664_901_532_9;
+        assert!((digamma(0.5) + EULER + 2.0 * 2f64.ln()).abs() < 1e-13);
+        assert!((digamma(1.0) + EULER).abs() < 1e-13);
+        assert!((digamma(30.5) - digamma(29.5) - 1.0 / 29.5).abs() < 1e-13);
     }
 }

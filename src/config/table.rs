@@ -183,7 +183,10 @@ parameters! {
         /// Layout of the graded meshes.
         mesh: MeshParameters fixed {
             1080 basic elements_per_half_width: usize = 20, from 4 to 80,
-                "Elements per Hertzian half-width at model.nominal_load";
+                "Elements of bodies and heat per Hertzian half-width at model.nominal_load";
+            1193 expert grid_elements_per_half_width: usize = 20, from 4 to 80,
+                "Contact nodes per Hertzian half-width, where the contact is solved on a grid: at least as many, since the \
+                 grid divides every element of the surface evenly, and one per element where there are more elements";
             1081 expert reach: f64 = 0.0, in "m" as "mm", from 0.0 to 1.0,
                 "Distance from the contact point up to which contact is looked for at least where a patch needs it, as far as wheel \
                  and rail have room; 0: about six half-widths at model.nominal_load, and the edges of every flat in wheel.profile";
@@ -240,6 +243,9 @@ parameters! {
             1096 basic tolerance: f64 = 0.002, of "solver", from 0.0 to 1.0,
                 "Error that halves an internal step: contact force over load, moment over load times radius, slip over \
                  that of a sliding patch, temperature over its rise or 100 K; 0: no error control";
+            1194 basic max_internal_steps: usize = 0, of "solver", from 0 to 100000,
+                "Most internal steps of a communication step that solver.tolerance asks for, those included that turned out \
+                 too long: a bound on the computing time; 0: no bound. solver.limited_steps counts those it spoils";
             1125 expert austenitisation: f64 = 1000.0, of "thermal", in "K" as "degC", from 1.0 to 1e4,
                 "Austenitisation temperature Ac1";
             1160 expert martensite_start: f64 = 575.0, of "damage", in "K" as "degC", from 1.0 to 1e4,

@@ -1,7 +1,7 @@
 //! Patch, fine zone, cells and masses, as they follow from the parameters without a mesh.
 
 use crate::analytic;
-use crate::config::Config;
+use crate::config::{Config, MeshParameters, Response};
 use crate::fem::ContactZone;
 use crate::material::Isotropic;
 use crate::surface;
@@ -15,9 +15,23 @@ pub fn nominal_half_width(config: &Config) -> f64 {
     analytic::hertz_half_width(load, config.wheel.radius, Isotropic::from(&config.material).contact_modulus())
 }
 
-/// Length of the elements at the contact under the nominal load \[m].
-pub fn element_length(config: &Config) -> f64 {
-    nominal_half_width(config) / config.mesh.elements_per_half_width as f64
+/// Finite elements per half-width of the nominal contact: full bodies have no other nodes than theirs for the contact.
+fn elements(config: &Config) -> usize {
+    let MeshParameters { elements_per_half_width, grid_elements_per_half_width, .. } = config.mesh;
+    match config.solver.response {
+        Response::Reduced => elements_per_half_width,
+        Response::Full => elements_per_half_width.max(grid_elements_per_half_width),
+    }
+}
+
+/// Cells of the contact grid in every element of the surface.
+pub fn grid_cells_per_element(config: &Config) -> usize {
+    config.mesh.grid_elements_per_half_width.div_ceil(elements(config)).max(1)
+}
+
+/// Distance of the nodes of the contact grid under the nominal load \[m].
+pub fn grid_spacing(config: &Config) -> f64 {
+    nominal_half_width(config) / (elements(config) * grid_cells_per_element(config)) as f64
 }
 
 /// Distance from the contact point up to which surface nodes are paired, in nominal half-widths: patches of softened
@@ -37,7 +51,7 @@ pub(super) fn winged_zone(config: &Config) -> ContactZone {
     let lengths = [radius, radius - config.wheel.hub_radius, rail.length, rail.height];
     let most = SHARES.iter().zip(lengths).map(|(share, length)| share * length).fold(f64::INFINITY, f64::min);
     let reach = most.min(REACH * half_width);
-    let mut zone = ContactZone { half_width, elements: config.mesh.elements_per_half_width, reach };
+    let mut zone = ContactZone { half_width, elements: elements(config), reach };
     while zone.reach < most && zone.end_of_candidates() < wanted_reach(config) {
         zone.reach = most.min(zone.reach + half_width);
     }

@@ -4,9 +4,11 @@ use super::basis::Basis;
 use super::damping::BodyDamping;
 use super::error::MechanicsError;
 use super::full::FullBody;
+use super::layout::{grid_cells_per_element, grid_spacing};
 use super::meshes::{rail_system, wheel_system};
 use super::reduced::ReducedBody;
 use super::reduction::ReducedBasis;
+use super::refined::divided;
 use super::response::BodyResponse;
 use super::size::contact_zone;
 use crate::analytic::HalfPlane;
@@ -63,6 +65,7 @@ pub fn bodies(
     progress: &mut dyn FnMut(&str, f64),
 ) -> Result<Pair, MechanicsError> {
     let zone = contact_zone(config);
+    let half_plane = Isotropic::from(&config.material).half_plane();
     let centrifugal = config.physics.centrifugal;
     let damping = [BodyDamping::wheel(config), BodyDamping::rail(config)];
     let (surface_x, wing) = (zone.surface_x(), zone.wing_nodes());
@@ -71,7 +74,6 @@ pub fn bodies(
     type TwoBodies = [Box<dyn BodyResponse>; 2];
     let retarded = damping.iter().any(|damping| damping.stiffness > 0.0);
     let smooth = basis.as_ref().filter(|_| !retarded).and_then(|basis| {
-        let half_plane = Isotropic::from(&config.material).half_plane();
         let x = &surface_x[core.clone()];
         let reach = x[x.len() - 1 - GUARDS];
         let points = Lagrange::new(reach);
@@ -80,9 +82,17 @@ pub fn bodies(
         let rail = ReducedBody::new(part(&basis.rail, -1.0)?, false, &damping[1]);
         Some(SmoothBodies { wheel: Box::new(wheel), rail: Box::new(rail), half_plane, reach })
     });
+    let parts = grid_cells_per_element(config);
+    let (elements, surface_x) = (surface_x.clone(), divided(&surface_x, parts));
+    let ports = 2 * parts * core.start..2 * (parts * (core.end - 1) + 1);
     let [narrow, wide]: [TwoBodies; 2] = match basis {
         Some(Basis { wheel, rail, .. }) => {
-            [(wheel.cut(ports.clone()), rail.cut(ports)), (wheel, rail)].map(|(w, r)| -> TwoBodies {
+            let finer = |body: ReducedBasis, side| match parts {
+                1 => body,
+                _ => body.refined(&elements, &surface_x, half_plane, side),
+            };
+            let (wheel, rail) = (finer(wheel, 1.0), finer(rail, -1.0));
+            [(wheel.cut(ports.clone()), rail.cut(ports.clone())), (wheel, rail)].map(|(w, r)| -> TwoBodies {
                 [
                     Box::new(ReducedBody::new(w, centrifugal, &damping[0])),
                     Box::new(ReducedBody::new(r, false, &damping[1])),
@@ -96,10 +106,10 @@ pub fn bodies(
             progress("assembling the rail", 0.5);
             let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
             progress("assembling the rail", 1.0);
-            [[Box::new(wheel.cut(ports.clone())), Box::new(rail.cut(ports))], [Box::new(wheel), Box::new(rail)]]
+            [[Box::new(wheel.cut(ports.clone())), Box::new(rail.cut(ports.clone()))], [Box::new(wheel), Box::new(rail)]]
         }
     };
-    let pair = |[wheel, rail]: TwoBodies, x: Vec<f64>| Pair::new(wheel, rail, x, zone.spacing());
-    let middle = pair(narrow, surface_x[core].to_vec());
+    let pair = |[wheel, rail]: TwoBodies, x: Vec<f64>| Pair::new(wheel, rail, x, grid_spacing(config));
+    let middle = pair(narrow, surface_x[ports.start / 2..ports.end / 2].to_vec());
     Ok(Pair { wide: (wing > 0).then(|| Box::new(pair(wide, surface_x))), smooth, ..middle })
 }

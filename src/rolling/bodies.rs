@@ -12,8 +12,8 @@ use crate::multistep::TimeDerivative;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
-/// Number of step sizes whose operators are kept.
-const KEPT: usize = 3;
+/// Number of step sizes whose operators are kept: those of steps that are halved and joined again.
+const KEPT: usize = 12;
 
 /// Wheel and rail, and what carries the rail.
 ///

@@ -280,6 +280,8 @@ outputs! {
         "Friction energy per metre travelled: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
          standstill. Equal to rail.energy_per_metre, which means it as a load on the rail";
     800 internal_steps: count "solver.internal_steps", start zero, "Internal time steps in the last communication step";
+    806 limited_steps: count "solver.limited_steps", start zero,
+        "Internal steps in the last communication step whose error solver.max_internal_steps let exceed solver.tolerance";
     801 iterations: count "solver.iterations", start zero, "Contact iterations in the last communication step";
     804 suggested_step: real "solver.suggested_step", in "s", from 0.0, nominal 1e-3,
         "Largest communication step for explicit coupling: from creep damping and contact stiffness where velocities \

@@ -10,7 +10,7 @@ use super::suggested_step::suggested_step;
 use super::thermal_state::ThermalState;
 use crate::damage::surface_fatigue;
 use crate::heat::HeatFlows;
-use crate::mechanics::element_length;
+use crate::mechanics::grid_spacing;
 use crate::piecewise::Piecewise;
 use crate::surface::WearLaw;
 
@@ -89,6 +89,7 @@ pub fn observe(model: &RollingModel, state: &State) -> Outputs {
         wear_rate: WearLaw::from(&model.config).rate(t_gamma, area),
         rail_energy: t_gamma,
         internal_steps: state.clock.internal_steps,
+        limited_steps: state.clock.limited_steps,
         iterations: state.clock.iterations,
         energy_residual: state.audit.residual(model.contact.nominal_energy()),
         suggested_step: suggested_step(model, state),
@@ -212,5 +213,5 @@ const SAMPLING: f64 = 2.0;
 pub fn tread(model: &RollingModel, state: &State) -> Vec<[f64; 2]> {
     let none = Line::default();
     let line = state.line_of_largest(|line| line.worn).unwrap_or(&none);
-    model.contact.surfaces.tread(&line.flattening[0], SAMPLING * element_length(&model.config))
+    model.contact.surfaces.tread(&line.flattening[0], SAMPLING * grid_spacing(&model.config))
 }

@@ -50,6 +50,8 @@ pub struct Clock {
     pub control: StepControl,
     /// Internal steps of the last communication step.
     pub internal_steps: u64,
+    /// Those among them whose errors exceed the tolerance because no more internal steps were allowed.
+    pub limited_steps: u64,
     /// Contact iterations of the last communication step.
     pub iterations: u64,
 }

@@ -5,7 +5,7 @@ mod texts;
 use super::Simulation;
 use crate::contact::FrictionLaw;
 use crate::material::INDENTATION;
-use crate::mechanics::{element_length, nominal_half_width};
+use crate::mechanics::{grid_spacing, nominal_half_width};
 
 /// Makes the enumeration and the list of its items.
 macro_rules! limits {
@@ -51,6 +51,8 @@ limits! {
     Energy,
     /// Internal steps that a communication step takes.
     Effort,
+    /// Internal steps that solver.max_internal_steps allows.
+    Limited,
     /// Last sample of the profile of the rail.
     End,
 }
@@ -121,7 +123,7 @@ impl Simulation {
         match limit {
             Limit::Speed => (heat * self.speed(), AtMost(config.thermal.max_speed)),
             Limit::ThermalLoad => (heat * load, AtLeast(config.thermal.smallest_load_ratio * nominal)),
-            Limit::Patch => (outputs.contact_half_width / element_length(config), AtLeast(FEWEST_ELEMENTS)),
+            Limit::Patch => (outputs.contact_half_width / grid_spacing(config), AtLeast(FEWEST_ELEMENTS)),
             Limit::Zone => (load, AtMost(ZONE_LOAD * nominal)),
             Limit::Reach => (self.touching_reach(), AtMost(NEAR_END * self.model().rolling.reach)),
             Limit::Yield => {
@@ -139,7 +141,7 @@ impl Simulation {
             }
             Limit::StickSlip => (self.unresolved_phase(), AtMost(RESOLVED_PHASE)),
             Limit::Chatter => (self.state().clock.last_step, AtLeast(self.indefinite_step())),
-            Limit::Waves => (self.shortest_wave(), AtLeast(FEWEST_PER_WAVE * element_length(config))),
+            Limit::Waves => (self.shortest_wave(), AtLeast(FEWEST_PER_WAVE * grid_spacing(config))),
             Limit::Sampling => {
                 let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
                 let way = mean.max(self.speed() * self.state().clock.last_step);
@@ -147,6 +149,7 @@ impl Simulation {
             }
             Limit::Energy => (outputs.energy_residual.abs(), AtMost(UNBALANCED)),
             Limit::Effort => (outputs.internal_steps as f64, AtMost(MANY_STEPS)),
+            Limit::Limited => (outputs.limited_steps as f64, AtMost(0.0)),
             Limit::End => {
                 let sign = if outputs.wheel_velocity >= 0.0 { 1.0 } else { -1.0 };
                 let end = self.model().rolling.contact.surfaces.rail.end(sign > 0.0);
@@ -196,7 +199,7 @@ impl Simulation {
     /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
     fn error_over_a_hole(&self, length: f64) -> f64 {
         let config = self.model().config();
-        let (half_width, element) = (nominal_half_width(config), element_length(config));
+        let (half_width, element) = (nominal_half_width(config), grid_spacing(config));
         HOLE * element * (length + element) / (half_width * half_width)
     }
 

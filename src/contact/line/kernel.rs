@@ -5,6 +5,7 @@
 //! replaced by those of the kernel `1/(n + ½)`, to which the edge-consistent slip rows belong
 //! (see [`super::streamline`]); beyond [`REACH`] nodes both kernels agree.
 
+use crate::analytic::digamma;
 use nalgebra::DMatrix;
 
 /// Number of neighbours that are corrected.
@@ -76,18 +77,6 @@ impl LineKernel {
     }
 }
 
-/// Digamma function of a positive number, by its recurrence and its asymptotic series (Abramowitz & Stegun, 6.3.5 and
-/// 6.3.18).
-fn digamma(mut x: f64) -> f64 {
-    let mut below = 0.0;
-    while x < 10.0 {
-        below += 1.0 / x;
-        x += 1.0;
-    }
-    let y = 1.0 / (x * x);
-    x.ln() - 0.5 / x - y * (1.0 / 12.0 - y * (1.0 / 120.0 - y * (1.0 / 252.0 - y * (1.0 / 240.0 - y / 132.0)))) - below
-}
-
 impl KernelCorrection {
     /// Elastic energy of the correction under nodal forces [J/m].
     pub fn energy(&self, forces: &nalgebra::DVector<f64>) -> f64 {
@@ -107,14 +96,6 @@ impl KernelCorrection {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn digamma_has_its_known_values() {
-        const EULER: f64 = 0.577_215_664_901_532_9;
-        assert!((digamma(0.5) + EULER + 2.0 * 2f64.ln()).abs() < 1e-13);
-        assert!((digamma(1.0) + EULER).abs() < 1e-13);
-        assert!((digamma(30.5) - digamma(29.5) - 1.0 / 29.5).abs() < 1e-13);
-    }
 
     #[test]
     fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {

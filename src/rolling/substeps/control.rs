@@ -43,6 +43,17 @@ const SMALLER: f64 = 0.9;
 const ALLOWANCE: f64 = 1.5;
 const FADING: f64 = 0.95;
 
+/// What becomes of a step that was tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It counts.
+    Accepted,
+    /// It counts, although its error asks for shorter steps: there may be no more of them.
+    Limited,
+    /// It is taken again in halves.
+    TooLong,
+}
+
 /// Control of the internal steps of one communication step.
 pub struct Control<'a> {
     tuning: &'a Tuning,
@@ -63,8 +74,9 @@ impl<'a> Control<'a> {
         self.tuning.tolerance == 0.0 || dt <= self.memory.step * (1.0 + 1e-9)
     }
 
-    /// True if a step of `dt` seconds was too long; then half of it is allowed.
-    pub fn refuses(&mut self, found: &Found, dt: f64) -> bool {
+    /// Judges a step of `dt` seconds; after one that was too long half of it is allowed. Errors are let pass unless the
+    /// step `may_halve`.
+    pub fn judge(&mut self, found: &Found, dt: f64, may_halve: bool) -> Verdict {
         let tolerance = self.tuning.tolerance;
         if !found.first && self.failed > 0.0 && found.error > SMALLER * self.failed {
             self.learn(found.error);
@@ -75,14 +87,14 @@ impl<'a> Control<'a> {
         let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
         let overheats = found.overheats && dt > 2.0 * OVERHEATED;
         let heats = overheats || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
-        let refused = inaccurate || heats;
-        if refused {
-            self.memory.step = 0.5 * dt;
-            self.failed = found.error;
-            let doubled = inaccurate && found.doubled;
-            (self.memory.suspect, self.memory.quiet) = if doubled { (found.error, 0) } else { (0.0, 0) };
+        if !heats && !(inaccurate && may_halve) {
+            return if inaccurate { Verdict::Limited } else { Verdict::Accepted };
         }
-        refused
+        self.memory.step = 0.5 * dt;
+        self.failed = found.error;
+        let doubled = inaccurate && found.doubled;
+        (self.memory.suspect, self.memory.quiet) = if doubled { (found.error, 0) } else { (0.0, 0) };
+        Verdict::TooLong
     }
 
     /// Takes note of a step of `dt` seconds that was not refused, and says whether the next one may be longer.

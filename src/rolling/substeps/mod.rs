@@ -15,6 +15,8 @@
 //!   0.1 ms: a molten film takes friction away only from the step on after which it is seen. What is too hot in the shortest of
 //!   them is refused;
 //! - where the molten depth is not found.
+//!
+//! Errors no longer halve a piece where `solver.max_internal_steps` would be exceeded; the other reasons do.
 
 mod control;
 mod prediction;
@@ -26,7 +28,7 @@ use super::state::{Pressing, State, StepControl};
 use super::step::{Demand, step};
 use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
-use control::Control;
+use control::{Control, Verdict};
 use prediction::{Found, controlled};
 
 /// Longest communication step \[s].
@@ -57,6 +59,12 @@ struct Place {
 }
 
 impl Place {
+    /// True if all the rest may be halved after a number of steps `tried`.
+    fn may_halve(&self, tuning: &Tuning, tried: u64) -> bool {
+        let most = tuning.max_internal_steps as u64;
+        most == 0 || tried + 2 * (self.pieces - self.done) <= most
+    }
+
     fn halve(&mut self) {
         (self.done, self.pieces) = (2 * self.done, 2 * self.pieces);
     }
@@ -142,8 +150,8 @@ fn fewest_pieces(model: &RollingModel, tuning: &Tuning, state: &State, h: f64) -
 /// Sums and means over the internal steps of a communication step.
 #[derive(Default)]
 struct Sums {
-    /// Internal steps, and their contact iterations.
-    counts: [u64; 2],
+    /// Internal steps, those among them whose error was let pass, and the contact iterations of all.
+    counts: [u64; 3],
     /// Mean heat flows of every line [W/m].
     flows: Vec<HeatFlows>,
     pressing: Pressing,
@@ -151,8 +159,9 @@ struct Sums {
 
 impl Sums {
     /// Adds the internal step of `dt` seconds that ended in `next`, one of a communication step of `h` seconds.
-    fn add(&mut self, next: &State, dt: f64, h: f64) {
-        self.counts = [self.counts[0] + 1, self.counts[1] + next.iterations() as u64];
+    fn add(&mut self, next: &State, limited: bool, dt: f64, h: f64) {
+        let [steps, spoilt, iterations] = self.counts;
+        self.counts = [steps + 1, spoilt + u64::from(limited), iterations + next.iterations() as u64];
         self.flows.resize(next.lines.len(), HeatFlows::default());
         for (flows, line) in self.flows.iter_mut().zip(&next.lines) {
             line.thermal.iter().for_each(|thermal| flows.add(dt / h, &thermal.flows));
@@ -166,7 +175,7 @@ impl Sums {
         for (line, flows) in state.lines.iter_mut().zip(self.flows) {
             line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
         }
-        [state.clock.internal_steps, state.clock.iterations] = self.counts;
+        [state.clock.internal_steps, state.clock.limited_steps, state.clock.iterations] = self.counts;
     }
 }
 
@@ -183,10 +192,10 @@ fn march(
     let fewest = fewest_pieces(model, tuning, state, ramp.h)?;
     let mut place = Place { done: 0, pieces: fewest };
     let mut control = Control::new(tuning, state.clock.control);
-    while !control.allows(ramp.h / place.pieces as f64) {
+    while !control.allows(ramp.h / place.pieces as f64) && place.may_halve(tuning, 0) {
         place.halve();
     }
-    let (mut last_step, mut failures, mut begun) = (state.clock.last_step, 0, false);
+    let (mut last_step, mut failures, mut begun, mut tried) = (state.clock.last_step, 0, false, 0);
     let mut sums = Sums { pressing: state.pressing.begun(), ..Sums::default() };
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
@@ -208,10 +217,15 @@ fn march(
             Err(error) => return Err(error),
         }
         let found = Found::compare(model, from, next, &control.memory.before, last_step, dt);
-        if control.refuses(&found, dt) {
-            place.halve();
-            continue;
-        }
+        tried += 1;
+        let limited = match control.judge(&found, dt, place.may_halve(tuning, tried)) {
+            Verdict::TooLong => {
+                place.halve();
+                continue;
+            }
+            Verdict::Limited => true,
+            Verdict::Accepted => false,
+        };
         if found.molten {
             let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
             return Err(StepError::Overheated { temperature: found.hottest, highest });
@@ -221,7 +235,7 @@ fn march(
         if control.grows(&found, dt) {
             place.join(fewest);
         }
-        sums.add(next, dt, ramp.h);
+        sums.add(next, limited, dt, ramp.h);
         (last_step, begun) = (next.clock.last_step, true);
         std::mem::swap(now, next);
     }

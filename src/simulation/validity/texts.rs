@@ -24,6 +24,7 @@ impl Simulation {
             Limit::Sampling => sampling(value, bound),
             Limit::Energy => energy(self, value),
             Limit::Effort => effort(self, value),
+            Limit::Limited => limited(self, value),
             Limit::End => end(self, bound),
         }
     }
@@ -160,6 +161,17 @@ fn effort(simulation: &Simulation, value: f64) -> String {
         simulation.state().clock.last_step,
         simulation.tuning().tolerance,
         simulation.tuning().max_step
+    )
+}
+
+fn limited(simulation: &Simulation, value: f64) -> String {
+    format!(
+        "the errors of {value:.0} of {} internal steps of the last communication step exceed solver.tolerance = {:?}, because \
+         solver.max_internal_steps = {} allows no shorter ones (solver.limited_steps): what happens here, as wheels lock \
+         or lift off, is less exact; raise it, or set it to 0 for no bound",
+        simulation.outputs().internal_steps,
+        simulation.tuning().tolerance,
+        simulation.tuning().max_internal_steps
     )
 }
 
