@@ -23,6 +23,7 @@
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
+# make bench-ordinary BEFORE=path/libwheelrail.so  steps in ordinary driving, beside an older library in turn; ARGS=--list
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
@@ -61,7 +62,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -155,6 +156,9 @@ thesis:
 
 bench:
 	$(CARGO) bench --locked --bench table
+
+bench-ordinary:
+	$(CARGO) bench --locked --bench ordinary -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS)
 
 endurance:
 	$(CARGO) run --release --locked --example ex03_endurance
