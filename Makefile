@@ -15,7 +15,8 @@
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
-# make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time
+# make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time;
+#                BEFORE=older.fmu runs beside it in turn
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
@@ -136,7 +137,7 @@ sweep: $(FMU) $(TRAIN)
 	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(SCHEDULER),--scheduler $(SCHEDULER))
 
 eight-wheels: $(FMU) $(INSTALLED)
-	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU)
+	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU) $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results

@@ -1,4 +1,4 @@
-//! What the wheels do: parameters, and inputs as functions of time.
+//! Drives of the wheels: parameters, and inputs as functions of time.
 
 /// Speed at the start \[m/s].
 const SPEED: &str = "27";
@@ -33,7 +33,7 @@ pub struct Drive {
     pub settling: f64,
     pub measured: f64,
     pub course: Course,
-    /// Whether the wheel stands still at the end while its centre moves.
+    /// At the end the wheel must stand still while its centre moves.
     pub ends_locked: bool,
 }
 

@@ -13,7 +13,7 @@ use zip::ZipArchive;
 
 /// A version of the program whose cost is measured.
 pub struct Library {
-    /// What it is called in the table.
+    /// Name in the table.
     pub label: &'static str,
     /// The shared library, its model description, the resources of its FMU and the cache of its bases.
     pub binary: PathBuf,
@@ -92,7 +92,7 @@ pub enum Kind {
     Enumeration(BTreeMap<String, i32>),
 }
 
-/// What a model description says.
+/// Identity and variables of a model description.
 #[derive(Default)]
 pub struct Description {
     pub guid: String,

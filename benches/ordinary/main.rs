@@ -19,7 +19,7 @@ use options::Options;
 use report::Report;
 use std::process::ExitCode;
 
-/// What the present library is called in the table, and the older one.
+/// Names of the present library and of the older one in the table.
 const PRESENT: &str = "after";
 const OLDER: &str = "before";
 

@@ -34,7 +34,7 @@ pub struct Options {
     /// File that receives all numbers as JSON.
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// What a process of the program itself is to do.
+    /// Task of a process that this program starts.
     #[arg(long, hide = true)]
     pub worker: Option<String>,
     /// Passed by `cargo bench`.

@@ -62,8 +62,8 @@ impl Report {
     pub fn new(libraries: &[Library]) -> Report {
         println!("times of a step in µs of CPU; p50, p99 and max over the mean; inner: internal steps per step");
         println!(
-            "{:16} {:7} {:>8} {:>6} {:>6} {:>6} {:>9} {:>6} {:>6}  at the end: m/s, rad/s, kN, K",
-            "case", "", "mean", "p50", "p99", "max", "max µs", "inner", "ratio"
+            "{:16} {:7} {:>8} {:>6} {:>6} {:>6} {:>9} {:>6} {:>6} {:>6}  at the end: m/s, rad/s, kN, K",
+            "case", "", "mean", "p50", "p99", "max", "max µs", "inner", "ratio", "of max"
         );
         let program = |library: &Library| {
             let settings: Map<_, _> =
@@ -80,13 +80,15 @@ impl Report {
     pub fn drive(&mut self, drive: &Drive, runs: &[Run]) {
         let mut row = Map::new();
         let times: Vec<_> = runs.iter().map(|run| Times::of(run, drive)).collect();
-        let before = times[0].mean;
+        let first = &times[0];
+        let ratios = |times: &Times, first: &Times| [times.mean / first.mean, times.max / first.max];
         for (k, ((label, times), run)) in self.labels.iter().zip(&times).zip(runs).enumerate() {
-            let ratio = if k > 0 { format!("{:6.3}", times.mean / before) } else { String::new() };
+            let [of_mean, of_max] = ratios(times, first);
+            let ratio = if k > 0 { format!("{of_mean:6.3} {of_max:6.3}") } else { String::new() };
             let scaled = [times.median, times.p99, times.max].map(|time| time / times.mean);
             let end: Vec<f64> = run.end.iter().map(|(_, value)| *value).collect();
             println!(
-                "{:16} {label:7} {:8.1} {:6.2} {:6.2} {:6.2} {:9.1} {:6.2} {ratio:6}  {:.3} {:.3} {:.2} {:.1}{}",
+                "{:16} {label:7} {:8.1} {:6.2} {:6.2} {:6.2} {:9.1} {:6.2} {ratio:13}  {:.3} {:.3} {:.2} {:.1}{}",
                 if k == 0 { drive.name } else { "" },
                 1e6 * times.mean,
                 scaled[0],
@@ -103,7 +105,9 @@ impl Report {
             row.insert((*label).into(), times.json(run));
         }
         if times.len() > 1 {
-            row.insert("ratio".into(), (times[1].mean / before).into());
+            let [of_mean, of_max] = ratios(&times[1], &times[0]);
+            row.insert("ratio".into(), of_mean.into());
+            row.insert("ratio_of_max".into(), of_max.into());
         }
         self.rows.insert(drive.name.into(), row.into());
     }

@@ -7,7 +7,7 @@ use crate::worker::{Answer, Job, Step};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-/// What a drive cost with a library.
+/// Cost of a drive with a library.
 pub struct Run {
     /// Smallest time of every step \[s], and its number of internal steps.
     pub times: Vec<f64>,
@@ -142,7 +142,7 @@ fn once(drive: &Drive, libraries: &[Library], first: u32, batch: u32) -> Result<
     processes.into_iter().zip(steps).map(finished).collect()
 }
 
-/// Whether the wheel stands still while its centre moves.
+/// True where the wheel stands still while its centre moves.
 fn slides(end: &[(String, f64)]) -> bool {
     let value = |name: &str| end.iter().find(|(known, _)| known == name).map_or(f64::NAN, |(_, value)| value.abs());
     value("wheel.omega") < 1e-3 && value("wheel.velocity") > 1.0

@@ -12,7 +12,7 @@ use std::io::{BufRead, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// What a process is to do with a library.
+/// Task of a process with a library.
 #[derive(Serialize, Deserialize)]
 pub struct Job {
     pub library: PathBuf,
