@@ -46,6 +46,7 @@ impl Times {
         json!({
             "mean": self.mean, "p50": self.median, "p99": self.p99, "max": self.max,
             "internal_steps_per_step": self.internal, "last_second_over_first": self.growth,
+            "times": run.times, "internal_steps": run.internal,
             "end": run.end.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
         })
     }

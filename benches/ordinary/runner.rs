@@ -110,7 +110,7 @@ pub fn measure(drive: &Drive, libraries: &[Library], options: &Options) -> Resul
     Ok(runs)
 }
 
-/// One run on all libraries, in turn; the first turn has `first` steps.
+/// One run on all libraries, in turn from its start on; the first turn has `first` steps.
 fn once(drive: &Drive, libraries: &[Library], first: u32, batch: u32) -> Result<Vec<Run>, String> {
     let mut processes = Vec::new();
     for library in libraries {
@@ -119,11 +119,8 @@ fn once(drive: &Drive, libraries: &[Library], first: u32, batch: u32) -> Result<
         processes.push(process);
     }
     let [settling, measured] = drive.steps();
-    for process in &mut processes {
-        process.steps(settling)?;
-    }
     let mut steps = vec![Vec::new(); libraries.len()];
-    let (mut left, mut turn) = (measured, first.min(measured));
+    let (mut left, mut turn) = (settling + measured, first);
     while left > 0 {
         for (process, steps) in processes.iter_mut().zip(&mut steps) {
             steps.extend(process.steps(turn)?);
@@ -136,7 +133,8 @@ fn once(drive: &Drive, libraries: &[Library], first: u32, batch: u32) -> Result<
         if drive.ends_locked && !slides(&end) {
             return Err(format!("the wheel is not locked at the end: {end:?}"));
         }
-        let (times, internal) = steps.into_iter().map(|(time, internal)| (1e-9 * time as f64, internal)).unzip();
+        let counted = steps.into_iter().skip(settling as usize);
+        let (times, internal) = counted.map(|(time, internal)| (1e-9 * time as f64, internal)).unzip();
         Ok(Run { times, internal, end })
     };
     processes.into_iter().zip(steps).map(finished).collect()
