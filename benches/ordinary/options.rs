@@ -25,9 +25,12 @@ pub struct Options {
     /// Name the cases and end.
     #[arg(long)]
     pub list: bool,
-    /// Runs of every case, of which each step counts with its smallest time.
+    /// Runs of every case at least, of which each step counts with its smallest time.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     pub repeats: u32,
+    /// Wall time in which a case is run again and again; short ones need many runs to meet a quiet machine \[s].
+    #[arg(long, default_value_t = 6.0, value_name = "TIME", value_parser = duration)]
+    pub seconds: f64,
     /// Steps that a library takes until it is the turn of the other.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
     pub batch: u32,
@@ -58,4 +61,9 @@ impl Options {
 fn pair(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as solver.contact=auto")?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+fn duration(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
+    time.ok_or_else(|| "expected a time in seconds, such as 6".to_owned())
 }

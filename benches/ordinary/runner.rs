@@ -6,6 +6,7 @@ use crate::options::Options;
 use crate::worker::{Answer, Job, Step};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::Instant;
 
 /// Cost of a drive with a library.
 pub struct Run {
@@ -89,13 +90,16 @@ pub fn job(library: &Library, case: Vec<(String, String)>, drive: Option<&Drive>
     }
 }
 
-/// Runs a drive on all libraries as often as asked.
+/// Runs a drive on all libraries as often and as long as asked.
 pub fn measure(drive: &Drive, libraries: &[Library], options: &Options) -> Result<Vec<Run>, String> {
-    let mut runs: Vec<Run> = Vec::new();
-    for repeat in 0..options.repeats {
+    let (begin, mut runs) = (Instant::now(), Vec::<Run>::new());
+    for repeat in 0.. {
+        if repeat >= options.repeats && begin.elapsed().as_secs_f64() >= options.seconds {
+            break;
+        }
         // The first step after a change of turns finds cold caches: every time another one.
-        let first = options.batch * (repeat + 1) / options.repeats;
-        let fresh = once(drive, libraries, first.max(1), options.batch).map_err(|e| format!("{}: {e}", drive.name))?;
+        let first = 1 + 7 * repeat % options.batch;
+        let fresh = once(drive, libraries, first, options.batch).map_err(|e| format!("{}: {e}", drive.name))?;
         if runs.is_empty() {
             runs = fresh;
             continue;
