@@ -30,6 +30,8 @@ fn compare(options: &Options) -> Result<(), String> {
     let mut libraries: Vec<Library> = older.transpose()?.into_iter().collect();
     libraries.push(present);
     let mut report = Report::new(&libraries);
+    // A file that cannot be written is refused before the work.
+    options.json.as_deref().map_or(Ok(()), |path| report.write(path))?;
     for case in cases {
         match case {
             Case::Drive(drive) => report.drive(&drive, &runner::measure(&drive, &libraries, options)?),
