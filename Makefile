@@ -15,7 +15,8 @@
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
-# make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time
+# make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time;
+#                BEFORE=older.fmu runs beside it in turn
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
@@ -23,6 +24,7 @@
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
+# make bench-ordinary BEFORE=path/libwheelrail.so  steps in ordinary driving, beside an older library in turn; ARGS=--list
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
@@ -61,7 +63,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -135,7 +137,7 @@ sweep: $(FMU) $(TRAIN)
 	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(SCHEDULER),--scheduler $(SCHEDULER))
 
 eight-wheels: $(FMU) $(INSTALLED)
-	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU)
+	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU) $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
@@ -155,6 +157,9 @@ thesis:
 
 bench:
 	$(CARGO) bench --locked --bench table
+
+bench-ordinary:
+	$(CARGO) bench --locked --bench ordinary -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS)
 
 endurance:
 	$(CARGO) run --release --locked --example ex03_endurance

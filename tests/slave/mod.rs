@@ -5,7 +5,7 @@ pub use libfmi::fmi2Status::{self, *};
 use libfmi::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::ptr;
 use std::sync::OnceLock;
 use wheelrail::fmi::v2::variables::variables;
@@ -21,14 +21,19 @@ pub fn library() -> PathBuf {
 
 pub fn load() -> Fmi2Dll {
     let path = library();
-    // SAFETY: our own library, whose loading runs no code.
-    let load = || unsafe { Fmi2Dll::new(&path) }.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let load = || load_from(&path).unwrap_or_else(|problem| panic!("{problem}"));
     if std::env::var_os("WHEELRAIL_KEEP_LOADED").is_some() {
         // A library that stays: what its tables hold counts as lost when it is unloaded.
         static KEPT: OnceLock<Fmi2Dll> = OnceLock::new();
         KEPT.get_or_init(load);
     }
     load()
+}
+
+/// Any version of our own library, or why it cannot be loaded.
+pub fn load_from(path: &Path) -> Result<Fmi2Dll, String> {
+    // SAFETY: our own library, whose loading runs no code.
+    unsafe { Fmi2Dll::new(path) }.map_err(|error| format!("{}: {error}", path.display()))
 }
 
 pub const RESOURCES: &str = concat!("file://", env!("CARGO_MANIFEST_DIR"), "/resources");
@@ -267,7 +272,10 @@ impl<'a> Slave<'a> {
         self.get_reals(&[variable(name).reference]).unwrap_or_else(|s| panic!("{s:?} {:?}", self.messages()))[0]
     }
     pub fn integer(&self, name: &str) -> i32 {
-        let (reference, mut value) = (variable(name).reference, i32::MIN);
+        self.integer_at(variable(name).reference)
+    }
+    pub fn integer_at(&self, reference: u32) -> i32 {
+        let mut value = i32::MIN;
         assert_eq!(unsafe { self.dll.fmi2GetInteger(self.component, &reference, 1, &mut value) }, fmi2OK);
         value
     }
@@ -290,18 +298,27 @@ impl<'a> Slave<'a> {
         self.set_reals(&[variable(name).reference], &[value])
     }
     pub fn set_integer(&self, name: &str, value: i32) -> fmi2Status {
-        unsafe { self.dll.fmi2SetInteger(self.component, &variable(name).reference, 1, &value) }
+        self.set_integer_at(variable(name).reference, value)
+    }
+    pub fn set_integer_at(&self, reference: u32, value: i32) -> fmi2Status {
+        unsafe { self.dll.fmi2SetInteger(self.component, &reference, 1, &value) }
     }
     pub fn set_boolean(&self, name: &str, value: bool) -> fmi2Status {
-        unsafe { self.dll.fmi2SetBoolean(self.component, &variable(name).reference, 1, &value.into()) }
+        self.set_boolean_at(variable(name).reference, value)
+    }
+    pub fn set_boolean_at(&self, reference: u32, value: bool) -> fmi2Status {
+        unsafe { self.dll.fmi2SetBoolean(self.component, &reference, 1, &value.into()) }
     }
     /// Any C integer for a boolean variable.
     pub fn set_c_boolean(&self, name: &str, value: c_int) -> fmi2Status {
         unsafe { self.dll.fmi2SetBoolean(self.component, &variable(name).reference, 1, &value) }
     }
     pub fn set_string(&self, name: &str, value: &str) -> fmi2Status {
+        self.set_string_at(variable(name).reference, value)
+    }
+    pub fn set_string_at(&self, reference: u32, value: &str) -> fmi2Status {
         let value = c(value);
-        unsafe { self.dll.fmi2SetString(self.component, &variable(name).reference, 1, &value.as_ptr()) }
+        unsafe { self.dll.fmi2SetString(self.component, &reference, 1, &value.as_ptr()) }
     }
     pub fn set_rate(&self, name: &str, order: i32, value: f64) -> fmi2Status {
         let reference = variable(name).reference;
