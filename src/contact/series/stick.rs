@@ -6,8 +6,10 @@ use crate::contact::error::ContactError;
 
 /// Shortest stretch that sticks, over the half-width of the patch \[1].
 const SHORTEST: f64 = 2e-3;
-/// Traction above friction where it sticks, over the largest friction, that counts as an error of the series \[1].
-const OVERSHOOT: f64 = 5e-3;
+/// Force above friction where it sticks, over all friction, that counts as an error of the series \[1].
+const OVERSHOOT: f64 = 1e-3;
+/// Force over friction that does \[1].
+const ROUND_OFF: f64 = 1e-9;
 /// Slip against the direction of friction, over that at which rolling becomes sliding, that does \[1].
 const BACKWARD: f64 = 5e-3;
 /// Times that slip and stick, or the directions of slip, change.
@@ -69,18 +71,24 @@ pub(super) struct StickSearch {
     /// Largest relative change in the iteration before.
     moving: f64,
     changes: usize,
+    /// Once the part that sticks would have carried more than friction.
+    torn: bool,
 }
 
 impl StickSearch {
     pub fn new(it: &mut SeriesLine) -> Self {
         let (tractions, mu) = (&mut it.tractions, it.friction);
+        let ratio = mu / tractions.slide.abs();
+        if ratio.is_finite() {
+            tractions.stick.terms.iter_mut().for_each(|term| *term *= ratio);
+        }
         let share = (!tractions.slides()).then(|| tractions.stick.half_width / tractions.pressure.half_width);
         let sign = if tractions.slide < 0.0 { -1.0 } else { 1.0 };
         tractions.slide = sign * mu;
         let share = share.filter(|_| mu > 0.0).map(|share| share.clamp(SHORTEST, 1.0));
-        let known = it.before.slope;
+        let known = it.slope;
         let slope = Self::quasistatic(it) * if known > 0.0 { known } else { 1.0 };
-        Self { share, last: None, slope, moving: 0.0, changes: 0 }
+        Self { share, last: None, slope, moving: 0.0, changes: 0, torn: false }
     }
 
     /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
@@ -161,16 +169,15 @@ impl StickSearch {
         if it.friction == 0.0 {
             return Ok(true);
         }
-        let (slide, peak) = (it.tractions.slide, it.friction * it.tractions.pressure.terms[0]);
-        let stuck = it.stuck.map(|place| place.x);
-        let (shear, pressure) = (it.tractions.shear(&stuck), it.tractions.pressure.density(&stuck));
-        let beyond = |q: usize| shear[q].abs() - it.friction * pressure[q] > OVERSHOOT * peak;
-        let torn = !it.tractions.slides() && (0..stuck.len()).any(beyond);
+        let slide = it.tractions.slide;
         let scale = it.speed() * it.friction * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
         let backward = |slip: &&f64| *slip * slide.signum() > BACKWARD * scale;
         let looked_at = || it.slips.iter().step_by(3);
         let wrong = looked_at().filter(backward).count();
         if it.tractions.slides() && wrong > 0 {
+            if self.torn {
+                return Err(ContactError::Unsuited { reason: "slip at the leading edge" });
+            }
             if wrong == looked_at().count() {
                 it.tractions.slide = -slide;
                 self.turn_over(it, None)?;
@@ -179,12 +186,31 @@ impl StickSearch {
             }
             return Ok(false);
         }
-        if torn {
-            return Err(ContactError::Unsuited { reason: "more than friction where it sticks" });
+        if Self::is_torn(it) {
+            // Where next to nothing sticks all of it may slip; otherwise it slips at the leading edge, too.
+            if std::mem::replace(&mut self.torn, true) {
+                return Err(ContactError::Unsuited { reason: "more than friction where it sticks" });
+            }
+            self.turn_over(it, None)?;
+            return Ok(false);
         }
         if wrong > 0 {
             return Err(ContactError::Unsuited { reason: "slip against friction" });
         }
         Ok(true)
+    }
+
+    /// True if the part that sticks carries more than friction would.
+    fn is_torn(it: &SeriesLine) -> bool {
+        if it.tractions.slides() {
+            return false;
+        }
+        let Tractions { pressure, slide, stick } = &it.tractions;
+        let places = it.stuck.map(|place| place.x);
+        let (shear, bears) = (it.tractions.shear(&places), pressure.density(&places));
+        let beyond = |q: usize| (shear[q].abs() - it.friction * bears[q]).max(0.0) * it.constants.tables.weights[q];
+        let excess = stick.half_width * (0..places.len()).map(beyond).sum::<f64>();
+        let (total, limit) = (slide * pressure.total() + stick.total(), it.friction * pressure.total());
+        excess > OVERSHOOT * limit || total.abs() > limit * (1.0 + ROUND_OFF)
     }
 }
