@@ -19,8 +19,8 @@ use crate::piecewise::Piecewise;
 use nalgebra::DVector;
 
 /// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the series do not resolve what
-/// is carried through it.
-const SHORTEST_WAY: f64 = 0.01;
+/// is carried through it. Where all slips nothing is.
+const SHORTEST_WAY: f64 = 1e-3;
 
 /// Largest half-width of a start over the reach of the bodies \[1].
 const LARGEST_START: f64 = 0.9;
@@ -58,9 +58,14 @@ impl SeriesSolver {
         }
     }
 
-    /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry: `half_width` \[m] is that
-    /// of the patch of before, `way` the least one of the material in a step over it \[1].
-    fn check(problem: &SingleLine, half_width: f64, way: f64) -> Result<(), ContactError> {
+    /// True if the material moves by less than a `way` \[m] in a step.
+    fn hardly_moves(problem: &SingleLine, way: f64) -> bool {
+        let [travel, rim] = [problem.rigid[0].start(), problem.line.radius() * problem.rigid[2].start()];
+        0.5 * (travel.abs() + rim.abs()) < way * problem.line.time.a0
+    }
+
+    /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
+    fn check(problem: &SingleLine) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (problem.line.surfaces, &problem.line.placement, &problem.line.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
         if !surfaces.is_smooth() {
@@ -72,33 +77,36 @@ impl SeriesSolver {
         if !limits.film.is_empty() {
             return refuse("a surface melts");
         }
-        if problem.line.time.b1 != 0.0 {
-            return refuse("the time formula remembers rates");
-        }
-        let [travel, rim] = [problem.rigid[0].start(), problem.line.radius() * problem.rigid[2].start()];
-        let slow = 0.5 * (travel.abs() + rim.abs()) < way * half_width * problem.line.time.a0;
-        if slow { refuse("the material hardly moves") } else { Ok(()) }
+        if problem.line.time.b1 != 0.0 { refuse("the time formula remembers rates") } else { Ok(()) }
     }
 
-    /// Counts the steps on the grid down; while the contact does not suit the series the count begins anew.
+    /// Counts the steps on the grid down. While the contact does not suit the series the count begins anew; material that
+    /// begins to move is handed over at once, as long as both solvers remember the same and agree.
     fn rest(&self, problem: &SingleLine, found: &mut ContactState) {
-        let SolverState::Line(line) = &mut found.solver else { return };
-        line.rest = line.rest.saturating_sub(1);
-        if line.rest == 0
-            && !self.suits(problem, found)
-            && let SolverState::Line(line) = &mut found.solver
-        {
-            line.rest = transfer::REST;
+        let SolverState::Line(line) = &found.solver else { return };
+        let rest = match line.rest.saturating_sub(1) {
+            0 if Self::stands(problem, found) => 1,
+            0 if !self.suits(problem, found) => transfer::REST,
+            rest => rest,
+        };
+        if let SolverState::Line(line) = &mut found.solver {
+            line.rest = rest;
         }
     }
 
-    /// True if a contact that the grid has found could be taken back: hot layers and all else leave a margin.
+    /// True if some of the material sticks and hardly moves, with a margin.
+    fn stands(problem: &SingleLine, found: &ContactState) -> bool {
+        let half_width = found.traction.extent().map_or(0.0, |patch| 0.5 * (patch.high - patch.low));
+        found.traction.stick_fraction > 0.0 && Self::hardly_moves(problem, 2.0 * SHORTEST_WAY * half_width)
+    }
+
+    /// True if a contact that the grid has found could be taken back: hot layers leave a margin.
     fn suits(&self, problem: &SingleLine, found: &ContactState) -> bool {
         let [edges] = found.traction.edges.as_slice() else { return false };
         let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
         let patch = Arch { centre, half_width, ..Arch::default() };
         let bends = |layers: &SeriesLayers| laws::bends(layers, problem, half_width, 0.5 * laws::UNRESOLVED);
-        Self::check(problem, half_width, 2.0 * SHORTEST_WAY).is_ok()
+        Self::check(problem).is_ok()
             && Self::check_limits(problem, &found.traction).is_ok()
             && !SeriesLayers::new(&self.constants, problem, &patch).as_ref().is_some_and(bends)
     }
@@ -127,7 +135,13 @@ impl SeriesSolver {
         if problem.line.bodies.own.relative.nrows() != 2 * POINTS {
             return Err(ContactError::ForeignState);
         }
-        Self::check(problem, before.tractions.pressure.half_width, SHORTEST_WAY)?;
+        Self::check(problem)?;
+        let slow = Self::hardly_moves(problem, SHORTEST_WAY * before.tractions.pressure.half_width);
+        let sticks = |tractions: &Tractions| match slow && !tractions.slides() {
+            true => Err(ContactError::Unsuited { reason: "the material hardly moves" }),
+            false => Ok(()),
+        };
+        sticks(&before.tractions)?;
         let begun = SeriesStart { before, history: &start.history, traction: &start.traction };
         let ContactState { ports, traction, history, energy, solver } = found;
         match solver {
@@ -139,6 +153,7 @@ impl SeriesSolver {
         *ports = start.ports;
         *energy =
             laws::solve(&self.constants, *problem, &begun, |line| finish::finish(line, state, history, traction))?;
+        sticks(&state.tractions)?;
         Self::check_limits(problem, traction)
     }
 }
