@@ -21,7 +21,7 @@ const TELLING: f64 = 0.2;
 /// Share of the root that a step along the slope leaves if the slope is wrong \[1].
 const LEFT: f64 = 0.2;
 /// Smallest step after which that is noticed \[1]: roots after shorter ones are noise.
-const NOTICED: f64 = 1e-5;
+const NOTICED: f64 = 1e-4;
 
 /// Largest relative change expected of a further iteration that ends them; changes fall about as they fell last.
 const TOLERANCE: f64 = 1e-10;
@@ -156,7 +156,7 @@ impl StickSearch {
         let root = it.stick(share * it.tractions.pressure.half_width, upstream)?;
         if let Some([other, there]) = self.last
             && let moved = (share - other).abs()
-            && (moved > TELLING * self.moving || moved > NOTICED && root / there > LEFT)
+            && (moved > TELLING * self.moving || moved > NOTICED && (root / there).abs() > LEFT)
         {
             let slope = (root - there) / (share - other);
             if slope * self.slope > 0.0 && slope.is_finite() {
