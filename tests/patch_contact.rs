@@ -225,27 +225,30 @@ fn derivatives(heat: bool) {
 }
 
 /// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and
-/// takes over again. How much the force jumps at a change of solver is by what its second difference exceeds that of a
+/// takes over again. How much the force jumps at a change of solver is by what its change in a step exceeds that of a
 /// run on the grid.
 #[test]
-fn a_change_of_solver_does_not_make_the_force_jump() {
-    [false, true].into_iter().for_each(changes_smoothly);
+fn a_change_of_solver_does_not_make_the_force_jump_whatever_the_step() {
+    [5e-5, 2e-4, 1e-3, 5e-3, 2e-2].into_iter().for_each(|h| changes_smoothly(false, h));
+    [5e-5, 1e-3, 2e-2].into_iter().for_each(|h| changes_smoothly(true, h));
 }
 
-fn changes_smoothly(heat: bool) {
-    let xi = -1.5e-3;
+fn changes_smoothly(heat: bool, h: f64) {
+    let (xi, steps) = (-1.5e-3, 400);
+    // A half-width is 6 mm: at its fastest the material moves by as much in a step, or with 2 m/s.
+    let top = f64::min(6e-3 / h, 2.0);
     let run = |method| {
         let model = solved_by(method, "railway", |config| {
             (config.tuning.tolerance, config.thermal.enabled) = (0.0, heat);
         });
-        let mut inputs = prescribed(&model, 1.0, xi);
+        let mut inputs = prescribed(&model, top, xi);
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
         let (mut forces, mut patch) = (Vec::new(), Vec::new());
-        for k in 0..800 {
-            let turn = std::f64::consts::TAU * f64::from(k) / 800.0;
-            inputs.drive.velocity = 0.51 + 0.49 * turn.cos();
+        for k in 0..steps {
+            let turn = std::f64::consts::TAU * f64::from(k) / f64::from(steps);
+            inputs.drive.velocity = top * (0.5001 + 0.4999 * turn.cos()).powi(2);
             inputs.drive.omega = omega(&model, inputs.drive.velocity, xi);
-            simulation.advance(&inputs, 1e-3).unwrap();
+            simulation.advance(&inputs, h).unwrap();
             forces.push(simulation.outputs().contact_force_x / simulation.outputs().contact_force_y);
             patch.push(is_patch(&simulation));
         }
@@ -253,14 +256,14 @@ fn changes_smoothly(heat: bool) {
     };
     let ((forces, patch), (on_grid, _)) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
     let excess = |k: usize| forces[k] - on_grid[k];
-    let changes: Vec<usize> = (3..798).filter(|&k| patch[k] != patch[k - 1]).collect();
-    println!("changes at {changes:?}, {} of 800 steps on the patch", patch.iter().filter(|on| **on).count());
-    for &k in &changes {
-        let jumps = [k, k + 1].map(|k| (excess(k) - excess(k - 1)).abs());
-        println!("{k} to patch: {}, jumps {:.1e} {:.1e}", patch[k], jumps[0], jumps[1]);
-        assert!(jumps.iter().all(|jump| *jump < 1e-4));
-    }
-    assert!(changes.len() >= 2);
+    let changes: Vec<usize> = (3..steps as usize - 2).filter(|&k| patch[k] != patch[k - 1]).collect();
+    let jump = |k: &usize| [*k, k + 1].map(|k| (excess(k) - excess(k - 1)).abs()).into_iter().fold(0.0, f64::max);
+    let largest = changes.iter().map(jump).fold(0.0, f64::max);
+    let on = patch.iter().filter(|on| **on).count();
+    println!(
+        "heat {heat}, {h} s: changes at {changes:?}, {on} of {steps} steps on the patch, largest jump {largest:.1e}"
+    );
+    assert!(changes.len() >= 2 && largest < 1e-4);
 }
 
 #[test]
@@ -289,8 +292,10 @@ fn a_wheel_with_its_brake_on_moves_as_on_the_grid_with_auto() {
         let mut inputs = Inputs::rolling(model.config());
         let mut simulation = Simulation::new(model, &inputs).unwrap();
         inputs.drive.torque = 4e3;
-        (0..100).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
-        assert!(!is_patch(&simulation));
+        (0..100).for_each(|_| {
+            simulation.advance(&inputs, 1e-3).unwrap();
+            assert_eq!(is_patch(&simulation), method == ContactMethod::Auto);
+        });
         simulation.outputs().clone()
     });
     let change = |get: fn(&Outputs) -> f64| (get(&auto) / get(&grid) - 1.0).abs();

@@ -96,7 +96,7 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_the_grid_tends_t
     assert!(away[1] > 0.0 && away[1] < 0.65 * away[0]);
 }
 
-/// A slide heats the contact within a step to where its friction film decides: `auto` leaves it to the grid.
+/// A locked wheel heats its contact within a millisecond to where steel yields and melts: `auto` leaves it to the grid.
 #[test]
 fn a_locked_hot_slide_is_that_of_the_grid_with_auto() {
     let run = |method| {

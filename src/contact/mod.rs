@@ -7,6 +7,7 @@
 //! `F_y > 0` (pressure) lifts it; the rail receives the opposite.
 
 pub mod active_set;
+mod brake;
 pub mod error;
 pub mod film;
 pub mod friction;

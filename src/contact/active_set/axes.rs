@@ -1,6 +1,6 @@
 //! Rigid axes of the wheel: their balances, and the motions that are sought.
 
-use super::brake::{self, BrakeState};
+use crate::contact::brake::{self, BrakeState};
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::rows::AffineRow;
 use crate::contact::problem::{AxisDrive, RigidMotion};

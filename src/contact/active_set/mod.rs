@@ -2,13 +2,10 @@
 //!
 //! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
 //! close, stick and slip, [`unknowns`] the unknowns of given states and [`linear`] their equations, [`axes`] the
-//! balances of the rigid motions, [`brake`] the states of their brakes, [`coefficient`] the search for a friction
-//! coefficient that depends on the slip, and [`fast`] the shortcuts. [`solver`] is the contact solver that uses it.
-//! Theory: `docs/theory/contact.md`.
+//! balances of the rigid motions, and [`fast`] the shortcuts. [`solver`] is the contact solver that uses it. Theory:
+//! `docs/theory/contact.md`.
 
 mod axes;
-mod brake;
-mod coefficient;
 mod fast;
 mod linear;
 mod search;

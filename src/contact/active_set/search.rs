@@ -3,18 +3,18 @@
 //! Unknown are the nodal forces of closed nodes and those rigid motions (V, U, Ω) that are not prescribed. Each
 //! iteration solves the linear problem of the present states and takes new states ([`super::states`]). Where the
 //! friction coefficient depends on the slip, a search around this iteration finds the one that belongs to its own slip
-//! ([`super::coefficient`]); each of its evaluations starts from the states found before.
+//! ([`CoefficientSearch`]); each of its evaluations starts from the states found before.
 //!
 //! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
 //! within which a node keeps its state grows from iteration to iteration.
 
 use super::axes::Axes;
-use super::coefficient::CoefficientSearch;
 use super::fast::Shortcuts;
 use super::linear;
 use super::states::{self, Comparison, Rules};
 use super::unknowns::Unknowns;
 use crate::contact::error::ContactError;
+use crate::contact::friction::CoefficientSearch;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{ContactGrid, exchange, finish, zone};

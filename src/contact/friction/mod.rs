@@ -7,12 +7,15 @@
 //! | `law` | the whole law, from its parameters: factors of slip and temperature, and a memory |
 //! | `heating` | temperature per friction coefficient, extrapolated over a step |
 //! | `step` | the coefficient in one contact problem: memory, bounds |
+//! | `coefficient` | search for the coefficient that the law gives to the slip that it causes |
 
+mod coefficient;
 mod heating;
 mod law;
 mod slip;
 mod step;
 
+pub(super) use coefficient::CoefficientSearch;
 pub use heating::Heating;
 pub use law::FrictionLaw;
 pub use slip::SlipDependence;

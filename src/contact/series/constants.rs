@@ -1,7 +1,7 @@
 //! Constants of all problems on a patch.
 
 use super::chebyshev::TERMS;
-use super::tables::{SMOOTH, Tables};
+use super::tables::{SLOPE, Tables};
 use crate::analytic::HalfPlane;
 use crate::linalg::Lagrange;
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ pub struct LayerTables {
     /// Zeros of `T_16`.
     pub zeros: [f64; PARTS],
     /// Weights of the values there in the coefficients of `T_n`, by n.
-    pub zeros_terms: [[f64; PARTS]; SMOOTH],
+    pub zeros_terms: [[f64; PARTS]; SLOPE],
 }
 
 impl LayerTables {

@@ -101,9 +101,7 @@ pub(super) fn finish(
     let [friction, work] = remember(line, &force, state, history);
     traction.friction.coefficient = line.friction;
     let power = traction.friction.dissipate(friction, work, line.problem.line.duration);
-    let weighted: f64 = force.iter().zip(&line.slips).map(|(f, s)| f * s).sum();
-    let slide = line.tractions.slide;
-    traction.friction.tread_slip = if slide == 0.0 { mean_slip(line) } else { weighted / (slide * line.load()) };
+    traction.friction.tread_slip = line.tread_slip();
     traction.rigid = line.rigid;
     traction.resultant = line.resultant();
     write_ports(line, traction);
@@ -118,12 +116,6 @@ pub(super) fn finish(
     write_profiles(line, traction);
     scale_to(&mut traction.friction.dissipation, power, &traction.pressure);
     energy(line)
-}
-
-/// Mean slip over the pressure without friction [m/s].
-fn mean_slip(line: &SeriesLine) -> f64 {
-    let slips = line.slip(&line.pressed.map(|place| place.x), &line.surface, true);
-    line.pressed.iter().zip(slips).map(|(place, slip)| place.force * slip).sum::<f64>() / line.load()
 }
 
 fn write_ports(line: &SeriesLine, traction: &mut Traction) {

@@ -9,7 +9,7 @@
 use super::chebyshev::{Arch, TERMS};
 use super::constants::{Constants, LayerSamples, LayerTables, PARTS};
 use super::surface::AtPoints;
-use super::tables::{QUADRATURE, SMOOTH};
+use super::tables::{QUADRATURE, SLOPE, SMOOTH};
 use crate::analytic::HalfPlane;
 use crate::contact::problem::SingleLine;
 use crate::linalg::POINTS;
@@ -149,7 +149,7 @@ pub struct SeriesLayers {
     /// Part of the gap that the layers add \[m].
     pub gap: LayerProfile,
     /// Its slope as a series in `T_n`, times the half-width \[m].
-    pub slope: [f64; SMOOTH],
+    pub slope: [f64; SLOPE],
     /// Tangential displacement of the half-plane of the wheel less that of the rail, at the points of the polynomials
     /// \[m].
     pub relative: AtPoints,
@@ -202,6 +202,11 @@ impl SeriesLayers {
         let (turn, (base, root)) = (both(wheel.turn, rail.turn), depth(&wheel.rates, x));
         let (sums, scale) = (powers(&rates, &base), -self.wheel.kernel * PI / wheel.rates.half_width);
         std::array::from_fn(|i| scale * ((sums[i] * base[i] + turn) / root[i]).re)
+    }
+
+    /// Largest term of the slope of the gap that the pressure does not follow, times the half-width \[m].
+    pub fn unresolved(&self) -> f64 {
+        self.slope[SMOOTH..].iter().fold(0.0, |most, term| most.max(term.abs()))
     }
 
     /// Moves both layers to the edges of another patch.
@@ -275,7 +280,7 @@ mod tests {
             wheel: layer,
             rail: layer,
             gap: layer.lift,
-            slope: [0.0; SMOOTH],
+            slope: [0.0; SLOPE],
             relative: [0.0; POINTS],
             along: [[0.0; QUADRATURE]; 2],
         };

@@ -2,7 +2,7 @@
 //!
 //! [`chebyshev`] has the series and their effect on a half-plane, [`tables`] and [`constants`] their constants,
 //! [`surface`] the smooth part of the bodies, [`hot_layers`] the effect of hot layers, [`normal`] solves the normal
-//! problem, [`slip`] a given stretch of stick, [`stick`] finds where slip begins, [`finish`] takes traction and power,
+//! problem, [`slip`] a given stretch of stick, [`stick`] finds where slip begins, [`laws`] the states of brakes and the friction coefficient, [`finish`] takes traction and power,
 //! [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
 //! `docs/theory/patch-contact.md`.
 
@@ -10,6 +10,7 @@ pub mod chebyshev;
 mod constants;
 mod finish;
 mod hot_layers;
+mod laws;
 mod normal;
 mod series_line;
 mod slip;

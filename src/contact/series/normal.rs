@@ -31,7 +31,7 @@ impl SeriesLine<'_> {
         let slope = |x: f64| x / (radius * radius - x * x).sqrt() + gap.slope(x) - self.rim_angle;
         let places = tables.closed.map(|t| centre + half_width * t);
         let slopes = places.map(slope);
-        let warm = self.layers.as_ref().map_or([0.0; SMOOTH], |layers| layers.slope);
+        let warm = self.layers.as_ref().map_or([0.0; SMOOTH], |layers| std::array::from_fn(|n| layers.slope[n]));
         let series: [f64; SMOOTH] = std::array::from_fn(|n| {
             let sum: f64 = slopes.iter().zip(&tables.closed_terms[n]).map(|(s, t)| s * t).sum();
             sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64 + warm[n] / half_width

@@ -7,6 +7,7 @@ use super::surface::{AtPoints, Moments, SmoothSurfaces, dot};
 use super::tables::{POWER, QUADRATURE};
 use crate::contact::line::LineHistory;
 use crate::contact::problem::{AxisDrive, SingleLine};
+use crate::contact::traction::Traction;
 
 /// A place of integration with everything that does not depend on shear.
 #[derive(Clone, Copy, Debug, Default)]
@@ -19,6 +20,14 @@ pub struct QuadraturePlace {
     pub force: f64,
     /// `∫ p ln|x − s| ds` there [N/m].
     pub logarithm: f64,
+}
+
+/// Result of the step before.
+#[derive(Clone, Copy)]
+pub struct SeriesStart<'a> {
+    pub before: &'a SeriesState,
+    pub history: &'a LineHistory,
+    pub traction: &'a Traction,
 }
 
 /// Contact on a single patch in the present iterate.
@@ -53,14 +62,10 @@ pub struct SeriesLine<'a> {
 }
 
 impl<'a> SeriesLine<'a> {
-    pub fn new(
-        constants: &'a Constants,
-        problem: SingleLine<'a>,
-        (before, history): (&'a SeriesState, &'a LineHistory),
-        height: f64,
-    ) -> Self {
+    pub fn new(constants: &'a Constants, problem: SingleLine<'a>, start: &SeriesStart<'a>) -> Self {
+        let SeriesStart { before, history, traction } = *start;
         let start = |k: usize| problem.rigid[k].start();
-        let hub = problem.rigid[1].target().unwrap_or(height);
+        let hub = problem.rigid[1].target().unwrap_or(traction.rigid[1]);
         let none = [QuadraturePlace::default(); QUADRATURE];
         let layers = SeriesLayers::new(constants, &problem, &before.tractions.pressure);
         Self {
@@ -74,7 +79,7 @@ impl<'a> SeriesLine<'a> {
             rigid: [start(0), hub, start(2)],
             slope: before.slope,
             rim_angle: history.rim_angle.now,
-            friction: problem.line.friction.coefficient(0.0),
+            friction: problem.line.friction.coefficient(traction.friction.tread_slip),
             pressed: none,
             stuck: none,
             moments: Moments::default(),
@@ -213,9 +218,16 @@ impl<'a> SeriesLine<'a> {
 
     /// Residual of the balance of a rigid motion under the present tractions [N/m, N].
     pub fn unbalance(&self, axis: usize, resultant: [f64; 3]) -> f64 {
+        match self.problem.rigid[axis].drive {
+            AxisDrive::Free { load } => self.reaction(axis, resultant) - load,
+            AxisDrive::Prescribed { .. } | AxisDrive::Braked { .. } => 0.0,
+        }
+    }
+
+    /// Force [N/m] or moment \[N] that a rigid motion takes under the present tractions.
+    pub fn reaction(&self, axis: usize, resultant: [f64; 3]) -> f64 {
         let (bodies, motion) = (&self.problem.line.bodies, &self.problem.rigid[axis]);
-        let AxisDrive::Free { load } = motion.drive else { return 0.0 };
-        let mut sum = motion.momentum - load - resultant[axis];
+        let mut sum = motion.momentum - resultant[axis];
         for (k, (t, n)) in self.moments.tangential.iter().zip(&self.moments.normal).enumerate() {
             sum += bodies.momentum[(axis, 2 * k)] * (t + self.pulls[0][k]) + bodies.momentum[(axis, 2 * k + 1)] * n;
         }
@@ -244,5 +256,16 @@ impl<'a> SeriesLine<'a> {
         let densities = self.tractions.pressure.density(&places);
         let force = |q: usize| half * tables.weights[q] * self.tractions.slide * densities[q];
         (places, std::array::from_fn(force))
+    }
+
+    /// Mean slip over the pressure [m/s], once the solution has been checked.
+    pub fn tread_slip(&self) -> f64 {
+        let slide = self.tractions.slide;
+        if slide != 0.0 {
+            let (_, force) = self.slipping();
+            return force.iter().zip(&self.slips).map(|(f, s)| f * s).sum::<f64>() / (slide * self.load());
+        }
+        let slips = self.slip(&self.pressed.map(|place| place.x), &self.surface, true);
+        self.pressed.iter().zip(slips).map(|(place, slip)| place.force * slip).sum::<f64>() / self.load()
     }
 }

@@ -2,15 +2,16 @@
 
 use super::chebyshev::Arch;
 use super::constants::{Constants, LayerTables};
-use super::series_line::SeriesLine;
+use super::hot_layers::SeriesLayers;
+use super::series_line::SeriesStart;
 use super::state::{Past, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE, Tables};
-use super::{finish, stick, transfer};
+use super::{finish, laws, transfer};
 use crate::analytic::HalfPlane;
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{AxisDrive, ContactProblem, SingleLine};
+use crate::contact::problem::{ContactProblem, SingleLine};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
@@ -18,12 +19,8 @@ use crate::piecewise::Piecewise;
 use nalgebra::DVector;
 
 /// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the series do not resolve what
-/// is carried through it.
-const SHORTEST_WAY: f64 = 0.01;
-
-/// Largest difference of the velocities of both surfaces over their mean \[1]: beyond, the wheel slides, and its heat
-/// changes the data within a step that the series take from the step before.
-const MOST_SLIDING: f64 = 0.05;
+/// is carried through it. Where all slips nothing is.
+const SHORTEST_WAY: f64 = 1e-3;
 
 /// Largest half-width of a start over the reach of the bodies \[1].
 const LARGEST_START: f64 = 0.9;
@@ -61,8 +58,14 @@ impl SeriesSolver {
         }
     }
 
+    /// True if the material moves by less than a `way` \[m] in a step.
+    fn hardly_moves(problem: &SingleLine, way: f64) -> bool {
+        let [travel, rim] = [problem.rigid[0].start(), problem.line.radius() * problem.rigid[2].start()];
+        0.5 * (travel.abs() + rim.abs()) < way * problem.line.time.a0
+    }
+
     /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
-    fn check(&self, problem: &SingleLine, before: &SeriesState) -> Result<(), ContactError> {
+    fn check(problem: &SingleLine) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (problem.line.surfaces, &problem.line.placement, &problem.line.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
         if !surfaces.is_smooth() {
@@ -71,25 +74,41 @@ impl SeriesSolver {
         if surfaces.is_uneven(placement) {
             return refuse("the surfaces are flattened");
         }
-        if problem.rigid.iter().any(|motion| matches!(motion.drive, AxisDrive::Braked { .. })) {
-            return refuse("a brake may hold the wheel");
-        }
         if !limits.film.is_empty() {
             return refuse("a surface melts");
         }
-        if problem.line.friction.varies() {
-            return refuse("the friction coefficient depends on the slip");
+        if problem.line.time.b1 != 0.0 { refuse("the time formula remembers rates") } else { Ok(()) }
+    }
+
+    /// Counts the steps on the grid down. While the contact does not suit the series the count begins anew; material that
+    /// begins to move is handed over at once, as long as both solvers remember the same and agree.
+    fn rest(&self, problem: &SingleLine, found: &mut ContactState) {
+        let SolverState::Line(line) = &found.solver else { return };
+        let rest = match line.rest.saturating_sub(1) {
+            0 if Self::stands(problem, found) => 1,
+            0 if !self.suits(problem, found) => transfer::REST,
+            rest => rest,
+        };
+        if let SolverState::Line(line) = &mut found.solver {
+            line.rest = rest;
         }
-        if problem.line.time.b1 != 0.0 {
-            return refuse("the time formula remembers rates");
-        }
-        let [travel, rim] = [problem.rigid[0].start(), problem.line.radius() * problem.rigid[2].start()];
-        let speed = travel.abs() + rim.abs();
-        if self.falls_back() && (travel - rim).abs() > 0.5 * MOST_SLIDING * speed {
-            return refuse("the wheel slides");
-        }
-        let slow = 0.5 * speed < SHORTEST_WAY * before.tractions.pressure.half_width * problem.line.time.a0;
-        if slow { refuse("the material hardly moves") } else { Ok(()) }
+    }
+
+    /// True if some of the material sticks and hardly moves, with a margin.
+    fn stands(problem: &SingleLine, found: &ContactState) -> bool {
+        let half_width = found.traction.extent().map_or(0.0, |patch| 0.5 * (patch.high - patch.low));
+        found.traction.stick_fraction > 0.0 && Self::hardly_moves(problem, 2.0 * SHORTEST_WAY * half_width)
+    }
+
+    /// True if a contact that the grid has found could be taken back: hot layers leave a margin.
+    fn suits(&self, problem: &SingleLine, found: &ContactState) -> bool {
+        let [edges] = found.traction.edges.as_slice() else { return false };
+        let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
+        let patch = Arch { centre, half_width, ..Arch::default() };
+        let bends = |layers: &SeriesLayers| laws::bends(layers, problem, half_width, 0.5 * laws::UNRESOLVED);
+        Self::check(problem).is_ok()
+            && Self::check_limits(problem, &found.traction).is_ok()
+            && !SeriesLayers::new(&self.constants, problem, &patch).as_ref().is_some_and(bends)
     }
 
     /// Refuses a solution under which steel yields.
@@ -116,9 +135,14 @@ impl SeriesSolver {
         if problem.line.bodies.own.relative.nrows() != 2 * POINTS {
             return Err(ContactError::ForeignState);
         }
-        self.check(problem, before)?;
-        let mut line = SeriesLine::new(&self.constants, *problem, (before, &start.history), start.traction.rigid[1]);
-        stick::solve(&mut line)?;
+        Self::check(problem)?;
+        let slow = Self::hardly_moves(problem, SHORTEST_WAY * before.tractions.pressure.half_width);
+        let sticks = |tractions: &Tractions| match slow && !tractions.slides() {
+            true => Err(ContactError::Unsuited { reason: "the material hardly moves" }),
+            false => Ok(()),
+        };
+        sticks(&before.tractions)?;
+        let begun = SeriesStart { before, history: &start.history, traction: &start.traction };
         let ContactState { ports, traction, history, energy, solver } = found;
         match solver {
             SolverState::Series(state) => (**state).clone_from(before),
@@ -127,7 +151,9 @@ impl SeriesSolver {
         let SolverState::Series(state) = solver else { return Err(ContactError::ForeignState) };
         history.copy_from(&start.history);
         *ports = start.ports;
-        *energy = finish::finish(&line, state, history, traction);
+        *energy =
+            laws::solve(&self.constants, *problem, &begun, |line| finish::finish(line, state, history, traction))?;
+        sticks(&state.tractions)?;
         Self::check_limits(problem, traction)
     }
 }
@@ -171,10 +197,10 @@ impl ContactSolver for SeriesSolver {
             return self.solve_patch(&problem.single()?, (start, before), found);
         }
         self.grid.solve(problem, start, found, scratch)?;
-        for (found, problem) in found.iter_mut().zip(&problem.lines) {
-            if let (SolverState::Line(line), false) = (&mut found.solver, problem.time.is_stationary()) {
-                line.rest = line.rest.saturating_sub(1);
-            }
+        if let ([found], Ok(problem)) = (found, problem.single())
+            && !problem.line.time.is_stationary()
+        {
+            self.rest(&problem, found);
         }
         Ok(())
     }
@@ -214,13 +240,10 @@ impl ContactSolver for SeriesSolver {
     fn narrowed(&self, state: &ContactState, nominal_load: f64) -> Option<ContactState> {
         match state.ports {
             Ports::Smooth => None,
-            Ports::Narrow | Ports::Wide => self.grid.narrowed(state, nominal_load).or_else(|| {
-                let (travel, slip) = (state.traction.rigid[0], state.traction.friction.tread_slip);
-                if slip.abs() > MOST_SLIDING * travel.abs() {
-                    return None;
-                }
-                transfer::to_patch(&self.constants, self.grid.grid(state.ports)?, state)
-            }),
+            Ports::Narrow | Ports::Wide => self
+                .grid
+                .narrowed(state, nominal_load)
+                .or_else(|| transfer::to_patch(&self.constants, self.grid.grid(state.ports)?, state)),
         }
     }
 

@@ -1,13 +1,16 @@
 //! The search for the place where slip begins.
 
 use super::series_line::SeriesLine;
-use super::state::Tractions;
+use super::state::{Past, SeriesState, Tractions};
 use crate::contact::error::ContactError;
+use crate::multistep::TimeDerivative;
 
 /// Shortest stretch that sticks, over the half-width of the patch \[1].
 const SHORTEST: f64 = 2e-3;
-/// Traction above friction where it sticks, over the largest friction, that counts as an error of the series \[1].
-const OVERSHOOT: f64 = 5e-3;
+/// Force above friction where it sticks, over all friction, that counts as an error of the series \[1].
+const OVERSHOOT: f64 = 1e-3;
+/// Force over friction that does \[1].
+const ROUND_OFF: f64 = 1e-9;
 /// Slip against the direction of friction, over that at which rolling becomes sliding, that does \[1].
 const BACKWARD: f64 = 5e-3;
 /// Times that slip and stick, or the directions of slip, change.
@@ -15,9 +18,19 @@ const CHANGES: usize = 4;
 /// Change of the length of stick that says something about how the root depends on it, over all changes of the
 /// iteration before: beside larger ones the root changes for other reasons \[1].
 const TELLING: f64 = 0.2;
+/// Share of the root that a step along the slope leaves if the slope is wrong \[1].
+const LEFT: f64 = 0.2;
+/// Smallest step after which that is noticed \[1]: roots after shorter ones are noise.
+const NOTICED: f64 = 1e-4;
 
 /// Largest relative change expected of a further iteration that ends them; changes fall about as they fell last.
 const TOLERANCE: f64 = 1e-10;
+/// Largest change of the share in a step that is expected to go on \[1]: beyond, slip comes and goes.
+const EXPECTED: f64 = 0.05;
+/// Share of stick or slip at which it is \[1].
+const SURE: f64 = 0.1;
+/// Largest relative change after which one is expected.
+const SMALL: f64 = 1e-7;
 /// Largest relative change that ends them where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
@@ -39,23 +52,38 @@ pub fn solve(line: &mut SeriesLine) -> Result<(), ContactError> {
         normal = line.press()?;
     }
     let mut search = StickSearch::new(line);
-    let mut last = f64::INFINITY;
+    // Normal and tangential problem improve each other by turns: a change falls as that before the last one did.
+    let mut last = [f64::INFINITY; 2];
     for _ in 0..MOST {
         let tangential = search.advance(line)?;
         let change = normal.max(tangential);
-        let falls = if last.is_finite() { (change / last).min(1.0) } else { 1.0 };
-        let settled = change * falls <= TOLERANCE || change <= ROUNDING && change >= last;
-        last = change;
+        let settled = is_settled(change, last);
+        last = [change, last[0]];
         if settled {
             if search.check(line)? {
                 line.slope = search.slope(line);
                 return Ok(());
             }
-            last = f64::INFINITY;
+            last = [f64::INFINITY; 2];
         }
         normal = line.press()?;
     }
     Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
+}
+
+/// True if the `change` of an iteration after the `last` two is the last one that counts.
+fn is_settled(change: f64, [last, before]: [f64; 2]) -> bool {
+    let falls = |from: f64| if from.is_finite() { (change / from).min(1.0) } else { 1.0 };
+    change * falls(last) <= TOLERANCE
+        || change <= SMALL && last * falls(before) <= TOLERANCE
+        || change <= ROUNDING && change >= last
+}
+
+/// Length of a step over that of the step before \[1]; zero where that says nothing.
+fn step_ratio(time: &TimeDerivative) -> f64 {
+    // `a1 = −(1 + r)/Δt` and `a2 = r²/((1 + r) Δt)`.
+    let share = (-time.a2 / time.a1).sqrt();
+    if share > 0.0 { share / (1.0 - share) } else { 0.0 }
 }
 
 /// The search in one contact problem.
@@ -69,18 +97,38 @@ pub(super) struct StickSearch {
     /// Largest relative change in the iteration before.
     moving: f64,
     changes: usize,
+    /// Once the part that sticks would have carried more than friction.
+    torn: bool,
 }
 
 impl StickSearch {
     pub fn new(it: &mut SeriesLine) -> Self {
         let (tractions, mu) = (&mut it.tractions, it.friction);
-        let share = (!tractions.slides()).then(|| tractions.stick.half_width / tractions.pressure.half_width);
+        let ratio = mu / tractions.slide.abs();
+        if ratio.is_finite() {
+            tractions.stick.terms.iter_mut().for_each(|term| *term *= ratio);
+        }
+        let share = (!tractions.slides()).then(|| Self::expected(tractions, it.before, &it.problem.line.time));
         let sign = if tractions.slide < 0.0 { -1.0 } else { 1.0 };
         tractions.slide = sign * mu;
         let share = share.filter(|_| mu > 0.0).map(|share| share.clamp(SHORTEST, 1.0));
-        let known = it.before.slope;
+        let known = it.slope;
         let slope = Self::quasistatic(it) * if known > 0.0 { known } else { 1.0 };
-        Self { share, last: None, slope, moving: 0.0, changes: 0 }
+        Self { share, last: None, slope, moving: 0.0, changes: 0, torn: false }
+    }
+
+    /// Share that is expected: it goes on changing as it did in the last step.
+    fn expected(now: &Tractions, before: &SeriesState, time: &TimeDerivative) -> f64 {
+        let share = |tractions: &Tractions| tractions.stick.half_width / tractions.pressure.half_width;
+        match &before.past[1] {
+            Past::Patch(earlier, _) if earlier.same_branch(now) && !earlier.slides() => {
+                let change = step_ratio(time) * (share(now) - share(earlier));
+                // Where nearly all or nothing sticks, slip may come from the other side or go.
+                let steady = change.abs() <= EXPECTED && (SURE..=1.0 - SURE).contains(&(share(now) + change));
+                share(now) + if steady { change } else { 0.0 }
+            }
+            Past::Patch(..) | Past::Grid(..) => share(now),
+        }
     }
 
     /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
@@ -107,7 +155,8 @@ impl StickSearch {
         let upstream = it.upstream();
         let root = it.stick(share * it.tractions.pressure.half_width, upstream)?;
         if let Some([other, there]) = self.last
-            && (share - other).abs() > TELLING * self.moving
+            && let moved = (share - other).abs()
+            && (moved > TELLING * self.moving || moved > NOTICED && (root / there).abs() > LEFT)
         {
             let slope = (root - there) / (share - other);
             if slope * self.slope > 0.0 && slope.is_finite() {
@@ -161,16 +210,15 @@ impl StickSearch {
         if it.friction == 0.0 {
             return Ok(true);
         }
-        let (slide, peak) = (it.tractions.slide, it.friction * it.tractions.pressure.terms[0]);
-        let stuck = it.stuck.map(|place| place.x);
-        let (shear, pressure) = (it.tractions.shear(&stuck), it.tractions.pressure.density(&stuck));
-        let beyond = |q: usize| shear[q].abs() - it.friction * pressure[q] > OVERSHOOT * peak;
-        let torn = !it.tractions.slides() && (0..stuck.len()).any(beyond);
+        let slide = it.tractions.slide;
         let scale = it.speed() * it.friction * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
         let backward = |slip: &&f64| *slip * slide.signum() > BACKWARD * scale;
         let looked_at = || it.slips.iter().step_by(3);
         let wrong = looked_at().filter(backward).count();
         if it.tractions.slides() && wrong > 0 {
+            if self.torn {
+                return Err(ContactError::Unsuited { reason: "slip at the leading edge" });
+            }
             if wrong == looked_at().count() {
                 it.tractions.slide = -slide;
                 self.turn_over(it, None)?;
@@ -179,12 +227,31 @@ impl StickSearch {
             }
             return Ok(false);
         }
-        if torn {
-            return Err(ContactError::Unsuited { reason: "more than friction where it sticks" });
+        if Self::is_torn(it) {
+            // Where next to nothing sticks all of it may slip; otherwise it slips at the leading edge, too.
+            if std::mem::replace(&mut self.torn, true) {
+                return Err(ContactError::Unsuited { reason: "more than friction where it sticks" });
+            }
+            self.turn_over(it, None)?;
+            return Ok(false);
         }
         if wrong > 0 {
             return Err(ContactError::Unsuited { reason: "slip against friction" });
         }
         Ok(true)
+    }
+
+    /// True if the part that sticks carries more than friction would.
+    fn is_torn(it: &SeriesLine) -> bool {
+        if it.tractions.slides() {
+            return false;
+        }
+        let Tractions { pressure, slide, stick } = &it.tractions;
+        let places = it.stuck.map(|place| place.x);
+        let (shear, bears) = (it.tractions.shear(&places), pressure.density(&places));
+        let beyond = |q: usize| (shear[q].abs() - it.friction * bears[q]).max(0.0) * it.constants.tables.weights[q];
+        let excess = stick.half_width * (0..places.len()).map(beyond).sum::<f64>();
+        let (total, limit) = (slide * pressure.total() + stick.total(), it.friction * pressure.total());
+        excess > OVERSHOOT * limit || total.abs() > limit * (1.0 + ROUND_OFF)
     }
 }

@@ -9,6 +9,8 @@ pub const PRESSURE: usize = 4;
 pub const SHEAR: usize = 10;
 /// Places at which the pressure holds the surfaces together: one more than terms.
 pub const SMOOTH: usize = PRESSURE + 1;
+/// Terms of the slope of a hot layer: those that the pressure follows, and as many beyond.
+pub const SLOPE: usize = 2 * SMOOTH;
 /// Places at which the surfaces stick: one more than terms.
 pub const STICK: usize = SHEAR + 1;
 /// Places of the rule that integrates tractions.

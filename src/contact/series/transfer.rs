@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Steps on the grid before the patch is tried again.
-const REST: u32 = 32;
+pub(super) const REST: u32 = 32;
 /// Share of the reach of the smooth displacements that a patch may take when it comes from the grid \[1].
 const ROOM: f64 = 0.9;
 

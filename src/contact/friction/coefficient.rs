@@ -17,7 +17,7 @@ const NARROW: f64 = 1e-13;
 const PATIENCE: usize = 4;
 
 /// The search in one contact problem.
-pub(super) struct CoefficientSearch {
+pub(in crate::contact) struct CoefficientSearch {
     /// Bracket of the solution \[1].
     bracket: [f64; 2],
     /// True for the ends of it that were evaluated. The bounds of the law are solutions themselves where the contact

@@ -5,7 +5,7 @@
 //! a slipping one has the balance with the known force. A brake that holds slips where more than `L` is needed to hold
 //! it; one whose force no longer opposes the motion holds, so that a reversal passes through rest.
 
-use crate::contact::problem::RigidMotion;
+use crate::contact::problem::{AxisDrive, RigidMotion};
 
 /// State of the brake of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +35,18 @@ pub(super) fn founding(rigid: &[RigidMotion; 3]) -> [BrakeState; 3] {
         speed if speed > 0.0 => BrakeState::Backward,
         speed if speed < 0.0 => BrakeState::Forward,
         _ => BrakeState::Holding,
+    })
+}
+
+/// The motions with brakes in given states: held at rest, or free under the load and the force of the brake.
+pub(super) fn driven(rigid: &[RigidMotion; 3], states: [BrakeState; 3]) -> [RigidMotion; 3] {
+    std::array::from_fn(|axis| {
+        let AxisDrive::Braked { load, limit } = rigid[axis].drive else { return rigid[axis] };
+        let drive = match states[axis] {
+            BrakeState::Holding => AxisDrive::Prescribed { target: 0.0 },
+            slips => AxisDrive::Free { load: load + slips.direction() * limit },
+        };
+        RigidMotion { drive, ..rigid[axis] }
     })
 }
 
