@@ -4,7 +4,7 @@
 //! Results of different machines differ by round-off: by the order of sums, and where a product and a sum are rounded
 //! at once.
 
-use crate::linalg::vectorised::vectorised;
+use crate::linalg::vectorised::{BLOCK, by_blocks, load, vectorised};
 use pulp::Simd;
 
 vectorised! {
@@ -36,13 +36,27 @@ vectorised! {
     /// Adds all rows of `x`, each times its weight, to `sums`.
     fn add_weighted<'a, S>(simd, weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]) {
         let (x, sums) = (S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sums).0);
-        for (x, &weight) in x.chunks_exact(sums.len()).zip(weights) {
-            let weight = simd.splat_f64s(weight);
-            for (sum, &x) in sums.iter_mut().zip(x) {
-                *sum = simd.mul_add_e_f64s(weight, x, *sum);
-            }
+        by_blocks!(sums.len(), add_weighted_block::<S>(simd, weights, x, sums));
+    }
+}
+
+/// The registers from `at` on of [`add_weighted`].
+#[inline(always)]
+fn add_weighted_block<S: Simd, const B: usize>(
+    simd: S,
+    weights: &[f64],
+    x: &[S::f64s],
+    sums: &mut [S::f64s],
+    at: usize,
+) {
+    let mut parts: [_; B] = load(sums, at);
+    for (first, &weight) in (at..x.len()).step_by(sums.len()).zip(weights) {
+        let (x, weight): ([_; B], _) = (load(x, first), simd.splat_f64s(weight));
+        for q in 0..B {
+            parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
         }
     }
+    sums[at..at + B].copy_from_slice(&parts);
 }
 
 vectorised! {
