@@ -27,7 +27,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("heat", &["fem", "linalg", "config", "piecewise"]),
     ("surface", &["config", "files", "piecewise"]),
     ("contact", &["analytic", "surface", "config", "linalg", "multistep", "piecewise"]),
-    ("damage", &["fem"]),
+    ("damage", &["fem", "linalg"]),
     (
         "rolling",
         &[

@@ -80,11 +80,16 @@ fn released(spots: &HotSpots, excess: f64, t0: f64, end: f64, dt: f64) -> Damage
         let sample = |_: f64, column: &mut [f64]| {
             column.iter_mut().zip(&depth).for_each(|(t, z)| *t = half_space(q, t0, *z, time));
         };
-        spots.advance(&mut damage, &moment(t0 / steps as f64, 0.0, 0.0, half_space(q, t0, 0.0, time)), &sample);
+        spots.advance(
+            &mut damage,
+            &moment(t0 / steps as f64, 0.0, 0.0, half_space(q, t0, 0.0, time)),
+            &sample,
+            &mut Default::default(),
+        );
     }
     for k in 1..=(end / dt).round() as usize {
         let untouched = |_: f64, _: &mut [f64]| panic!("the contact is far away");
-        spots.advance(&mut damage, &moment(dt, 30.0 * dt * k as f64, 30.0, 0.0), &untouched);
+        spots.advance(&mut damage, &moment(dt, 30.0 * dt * k as f64, 30.0, 0.0), &untouched, &mut Default::default());
     }
     damage
 }
@@ -170,9 +175,14 @@ fn a_spot_conducts_in_both_directions_with_second_order() {
             column.iter_mut().zip(&depth).for_each(|(t, z)| *t = shape(s, *z, 0.0));
         };
         let mut damage = Damage::default();
-        spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 1000.0), &sample);
+        spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 1000.0), &sample, &mut Default::default());
         for k in 1..=500 {
-            spots.advance(&mut damage, &moment(end / 500.0, 0.03 * k as f64, 30.0, 0.0), &sample);
+            spots.advance(
+                &mut damage,
+                &moment(end / 500.0, 0.03 * k as f64, 30.0, 0.0),
+                &sample,
+                &mut Default::default(),
+            );
         }
         let field = damage.spots[0].field().unwrap();
         let (mesh, mut worst) = (spots.mesh(), 0.0f64);
@@ -195,12 +205,12 @@ fn nothing_hot_leaves_no_spot_and_no_memory() {
     let mut damage = spots.begin([0.0; 2]);
     let sample = |_: f64, _: &mut [f64]| panic!("nobody asks");
     for k in 0..100 {
-        spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 2.9 * k as f64), &sample);
+        spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 2.9 * k as f64), &sample, &mut Default::default());
     }
     assert!(damage.spots.is_empty() && damage.spots.capacity() == 0 && damage.places == 0);
     assert!((damage.peak - (REFERENCE + 2.9 * 99.0)).abs() < 1e-9);
     // Hot, but so fast that no place is heated on its own.
-    spots.advance(&mut damage, &moment(1e-3, 0.0, 20.0, 600.0), &sample);
+    spots.advance(&mut damage, &moment(1e-3, 0.0, 20.0, 600.0), &sample, &mut Default::default());
     assert!(damage.spots.is_empty());
 }
 
@@ -212,7 +222,7 @@ fn heat(spots: &HotSpots, damage: &mut Damage, angle: f64, excess: f64) {
         column.iter_mut().zip(&depth).for_each(|(t, z)| *t = excess * flank * (-z / 1e-3).exp());
     };
     for _ in 0..2 {
-        spots.advance(damage, &moment(1e-3, angle, 0.0, excess), &sample);
+        spots.advance(damage, &moment(1e-3, angle, 0.0, excess), &sample, &mut Default::default());
     }
 }
 
@@ -246,7 +256,7 @@ fn a_hot_place_that_comes_back_keeps_its_heat_without_a_jump() {
     heat(&spots, &mut damage, 0.0, 1000.0);
     let cold = |_: f64, column: &mut [f64]| column.fill(0.0);
     for k in 1..=100 {
-        spots.advance(&mut damage, &moment(1e-4, 30.0 * 1e-4 * k as f64, 30.0, 0.0), &cold);
+        spots.advance(&mut damage, &moment(1e-4, 30.0 * 1e-4 * k as f64, 30.0, 0.0), &cold, &mut Default::default());
     }
     let centre = |damage: &Damage| damage.spots[0].field().unwrap().temperature.iter().copied().fold(0.0, f64::max);
     let before = centre(&damage);
@@ -255,7 +265,7 @@ fn a_hot_place_that_comes_back_keeps_its_heat_without_a_jump() {
         column.fill(0.0);
         column[0] = 400.0;
     };
-    spots.advance(&mut damage, &moment(1e-6, 0.0, 0.0, 400.0), &warm);
+    spots.advance(&mut damage, &moment(1e-6, 0.0, 0.0, 400.0), &warm, &mut Default::default());
     let after = centre(&damage);
     println!("{before:.2} K before, {after:.2} K after");
     assert!(damage.spots.len() == 1 && damage.spots[0].following);
@@ -291,7 +301,7 @@ fn every_point_of_a_rolling_tread_is_hot_for_its_passes_only() {
             angle += omega * dt;
             let surface: (&[f64], &[f64]) = (&x, &values);
             let now = TreadStep { surface, ..moment(dt, angle, omega, 900.0) };
-            spots.advance(&mut damage, &now, &sample);
+            spots.advance(&mut damage, &now, &sample, &mut Default::default());
         }
         longest.push(damage.findings().above_ac1);
     }
@@ -309,13 +319,13 @@ fn the_rail_chills_a_rolling_hot_place_at_every_pass() {
     let spots = wheel(1.0);
     let mut damage = spots.begin([0.0; 2]);
     let sample = |_: f64, column: &mut [f64]| column.fill(600.0);
-    spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 600.0), &sample);
+    spots.advance(&mut damage, &moment(1e-3, 0.0, 0.0, 600.0), &sample, &mut Default::default());
     let (omega, length) = (30.0, 0.012);
     let turns = 5;
     let end = turns as f64 * 2.0 * PI / omega;
     for k in 1..=1000 {
         let now = moment(end / 1000.0, omega * end * k as f64 / 1000.0, omega, 0.0);
-        spots.advance(&mut damage, &TreadStep { contact_length: length, ..now }, &sample);
+        spots.advance(&mut damage, &TreadStep { contact_length: length, ..now }, &sample, &mut Default::default());
     }
     // Heat that the middle column has lost per area.
     let (mesh, field) = (spots.mesh(), damage.spots[0].field().unwrap());

@@ -17,6 +17,7 @@ mod shared;
 mod spot;
 mod tread;
 
+pub use conduction::ConductionScratch;
 pub use fatigue::surface_fatigue;
 pub use mesh::{SpotLayout, SpotMesh};
 use record::Recorder;
@@ -120,7 +121,13 @@ impl HotSpots {
     }
 
     /// Advances the history by one step.
-    pub fn advance(&self, damage: &mut Damage, now: &TreadStep, sample: ColumnSampler) {
+    pub fn advance(
+        &self,
+        damage: &mut Damage,
+        now: &TreadStep,
+        sample: ColumnSampler,
+        scratch: &mut ConductionScratch,
+    ) {
         damage.peak = damage.peak.max(self.reference + now.hottest[0]);
         damage.rail_peak = damage.rail_peak.max(self.reference + now.hottest[1]);
         let (ac1, threshold) = (now.criteria.austenitisation - self.reference, now.criteria.threshold);
@@ -136,7 +143,7 @@ impl HotSpots {
         }
         let nearest = damage.spots.iter().map(|spot| self.distance(spot, now).abs()).fold(f64::INFINITY, f64::min);
         for spot in &mut damage.spots {
-            self.advance_spot(spot, now, heats, sample, &mut damage.peaks);
+            self.advance_spot(spot, now, heats, sample, (&mut damage.peaks, scratch));
         }
         if heats && nearest > self.half_width {
             self.make_room(damage);
@@ -175,17 +182,24 @@ impl HotSpots {
         self.zone.max(now.contact_reach)
     }
 
-    fn advance_spot(&self, spot: &mut Spot, now: &TreadStep, heats: bool, sample: ColumnSampler, peaks: &mut Vec<f64>) {
+    fn advance_spot(
+        &self,
+        spot: &mut Spot,
+        now: &TreadStep,
+        heats: bool,
+        sample: ColumnSampler,
+        (peaks, scratch): (&mut Vec<f64>, &mut ConductionScratch),
+    ) {
         let distance = self.distance(spot, now);
         let under = self.stands(now.omega) && distance.abs() <= self.half_width;
         let record = self.recorder(now);
         let film = self.convection + self.chill(now);
         let news = if under && (heats || spot.following) {
             let visit = Visit { distance, reach: self.reach(now), dt: now.dt, film };
-            spot.follow(&self.mesh, &visit, sample, &record);
+            spot.follow(&self.mesh, &visit, sample, &record, scratch);
             true
         } else {
-            spot.conduct(&self.mesh, now.dt, film, &record)
+            spot.conduct(&self.mesh, now.dt, film, &record, scratch)
         };
         if news {
             peaks.resize(self.mesh.depth.len(), 0.0);

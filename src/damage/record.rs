@@ -45,6 +45,10 @@ impl MaterialPoint {
     pub fn record(&mut self, [before, after]: [f64; 2], time: f64, dt: f64, criteria: &Criteria) {
         self.peak = self.peak.max(after);
         let ac1 = criteria.austenitisation;
+        if before.max(after) < ac1.min(COOLING[1]) && self.cooling_rate < criteria.critical_cooling {
+            // Nothing to record below the temperatures that matter.
+            return;
+        }
         self.above_ac1 += dt * share_above(before, after, ac1);
         if after > before {
             if after > ac1 {

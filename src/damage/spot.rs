@@ -99,21 +99,27 @@ impl Spot {
 
     /// Step under the contact: in its zone the temperatures are those of the sample and the heat that the place brought
     /// along; beyond, where the sample is coarse, the place conducts by itself.
-    pub(super) fn follow(&mut self, mesh: &SpotMesh, visit: &Visit, sample: ColumnSampler, recorder: &Recorder) {
+    pub(super) fn follow(
+        &mut self,
+        mesh: &SpotMesh,
+        visit: &Visit,
+        sample: ColumnSampler,
+        recorder: &Recorder,
+        scratch: &mut ConductionScratch,
+    ) {
         let back = !std::mem::replace(&mut self.following, true);
         let dt = visit.dt + std::mem::take(&mut self.pending);
         let layers = mesh.depth.len();
         // A place that was at rest is cold.
         let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh.size(), recorder)));
         let field = Arc::make_mut(field);
-        let mut scratch = ConductionScratch::default();
         let mut now = field.temperature.clone();
-        conduct(mesh, &mut now, dt, visit.film, &mut scratch);
+        conduct(mesh, &mut now, dt, visit.film, scratch);
         if back {
             field.remainder.clear();
             field.remainder.resize(mesh.size(), 0.0);
         } else if !field.remainder.is_empty() {
-            conduct(mesh, &mut field.remainder, dt, visit.film, &mut scratch);
+            conduct(mesh, &mut field.remainder, dt, visit.film, scratch);
         }
         let mut seen = vec![0.0; layers];
         for (column, arc) in mesh.arc.iter().enumerate().filter(|(_, arc)| visit.covers(**arc)) {
@@ -153,7 +159,14 @@ impl Spot {
     }
 
     /// Step of `dt` \[s] away from the contact; returns `true` if its temperatures are new.
-    pub(super) fn conduct(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder) -> bool {
+    pub(super) fn conduct(
+        &mut self,
+        mesh: &SpotMesh,
+        dt: f64,
+        film: f64,
+        recorder: &Recorder,
+        scratch: &mut ConductionScratch,
+    ) -> bool {
         self.following = false;
         let Some(field) = self.field.as_mut() else { return false };
         let own_step = |alone: f64| mesh.resolution * FIRST_STEP.max(STEP_SHARE * alone);
@@ -163,12 +176,11 @@ impl Spot {
         }
         let field = Arc::make_mut(field);
         field.remainder = Vec::new();
-        let mut scratch = ConductionScratch::default();
         while self.pending >= own_step(self.alone) {
             let step = own_step(self.alone);
             self.pending -= step;
             self.alone += step;
-            field.advance(mesh, step, film, recorder, &mut scratch);
+            field.advance(mesh, step, film, recorder, scratch);
         }
         self.judge(mesh, recorder);
         true

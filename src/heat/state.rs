@@ -16,6 +16,27 @@ pub struct HeatState {
     pub(super) data: [f64; 2],
     /// Bounds that the values at all nodes are known to keep \[K].
     pub(super) range: [f64; 2],
+    /// Bounds of the values below every surface node, the wheel's first; empty: none are known.
+    pub(super) rows: Vec<RowBounds>,
+}
+
+/// Bounds of the values below one surface node.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct RowBounds {
+    /// Lowest and highest value when all were looked at \[K].
+    pub found: [f64; 2],
+    /// Distance by which they may have moved since \[K].
+    pub moved: f64,
+}
+
+impl RowBounds {
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self { found: [0.0; 2], moved: f64::INFINITY };
+
+    /// Bounds that the values keep now \[K].
+    pub fn range(&self) -> [f64; 2] {
+        [self.found[0] - self.moved, self.found[1] + self.moved]
+    }
 }
 
 impl HeatState {

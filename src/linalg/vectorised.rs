@@ -29,6 +29,33 @@ macro_rules! vectorised {
 }
 pub(crate) use vectorised;
 
+/// Runs `$work::<S, B>($args, at)` for all blocks of registers of rows of `$k` registers; a block has [`BLOCK`]
+/// registers but for the last one.
+macro_rules! by_blocks {
+    ($k:expr, $work:ident::<$S:ident>($($arg:expr),* $(,)?)) => {
+        for at in (0..$k).step_by(BLOCK) {
+            match $k - at {
+                1 => $work::<$S, 1>($($arg),*, at),
+                2 => $work::<$S, 2>($($arg),*, at),
+                3 => $work::<$S, 3>($($arg),*, at),
+                _ => $work::<$S, BLOCK>($($arg),*, at),
+            }
+        }
+    };
+}
+pub(crate) use by_blocks;
+
+/// Registers that go from row to row together: what a row passes on to the next one stays in them, and each waits for
+/// the result of the row before.
+pub const BLOCK: usize = 4;
+
+/// `B` numbers from a place on.
+#[inline(always)]
+pub fn load<V: Copy, const B: usize>(values: &[V], at: usize) -> [V; B] {
+    let values = &values[at..at + B];
+    std::array::from_fn(|q| values[q])
+}
+
 vectorised! {
     /// Scalar product.
     fn dot<'a, S>(simd, a: &'a [f64], b: &'a [f64]) -> f64 {

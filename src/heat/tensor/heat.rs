@@ -63,7 +63,7 @@ impl Heat {
         };
         let data = [wheel.min(rail).min(0.0), wheel.max(rail).max(0.0)];
         let values = [uniform(&self.layout.wheel, wheel), uniform(&self.layout.rail, rail)].concat();
-        HeatState { values, last: None, arriving: rail, data, range: data }
+        HeatState { values, arriving: rail, data, range: data, ..HeatState::default() }
     }
 
     /// Heat content over `ρc` at a temperature over the reference \[K].

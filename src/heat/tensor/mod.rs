@@ -101,7 +101,8 @@ impl HeatModel for Heat {
     }
 
     fn depth_weights(&self, depths: &[f64]) -> Vec<f64> {
-        depths.iter().flat_map(|&z| self.layout.wheel.modes.at(z)).collect()
+        let at_depths: Vec<_> = depths.iter().map(|&z| self.layout.wheel.modes.at(z)).collect();
+        (0..self.layout.wheel.modes.len()).flat_map(|mode| at_depths.iter().map(move |values| values[mode])).collect()
     }
 
     fn wheel_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {

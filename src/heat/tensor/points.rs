@@ -7,6 +7,7 @@ use crate::fem::Mesh;
 use crate::heat::error::HeatError;
 use crate::heat::observation::TemperatureField;
 use crate::heat::state::HeatState;
+use crate::linalg::vectorised::add_columns;
 
 impl Heat {
     /// Surface temperatures of wheel and rail at x \[m] within the contact zone, linear between nodes \[K].
@@ -43,15 +44,13 @@ impl Heat {
         (rows, xi)
     }
 
-    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread, at the depths whose
-    /// values of the modes are `weights`.
+    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread, at the depths at
+    /// which the modes have the values `weights`, mode by mode.
     pub(super) fn fill_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
-        let nm = self.layout.wheel.modes.len();
-        let (rows, xi) = self.columns_at(0, state, s);
-        let (from, to) = rows.split_at(nm);
-        for (value, weights) in column.iter_mut().zip(weights.chunks_exact(nm)) {
-            *value = (1.0 - xi) * dot(from, weights) + xi * dot(to, weights);
-        }
+        let (mut rows, xi) = self.columns_at(0, state, s);
+        let (from, to) = rows.split_at_mut(self.layout.wheel.modes.len());
+        from.iter_mut().zip(to).for_each(|(from, to)| *from += xi * (*to - *from));
+        add_columns(1.0, weights, column.len(), from, column);
     }
 
     /// Temperature fields of wheel and rail.

@@ -2,7 +2,7 @@
 
 use super::exchange::ThermalContact;
 use crate::config::{Config, Tuning};
-use crate::damage::{Criteria, Damage, HotSpots, SpotLayout, TreadStep};
+use crate::damage::{ConductionScratch, Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 use crate::heat::{HeatModel, HeatState, Observation};
 use crate::piecewise::interpolate;
 use crate::rolling::state::Motion;
@@ -60,6 +60,7 @@ impl MaterialHistory {
         criteria: Criteria,
         contact: &ThermalContact,
         seen: &ObservedStep,
+        scratch: &mut ConductionScratch,
     ) {
         let temperatures = &seen.observation.temperatures;
         let patch = contact.traction.extent();
@@ -76,7 +77,7 @@ impl MaterialHistory {
         };
         let (heat, state) = seen.field;
         let column = |s: f64, out: &mut [f64]| heat.wheel_column(state, s, &self.weights, out);
-        self.spots.advance(damage, &moment, &column);
+        self.spots.advance(damage, &moment, &column, scratch);
     }
 
     /// Highest temperature at given depths \[m] of places that were heated in one piece \[K]; none: the reference.

@@ -19,7 +19,7 @@ use super::state::Motion;
 use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{ContactState, Heating};
-use crate::damage::Criteria;
+use crate::damage::{ConductionScratch, Criteria};
 use crate::heat::{
     Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatModel, HeatScratch, Observation, TemperatureField,
 };
@@ -88,6 +88,7 @@ pub struct ThermalScratch {
     heat: HeatScratch,
     exchange: Exchange,
     view: ThermalView,
+    history: ConductionScratch,
 }
 
 /// Observation of a state, and the smoothing of its swelling.
@@ -216,7 +217,7 @@ impl ThermalModel {
         scratch: &mut ThermalScratch,
     ) -> Result<ThermalState, StepError> {
         let HeatStep { dt, tread_heat, criteria } = step;
-        let ThermalScratch { heat, exchange, view } = scratch;
+        let ThermalScratch { heat, exchange, view, history } = scratch;
         thermal.weakening.film.clone_from(&before.weakening.film);
         contact.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
         let (v, omega) = (motion.velocity.now, motion.omega.now);
@@ -227,7 +228,7 @@ impl ThermalModel {
         thermal.damage.copy_from(&before.damage);
         let seen =
             ObservedStep { field: (&*self.heat, &thermal.fields), observation: &view.seen, zone: self.heat.zone_x() };
-        self.history.advance(&mut thermal.damage, motion, dt, criteria, contact, &seen);
+        self.history.advance(&mut thermal.damage, motion, dt, criteria, contact, &seen, history);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));

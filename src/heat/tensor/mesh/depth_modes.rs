@@ -45,7 +45,7 @@ pub struct DepthModes {
 /// Modes are padded to a multiple of this number with empty ones, so that inner loops run on full registers. Wider ones
 /// than those of four numbers need a multiple of theirs: the loops over rows leave out a rest that does not fill a
 /// register.
-const PADDING: usize = 4;
+pub const PADDING: usize = 4;
 
 impl DepthModes {
     /// Quadratic elements on the layers of a section, `g = 1 − curvature z`; `fixed` holds the last node, `biot` is

@@ -4,7 +4,8 @@
 //! Results of different machines differ by round-off: by the order of sums, and where a product and a sum are rounded
 //! at once.
 
-use crate::linalg::vectorised::vectorised;
+use crate::linalg::vectorised::{BLOCK, by_blocks, load, vectorised};
+use pulp::Simd;
 
 vectorised! {
     /// `x ← x + factor · y`.
@@ -35,13 +36,27 @@ vectorised! {
     /// Adds all rows of `x`, each times its weight, to `sums`.
     fn add_weighted<'a, S>(simd, weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]) {
         let (x, sums) = (S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sums).0);
-        for (x, &weight) in x.chunks_exact(sums.len()).zip(weights) {
-            let weight = simd.splat_f64s(weight);
-            for (sum, &x) in sums.iter_mut().zip(x) {
-                *sum = simd.mul_add_e_f64s(weight, x, *sum);
-            }
+        by_blocks!(sums.len(), add_weighted_block::<S>(simd, weights, x, sums));
+    }
+}
+
+/// The registers from `at` on of [`add_weighted`].
+#[inline(always)]
+fn add_weighted_block<S: Simd, const B: usize>(
+    simd: S,
+    weights: &[f64],
+    x: &[S::f64s],
+    sums: &mut [S::f64s],
+    at: usize,
+) {
+    let mut parts: [_; B] = load(sums, at);
+    for (first, &weight) in (at..x.len()).step_by(sums.len()).zip(weights) {
+        let (x, weight): ([_; B], _) = (load(x, first), simd.splat_f64s(weight));
+        for q in 0..B {
+            parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
         }
     }
+    sums[at..at + B].copy_from_slice(&parts);
 }
 
 vectorised! {
@@ -83,6 +98,48 @@ vectorised! {
         });
         simd.reduce_sum_f64s(sum)
     }
+}
+
+vectorised! {
+    /// Lowest and highest value of all rows of `x` at the nodes at which the modes have the values `shapes`, mode by
+    /// mode; from each block of [`NODES`] nodes on only so many modes count as `reach` says.
+    fn extremes<'a, S>(simd, x: &'a [f64], shapes: &'a [f64], modes: usize, reach: &'a [usize]) -> [f64; 2] {
+        let shapes = S::as_simd_f64s(shapes).0;
+        let k = shapes.len() / modes;
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY].map(|end| simd.splat_f64s(end));
+        for row in x.chunks_exact(modes) {
+            for first in (0..k).step_by(REGISTERS) {
+                let (row, shapes) = (&row[..reach[first * S::F64_LANES / NODES]], &shapes[first..]);
+                let ends = match k - first {
+                    1 => extremes_of::<S, 1>(simd, row, shapes, k),
+                    2 => extremes_of::<S, 2>(simd, row, shapes, k),
+                    3 => extremes_of::<S, 3>(simd, row, shapes, k),
+                    _ => extremes_of::<S, REGISTERS>(simd, row, shapes, k),
+                };
+                range = [simd.min_f64s(range[0], ends[0]), simd.max_f64s(range[1], ends[1])];
+            }
+        }
+        [simd.reduce_min_f64s(range[0]), simd.reduce_max_f64s(range[1])]
+    }
+}
+
+/// Nodes of a block, and registers whose nodes are summed at a time.
+pub const NODES: usize = 16;
+const REGISTERS: usize = 4;
+
+/// Extremes of the sums of `B` registers of all shapes, which are `k` registers apart, each times its number in `row`.
+#[inline(always)]
+fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s], k: usize) -> [S::f64s; 2] {
+    let mut sums = [simd.splat_f64s(0.0); B];
+    for (&x, shape) in row.iter().zip(shapes.chunks(k)) {
+        let x = simd.splat_f64s(x);
+        for (sum, &shape) in sums.iter_mut().zip(&shape[..B]) {
+            *sum = simd.mul_add_e_f64s(x, shape, *sum);
+        }
+    }
+    let of =
+        |least: fn(S, S::f64s, S::f64s) -> S::f64s| sums[1..].iter().fold(sums[0], |end, &sum| least(simd, end, sum));
+    [of(S::min_f64s), of(S::max_f64s)]
 }
 
 /// Scalar product of vectors whose length is a multiple of four.

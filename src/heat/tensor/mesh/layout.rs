@@ -15,14 +15,14 @@ use std::ops::Range;
 const FIRST_LAYER: f64 = 0.25;
 const FIRST_LAYER_HALF_WIDTHS: f64 = 0.25;
 /// Growth of the layers.
-pub const LAYER_GROWTH: f64 = 1.8;
+pub const LAYER_GROWTH: f64 = 2.2;
 /// Growth of the elements along the streamlines, largest one in wheel radii and rail lengths.
-const GROWTH: f64 = 1.5;
+const GROWTH: f64 = 2.0;
 /// Elements at the edges of the contact, where the temperature starts as a square root, in ordinary ones, and growth.
 const EDGE: f64 = 0.2;
 const EDGE_GROWTH: f64 = 1.3;
 /// Growth of the elements between the zones of ordinary and of wide patches.
-const WING_GROWTH: f64 = 1.4;
+const WING_GROWTH: f64 = 2.0;
 const LARGEST_ALONG: f64 = 0.15;
 const LARGEST_ALONG_RAIL: f64 = 0.05;
 

@@ -4,19 +4,31 @@
 use super::decay::less;
 use super::transport::Transport;
 use crate::linalg::Update;
-use crate::linalg::vectorised::vectorised;
+use crate::linalg::vectorised::{BLOCK, by_blocks, load, vectorised};
+use pulp::Simd;
 
 vectorised! {
     /// `xᵢ ← xᵢ − lᵢ xᵢ₋₁` from the second row of `x` on, to which the first row of `links` belongs; rows have `width`
     /// numbers.
     fn eliminate<'a, S>(simd, links: &'a [f64], x: &'a mut [f64], width: usize) {
         let (links, x, k) = (S::as_simd_f64s(links).0, S::as_mut_simd_f64s(x).0, width / S::F64_LANES);
-        for (i, link) in links.chunks_exact(k).enumerate() {
-            let (done, rest) = x.split_at_mut((i + 1) * k);
-            for ((x, &before), &link) in rest.iter_mut().zip(&done[i * k..]).zip(link) {
-                *x = less(simd, *x, link, before);
-            }
+        by_blocks!(k, eliminate_block::<S>(simd, links, x, k));
+    }
+}
+
+/// The registers from `at` on of [`eliminate`].
+#[inline(always)]
+fn eliminate_block<S: Simd, const B: usize>(simd: S, links: &[S::f64s], x: &mut [S::f64s], k: usize, at: usize) {
+    if links.is_empty() {
+        return;
+    }
+    let mut moving: [_; B] = load(x, at);
+    for first in (at..links.len()).step_by(k) {
+        let (link, now): ([_; B], [_; B]) = (load(links, first), load(x, first + k));
+        for q in 0..B {
+            moving[q] = less(simd, now[q], link[q], moving[q]);
         }
+        x[first + k..first + k + B].copy_from_slice(&moving);
     }
 }
 
@@ -25,15 +37,26 @@ vectorised! {
     fn substitute<'a, S>(simd, d: &'a [f64], links: &'a [f64], x: &'a mut [f64], next: &'a [f64]) {
         let (d, links) = (S::as_simd_f64s(d).0, S::as_simd_f64s(links).0);
         let (x, next) = (S::as_mut_simd_f64s(x).0, S::as_simd_f64s(next).0);
-        let k = next.len();
-        let rows = d.chunks_exact(k).zip(links.chunks_exact(k)).take(x.len() / k);
-        for (i, (d, link)) in rows.enumerate().rev() {
-            let (done, rest) = x.split_at_mut((i + 1) * k);
-            let next = if rest.is_empty() { next } else { &rest[..k] };
-            for (((x, &d), &link), &next) in done[i * k..].iter_mut().zip(d).zip(link).zip(next) {
-                *x = less(simd, simd.mul_f64s(*x, d), link, next);
-            }
+        by_blocks!(next.len(), substitute_block::<S>(simd, [d, links], x, next));
+    }
+}
+
+/// The registers from `at` on of [`substitute`].
+#[inline(always)]
+fn substitute_block<S: Simd, const B: usize>(
+    simd: S,
+    [d, links]: [&[S::f64s]; 2],
+    x: &mut [S::f64s],
+    next: &[S::f64s],
+    at: usize,
+) {
+    let mut moving: [_; B] = load(next, at);
+    for first in (at..x.len()).step_by(next.len()).rev() {
+        let (now, d, link): ([_; B], [_; B], [_; B]) = (load(x, first), load(d, first), load(links, first));
+        for q in 0..B {
+            moving[q] = less(simd, simd.mul_f64s(now[q], d[q]), link[q], moving[q]);
         }
+        x[first..first + B].copy_from_slice(&moving);
     }
 }
 
@@ -80,36 +103,52 @@ vectorised! {
 
 vectorised! {
     /// Adds the rows `shape · load` to `x`, after their elimination by the links and the row of the last node, which
-    /// may be empty or end two rows before it. `moving` is a buffer of two rows.
+    /// may be empty or end two rows before it.
     fn add_eliminated<'a, S>(
         simd,
         factors: [&'a [f64]; 2],
-        load: &'a [f64],
+        loads: &'a [f64],
         shape: &'a [f64],
         x: &'a mut [f64],
-        moving: &'a mut [f64],
     ) {
         let ([links, fill], shape) = (factors.map(|factors| S::as_simd_f64s(factors).0), S::as_simd_f64s(shape).0);
-        let (x, k) = (S::as_mut_simd_f64s(x).0, shape.len());
-        let (now, last) = S::as_mut_simd_f64s(moving).0.split_at_mut(k);
-        now.fill(simd.splat_f64s(0.0));
-        last.fill(simd.splat_f64s(0.0));
-        for (i, &load) in load.iter().enumerate() {
-            let (row, load) = (i * k..(i + 1) * k, simd.splat_f64s(load));
-            for (((now, x), &shape), &link) in
-                now.iter_mut().zip(&mut x[row.clone()]).zip(shape).zip(&links[row.clone()])
-            {
-                *now = less(simd, simd.mul_f64s(load, shape), link, *now);
-                *x = simd.add_f64s(*x, *now);
-            }
-            if row.end <= fill.len() {
-                for ((last, &now), &fill) in last.iter_mut().zip(&*now).zip(&fill[row]) {
-                    *last = less(simd, *last, fill, now);
-                }
+        let x = S::as_mut_simd_f64s(x).0;
+        by_blocks!(shape.len(), add_eliminated_block::<S>(simd, [links, fill], loads, shape, x));
+    }
+}
+
+/// The registers from `at` on of [`add_eliminated`].
+#[inline(always)]
+fn add_eliminated_block<S: Simd, const B: usize>(
+    simd: S,
+    [links, fill]: [&[S::f64s]; 2],
+    loads: &[f64],
+    shape: &[S::f64s],
+    x: &mut [S::f64s],
+    at: usize,
+) {
+    let shapes: [_; B] = load(shape, at);
+    let [mut moving, mut last] = [[simd.splat_f64s(0.0); B]; 2];
+    for (first, &amount) in (at..x.len()).step_by(shape.len()).zip(loads) {
+        let (link, amount): ([_; B], _) = (load(links, first), simd.splat_f64s(amount));
+        for q in 0..B {
+            moving[q] = less(simd, simd.mul_f64s(amount, shapes[q]), link[q], moving[q]);
+        }
+        let x = &mut x[first..first + B];
+        for q in 0..B {
+            x[q] = simd.add_f64s(x[q], moving[q]);
+        }
+        if first - at + shape.len() <= fill.len() {
+            let fill: [_; B] = load(fill, first);
+            for q in 0..B {
+                last[q] = less(simd, last[q], fill[q], moving[q]);
             }
         }
-        let end = x.len() - k;
-        x[end..].iter_mut().zip(last).for_each(|(x, &mut last)| *x = simd.add_f64s(*x, last));
+    }
+    let end = x.len() - shape.len() + at;
+    let x = &mut x[end..end + B];
+    for q in 0..B {
+        x[q] = simd.add_f64s(x[q], last[q]);
     }
 }
 

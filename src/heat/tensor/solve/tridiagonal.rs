@@ -137,11 +137,11 @@ impl TridiagonalFactor {
     }
 
     /// Adds a load on the surface at the nodes `contact` after [`Self::eliminate`].
-    pub fn add_eliminated(&mut self, body: &HeatBody, contact: &Range<usize>, load: &[f64], x: &mut [f64]) {
+    pub fn add_eliminated(&self, body: &HeatBody, contact: &Range<usize>, load: &[f64], x: &mut [f64]) {
         let nm = body.modes.len();
         let rows = contact.start * nm..contact.end * nm;
         let factors = [&self.w[rows.clone()], reaching(&self.row, self.inverse.len() - rows.len())];
-        rows::add_eliminated(factors, load, &body.modes.surface, &mut x[rows], &mut self.moving);
+        rows::add_eliminated(factors, load, &body.modes.surface, &mut x[rows]);
     }
 }
 

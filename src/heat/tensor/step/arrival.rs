@@ -31,12 +31,16 @@ pub fn arrive(
     let ends = exchange.patches.iter().flat_map(|patch| [ahead(patch.low), ahead(patch.high)]);
     let from = ends.fold(layout.config.zone, f64::max);
     let (modes, nodes) = (&layout.rail.modes, &layout.rail.line.nodes);
+    let first = begin.rows.len().min(layout.wheel.line.len());
+    let mut known = begin.rows[first..].iter_mut();
     let [_, rail] = layout.split_mut(&mut begin.values);
     for (row, &x) in rail.chunks_exact_mut(modes.len()).zip(nodes) {
+        let known = known.next();
         let share = ((ahead(x) - from) / (FRONT * layout.config.half_width)).clamp(0.0, 1.0);
         let risen = change * share * share * (3.0 - 2.0 * share);
         if risen != 0.0 {
             row.iter_mut().zip(&modes.free).for_each(|(value, one)| *value += risen * one);
+            known.into_iter().for_each(|known| known.found.iter_mut().for_each(|end| *end += risen));
         }
     }
     begin.range = [begin.range[0] + change.min(0.0), begin.range[1] + change.max(0.0)];

@@ -6,14 +6,12 @@
 //! Where a node lies beyond a datum by more than a margin, all that do are [moved back](super::limiter).
 
 use crate::heat::exchange::Exchange;
-use crate::heat::state::HeatState;
+use crate::heat::state::{HeatState, RowBounds};
 use crate::heat::tensor::mesh::layout::HeatLayout;
-use crate::heat::tensor::mesh::nodal::Known;
+use crate::heat::tensor::mesh::nodal::joined;
 
 /// Distance by which a node may lie beyond a datum before it is moved back \[K].
 pub const MARGIN: f64 = 0.09;
-/// Change in a step, in such margins, up to which bounds are widened without a look at the nodes [1].
-const SLOWLY: f64 = 0.25;
 /// Share of the way from the reference to absolute zero from which on the lowest temperature is exact \[1].
 const NEAR_ZERO: f64 = 0.9;
 /// Excess relative to the span of temperatures up to which moving back is enough: the step is not taken again \[1].
@@ -41,25 +39,36 @@ pub fn data(layout: &HeatLayout, state: &HeatState, exchange: &Exchange) -> [f64
 /// Fills the bounds of the nodal values of `next`, exactly where they are needed: beyond the data, near absolute zero,
 /// and from the temperature `melts` \[K] on.
 ///
-/// Rows that hardly change keep the bounds before, a little wider; bounds that have become too wide are searched anew.
+/// Below every surface node the bounds before hold, wider by what may have changed, until that has become too much.
 pub fn set_range(layout: &HeatLayout, state: &HeatState, next: &mut HeatState, melts: f64) {
     let [coldest, hottest] = next.data;
     let low = (coldest - MARGIN).max(-NEAR_ZERO * layout.config.thermal.reference);
-    let high = melts.min(hottest + MARGIN);
-    // Bounds that have become wide do not come back by themselves.
-    let wide = state.range[0] < coldest - 0.75 * MARGIN || state.range[1] > hottest + 0.75 * MARGIN;
-    if !wide {
-        let known = Known { before: state.range, allowed: [low, high], slight: SLOWLY * MARGIN };
-        let ([from_wheel, from_rail], [wheel, rail]) = (layout.split(&state.values), layout.split(&next.values));
-        let a = layout.wheel.nodal.bounds_after([from_wheel, wheel], &known);
-        let b = layout.rail.nodal.bounds_after([from_rail, rail], &known);
-        next.range = [a[0].min(b[0]), a[1].max(b[1])];
+    next.rows.clone_from(&state.rows);
+    follow(layout, Some(&state.values), next, [low, melts.min(hottest + MARGIN)]);
+}
+
+/// Fills the bounds of the nodal values of `state` after a look at all of them.
+pub fn search(layout: &HeatLayout, state: &mut HeatState) {
+    state.rows.clear();
+    follow(layout, None, state, [f64::NEG_INFINITY, f64::INFINITY]);
+}
+
+/// Takes the bounds of the field `from` that `next` holds on to its own field (see [`Nodal::follow`]); without one they
+/// are those of the own field already.
+///
+/// [`Nodal::follow`]: crate::heat::tensor::mesh::nodal::Nodal::follow
+fn follow(layout: &HeatLayout, from: Option<&[f64]>, next: &mut HeatState, allowed: [f64; 2]) {
+    let HeatState { values, rows, range, .. } = next;
+    let count = layout.bodies().map(|body| body.line.len());
+    if rows.len() != count[0] + count[1] {
+        rows.clear();
+        rows.resize(count[0] + count[1], RowBounds::UNKNOWN);
     }
-    // Written so that NaN is not taken for known.
-    let known = !wide && next.range[0] >= low && next.range[1] <= high;
-    if !known {
-        next.range = layout.extremes(&next.values);
-    }
+    let rows: [_; 2] = rows.split_at_mut(count[0]).into();
+    let fields = layout.split(from.unwrap_or(values)).into_iter().zip(layout.split(values));
+    let ranges = layout.bodies().into_iter().zip(fields).zip(rows);
+    let ranges = ranges.map(|((body, (from, to)), rows)| body.nodal.follow([from, to], rows, allowed, MARGIN));
+    *range = ranges.reduce(joined).unwrap_or_default();
 }
 
 /// Distances by which the nodes lie below the coldest and above the hottest datum, where that is more than the margin

@@ -15,7 +15,7 @@
 //! much, and where steel melts.
 
 use super::arrival::arrive;
-use super::bounds::{data, set_range, swings};
+use super::bounds::{data, search, set_range, swings};
 use super::flows::StageEnd;
 use super::history::{jumps, shared_speeds};
 use super::limiter::keep_bounds;
@@ -114,12 +114,12 @@ pub fn advance(
     let melting = heat.melting_within(next.range);
     if plan.melting.is_none() && (melting.is_some() || (smooth && swings(next))) {
         flows = integrate(layout, state, next, &StepPlan { smooth: false, melting, ..plan }, work)?;
-        next.range = layout.extremes(&next.values);
+        search(layout, next);
     }
     keep_bounds(layout, next, &mut work.values)?;
     if next.data[0] == f64::NEG_INFINITY {
         // The coldest node is a datum from now on.
-        next.range = layout.extremes(&next.values);
+        search(layout, next);
         next.data[0] = state.data[0].min(next.range[0]);
     }
     next.last = Some(now);

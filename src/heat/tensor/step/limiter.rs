@@ -9,7 +9,7 @@
 
 use super::bounds::{MARGIN, beyond};
 use crate::heat::error::HeatError;
-use crate::heat::state::HeatState;
+use crate::heat::state::{HeatState, RowBounds};
 use crate::heat::tensor::mesh::body::HeatBody;
 use crate::heat::tensor::mesh::kernels::dot;
 use crate::heat::tensor::mesh::layout::HeatLayout;
@@ -22,20 +22,19 @@ const RAISED: f64 = 0.5;
 /// margin; each body keeps its heat content.
 pub fn keep_bounds(layout: &HeatLayout, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
     let [below, above] = beyond(state);
-    let HeatState { values: field, data, range, .. } = state;
+    let HeatState { values: field, data, range, rows, .. } = state;
     if below > 0.0 {
         let floor = data[0] - RAISED * MARGIN;
-        if !raise(layout, field, floor, values) {
+        if !raise(layout, field, rows, floor, values) {
             return Err(HeatError::OutOfBounds { found: range[0], datum: data[0], extreme: "coldest" });
         }
         range[0] = floor;
     }
     if above > 0.0 {
         let ceiling = data[1] + RAISED * MARGIN;
-        let negate = |field: &mut [f64]| field.iter_mut().for_each(|value| *value = -*value);
-        negate(field);
-        let kept = raise(layout, field, -ceiling, values);
-        negate(field);
+        negate(field, rows);
+        let kept = raise(layout, field, rows, -ceiling, values);
+        negate(field, rows);
         if !kept {
             return Err(HeatError::OutOfBounds { found: range[1], datum: data[1], extreme: "hottest" });
         }
@@ -44,10 +43,16 @@ pub fn keep_bounds(layout: &HeatLayout, state: &mut HeatState, values: &mut Vec<
     Ok(())
 }
 
-/// Raises all nodes to `floor`, and tells whether both bodies have the heat for it.
-fn raise(layout: &HeatLayout, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> bool {
-    let mut bodies = layout.bodies().into_iter().zip(layout.split_mut(field));
-    bodies.all(|(body, field)| raise_body(body, field, floor, values) <= 0.0)
+fn negate(field: &mut [f64], rows: &mut [RowBounds]) {
+    field.iter_mut().for_each(|value| *value = -*value);
+    rows.iter_mut().for_each(|row| row.found = [-row.found[1], -row.found[0]]);
+}
+
+/// Raises all nodes to `floor`, and tells whether both bodies have the heat for it; `rows` is what is known of them.
+fn raise(layout: &HeatLayout, field: &mut [f64], rows: &mut [RowBounds], floor: f64, values: &mut Vec<f64>) -> bool {
+    let rows: [_; 2] = rows.split_at_mut(layout.wheel.line.len()).into();
+    let mut bodies = layout.bodies().into_iter().zip(layout.split_mut(field)).zip(rows);
+    bodies.all(|((body, field), rows)| raise_body(body, field, rows, floor, values) <= 0.0)
 }
 
 /// Heat content below one surface node over `ρc` above that at the temperature `floor`, per length [K m].
@@ -61,13 +66,18 @@ fn shrink(body: &HeatBody, row: &mut [f64], floor: f64, share: f64) {
 }
 
 /// Raises the nodes of one body to `floor`; the heat over `ρc` that it lacks for it [K m²].
-fn raise_body(body: &HeatBody, field: &mut [f64], floor: f64, values: &mut Vec<f64>) -> f64 {
+fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor: f64, values: &mut Vec<f64>) -> f64 {
     let nodal = &body.nodal;
     let (nm, size) = (nodal.modes(), nodal.len());
     values.resize(2 * size, 0.0);
     let (raised, change) = values.split_at_mut(size);
     let mut poor = Vec::new();
-    for (i, (row, weight)) in field.chunks_exact_mut(nm).zip(&body.line.weights).enumerate() {
+    let weighted = field.chunks_exact_mut(nm).zip(&body.line.weights);
+    for (i, ((row, weight), known)) in weighted.zip(&mut *rows).enumerate() {
+        let [low, high] = known.range();
+        if low >= floor {
+            continue;
+        }
         nodal.values(row, raised);
         if raised.iter().all(|value| *value >= floor) {
             continue;
@@ -77,9 +87,14 @@ fn raise_body(body: &HeatBody, field: &mut [f64], floor: f64, values: &mut Vec<f
         let lack = raise_column(raised, &nodal.weights);
         change.iter_mut().zip(&*raised).for_each(|(before, after)| *before = after - *before);
         nodal.add(change, row);
+        *known = RowBounds { found: [floor, high.max(floor)], moved: 0.0 };
         if lack > 0.0 {
             poor.push((i, weight * lack));
         }
+    }
+    if !poor.is_empty() {
+        // The rows beside that give heat approach the floor.
+        rows.iter_mut().for_each(|known| known.found[0] = known.found[0].min(floor + known.moved));
     }
     poor.into_iter().map(|(i, lack)| take_beside(body, field, floor, i, lack)).sum()
 }

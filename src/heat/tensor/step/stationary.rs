@@ -1,6 +1,6 @@
 //! Stationary temperatures at constant speeds and exchange.
 
-use super::bounds::data;
+use super::bounds::{data, search};
 use super::flows::StageEnd;
 use super::limiter::keep_bounds;
 use super::load_vector::add_loads;
@@ -145,7 +145,7 @@ fn superposed(layout: &HeatLayout, parts: &[HeatState]) -> Result<HeatState, Hea
 
 /// A state found without a step, with its extremes and within its bounds.
 pub fn bounded(layout: &HeatLayout, mut state: HeatState) -> Result<HeatState, HeatError> {
-    state.range = layout.extremes(&state.values);
+    search(layout, &mut state);
     keep_bounds(layout, &mut state, &mut Vec::new())?;
     Ok(state)
 }
