@@ -132,14 +132,16 @@ const REGISTERS: usize = 4;
 fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s], k: usize) -> [S::f64s; 2] {
     let mut sums = [simd.splat_f64s(0.0); B];
     for (&x, shape) in row.iter().zip(shapes.chunks(k)) {
-        let x = simd.splat_f64s(x);
-        for (sum, &shape) in sums.iter_mut().zip(&shape[..B]) {
-            *sum = simd.mul_add_e_f64s(x, shape, *sum);
+        let (x, shape) = (simd.splat_f64s(x), &shape[..B]);
+        for q in 0..B {
+            sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
         }
     }
-    let of =
-        |least: fn(S, S::f64s, S::f64s) -> S::f64s| sums[1..].iter().fold(sums[0], |end, &sum| least(simd, end, sum));
-    [of(S::min_f64s), of(S::max_f64s)]
+    let mut ends = [sums[0]; 2];
+    for &sum in &sums[1..] {
+        ends = [simd.min_f64s(ends[0], sum), simd.max_f64s(ends[1], sum)];
+    }
+    ends
 }
 
 /// Scalar product of vectors whose length is a multiple of four.

@@ -73,7 +73,7 @@ impl Nodal {
     pub fn add(&self, values: &[f64], row: &mut [f64]) {
         for (value, column) in values.iter().zip(self.to_modes.chunks_exact(self.modes)) {
             if *value != 0.0 {
-                row.iter_mut().zip(column).for_each(|(x, c)| *x += value * c);
+                kernels::add(*value, column, row);
             }
         }
     }

@@ -74,20 +74,20 @@ fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor:
     let mut poor = Vec::new();
     let weighted = field.chunks_exact_mut(nm).zip(&body.line.weights);
     for (i, ((row, weight), known)) in weighted.zip(&mut *rows).enumerate() {
-        let [low, high] = known.range();
-        if low >= floor {
+        if known.range()[0] >= floor {
+            continue;
+        }
+        *known = RowBounds { found: nodal.extremes(row), moved: 0.0 };
+        if known.found[0] >= floor {
             continue;
         }
         nodal.values(row, raised);
-        if raised.iter().all(|value| *value >= floor) {
-            continue;
-        }
         raised.iter_mut().for_each(|value| *value -= floor);
         change.copy_from_slice(raised);
         let lack = raise_column(raised, &nodal.weights);
         change.iter_mut().zip(&*raised).for_each(|(before, after)| *before = after - *before);
         nodal.add(change, row);
-        *known = RowBounds { found: [floor, high.max(floor)], moved: 0.0 };
+        known.found = [floor, known.found[1].max(floor)];
         if lack > 0.0 {
             poor.push((i, weight * lack));
         }
