@@ -15,7 +15,8 @@ use wheelrail::mechanics::{rail_mesh, wheel_mesh};
 use wheelrail::simulation::{Inputs, PROFILE_POINTS, Simulation};
 
 /// Small meshes and modes enough for tests.
-const SMALL: [&str; 4] = ["--preset", "paper_d", "--set", "mesh.elements_per_half_width=8"];
+const SMALL: [&str; 6] =
+    ["--preset", "paper_d", "--set", "mesh.elements_per_half_width=8", "--set", "mesh.grid_elements_per_half_width=8"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

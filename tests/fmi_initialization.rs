@@ -117,7 +117,7 @@ fn limits_of_the_model_are_told_once_with_both_numbers_although_no_log_was_asked
     one(&load, &["load 40000 N", "thermal.smallest_load_ratio x model.nominal_load = 50000 N", "lower"]);
     one(&[("drive.load", 205e3)], &["load 205", "2 x model.nominal_load = 200000 N", "drive.load"]);
     let found = warnings(&[("drive.load", 10e3), ("thermal.smallest_load_ratio", 0.09)]);
-    assert!(found.len() == 1 && found[0].contains("mesh.elements_per_half_width"), "{found:?}");
+    assert!(found.len() == 1 && found[0].contains("mesh.grid_elements_per_half_width"), "{found:?}");
 }
 
 #[test]

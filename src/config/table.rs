@@ -243,9 +243,9 @@ parameters! {
             1096 basic tolerance: f64 = 0.002, of "solver", from 0.0 to 1.0,
                 "Error that halves an internal step: contact force over load, moment over load times radius, slip over \
                  that of a sliding patch, temperature over its rise or 100 K; 0: no error control";
-            1194 basic max_internal_steps: usize = 0, of "solver", from 0 to 100000,
+            1194 basic max_internal_steps: usize = 100_000, of "solver", from 1 to 100_000,
                 "Most internal steps of a communication step that solver.tolerance asks for, those included that turned out \
-                 too long: a bound on the computing time; 0: no bound. solver.limited_steps counts those it spoils";
+                 too long: a bound on the computing time. solver.limited_steps counts those it spoils";
             1125 expert austenitisation: f64 = 1000.0, of "thermal", in "K" as "degC", from 1.0 to 1e4,
                 "Austenitisation temperature Ac1";
             1160 expert martensite_start: f64 = 575.0, of "damage", in "K" as "degC", from 1.0 to 1e4,

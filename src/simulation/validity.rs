@@ -3,7 +3,7 @@
 mod texts;
 
 use super::Simulation;
-use crate::contact::FrictionLaw;
+use crate::contact::{FrictionLaw, Ports};
 use crate::material::INDENTATION;
 use crate::mechanics::{grid_spacing, nominal_half_width};
 
@@ -123,7 +123,11 @@ impl Simulation {
         match limit {
             Limit::Speed => (heat * self.speed(), AtMost(config.thermal.max_speed)),
             Limit::ThermalLoad => (heat * load, AtLeast(config.thermal.smallest_load_ratio * nominal)),
-            Limit::Patch => (outputs.contact_half_width / grid_spacing(config), AtLeast(FEWEST_ELEMENTS)),
+            Limit::Patch => {
+                let on_grid = self.state().lines.iter().any(|line| line.contact.ports != Ports::Smooth);
+                let cells = outputs.contact_half_width / grid_spacing(config);
+                (if on_grid { cells } else { 0.0 }, AtLeast(FEWEST_ELEMENTS))
+            }
             Limit::Zone => (load, AtMost(ZONE_LOAD * nominal)),
             Limit::Reach => (self.touching_reach(), AtMost(NEAR_END * self.model().rolling.reach)),
             Limit::Yield => {

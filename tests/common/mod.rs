@@ -13,11 +13,12 @@ use wheelrail::simulation::{BasisStore, Inputs, Model, Rotation, Simulation, Tra
 
 pub const KMH: f64 = 1.0 / 3.6;
 
-/// A shipped preset with another mesh density.
+/// A shipped preset with another density of all meshes, the contact grid included.
 pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(format!("{name}.json"));
     let mut config = presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap();
     config.mesh.elements_per_half_width = elements_per_half_width;
+    config.mesh.grid_elements_per_half_width = elements_per_half_width;
     config
 }
 

@@ -4,4 +4,4 @@ from .fmu import Fmu, Refused, Wheel
 from .team import Team
 
 __all__ = ["Fmu", "Refused", "Team", "Wheel"]
-__version__ = "0.2.1"
+__version__ = "0.3.0"

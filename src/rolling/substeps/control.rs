@@ -43,7 +43,7 @@ const SMALLER: f64 = 0.9;
 const ALLOWANCE: f64 = 1.5;
 const FADING: f64 = 0.95;
 
-/// What becomes of a step that was tried.
+/// Fate of a step that was tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It counts.
@@ -87,8 +87,10 @@ impl<'a> Control<'a> {
         let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
         let overheats = found.overheats && dt > 2.0 * OVERHEATED;
         let heats = overheats || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
-        if !heats && !(inaccurate && may_halve) {
-            return if inaccurate { Verdict::Limited } else { Verdict::Accepted };
+        match (heats, inaccurate, may_halve) {
+            (false, false, _) => return Verdict::Accepted,
+            (false, true, false) => return Verdict::Limited,
+            (true, _, _) | (false, true, true) => {}
         }
         self.memory.step = 0.5 * dt;
         self.failed = found.error;

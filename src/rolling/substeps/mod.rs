@@ -61,8 +61,7 @@ struct Place {
 impl Place {
     /// True if all the rest may be halved after a number of steps `tried`.
     fn may_halve(&self, tuning: &Tuning, tried: u64) -> bool {
-        let most = tuning.max_internal_steps as u64;
-        most == 0 || tried + 2 * (self.pieces - self.done) <= most
+        tried + 2 * (self.pieces - self.done) <= tuning.max_internal_steps as u64
     }
 
     fn halve(&mut self) {
@@ -179,6 +178,16 @@ impl Sums {
     }
 }
 
+/// True if a shorter step may succeed where one has failed with this error.
+fn shorter_may_succeed(error: &StepError) -> bool {
+    matches!(
+        error,
+        StepError::Contact { .. }
+            | StepError::NotFinite { .. }
+            | StepError::Heat(HeatError::MeltingNotConverged { .. })
+    )
+}
+
 /// Takes all internal steps; `now` is the state after the last one, `next` a buffer.
 fn march(
     model: &RollingModel,
@@ -204,11 +213,7 @@ fn march(
         let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, last_step };
         match step(model, from, &demand, dt, workspace, next) {
             Ok(()) => {}
-            Err(
-                StepError::Contact { .. }
-                | StepError::NotFinite { .. }
-                | StepError::Heat(HeatError::MeltingNotConverged { .. }),
-            ) if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP => {
+            Err(error) if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP && shorter_may_succeed(&error) => {
                 failures += 1;
                 last_step = 0.0;
                 place.halve();
@@ -226,10 +231,7 @@ fn march(
             Verdict::Limited => true,
             Verdict::Accepted => false,
         };
-        if found.molten {
-            let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
-            return Err(StepError::Overheated { temperature: found.hottest, highest });
-        }
+        found.check(model)?;
         control.memory.before = controlled(model, from);
         (place.done, failures) = (place.done + 1, 0);
         if control.grows(&found, dt) {

@@ -23,6 +23,7 @@
 //! at standstill, too, and short steps need not follow what the elasticity of the patch takes up. What a prescribed
 //! velocity explains of a missed slip is no error.
 
+use crate::rolling::error::StepError;
 use crate::rolling::line::Line;
 use crate::rolling::model::RollingModel;
 use crate::rolling::state::{Controlled, State};
@@ -118,6 +119,12 @@ impl Found {
         let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
         let strikes = from.touches() != to.touches();
         Self { error, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
+    }
+
+    /// Refuses a step that leaves the contact hotter than molten steel under friction can be.
+    pub fn check(&self, model: &RollingModel) -> Result<(), StepError> {
+        let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
+        if self.molten { Err(StepError::Overheated { temperature: self.hottest, highest }) } else { Ok(()) }
     }
 }
 

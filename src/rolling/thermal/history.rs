@@ -17,6 +17,8 @@ pub struct MaterialHistory {
 
 /// End of a step as the heat model found it.
 pub struct ObservedStep<'a> {
+    /// Length of the step \[s].
+    pub dt: f64,
     /// The heat model with its state.
     pub field: (&'a dyn HeatModel, &'a HeatState),
     /// Observation of that state.
@@ -51,12 +53,11 @@ impl MaterialHistory {
         self.spots.begin([temperatures.wheel_max, temperatures.rail_max])
     }
 
-    /// Advances a history by a step of `dt` \[s] that ended with the `motion` of the wheel.
+    /// Advances a history by a step that ended with the `motion` of the wheel.
     pub fn advance(
         &self,
         damage: &mut Damage,
         motion: &Motion,
-        dt: f64,
         criteria: Criteria,
         contact: &ThermalContact,
         seen: &ObservedStep,
@@ -65,7 +66,7 @@ impl MaterialHistory {
         let temperatures = &seen.observation.temperatures;
         let patch = contact.traction.extent();
         let moment = TreadStep {
-            dt,
+            dt: seen.dt,
             angle: motion.angle,
             omega: motion.omega.now,
             contact_length: patch.map_or(0.0, |patch| patch.high - patch.low),

@@ -205,8 +205,7 @@ impl ThermalModel {
     }
 
     /// The heat step of a line that belongs to a mechanical step: from the temperatures `before` with the `contact` and
-    /// the
-    /// `motion` at its end; `thermal` gives its memory for the result.
+    /// the `motion` at its end; `thermal` gives its memory for the result.
     pub fn step(
         &self,
         before: &ThermalState,
@@ -226,9 +225,13 @@ impl ThermalModel {
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
-        let seen =
-            ObservedStep { field: (&*self.heat, &thermal.fields), observation: &view.seen, zone: self.heat.zone_x() };
-        self.history.advance(&mut thermal.damage, motion, dt, criteria, contact, &seen, history);
+        let seen = ObservedStep {
+            dt,
+            field: (&*self.heat, &thermal.fields),
+            observation: &view.seen,
+            zone: self.heat.zone_x(),
+        };
+        self.history.advance(&mut thermal.damage, motion, criteria, contact, &seen, history);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));

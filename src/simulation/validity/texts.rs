@@ -48,8 +48,8 @@ fn thermal_load(value: f64, bound: f64) -> String {
 
 fn patch(value: f64, bound: f64) -> String {
     format!(
-        "half-width of the patch is {value:.2} elements, fewer than {bound:.0}: tractions are inexact; raise \
-         mesh.elements_per_half_width, or lower model.nominal_load and set drive.load"
+        "half-width of the patch is {value:.2} cells of the contact grid, fewer than {bound:.0}: tractions are inexact; raise \
+         mesh.grid_elements_per_half_width, or lower model.nominal_load and set drive.load"
     )
 }
 
@@ -125,7 +125,7 @@ fn waves(simulation: &Simulation, value: f64, bound: f64) -> String {
     format!(
         "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
          contact, {:.2} mm: forces are inexact, over a hole of half that length by up to {:.2} % of the load; raise \
-         mesh.elements_per_half_width, or leave such waves out, which the patch evens out",
+         mesh.grid_elements_per_half_width, or leave such waves out, which the patch evens out",
         1e3 * value,
         1e3 * bound,
         1e2 * simulation.error_over_a_hole(0.5 * value)
@@ -168,7 +168,7 @@ fn limited(simulation: &Simulation, value: f64) -> String {
     format!(
         "the errors of {value:.0} of {} internal steps of the last communication step exceed solver.tolerance = {:?}, because \
          solver.max_internal_steps = {} allows no shorter ones (solver.limited_steps): what happens here, as wheels lock \
-         or lift off, is less exact; raise it, or set it to 0 for no bound",
+         or lift off, is less exact; raise it",
         simulation.outputs().internal_steps,
         simulation.tuning().tolerance,
         simulation.tuning().max_internal_steps

@@ -22,7 +22,7 @@ const GROWTH: f64 = 2.0;
 const EDGE: f64 = 0.2;
 const EDGE_GROWTH: f64 = 1.3;
 /// Growth of the elements between the zones of ordinary and of wide patches.
-const WING_GROWTH: f64 = 2.0;
+const WING_GROWTH: f64 = 1.6;
 const LARGEST_ALONG: f64 = 0.15;
 const LARGEST_ALONG_RAIL: f64 = 0.05;
 

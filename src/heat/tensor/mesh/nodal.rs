@@ -123,7 +123,7 @@ fn reach(modes: &DepthModes) -> Vec<usize> {
             largest(&column[first..]) > NEGLIGIBLE * largest(column)
         };
         let columns = modes.shapes.as_slice().chunks_exact(modes.shapes.nrows());
-        columns.enumerate().filter(|(_, column)| noticed(column)).last().map_or(0, |(mode, _)| mode + 1)
+        columns.enumerate().rfind(|(_, column)| noticed(column)).map_or(0, |(mode, _)| mode + 1)
     };
     (0..modes.shapes.nrows()).step_by(kernels::NODES).map(counts).collect()
 }
