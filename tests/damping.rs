@@ -351,7 +351,8 @@ fn energy_of_a_braking_stop_stays_balanced_with_damping() {
     let modal = braking(&|_| {});
     let strong = braking(&|c| (c.damping.rayleigh_mass, c.damping.rayleigh_stiffness) = (20.0, 1e-4));
     println!("residual, damping over friction: none {none:?}, default {modal:?}, Rayleigh {strong:?}");
-    assert!(none[1].abs() < 1e-9);
+    // At a change of solver the power of friction, which is an output, is that of its work within 1e-7 of the whole.
+    assert!(none[1].abs() < 1e-6);
     for [residual, _] in [none, modal, strong] {
         assert!(residual.abs() < 5e-3);
     }

@@ -151,7 +151,7 @@ fn shipped_presets_say_only_what_differs_from_the_default() {
             assert_eq!(named(row.name), differs, "{name}: {}", row.name);
         }
     }
-    assert_eq!(common::preset("railway", 20), Config::default());
+    assert_eq!(common::shipped("railway"), Config::default());
 }
 
 /// Two bodies that ranges allow, but no memory: metres of rail in cells that a small wheel prescribes; a heat model for

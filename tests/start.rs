@@ -2,17 +2,17 @@
 
 mod common;
 
-use common::{model, preset};
+use common::{model, preset, shipped};
 use std::sync::Arc;
-use wheelrail::config::{Config, StartTemperature};
+use wheelrail::config::{Config, ContactMethod, StartTemperature};
 use wheelrail::mechanics::{wheel_inertia, wheel_mass};
 use wheelrail::simulation::{
     Drive, Inputs, Model, Outputs, Rotation, Simulation, StepError, Translation, Vertical, advice,
 };
 
-/// A railway wheel on a coarse mesh at an initial velocity [m/s].
+/// A railway wheel at an initial velocity [m/s].
 fn railway(velocity: f64, heat: bool) -> Config {
-    let mut config = preset("railway", 10);
+    let mut config = shipped("railway");
     (config.initial.velocity, config.thermal.enabled) = (velocity, heat);
     config
 }
@@ -70,14 +70,19 @@ fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_s
 }
 
 /// The decelerated wheel loses the power that damping takes: `m V̇ = F_x = −P/V · m/(m + I/r²)`. The balance of forces
-/// and the audit agree about it within 2.5 %.
+/// and the audit agree about it within 2.5 %. Without any force slip has no direction, and round-off may hand the wheel
+/// from the series to the grid, which moves the force by up to 2e-5 of the load.
 #[test]
 fn without_damping_a_plain_start_is_free_of_any_force_and_with_it_of_all_but_rolling_resistance() {
     for velocity in [5.0, 80.0, -30.0] {
-        let mut config = railway(velocity, false);
-        config.damping.modal = false;
-        let undamped = common::model(config);
-        let [force, change, _] = force_and_change(&undamped, &driven(&undamped, 0.0, 0.0), 1e-3, 0.3);
+        for (contact, limit) in [(ContactMethod::Auto, 2.0), (ContactMethod::Grid, 1e-4)] {
+            let mut config = railway(velocity, false);
+            (config.damping.modal, config.solver.contact) = (false, contact);
+            let undamped = common::model(config);
+            let [force, change, _] = force_and_change(&undamped, &driven(&undamped, 0.0, 0.0), 1e-3, 0.3);
+            println!("V {velocity}: {force:.1e} N, change {change:.1e} N");
+            assert!(force.abs() < 1e-5 && change < limit);
+        }
         let model = model(railway(velocity, false));
         let ([mass, moment_of_inertia], radius) = (inertia(model.config()), model.config().wheel.radius);
         let mut simulation = Simulation::new(model.clone(), &driven(&model, 0.0, 0.0)).unwrap();
@@ -85,8 +90,7 @@ fn without_damping_a_plain_start_is_free_of_any_force_and_with_it_of_all_but_rol
         simulation.advance(&driven(&model, 0.0, 0.0), 1e-3).unwrap();
         let power = simulation.outputs().damping_energy / 1e-3;
         let expected = -power / velocity * mass / (mass + moment_of_inertia / (radius * radius));
-        println!("V {velocity}: {force:.1e} N, change {change:.1e} N; damped {resistance:.4e} N for {expected:.4e} N");
-        assert!(force.abs() < 1e-6 && change < 1e-5);
+        println!("V {velocity}, damped: {resistance:.4e} N for {expected:.4e} N");
         assert!((resistance / expected - 1.0).abs() < 0.04);
     }
 }
@@ -119,13 +123,13 @@ fn hot(velocity: f64, excess: f64) -> Arc<Model> {
 /// The start knows the heat that the tread gives to the rail in passing. Its force is up to 1.7 N at 300 K. The layers
 /// that it heats and chills pull at both surfaces, which shifts the creepage by 1e-5 per 100 K.
 ///
-/// The force changes by 50 N at 100 K, 0.05 % of the load, and by 240 N at 300 K: nothing may be hotter than the wheel,
+/// The force changes by up to 76 N at 100 K, 0.08 % of the load, and by 230 N at 300 K: nothing may be hotter than the wheel,
 /// but at the leading edge the discretisation swings beyond it by 3 % of the difference of temperatures. Every step
 /// moves that back, the start only once. It rings out within 0.1 s. Without that the change is below 2 N.
 #[test]
 fn a_hot_wheel_rolls_on_freely_with_its_present_radius() {
     let cold = start(&model(railway(30.0, true)), &driven(&model(railway(30.0, true)), 0.0, 0.0));
-    for (excess, limits, shift) in [(100.0, [1.0, 60.0], 1e-5), (300.0, [3.0, 260.0], 3e-5)] {
+    for (excess, limits, shift) in [(100.0, [1.0, 80.0], 1e-5), (300.0, [3.0, 260.0], 3e-5)] {
         for (velocity, dt, time) in [(30.0, 1e-3, 0.2), (30.0, 1e-4, 0.2), (-30.0, 1e-3, 0.2), (5.0, 1e-3, 0.2)] {
             let model = hot(velocity, excess);
             let inputs = driven(&model, 0.0, 0.0);
@@ -180,34 +184,37 @@ fn force_and_accelerations_at_the_start_are_those_of_quasi_steady_rolling() {
     }
 }
 
-/// The largest change is 9e-4, of the angular acceleration where moment and force nearly balance.
+/// The angular acceleration, in which moment and force nearly balance, counts by the moment that it takes.
 #[test]
 fn a_start_under_moment_and_force_has_no_transient() {
     for velocity in [0.0, 5.0, 30.0, 80.0, -30.0] {
         for heat in [false, true] {
             let model = model(settled(velocity, heat));
+            let [_, moment_of_inertia] = inertia(model.config());
             for (moment, force) in [(-2e3, 0.0), (-8e3, 0.0), (8e3, 0.0), (-5e3, 1e4)] {
                 for (dt, steps) in [(1e-4, if heat { 300 } else { 1000 }), (1e-3, 100)] {
                     let inputs = driven(&model, moment, force);
                     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
                     let first = simulation.outputs().clone();
-                    let mut worst = [0.0f64; 4];
+                    let mut worst = [0.0f64; 3];
+                    let mut unbalanced = 0.0f64;
                     for _ in 0..steps {
                         simulation.advance(&inputs, dt).unwrap();
                         let now = simulation.outputs();
                         let pairs = [
                             (now.contact_force_x, first.contact_force_x),
                             (now.wheel_acceleration, first.wheel_acceleration),
-                            (now.wheel_angular_acceleration, first.wheel_angular_acceleration),
                             // Creepage is not defined at standstill.
                             if velocity == 0.0 { (1.0, 1.0) } else { (now.contact_creepage, first.contact_creepage) },
                         ];
                         for (worst, (now, first)) in worst.iter_mut().zip(pairs) {
                             *worst = worst.max((now / first - 1.0).abs());
                         }
+                        let change = now.wheel_angular_acceleration - first.wheel_angular_acceleration;
+                        unbalanced = unbalanced.max((moment_of_inertia * change / moment).abs());
                     }
-                    println!("V {velocity}, heat {heat}, {moment} N m, {force} N, step {dt}: {worst:?}");
-                    assert!(worst.iter().all(|change| *change < 2e-3), "{worst:?}");
+                    println!("V {velocity}, heat {heat}, {moment} N m, {force} N, step {dt}: {worst:?}, {unbalanced:.1e}");
+                    assert!(worst.iter().all(|change| *change < 2e-3) && unbalanced < 5e-4, "{worst:?} {unbalanced}");
                 }
             }
         }
@@ -370,7 +377,8 @@ fn derivatives_at_a_quasi_steady_start_are_exact() {
             ("acceleration", |o| o.wheel_angular_acceleration),
         ] {
             let at = |by: f64| read(&start(&model, &driven(&model, moment + by, 0.0)));
-            let h = 4.0;
+            // About zero the creepage has the curvature of |M|.
+            let h = if moment == 0.0 { 0.25 } else { 4.0 };
             let expected = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
             let found = quotient.quotient(read);
             println!("V {velocity}, {moment} N m, {name}: {found:e}, differences {expected:e}");

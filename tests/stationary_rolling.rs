@@ -5,7 +5,7 @@ use common::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::config::Config;
+use wheelrail::config::{Config, ContactMethod};
 use wheelrail::simulation::{Inputs, Model, Simulation};
 
 /// The reference values are computed without centrifugal load.
@@ -21,8 +21,10 @@ fn modulus(config: &Config) -> f64 {
 
 /// Relative errors of half-width and peak pressure against Hertz, worst over a sweep of the load that moves the
 /// contact edges through a cell.
-fn hertz_errors(n: usize) -> (f64, f64) {
-    let model = model(without_centrifugal("paper_d", n));
+fn hertz_errors(contact: ContactMethod, n: usize) -> (f64, f64) {
+    let mut config = without_centrifugal("paper_d", n);
+    config.solver.contact = contact;
+    let model = model(config);
     let config = model.config();
     let mut worst = (0.0f64, 0.0f64);
     for k in 0..9 {
@@ -42,7 +44,7 @@ fn hertz_errors(n: usize) -> (f64, f64) {
 
 #[test]
 fn hertz_half_width_and_pressure_within_one_per_mille_and_of_second_order() {
-    let [coarse, middle, fine] = [5, 10, 20].map(hertz_errors);
+    let [coarse, middle, fine] = [5, 10, 20].map(|n| hertz_errors(ContactMethod::Grid, n));
     println!("half-width error {:.2e} {:.2e} {:.2e}", coarse.0, middle.0, fine.0);
     println!("peak pressure error {:.2e} {:.2e} {:.2e}", coarse.1, middle.1, fine.1);
     assert!(fine.0 <= 1e-3 && fine.1 <= 1e-3, "half-width {:.2e}, pressure {:.2e}", fine.0, fine.1);
@@ -50,6 +52,15 @@ fn hertz_half_width_and_pressure_within_one_per_mille_and_of_second_order() {
     let orders = [order(coarse.0, middle.0), order(middle.0, fine.0), order(coarse.1, middle.1)];
     println!("observed orders: half-width {:.2}, {:.2}, peak pressure {:.2}", orders[0], orders[1], orders[2]);
     assert!(orders.iter().all(|order| *order > 1.7), "{orders:?}");
+}
+
+#[test]
+fn hertz_half_width_and_pressure_of_the_series_within_one_per_mille_on_every_mesh() {
+    for n in [5, 10, 20] {
+        let (half_width, pressure) = hertz_errors(ContactMethod::Auto, n);
+        println!("{n} elements: half-width error {half_width:.2e}, peak pressure error {pressure:.2e}");
+        assert!(half_width <= 1e-3 && pressure <= 1e-3);
+    }
 }
 
 #[test]

@@ -182,7 +182,7 @@ parameters! {
         }
         /// Layout of the graded meshes.
         mesh: MeshParameters fixed {
-            1080 basic elements_per_half_width: usize = 20, from 4 to 80,
+            1080 basic elements_per_half_width: usize = 10, from 4 to 80,
                 "Elements of bodies and heat per Hertzian half-width at model.nominal_load";
             1193 expert grid_elements_per_half_width: usize = 20, from 4 to 80,
                 "Contact nodes per Hertzian half-width, where the contact is solved on a grid: at least as many, since the \
@@ -196,7 +196,7 @@ parameters! {
             1090 expert response: Response = Response::Reduced, "How the bodies answer contact tractions";
             1091 expert modes_wheel: usize = 80, from 1 to 200, "Vibration modes kept for the wheel (reduced response)";
             1092 expert modes_rail: usize = 40, from 1 to 200, "Vibration modes kept for the rail (reduced response)";
-            1189 basic contact: ContactMethod = ContactMethod::Grid, "How contact forces are found";
+            1189 basic contact: ContactMethod = ContactMethod::Auto, "How contact forces are found";
         }
         /// Stationary rolling state from which the run starts.
         initial: Initial fixed {

@@ -19,6 +19,12 @@ pub trait ContactSolver: Send + Sync {
     /// forces yet.
     fn touching(&self, half_width: f64) -> ContactState;
 
+    /// The same for bodies that rest and stick: another discretisation, where [`Self::solve`] takes the first steps in
+    /// it.
+    fn touching_at_rest(&self, half_width: f64) -> ContactState {
+        self.touching(half_width)
+    }
+
     /// Solves `problem` from the results `start` of the step before, one for each of its lines, and writes all of
     /// `found`; on error `found` is meaningless.
     fn solve(

@@ -179,10 +179,11 @@ impl ContactModel {
     }
 
     /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck
-    /// and without forces yet.
-    pub fn hertzian_guess(&self, load: f64) -> ContactState {
+    /// and without forces yet, between bodies that rest or not.
+    pub fn hertzian_guess(&self, load: f64, at_rest: bool) -> ContactState {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
-        self.solver.touching(self.nominal_half_width * share.sqrt())
+        let half_width = self.nominal_half_width * share.sqrt();
+        if at_rest { self.solver.touching_at_rest(half_width) } else { self.solver.touching(half_width) }
     }
 
     /// True if a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the

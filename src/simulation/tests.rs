@@ -1,6 +1,7 @@
 //! Work of a step that its results do not show.
 
 use super::*;
+use crate::config::ContactMethod;
 use std::path::Path;
 
 /// Linear problems of the contact that 200 steps of 0.1 ms solve by alternation, and all equations together.
@@ -8,6 +9,7 @@ fn solved(profile: &str, moment: f64) -> [u64; 2] {
     let store = BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
     let mut config = Config::default();
     (config.thermal.enabled, config.tuning.tolerance) = (false, 0.0);
+    (config.solver.contact, config.mesh.elements_per_half_width) = (ContactMethod::Grid, 20);
     config.rail.profile = profile.to_owned();
     let model = Model::prepare(config, &store, &mut |_, _| {}).unwrap();
     let mut inputs = Inputs::rolling(model.config());

@@ -13,10 +13,15 @@ use wheelrail::simulation::{BasisStore, Inputs, Model, Rotation, Simulation, Tra
 
 pub const KMH: f64 = 1.0 / 3.6;
 
+/// A preset as it is shipped.
+pub fn shipped(name: &str) -> Config {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(format!("{name}.json"));
+    presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
 /// A shipped preset with another density of all meshes, the contact grid included.
 pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(format!("{name}.json"));
-    let mut config = presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let mut config = shipped(name);
     config.mesh.elements_per_half_width = elements_per_half_width;
     config.mesh.grid_elements_per_half_width = elements_per_half_width;
     config

@@ -178,6 +178,10 @@ impl ContactSolver for SeriesSolver {
         ContactState { ports: Ports::Smooth, traction, history: LineHistory::none(POWER), energy: 0.0, solver }
     }
 
+    fn touching_at_rest(&self, half_width: f64) -> ContactState {
+        if self.falls_back() { self.grid.touching(half_width) } else { self.touching(half_width) }
+    }
+
     fn solve(
         &self,
         problem: &ContactProblem,

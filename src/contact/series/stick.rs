@@ -20,8 +20,10 @@ const CHANGES: usize = 4;
 const TELLING: f64 = 0.2;
 /// Share of the root that a step along the slope leaves if the slope is wrong \[1].
 const LEFT: f64 = 0.2;
-/// Smallest step after which that is noticed \[1]: roots after shorter ones are noise.
-const NOTICED: f64 = 1e-4;
+/// Smallest step that says something without that \[1]: roots after shorter ones are noise of the other changes.
+const LONG: f64 = 1e-6;
+/// Smallest step over the change of the pressure after which a wrong slope is noticed \[1].
+const NOTICED: f64 = 10.0;
 
 /// Largest relative change expected of a further iteration that ends them; changes fall about as they fell last.
 const TOLERANCE: f64 = 1e-10;
@@ -55,7 +57,7 @@ pub fn solve(line: &mut SeriesLine) -> Result<(), ContactError> {
     // Normal and tangential problem improve each other by turns: a change falls as that before the last one did.
     let mut last = [f64::INFINITY; 2];
     for _ in 0..MOST {
-        let tangential = search.advance(line)?;
+        let tangential = search.advance(line, normal)?;
         let change = normal.max(tangential);
         let settled = is_settled(change, last);
         last = [change, last[0]];
@@ -142,8 +144,8 @@ impl StickSearch {
         if slope.is_finite() { slope } else { 0.0 }
     }
 
-    /// Improves shear and motions; returns the largest relative change.
-    pub fn advance(&mut self, it: &mut SeriesLine) -> Result<f64, ContactError> {
+    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change.
+    pub fn advance(&mut self, it: &mut SeriesLine, normal: f64) -> Result<f64, ContactError> {
         let scale =
             it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
         let before = (it.rigid, it.rim_angle);
@@ -156,7 +158,7 @@ impl StickSearch {
         let root = it.stick(share * it.tractions.pressure.half_width, upstream)?;
         if let Some([other, there]) = self.last
             && let moved = (share - other).abs()
-            && (moved > TELLING * self.moving || moved > NOTICED && (root / there).abs() > LEFT)
+            && (moved > LONG.max(TELLING * self.moving) || moved > NOTICED * normal && (root / there).abs() > LEFT)
         {
             let slope = (root - there) / (share - other);
             if slope * self.slope > 0.0 && slope.is_finite() {

@@ -52,7 +52,7 @@ pub(super) fn settle(
         hub: HubForces { prescribed, ..HubForces::default() },
         wheel,
         rail,
-        lines: lines(model, load, thermal),
+        lines: lines(model, load, !goal.moving && goal.drive.friction > 0.0, thermal),
         available_friction: goal.drive.friction,
         ..State::default()
     };
@@ -90,11 +90,11 @@ pub(super) fn settle(
 }
 
 /// Lines that touch and stick under about the `load` [N/m], with given temperatures.
-fn lines(model: &RollingModel, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
+fn lines(model: &RollingModel, load: f64, at_rest: bool, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
     let mut temperatures = thermal.into_iter();
     let line = |share: &f64| Line {
         share: *share,
-        contact: model.contact.hertzian_guess(load),
+        contact: model.contact.hertzian_guess(load, at_rest),
         flattening: flattening::none(model),
         worn: 0.0,
         thermal: temperatures.next().flatten(),
