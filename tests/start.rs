@@ -213,7 +213,9 @@ fn a_start_under_moment_and_force_has_no_transient() {
                         let change = now.wheel_angular_acceleration - first.wheel_angular_acceleration;
                         unbalanced = unbalanced.max((moment_of_inertia * change / moment).abs());
                     }
-                    println!("V {velocity}, heat {heat}, {moment} N m, {force} N, step {dt}: {worst:?}, {unbalanced:.1e}");
+                    println!(
+                        "V {velocity}, heat {heat}, {moment} N m, {force} N, step {dt}: {worst:?}, {unbalanced:.1e}"
+                    );
                     assert!(worst.iter().all(|change| *change < 2e-3) && unbalanced < 5e-4, "{worst:?} {unbalanced}");
                 }
             }

@@ -119,19 +119,20 @@ fn a_sliding_contact_in_the_wings_is_that_of_a_model_laid_out_for_it() {
 #[test]
 fn a_load_that_comes_and_goes_leaves_forces_and_energy_as_in_one_zone() {
     let grid = ContactMethod::Grid;
-    let runs = [(1.0, 20, grid), (1.0, 20, ContactMethod::Auto), (6.25, 8, grid)].map(|(laid_out, elements, contact)| {
-        let model = laid_out_for(laid_out, elements, |config| config.solver.contact = contact);
-        let mut inputs = Inputs::rolling(model.config());
-        (inputs.drive.load, inputs.drive.moment) = (1e5, -5000.0);
-        let mut simulation = Simulation::new(model, &inputs).unwrap();
-        let narrow = ports(&simulation);
-        let up = run(&mut simulation, &mut inputs, 250, |share| 1.0 + 4.0 * share);
-        let wide = ports(&simulation);
-        let down = run(&mut simulation, &mut inputs, 300, |share| 5.0 - 4.0 * (1.2 * share).min(1.0));
-        println!("ports {narrow}, {wide}, {}", ports(&simulation));
-        assert_eq!((narrow, wide > narrow), (ports(&simulation), laid_out == 1.0));
-        [up, down].concat()
-    });
+    let runs =
+        [(1.0, 20, grid), (1.0, 20, ContactMethod::Auto), (6.25, 8, grid)].map(|(laid_out, elements, contact)| {
+            let model = laid_out_for(laid_out, elements, |config| config.solver.contact = contact);
+            let mut inputs = Inputs::rolling(model.config());
+            (inputs.drive.load, inputs.drive.moment) = (1e5, -5000.0);
+            let mut simulation = Simulation::new(model, &inputs).unwrap();
+            let narrow = ports(&simulation);
+            let up = run(&mut simulation, &mut inputs, 250, |share| 1.0 + 4.0 * share);
+            let wide = ports(&simulation);
+            let down = run(&mut simulation, &mut inputs, 300, |share| 5.0 - 4.0 * (1.2 * share).min(1.0));
+            println!("ports {narrow}, {wide}, {}", ports(&simulation));
+            assert_eq!((narrow, wide > narrow), (ports(&simulation), laid_out == 1.0));
+            [up, down].concat()
+        });
     let [zones, series, one] = &runs;
     for run in [zones, series] {
         let differences = [
