@@ -19,7 +19,7 @@ pub trait ContactSolver: Send + Sync {
     /// forces yet.
     fn touching(&self, half_width: f64) -> ContactState;
 
-    /// The same for bodies that rest and stick: another discretisation, where [`Self::solve`] takes the first steps in
+    /// A start for bodies that rest and stick: in another discretisation, where [`Self::solve`] takes the first steps in
     /// it.
     fn touching_at_rest(&self, half_width: f64) -> ContactState {
         self.touching(half_width)
