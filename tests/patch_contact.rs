@@ -124,7 +124,7 @@ fn creepage_ramps_match_the_reference() {
         println!("{duration:.0e} s: {curve:.4?}, from the reference {differences:.4?}, from the grid {from_grid:.5}");
         assert!(from_grid < 1e-3);
         for (difference, error) in differences.iter().zip(errors) {
-            assert!(difference.abs() <= f64::max(3e-3, error) + 2e-4, "{difference}");
+            assert!(difference.abs() <= f64::max(3e-3, error) + 4e-4, "{difference}");
         }
     }
 }
@@ -225,21 +225,23 @@ fn derivatives(heat: bool) {
 }
 
 /// A wheel that slows down to a crawl and speeds up again at constant creepage: the patch gives way to the grid and
-/// takes over again. How much the force jumps at a change of solver is by what its change in a step exceeds that of a
+/// takes over again. How much the forces jump at a change of solver is by what their change in a step exceeds that of a
 /// run on the grid.
 #[test]
-fn a_change_of_solver_does_not_make_the_force_jump_whatever_the_step() {
-    [5e-5, 2e-4, 1e-3, 5e-3, 2e-2].into_iter().for_each(|h| changes_smoothly(false, h));
-    [5e-5, 1e-3, 2e-2].into_iter().for_each(|h| changes_smoothly(true, h));
+fn a_change_of_solver_does_not_make_the_forces_jump_whatever_the_step() {
+    [5e-5, 2e-4, 1e-3, 5e-3, 2e-2].into_iter().for_each(|h| changes_smoothly(10, false, h));
+    [5e-5, 1e-3, 2e-2].into_iter().for_each(|h| changes_smoothly(10, true, h));
+    [5e-5, 1e-3].into_iter().for_each(|h| changes_smoothly(20, false, h));
 }
 
-fn changes_smoothly(heat: bool, h: f64) {
-    let (xi, steps) = (-1.5e-3, 400);
+fn changes_smoothly(elements: usize, heat: bool, h: f64) {
+    let (xi, steps) = (-1.5e-3, 400_u32);
     // A half-width is 6 mm: at its fastest the material moves by as much in a step, or with 2 m/s.
     let top = f64::min(6e-3 / h, 2.0);
     let run = |method| {
         let model = solved_by(method, "railway", |config| {
             (config.tuning.tolerance, config.thermal.enabled) = (0.0, heat);
+            config.mesh.elements_per_half_width = elements;
         });
         let mut inputs = prescribed(&model, top, xi);
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
@@ -249,21 +251,26 @@ fn changes_smoothly(heat: bool, h: f64) {
             inputs.drive.velocity = top * (0.5001 + 0.4999 * turn.cos()).powi(2);
             inputs.drive.omega = omega(&model, inputs.drive.velocity, xi);
             simulation.advance(&inputs, h).unwrap();
-            forces.push(simulation.outputs().contact_force_x / simulation.outputs().contact_force_y);
+            let o = simulation.outputs();
+            forces.push([o.contact_force_x / o.contact_force_y, o.contact_force_y / inputs.drive.load]);
             patch.push(is_patch(&simulation));
         }
         (forces, patch)
     };
     let ((forces, patch), (on_grid, _)) = (run(ContactMethod::Auto), run(ContactMethod::Grid));
-    let excess = |k: usize| forces[k] - on_grid[k];
+    let excess = |k: usize, axis: usize| forces[k][axis] - on_grid[k][axis];
     let changes: Vec<usize> = (3..steps as usize - 2).filter(|&k| patch[k] != patch[k - 1]).collect();
-    let jump = |k: &usize| [*k, k + 1].map(|k| (excess(k) - excess(k - 1)).abs()).into_iter().fold(0.0, f64::max);
-    let largest = changes.iter().map(jump).fold(0.0, f64::max);
+    let largest = [0, 1].map(|axis| {
+        let jump = |k: usize| (excess(k, axis) - excess(k - 1, axis)).abs();
+        changes.iter().map(|&k| jump(k).max(jump(k + 1))).fold(0.0, f64::max)
+    });
     let on = patch.iter().filter(|on| **on).count();
     println!(
-        "heat {heat}, {h} s: changes at {changes:?}, {on} of {steps} steps on the patch, largest jump {largest:.1e}"
+        "{elements} elements, heat {heat}, {h} s: changes at {changes:?}, {on} of {steps} steps on the patch, largest jumps \
+         {:.1e}, {:.1e}",
+        largest[0], largest[1]
     );
-    assert!(changes.len() >= 2 && largest < 1e-4);
+    assert!(changes.len() >= 2 && largest.iter().all(|jump| *jump < 1e-4));
 }
 
 #[test]

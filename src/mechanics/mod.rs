@@ -15,6 +15,7 @@ mod pair;
 pub mod reduced;
 pub mod reduction;
 mod refined;
+mod remainder;
 pub mod response;
 pub mod retarded;
 mod shapes;

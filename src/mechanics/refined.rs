@@ -2,16 +2,16 @@
 //! the bodies do.
 //!
 //! Close to a load every body answers like a half-plane, whose answer at the nodes of any grid is known in closed form
-//! ([`nodal`]). What remains of the compliance varies over the size of the bodies, as do the vibration modes, so that it
-//! is interpolated between the nodes of the finite elements by cubic polynomials. Theory: `docs/theory/kernel-correction.md`.
+//! ([`nodal`]). What [remains](super::remainder) of the compliance varies over the size of the bodies, as do the vibration
+//! modes, so that it is interpolated between the nodes of the finite elements by cubic polynomials. Theory:
+//! `docs/theory/kernel-correction.md`.
 
 use super::reduction::{ReducedBasis, scale_columns};
-use crate::analytic::{HalfPlane, digamma};
+use super::remainder::{nodal, remainder};
+use crate::analytic::HalfPlane;
 use crate::linalg::dense::symmetrise;
 use nalgebra::DMatrix;
 
-/// Nodes within which the compliance of finite elements is not yet that of the elastic body.
-const NEAR: usize = 8;
 /// Nodes of a cubic polynomial.
 const STENCIL: usize = 4;
 
@@ -31,18 +31,13 @@ impl ReducedBasis {
         let shapes = rows_between(&between, &self.shapes);
         let centrifugal =
             DMatrix::from_column_slice(self.centrifugal_residual.len(), 1, self.centrifugal_residual.as_slice());
-        let weighted = scale_columns(&self.shapes, &self.squared_frequencies.map(f64::recip));
-        let mut compliance = self.residual.clone();
-        compliance.gemm(1.0, &weighted, &self.shapes.transpose(), 1.0);
+        let compliance = self.compliance();
         let mut residual = DMatrix::zeros(2 * finer.len(), 2 * finer.len());
         for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let kernel = |nodes: &[f64], i: usize, j: usize| nodal(half_plane, (c, d), nodes, (i, j), side);
-            let mut rest =
-                DMatrix::from_fn(x.len(), x.len(), |i, j| compliance[(2 * i + c, 2 * j + d)] - kernel(x, i, j));
-            level(&mut rest);
+            let rest = remainder(&compliance, (c, d), x, half_plane, side);
             let fine = &between * rest * between.transpose();
             for (i, j) in (0..finer.len()).flat_map(|i| (0..finer.len()).map(move |j| (i, j))) {
-                residual[(2 * i + c, 2 * j + d)] = fine[(i, j)] + kernel(finer, i, j);
+                residual[(2 * i + c, 2 * j + d)] = fine[(i, j)] + nodal(half_plane, (c, d), finer, (i, j), side);
             }
         }
         let weighted = scale_columns(&shapes, &self.squared_frequencies.map(f64::recip));
@@ -55,48 +50,6 @@ impl ReducedBasis {
             carried: self.carried.as_ref().map(|carried| rows_between(&between, carried)),
             shapes,
             ..self.clone()
-        }
-    }
-}
-
-/// Displacement `component` of a half-plane at node i by a unit force in direction `force` at node j of `nodes` \[m], but
-/// for a constant [m/(N/m)]: where nodes lie n apart along each axis `−κ (ψ(n + ½) + ln h)` with the digamma function ψ
-/// and the mean distance h of the nodes between both, whose differences on a uniform grid are those of the discrete
-/// kernel `1/(n + ½)`.
-fn nodal(
-    half_plane: HalfPlane,
-    (component, force): (usize, usize),
-    nodes: &[f64],
-    (i, j): (usize, usize),
-    side: f64,
-) -> f64 {
-    let n = i.abs_diff(j);
-    if component != force {
-        return if n == 0 { 0.0 } else { half_plane.displacement(component, force, nodes[i] - nodes[j], side) };
-    }
-    let spacing = match n {
-        0 => {
-            let (before, after) = (i.saturating_sub(1), (i + 1).min(nodes.len() - 1));
-            (nodes[after] - nodes[before]) / (after - before).max(1) as f64
-        }
-        n => (nodes[i] - nodes[j]).abs() / n as f64,
-    };
-    -half_plane.kernel * (digamma(n as f64 + 0.5) + spacing.ln())
-}
-
-/// Takes from `rest`, the compliance less that of a half-plane, the error of finite elements between near nodes: there it
-/// becomes a straight line between the values of the middle column at both ends of [`NEAR`].
-fn level(rest: &mut DMatrix<f64>) {
-    let n = rest.nrows();
-    let middle = n / 2;
-    let near = NEAR.min(middle).min(n - 1 - middle);
-    let at = |k: isize| rest[(middle.saturating_add_signed(k), middle)];
-    let (low, high) = (at(-(near as isize)), at(near as isize));
-    let error = |k: isize| at(k) - 0.5 * (low + high) - 0.5 * (high - low) * k as f64 / near.max(1) as f64;
-    let errors: Vec<f64> = (1 - near as isize..near as isize).map(error).collect();
-    for i in 0..n {
-        for j in i.saturating_sub(near - 1)..(i + near).min(n) {
-            rest[(i, j)] -= errors[i + near - 1 - j];
         }
     }
 }

@@ -6,28 +6,21 @@
 //! its surface nodes. Derivation: `docs/theory/patch-contact.md`.
 
 use super::reduction::{ReducedBasis, scale_columns};
+use super::remainder::remainder;
 use crate::analytic::HalfPlane;
 use crate::linalg::Lagrange;
 pub use crate::linalg::POINTS;
 use crate::linalg::dense::symmetrise;
-use nalgebra::{DMatrix, DVector};
-
-/// Nodes within which the compliance of a mesh is not yet that of the elastic body.
-const NEAR: usize = 8;
+use nalgebra::DMatrix;
 
 impl ReducedBasis {
     /// The body less a half-plane, on the points of `basis`; `x` are its surface nodes \[m]. `None` where there are too
     /// few.
     pub(super) fn smooth(&self, x: &[f64], basis: &Lagrange, half_plane: HalfPlane, side: f64) -> Option<Self> {
-        let weighted = scale_columns(&self.shapes, &self.squared_frequencies.map(f64::recip));
-        let mut compliance = self.residual.clone();
-        compliance.gemm(1.0, &weighted, &self.shapes.transpose(), 1.0);
-        let rest = |c: usize, d: usize, i: usize, j: usize| {
-            compliance[(2 * i + c, 2 * j + d)] - half_plane.displacement(c, d, x[i] - x[j], side)
-        };
+        let compliance = self.compliance();
         let projection = Projection::new(x, basis)?;
         let shapes = projection.of(&self.shapes);
-        let mut residual = projection.fit(x, rest)?;
+        let mut residual = projection.fit(|c, d| remainder(&compliance, (c, d), x, half_plane, side));
         let weighted = scale_columns(&shapes, &self.squared_frequencies.map(f64::recip));
         residual.gemm(-1.0, &weighted, &shapes.transpose(), 1.0);
         symmetrise(&mut residual);
@@ -43,14 +36,13 @@ impl ReducedBasis {
 }
 
 /// From surface nodes to the points of a polynomial.
-struct Projection<'a> {
-    basis: &'a Lagrange,
+struct Projection {
     matrix: DMatrix<f64>,
 }
 
-impl<'a> Projection<'a> {
-    fn new(x: &[f64], basis: &'a Lagrange) -> Option<Self> {
-        Some(Self { basis, matrix: basis.projection(x)? })
+impl Projection {
+    fn new(x: &[f64], basis: &Lagrange) -> Option<Self> {
+        Some(Self { matrix: basis.projection(x)? })
     }
 
     /// Rows of surface components at the nodes as rows at the points.
@@ -66,30 +58,16 @@ impl<'a> Projection<'a> {
         projected
     }
 
-    /// The smooth function of two places (components `c` and `d`, nodes i and j) that `rest` is away from its diagonal.
-    fn fit(&self, x: &[f64], rest: impl Fn(usize, usize, usize, usize) -> f64) -> Option<DMatrix<f64>> {
-        let values: Vec<[f64; POINTS]> = x.iter().map(|&x| self.basis.values(x)).collect();
-        let size = POINTS * POINTS;
-        let mut normal = DMatrix::zeros(size, size);
-        let mut sides = [(); 4].map(|()| DVector::zeros(size));
-        for i in 0..x.len() {
-            for j in (0..x.len()).filter(|j| i.abs_diff(*j) >= NEAR) {
-                let row = DVector::from_fn(size, |k, _| values[i][k / POINTS] * values[j][k % POINTS]);
-                normal.ger(1.0, &row, &row, 1.0);
-                for (k, side) in sides.iter_mut().enumerate() {
-                    side.axpy(rest(k / 2, k % 2, i, j), &row, 1.0);
-                }
-            }
-        }
-        let factor = normal.cholesky()?;
+    /// The polynomial of two places, by components `c` and `d`, next to the values `rest` at all pairs of nodes.
+    fn fit(&self, rest: impl Fn(usize, usize) -> DMatrix<f64>) -> DMatrix<f64> {
         let mut fitted = DMatrix::zeros(2 * POINTS, 2 * POINTS);
-        for (k, side) in sides.iter().enumerate() {
-            let solution = factor.solve(side);
-            for (l, value) in solution.iter().enumerate() {
-                fitted[(2 * (l / POINTS) + k / 2, 2 * (l % POINTS) + k % 2)] = *value;
+        for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let values = &self.matrix * rest(c, d) * self.matrix.transpose();
+            for (k, l) in (0..POINTS).flat_map(|k| (0..POINTS).map(move |l| (k, l))) {
+                fitted[(2 * k + c, 2 * l + d)] = values[(k, l)];
             }
         }
-        Some(fitted)
+        fitted
     }
 }
 

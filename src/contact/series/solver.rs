@@ -179,7 +179,14 @@ impl ContactSolver for SeriesSolver {
     }
 
     fn touching_at_rest(&self, half_width: f64) -> ContactState {
-        if self.falls_back() { self.grid.touching(half_width) } else { self.touching(half_width) }
+        if !self.falls_back() {
+            return self.touching(half_width);
+        }
+        let mut state = self.grid.touching(half_width);
+        if let SolverState::Line(line) = &mut state.solver {
+            line.rest = transfer::REST;
+        }
+        state
     }
 
     fn solve(
