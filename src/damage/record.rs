@@ -117,14 +117,21 @@ impl Findings {
         let ac1 = criteria.austenitisation;
         let mut found = Self::default();
         for column in points.chunks_exact(mesh.depth.len()) {
-            for point in column {
+            let mut last = [None; 2];
+            for (layer, point) in column.iter().enumerate() {
                 found.peak = found.peak.max(point.peak);
                 if point.above_ac1 > found.above_ac1 {
                     (found.above_ac1, found.cooling_rate) = (point.above_ac1, point.cooling_rate);
                 }
+                if point.peak > ac1 {
+                    last[0] = Some(layer);
+                }
+                if point.martensite > MARTENSITIC {
+                    last[1] = Some(layer);
+                }
             }
-            let austenitised = deepest(&mesh.depth, column, |point| point.peak - ac1);
-            let martensitic = deepest(&mesh.depth, column, |point| point.martensite - MARTENSITIC);
+            let austenitised = deepest(&mesh.depth, column, last[0], |point| point.peak - ac1);
+            let martensitic = deepest(&mesh.depth, column, last[1], |point| point.martensite - MARTENSITIC);
             found.ac1_depth = found.ac1_depth.max(austenitised.0);
             // What ends where austenite ended ends at the same depth between the nodes.
             let all = martensitic.1.is_some() && martensitic.1 == austenitised.1;
@@ -134,16 +141,21 @@ impl Findings {
     }
 }
 
-/// Depth to which an excess is positive, linear between nodes \[m], and the last node with it.
-fn deepest(depth: &[f64], column: &[MaterialPoint], excess: impl Fn(&MaterialPoint) -> f64) -> (f64, Option<usize>) {
-    let Some(last) = column.iter().rposition(|point| excess(point) > 0.0) else {
+/// Depth to which an excess is positive, linear between nodes \[m], and the last node with it, which is `last`.
+fn deepest(
+    depth: &[f64],
+    column: &[MaterialPoint],
+    last: Option<usize>,
+    excess: impl Fn(&MaterialPoint) -> f64,
+) -> (f64, Option<usize>) {
+    let Some(end) = last else {
         return (0.0, None);
     };
-    let Some(below) = column.get(last + 1) else {
-        return (depth[last], Some(last));
+    let Some(below) = column.get(end + 1) else {
+        return (depth[end], last);
     };
-    let (inside, outside) = (excess(&column[last]), excess(below));
-    (depth[last] + inside / (inside - outside) * (depth[last + 1] - depth[last]), Some(last))
+    let (inside, outside) = (excess(&column[end]), excess(below));
+    (depth[end] + inside / (inside - outside) * (depth[end + 1] - depth[end]), last)
 }
 
 /// Recorder of the points of a spot.
@@ -160,10 +172,20 @@ impl Recorder {
         MaterialPoint { peak: self.reference + excess, ..MaterialPoint::default() }
     }
 
-    /// Records a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
-    pub fn step(&self, points: &mut [MaterialPoint], before: &[f64], after: &[f64], time: f64, dt: f64) {
-        for (point, (&before, &after)) in points.iter_mut().zip(before.iter().zip(after)) {
+    /// The points after a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
+    pub fn stepped(
+        &self,
+        points: &[MaterialPoint],
+        [before, after]: [&[f64]; 2],
+        time: f64,
+        dt: f64,
+    ) -> Vec<MaterialPoint> {
+        let steps = points.iter().zip(before.iter().zip(after));
+        let stepped = steps.map(|(point, (&before, &after))| {
+            let mut point = *point;
             point.record([self.reference + before, self.reference + after], time, dt, &self.criteria);
-        }
+            point
+        });
+        stepped.collect()
     }
 }

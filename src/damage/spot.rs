@@ -1,10 +1,11 @@
 //! A place of the tread that was heated in one piece.
 
-use super::conduction::{ConductionScratch, conduct};
+use super::conduction::{ConductionScratch, beside, conduct};
 use super::mesh::SpotMesh;
 use super::record::{Findings, MaterialPoint, Recorder};
 use super::shared;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones
@@ -35,6 +36,12 @@ impl Visit {
     /// Knowledge of the temperatures at `arc` \[m] from the middle of the place from the contact.
     pub fn covers(&self, arc: f64) -> bool {
         (self.distance + arc).abs() <= self.reach
+    }
+
+    /// Columns of the mesh at which the contact knows the temperatures.
+    fn columns(&self, mesh: &SpotMesh) -> Range<usize> {
+        let from = mesh.arc.partition_point(|arc| self.distance + arc < -self.reach);
+        from..mesh.arc.partition_point(|arc| self.distance + arc <= self.reach).max(from)
     }
 }
 
@@ -109,34 +116,37 @@ impl Spot {
     ) {
         let back = !std::mem::replace(&mut self.following, true);
         let dt = visit.dt + std::mem::take(&mut self.pending);
-        let layers = mesh.depth.len();
+        let (layers, all) = (mesh.depth.len(), 0..mesh.arc.len());
         // A place that was at rest is cold.
         let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh.size(), recorder)));
-        let field = Arc::make_mut(field);
-        let mut now = field.temperature.clone();
-        conduct(mesh, &mut now, dt, visit.film, scratch);
+        let (mut now, mut remainder) = (field.temperature.clone(), Vec::new());
+        let covered = visit.columns(mesh);
         if back {
-            field.remainder.clear();
-            field.remainder.resize(mesh.size(), 0.0);
-        } else if !field.remainder.is_empty() {
-            conduct(mesh, &mut field.remainder, dt, visit.film, scratch);
-        }
-        let mut seen = vec![0.0; layers];
-        for (column, arc) in mesh.arc.iter().enumerate().filter(|(_, arc)| visit.covers(**arc)) {
-            sample(visit.distance + arc, &mut seen);
-            for (node, seen) in (column * layers..).zip(&seen) {
-                if back {
-                    field.remainder[node] = (now[node] - seen).max(0.0);
-                }
-                now[node] = seen + field.remainder.get(node).copied().unwrap_or(0.0);
+            conduct(mesh, &mut now, all, dt, visit.film, scratch);
+            remainder.resize(mesh.size(), 0.0);
+        } else {
+            for columns in beside(mesh, &covered, dt).into_iter().filter(|columns| !columns.is_empty()) {
+                conduct(mesh, &mut now, columns, dt, visit.film, scratch);
+            }
+            if !field.remainder.is_empty() {
+                remainder.clone_from(&field.remainder);
+                conduct(mesh, &mut remainder, all, dt, visit.film, scratch);
             }
         }
-        if field.remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
-            field.remainder = Vec::new();
+        let mut seen = vec![0.0; layers];
+        for column in covered {
+            sample(visit.distance + mesh.arc[column], &mut seen);
+            for (node, seen) in (column * layers..).zip(&seen) {
+                if back {
+                    remainder[node] = (now[node] - seen).max(0.0);
+                }
+                now[node] = seen + remainder.get(node).copied().unwrap_or(0.0);
+            }
         }
-        field.age += dt;
-        recorder.step(&mut field.points, &field.temperature, &now, field.age, dt);
-        field.temperature = now;
+        if remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
+            remainder = Vec::new();
+        }
+        *field = Arc::new(field.after(now, remainder, recorder, dt));
         self.alone = 0.0;
         self.judge(mesh, recorder);
     }
@@ -174,13 +184,13 @@ impl Spot {
         if self.pending < own_step(self.alone) {
             return false;
         }
-        let field = Arc::make_mut(field);
-        field.remainder = Vec::new();
         while self.pending >= own_step(self.alone) {
             let step = own_step(self.alone);
             self.pending -= step;
             self.alone += step;
-            field.advance(mesh, step, film, recorder, scratch);
+            let mut now = field.temperature.clone();
+            conduct(mesh, &mut now, 0..mesh.arc.len(), step, film, scratch);
+            *field = Arc::new(field.after(now, Vec::new(), recorder, step));
         }
         self.judge(mesh, recorder);
         true
@@ -230,11 +240,10 @@ impl SpotField {
         Self { temperature: vec![0.0; size], points: vec![recorder.begin(0.0); size], ..Self::default() }
     }
 
-    /// Conduction of the place by itself over a step, with the records of its points.
-    fn advance(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder, scratch: &mut ConductionScratch) {
-        let before = self.temperature.clone();
-        conduct(mesh, &mut self.temperature, dt, film, scratch);
-        self.age += dt;
-        recorder.step(&mut self.points, &before, &self.temperature, self.age, dt);
+    /// The field after a step of `dt` [s] to the given temperatures, with the records of its points.
+    fn after(&self, temperature: Vec<f64>, remainder: Vec<f64>, recorder: &Recorder, dt: f64) -> Self {
+        let age = self.age + dt;
+        let points = recorder.stepped(&self.points, [&self.temperature, &temperature], age, dt);
+        Self { temperature, remainder, points, age }
     }
 }
