@@ -2,7 +2,7 @@
 
 use super::conduction::{ConductionScratch, beside, conduct};
 use super::mesh::SpotMesh;
-use super::record::{Findings, MaterialPoint, Recorder};
+use super::record::{Findings, Recorder, Records};
 use super::shared;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -73,8 +73,8 @@ pub struct SpotField {
     pub temperature: Vec<f64>,
     /// Excess over the temperatures under the contact: heat from before that the contact does not know; empty: zero.
     pub remainder: Vec<f64>,
-    /// Histories of the nodes.
-    pub points: Vec<MaterialPoint>,
+    /// Records of the nodes.
+    pub records: Records,
     /// Time since the place became hot \[s].
     pub age: f64,
 }
@@ -82,8 +82,8 @@ pub struct SpotField {
 impl Spot {
     /// A place whose middle touches at the distance `arc` \[m] turned, with the excess temperatures `temperature` \[K].
     pub(super) fn at(arc: f64, temperature: Vec<f64>, mesh: &SpotMesh, recorder: &Recorder) -> Self {
-        let points = temperature.iter().map(|&excess| recorder.begin(excess)).collect();
-        let field = Some(Arc::new(SpotField { temperature, points, ..SpotField::default() }));
+        let records = recorder.begin(&temperature, mesh);
+        let field = Some(Arc::new(SpotField { temperature, records, ..SpotField::default() }));
         let mut spot = Self { arc, following: true, field, ..Self::default() };
         spot.judge(mesh, recorder);
         spot
@@ -118,7 +118,7 @@ impl Spot {
         let dt = visit.dt + std::mem::take(&mut self.pending);
         let (layers, all) = (mesh.depth.len(), 0..mesh.arc.len());
         // A place that was at rest is cold.
-        let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh.size(), recorder)));
+        let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh, recorder)));
         let (mut now, mut remainder) = (field.temperature.clone(), Vec::new());
         let covered = visit.columns(mesh);
         if back {
@@ -199,8 +199,8 @@ impl Spot {
     /// Raises the highest temperatures at the depths of the mesh \[K] to those of this place.
     pub(super) fn raise(&self, peaks: &mut [f64]) {
         let depths = peaks.len();
-        for column in self.field().iter().flat_map(|field| field.points.chunks_exact(depths)) {
-            peaks.iter_mut().zip(column).for_each(|(peak, point)| *peak = peak.max(point.peak));
+        for column in self.field().iter().flat_map(|field| field.records.peaks().chunks_exact(depths)) {
+            peaks.iter_mut().zip(column).for_each(|(peak, place)| *peak = peak.max(*place));
         }
     }
 
@@ -216,7 +216,7 @@ impl Spot {
 
     fn judge(&mut self, mesh: &SpotMesh, recorder: &Recorder) {
         if let Some(field) = &self.field {
-            self.latest = Findings::of(mesh, &field.points, &recorder.criteria);
+            self.latest = Findings::of(mesh, &field.records, &recorder.criteria);
         }
     }
 
@@ -226,7 +226,7 @@ impl Spot {
         let fits = |field: &SpotField| {
             let times = [field.age, self.alone, self.pending];
             field.temperature.len() == size
-                && field.points.len() == size
+                && field.records.fits(mesh)
                 && (field.remainder.is_empty() || field.remainder.len() == size)
                 && times.iter().all(|time| time.is_finite() && *time >= 0.0)
         };
@@ -236,14 +236,15 @@ impl Spot {
 
 impl SpotField {
     /// Temperatures of a place without excess.
-    fn cold(size: usize, recorder: &Recorder) -> Self {
-        Self { temperature: vec![0.0; size], points: vec![recorder.begin(0.0); size], ..Self::default() }
+    fn cold(mesh: &SpotMesh, recorder: &Recorder) -> Self {
+        let temperature = vec![0.0; mesh.size()];
+        Self { records: recorder.begin(&temperature, mesh), temperature, ..Self::default() }
     }
 
     /// The field after a step of `dt` [s] to the given temperatures, with the records of its points.
     fn after(&self, temperature: Vec<f64>, remainder: Vec<f64>, recorder: &Recorder, dt: f64) -> Self {
         let age = self.age + dt;
-        let points = recorder.stepped(&self.points, [&self.temperature, &temperature], age, dt);
-        Self { temperature, remainder, points, age }
+        let records = recorder.stepped(&self.records, [&self.temperature, &temperature], age, dt);
+        Self { temperature, remainder, records, age }
     }
 }
