@@ -21,7 +21,7 @@ pub use conduction::ConductionScratch;
 pub use fatigue::surface_fatigue;
 pub use mesh::{SpotLayout, SpotMesh};
 use record::Recorder;
-pub use record::{Criteria, Findings, MaterialPoint};
+pub use record::{Criteria, Findings, PointHistory, Records};
 use spot::Visit;
 pub use spot::{ColumnSampler, Spot, SpotField};
 pub use tread::Tread;

@@ -24,11 +24,9 @@ pub struct Criteria {
     pub threshold: f64,
 }
 
-/// Damage of a point of material.
+/// Damage of a point of material besides its peak.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct MaterialPoint {
-    /// Highest temperature so far \[K].
-    pub peak: f64,
+pub struct PointHistory {
     /// Time above Ac1 so far \[s].
     pub above_ac1: f64,
     /// Time at which it fell below 800 °C, or below Ac1 if it had not reached 800 °C, and that temperature [s, K]; none
@@ -40,10 +38,16 @@ pub struct MaterialPoint {
     pub martensite: f64,
 }
 
-impl MaterialPoint {
+impl Criteria {
+    /// True if a step between such temperatures \[K] leaves the history of a point that was never hot as it is.
+    fn leaves_cold(&self, hotter: f64) -> bool {
+        hotter < self.austenitisation.min(COOLING[1]) && self.critical_cooling > 0.0
+    }
+}
+
+impl PointHistory {
     /// Records a step of `dt` \[s] to the time `time` \[s], from one temperature to another \[K].
     pub fn record(&mut self, [before, after]: [f64; 2], time: f64, dt: f64, criteria: &Criteria) {
-        self.peak = self.peak.max(after);
         let ac1 = criteria.austenitisation;
         if before.max(after) < ac1.min(COOLING[1]) && self.cooling_rate < criteria.critical_cooling {
             // Nothing to record below the temperatures that matter.
@@ -113,18 +117,18 @@ impl Findings {
     }
 
     /// Findings at all points of a mesh.
-    pub(super) fn of(mesh: &SpotMesh, points: &[MaterialPoint], criteria: &Criteria) -> Self {
+    pub(super) fn of(mesh: &SpotMesh, records: &Records, criteria: &Criteria) -> Self {
         let ac1 = criteria.austenitisation;
         let mut found = Self::default();
-        for column in points.chunks_exact(mesh.depth.len()) {
-            for point in column {
-                found.peak = found.peak.max(point.peak);
-                if point.above_ac1 > found.above_ac1 {
-                    (found.above_ac1, found.cooling_rate) = (point.above_ac1, point.cooling_rate);
+        for (peaks, histories) in records.columns(mesh.depth.len()) {
+            found.peak = peaks.iter().fold(found.peak, |most, peak| most.max(*peak));
+            for history in histories {
+                if history.above_ac1 > found.above_ac1 {
+                    (found.above_ac1, found.cooling_rate) = (history.above_ac1, history.cooling_rate);
                 }
             }
-            let austenitised = deepest(&mesh.depth, column, |point| point.peak - ac1);
-            let martensitic = deepest(&mesh.depth, column, |point| point.martensite - MARTENSITIC);
+            let austenitised = deepest(&mesh.depth, peaks, |peak| peak - ac1);
+            let martensitic = deepest(&mesh.depth, histories, |history| history.martensite - MARTENSITIC);
             found.ac1_depth = found.ac1_depth.max(austenitised.0);
             // What ends where austenite ended ends at the same depth between the nodes.
             let all = martensitic.1.is_some() && martensitic.1 == austenitised.1;
@@ -135,7 +139,7 @@ impl Findings {
 }
 
 /// Depth to which an excess is positive, linear between nodes \[m], and the last node with it.
-fn deepest(depth: &[f64], column: &[MaterialPoint], excess: impl Fn(&MaterialPoint) -> f64) -> (f64, Option<usize>) {
+fn deepest<T>(depth: &[f64], column: &[T], excess: impl Fn(&T) -> f64) -> (f64, Option<usize>) {
     let Some(last) = column.iter().rposition(|point| excess(point) > 0.0) else {
         return (0.0, None);
     };
@@ -144,6 +148,35 @@ fn deepest(depth: &[f64], column: &[MaterialPoint], excess: impl Fn(&MaterialPoi
     };
     let (inside, outside) = (excess(&column[last]), excess(below));
     (depth[last] + inside / (inside - outside) * (depth[last + 1] - depth[last]), Some(last))
+}
+
+/// Records of the points of a mesh, column by column.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Records {
+    /// Highest temperatures so far \[K].
+    peaks: Vec<f64>,
+    /// Histories of the points of each column; empty where none was ever as hot as matters.
+    histories: Vec<Vec<PointHistory>>,
+}
+
+impl Records {
+    /// Highest temperatures \[K] and histories of the columns of `layers` points.
+    fn columns(&self, layers: usize) -> impl Iterator<Item = (&[f64], &[PointHistory])> {
+        self.peaks.chunks_exact(layers).zip(self.histories.iter().map(Vec::as_slice))
+    }
+
+    /// Highest temperatures of all points so far \[K].
+    pub fn peaks(&self) -> &[f64] {
+        &self.peaks
+    }
+
+    /// Agreement with the dimensions of a mesh.
+    pub(super) fn fits(&self, mesh: &SpotMesh) -> bool {
+        let layers = mesh.depth.len();
+        self.peaks.len() == mesh.size()
+            && self.histories.len() == mesh.arc.len()
+            && self.histories.iter().all(|histories| histories.is_empty() || histories.len() == layers)
+    }
 }
 
 /// Recorder of the points of a spot.
@@ -155,15 +188,31 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    /// A point that has the excess temperature `excess` [K] when its history begins.
-    pub fn begin(&self, excess: f64) -> MaterialPoint {
-        MaterialPoint { peak: self.reference + excess, ..MaterialPoint::default() }
+    /// Records of points that have the excess temperatures `excess` [K] when their history begins.
+    pub fn begin(&self, excess: &[f64], mesh: &SpotMesh) -> Records {
+        let peaks = excess.iter().map(|excess| self.reference + excess).collect();
+        Records { peaks, histories: vec![Vec::new(); mesh.arc.len()] }
     }
 
-    /// Records a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
-    pub fn step(&self, points: &mut [MaterialPoint], before: &[f64], after: &[f64], time: f64, dt: f64) {
-        for (point, (&before, &after)) in points.iter_mut().zip(before.iter().zip(after)) {
-            point.record([self.reference + before, self.reference + after], time, dt, &self.criteria);
-        }
+    /// The records after a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
+    pub fn stepped(&self, records: &Records, [before, after]: [&[f64]; 2], time: f64, dt: f64) -> Records {
+        let layers = before.len() / records.histories.len().max(1);
+        let absolute = |excess: &f64| self.reference + excess;
+        let peaks = records.peaks.iter().zip(after).map(|(peak, after)| peak.max(absolute(after))).collect();
+        let columns = records.histories.iter().zip(before.chunks_exact(layers).zip(after.chunks_exact(layers)));
+        let histories = columns.map(|(histories, (before, after))| {
+            let highest = before.iter().chain(after).fold(f64::NEG_INFINITY, |most, excess| most.max(*excess));
+            if histories.is_empty() && self.criteria.leaves_cold(absolute(&highest)) {
+                return Vec::new();
+            }
+            let histories = histories.iter().copied().chain(std::iter::repeat(PointHistory::default()));
+            let points = histories.zip(before.iter().zip(after));
+            let stepped = points.map(|(mut history, (before, after))| {
+                history.record([absolute(before), absolute(after)], time, dt, &self.criteria);
+                history
+            });
+            stepped.collect()
+        });
+        Records { peaks, histories: histories.collect() }
     }
 }

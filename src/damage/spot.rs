@@ -1,10 +1,11 @@
 //! A place of the tread that was heated in one piece.
 
-use super::conduction::{ConductionScratch, conduct};
+use super::conduction::{ConductionScratch, beside, conduct};
 use super::mesh::SpotMesh;
-use super::record::{Findings, MaterialPoint, Recorder};
+use super::record::{Findings, Recorder, Records};
 use super::shared;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones
@@ -36,6 +37,12 @@ impl Visit {
     pub fn covers(&self, arc: f64) -> bool {
         (self.distance + arc).abs() <= self.reach
     }
+
+    /// Columns of the mesh at which the contact knows the temperatures.
+    fn columns(&self, mesh: &SpotMesh) -> Range<usize> {
+        let from = mesh.arc.partition_point(|arc| self.distance + arc < -self.reach);
+        from..mesh.arc.partition_point(|arc| self.distance + arc <= self.reach).max(from)
+    }
 }
 
 /// A place of the tread that was heated in one piece, once or several times.
@@ -66,8 +73,8 @@ pub struct SpotField {
     pub temperature: Vec<f64>,
     /// Excess over the temperatures under the contact: heat from before that the contact does not know; empty: zero.
     pub remainder: Vec<f64>,
-    /// Histories of the nodes.
-    pub points: Vec<MaterialPoint>,
+    /// Records of the nodes.
+    pub records: Records,
     /// Time since the place became hot \[s].
     pub age: f64,
 }
@@ -75,8 +82,8 @@ pub struct SpotField {
 impl Spot {
     /// A place whose middle touches at the distance `arc` \[m] turned, with the excess temperatures `temperature` \[K].
     pub(super) fn at(arc: f64, temperature: Vec<f64>, mesh: &SpotMesh, recorder: &Recorder) -> Self {
-        let points = temperature.iter().map(|&excess| recorder.begin(excess)).collect();
-        let field = Some(Arc::new(SpotField { temperature, points, ..SpotField::default() }));
+        let records = recorder.begin(&temperature, mesh);
+        let field = Some(Arc::new(SpotField { temperature, records, ..SpotField::default() }));
         let mut spot = Self { arc, following: true, field, ..Self::default() };
         spot.judge(mesh, recorder);
         spot
@@ -109,34 +116,37 @@ impl Spot {
     ) {
         let back = !std::mem::replace(&mut self.following, true);
         let dt = visit.dt + std::mem::take(&mut self.pending);
-        let layers = mesh.depth.len();
+        let (layers, all) = (mesh.depth.len(), 0..mesh.arc.len());
         // A place that was at rest is cold.
-        let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh.size(), recorder)));
-        let field = Arc::make_mut(field);
-        let mut now = field.temperature.clone();
-        conduct(mesh, &mut now, dt, visit.film, scratch);
+        let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh, recorder)));
+        let (mut now, mut remainder) = (field.temperature.clone(), Vec::new());
+        let covered = visit.columns(mesh);
         if back {
-            field.remainder.clear();
-            field.remainder.resize(mesh.size(), 0.0);
-        } else if !field.remainder.is_empty() {
-            conduct(mesh, &mut field.remainder, dt, visit.film, scratch);
-        }
-        let mut seen = vec![0.0; layers];
-        for (column, arc) in mesh.arc.iter().enumerate().filter(|(_, arc)| visit.covers(**arc)) {
-            sample(visit.distance + arc, &mut seen);
-            for (node, seen) in (column * layers..).zip(&seen) {
-                if back {
-                    field.remainder[node] = (now[node] - seen).max(0.0);
-                }
-                now[node] = seen + field.remainder.get(node).copied().unwrap_or(0.0);
+            conduct(mesh, &mut now, all, dt, visit.film, scratch);
+            remainder.resize(mesh.size(), 0.0);
+        } else {
+            for columns in beside(mesh, &covered, dt).into_iter().filter(|columns| !columns.is_empty()) {
+                conduct(mesh, &mut now, columns, dt, visit.film, scratch);
+            }
+            if !field.remainder.is_empty() {
+                remainder.clone_from(&field.remainder);
+                conduct(mesh, &mut remainder, all, dt, visit.film, scratch);
             }
         }
-        if field.remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
-            field.remainder = Vec::new();
+        let mut seen = vec![0.0; layers];
+        for column in covered {
+            sample(visit.distance + mesh.arc[column], &mut seen);
+            for (node, seen) in (column * layers..).zip(&seen) {
+                if back {
+                    remainder[node] = (now[node] - seen).max(0.0);
+                }
+                now[node] = seen + remainder.get(node).copied().unwrap_or(0.0);
+            }
         }
-        field.age += dt;
-        recorder.step(&mut field.points, &field.temperature, &now, field.age, dt);
-        field.temperature = now;
+        if remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
+            remainder = Vec::new();
+        }
+        *field = Arc::new(field.after(now, remainder, recorder, dt));
         self.alone = 0.0;
         self.judge(mesh, recorder);
     }
@@ -174,13 +184,13 @@ impl Spot {
         if self.pending < own_step(self.alone) {
             return false;
         }
-        let field = Arc::make_mut(field);
-        field.remainder = Vec::new();
         while self.pending >= own_step(self.alone) {
             let step = own_step(self.alone);
             self.pending -= step;
             self.alone += step;
-            field.advance(mesh, step, film, recorder, scratch);
+            let mut now = field.temperature.clone();
+            conduct(mesh, &mut now, 0..mesh.arc.len(), step, film, scratch);
+            *field = Arc::new(field.after(now, Vec::new(), recorder, step));
         }
         self.judge(mesh, recorder);
         true
@@ -189,8 +199,8 @@ impl Spot {
     /// Raises the highest temperatures at the depths of the mesh \[K] to those of this place.
     pub(super) fn raise(&self, peaks: &mut [f64]) {
         let depths = peaks.len();
-        for column in self.field().iter().flat_map(|field| field.points.chunks_exact(depths)) {
-            peaks.iter_mut().zip(column).for_each(|(peak, point)| *peak = peak.max(point.peak));
+        for column in self.field().iter().flat_map(|field| field.records.peaks().chunks_exact(depths)) {
+            peaks.iter_mut().zip(column).for_each(|(peak, place)| *peak = peak.max(*place));
         }
     }
 
@@ -206,7 +216,7 @@ impl Spot {
 
     fn judge(&mut self, mesh: &SpotMesh, recorder: &Recorder) {
         if let Some(field) = &self.field {
-            self.latest = Findings::of(mesh, &field.points, &recorder.criteria);
+            self.latest = Findings::of(mesh, &field.records, &recorder.criteria);
         }
     }
 
@@ -216,7 +226,7 @@ impl Spot {
         let fits = |field: &SpotField| {
             let times = [field.age, self.alone, self.pending];
             field.temperature.len() == size
-                && field.points.len() == size
+                && field.records.fits(mesh)
                 && (field.remainder.is_empty() || field.remainder.len() == size)
                 && times.iter().all(|time| time.is_finite() && *time >= 0.0)
         };
@@ -226,15 +236,15 @@ impl Spot {
 
 impl SpotField {
     /// Temperatures of a place without excess.
-    fn cold(size: usize, recorder: &Recorder) -> Self {
-        Self { temperature: vec![0.0; size], points: vec![recorder.begin(0.0); size], ..Self::default() }
+    fn cold(mesh: &SpotMesh, recorder: &Recorder) -> Self {
+        let temperature = vec![0.0; mesh.size()];
+        Self { records: recorder.begin(&temperature, mesh), temperature, ..Self::default() }
     }
 
-    /// Conduction of the place by itself over a step, with the records of its points.
-    fn advance(&mut self, mesh: &SpotMesh, dt: f64, film: f64, recorder: &Recorder, scratch: &mut ConductionScratch) {
-        let before = self.temperature.clone();
-        conduct(mesh, &mut self.temperature, dt, film, scratch);
-        self.age += dt;
-        recorder.step(&mut self.points, &before, &self.temperature, self.age, dt);
+    /// The field after a step of `dt` [s] to the given temperatures, with the records of its points.
+    fn after(&self, temperature: Vec<f64>, remainder: Vec<f64>, recorder: &Recorder, dt: f64) -> Self {
+        let age = self.age + dt;
+        let records = recorder.stepped(&self.records, [&self.temperature, &temperature], age, dt);
+        Self { temperature, remainder, records, age }
     }
 }

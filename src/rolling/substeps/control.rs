@@ -6,7 +6,7 @@
 //! step itself. Shorter steps do not cure it, so the control learns its size and lets it pass, up to [`NOISIEST`] times
 //! the tolerance, until it fades. It learns
 //!
-//! - where half a step misses by no less than the whole one;
+//! - where half a step misses by hardly less than the whole one;
 //! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
 //!
 //! Events are over after some milliseconds, and vibrations deserve their steps. In long dry slides, however, heat,
@@ -37,8 +37,9 @@ const OVERHEATED: f64 = 1e-4;
 const GROWTH: f64 = 0.125;
 /// Largest noise that passes, in tolerances [1].
 const NOISIEST: f64 = 5.0;
-/// Share of an error below which that of half the step is smaller.
-const SMALLER: f64 = 0.9;
+/// Share of an error below which that of half the step is smaller \[1]: half of it remains of a bend, all of a jump, and
+/// `1/√2` of what goes with the root of time.
+const SMALLER: f64 = 0.7;
 /// Allowance for noise of the size learned, and how fast it fades with every step [1].
 const ALLOWANCE: f64 = 1.5;
 const FADING: f64 = 0.95;

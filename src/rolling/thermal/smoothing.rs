@@ -19,6 +19,8 @@ pub struct Smoothing {
     place: Option<i32>,
     /// Weights of the values at all nodes for each node, row by row.
     weights: Vec<f64>,
+    /// Primitives of the kernel of one node and of its first moment at another one, row by row.
+    primitives: Vec<[f64; 2]>,
     smoothed: Vec<f64>,
 }
 
@@ -36,7 +38,7 @@ impl Smoothing {
         }
         let rows = self.weights.chunks_exact(x.len());
         self.smoothed.clear();
-        self.smoothed.extend(rows.map(|row| row.iter().zip(values.iter()).map(|(w, v)| w * v).sum::<f64>()));
+        self.smoothed.extend(rows.map(|row| product(row, values)));
         values.clone_from(&self.smoothed);
     }
 
@@ -45,12 +47,11 @@ impl Smoothing {
         let n = x.len();
         self.weights.clear();
         self.weights.resize(n * n, 0.0);
-        for (row, &at) in self.weights.chunks_exact_mut(n).zip(x) {
-            let primitive = |s: f64| [((s - at) / d).atan() / PI, 0.5 * d / PI * ((s - at).powi(2) + d * d).ln()];
-            let mut before = primitive(x[0]);
+        self.set_primitives(x, d);
+        let rows = self.weights.chunks_exact_mut(n).zip(self.primitives.chunks_exact(n));
+        for ((row, primitives), &at) in rows.zip(x) {
             for i in 1..n {
-                let ([a0, a1], [b0, b1]) = (before, primitive(x[i]));
-                before = [b0, b1];
+                let ([a0, a1], [b0, b1]) = (primitives[i - 1], primitives[i]);
                 // ∫ K ds and ∫ K (s − at) ds over the piece.
                 let (whole, first) = (b0 - a0, b1 - a1);
                 let length = x[i] - x[i - 1];
@@ -60,6 +61,40 @@ impl Smoothing {
             }
         }
     }
+
+    /// Primitives of the kernel and of its first moment between all nodes. They depend on distances only: odd and even,
+    /// and the same on both sides of the middle where the nodes are.
+    fn set_primitives(&mut self, x: &[f64], d: f64) {
+        let n = x.len();
+        self.primitives.resize(n * n, [0.0; 2]);
+        let mirrored = x.iter().zip(x.iter().rev()).all(|(a, b)| *a == -b);
+        for at in 0..n {
+            let ends = if mirrored { at..n - at } else { at..n };
+            for i in ends {
+                let s = x[i] - x[at];
+                let [odd, even] = [(s / d).atan() / PI, 0.5 * d / PI * (s.powi(2) + d * d).ln()];
+                self.primitives[at * n + i] = [odd, even];
+                self.primitives[i * n + at] = [-odd, even];
+                if mirrored {
+                    let [at, i] = [n - 1 - i, n - 1 - at];
+                    self.primitives[at * n + i] = [odd, even];
+                    self.primitives[i * n + at] = [-odd, even];
+                }
+            }
+        }
+    }
+}
+
+/// Scalar product, as sums that do not wait for each other.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    const SUMS: usize = 8;
+    let (a, b) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
+    let rest = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum::<f64>();
+    let mut sums = [0.0; SUMS];
+    for (a, b) in a.zip(b) {
+        sums.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += a * b);
+    }
+    rest + sums.iter().sum::<f64>()
 }
 
 #[cfg(test)]
@@ -85,5 +120,19 @@ mod tests {
         let mut values = flash.clone();
         Smoothing::default().apply(&x, &mut values, 0.2, 1.0);
         assert_eq!(values, flash);
+    }
+
+    /// The weights of nodes that mirror each other are those of nodes that do not, but for the mirror.
+    #[test]
+    fn nodes_on_both_sides_of_the_middle_have_mirrored_weights() {
+        let x = [-3.0, -2.5, -1.0, -0.2, 0.2, 1.0, 2.5, 3.0];
+        let (mut mirrored, mut shifted) = (Smoothing::default(), Smoothing::default());
+        mirrored.prepare(&x, 0.7);
+        shifted.prepare(&x.map(|x| x + 1.0), 0.7);
+        let pairs = mirrored.weights.iter().zip(&shifted.weights);
+        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        println!("{apart:.1e} apart");
+        assert!(apart < 1e-14);
+        assert!(mirrored.weights.iter().zip(mirrored.weights.iter().rev()).all(|(a, b)| (a - b).abs() < 1e-14));
     }
 }

@@ -77,7 +77,10 @@ fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor:
         if known.range()[0] >= floor {
             continue;
         }
-        *known = RowBounds { found: nodal.extremes(row), moved: 0.0 };
+        // Bounds that have not moved since the row was looked at are its extremes.
+        if known.moved != 0.0 {
+            *known = RowBounds { found: nodal.extremes(row), moved: 0.0 };
+        }
         if known.found[0] >= floor {
             continue;
         }
