@@ -1,18 +1,21 @@
 //! Loops for the vector registers of the machine that runs them.
 
 /// Defines a function whose body is compiled for every kind of vector registers; in it `$simd` are those of the
-/// machine.
+/// machine. The compiler turns loops over arrays into vector instructions, but not closures such as those of
+/// `array::from_fn` and `map`, which become functions of their own.
 macro_rules! vectorised {
     (
         $(#[$meta:meta])*
-        fn $name:ident<$life:lifetime, $S:ident>($simd:ident, $($arg:ident: $type:ty),* $(,)?) $(-> $out:ty)? $body:block
+        fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)?>(
+            $simd:ident, $($arg:ident: $type:ty),* $(,)?
+        ) $(-> $out:ty)? $body:block
     ) => {
         $(#[$meta])*
-        pub(crate) fn $name<$life>($($arg: $type),*) $(-> $out)? {
-            struct Kernel<$life> {
+        pub(crate) fn $name<$life $(, const $N: usize)?>($($arg: $type),*) $(-> $out)? {
+            struct Kernel<$life $(, const $N: usize)?> {
                 $($arg: $type),*
             }
-            impl<$life> pulp::WithSimd for Kernel<$life> {
+            impl<$life $(, const $N: usize)?> pulp::WithSimd for Kernel<$life $(, $N)?> {
                 type Output = $crate::linalg::vectorised::vectorised!(@output $($out)?);
 
                 #[inline(always)]

@@ -247,8 +247,8 @@ impl StickSearch {
             return false;
         }
         let Tractions { pressure, slide, stick } = &it.tractions;
-        let places = it.stuck.map(|place| place.x);
-        let (shear, bears) = (it.tractions.shear(&places), pressure.density(&places));
+        let places = &it.stuck.x;
+        let (shear, bears) = (it.tractions.shear(places), pressure.density(places));
         let beyond = |q: usize| (shear[q].abs() - it.friction * bears[q]).max(0.0) * it.constants.tables.weights[q];
         let excess = stick.half_width * (0..places.len()).map(beyond).sum::<f64>();
         let (total, limit) = (slide * pressure.total() + stick.total(), it.friction * pressure.total());
