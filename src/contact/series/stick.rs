@@ -29,6 +29,8 @@ const TOLERANCE: f64 = 1e-10;
 const EXPECTED: f64 = 0.05;
 /// Share of stick or slip at which it is \[1].
 const SURE: f64 = 0.1;
+/// Change of an iteration over that of the first one, at most: a step that is like the last one needs no more to know.
+const FIRST: f64 = 0.1;
 /// Largest relative change after which one is expected.
 const SMALL: f64 = 1e-7;
 /// Largest relative change that ends them where rounding allows no more.
@@ -73,7 +75,7 @@ pub fn solve(line: &mut SeriesLine) -> Result<(), ContactError> {
 
 /// True if the `change` of an iteration after the `last` two is the last one that counts.
 fn is_settled(change: f64, [last, before]: [f64; 2]) -> bool {
-    let falls = |from: f64| if from.is_finite() { (change / from).min(1.0) } else { 1.0 };
+    let falls = |from: f64| if from.is_finite() { (change / from).min(1.0) } else { FIRST };
     change * falls(last) <= TOLERANCE
         || change <= SMALL && last * falls(before) <= TOLERANCE
         || change <= ROUNDING && change >= last
