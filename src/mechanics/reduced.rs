@@ -18,7 +18,6 @@ use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
-use crate::linalg::dense::symmetrise;
 use crate::linalg::vectorised::{self, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
@@ -188,8 +187,7 @@ impl BodyResponse for ReducedBody {
             Some(layer) => &layer.flexibility * layer.share(a0),
             None => basis.residual.clone(),
         };
-        surface.gemm(1.0, &weighted, &basis.shapes.transpose(), 1.0);
-        symmetrise(&mut surface);
+        add_symmetric_product(&weighted, &basis.shapes, &mut surface);
         let modal = &weighted * &basis.rigid;
         let square = a0 * a0;
         let momentum = modal.transpose() * square;
@@ -251,6 +249,24 @@ impl BodyResponse for ReducedBody {
         self.layer.as_mut().map(Arc::make_mut).map(|layer| layer.flexibility += flexibility).is_some()
     }
 }
+
+/// `out ← out + A Bᵀ` for a symmetric product: the lower half is computed in blocks of columns and mirrored.
+fn add_symmetric_product(a: &DMatrix<f64>, b: &DMatrix<f64>, out: &mut DMatrix<f64>) {
+    let n = out.nrows();
+    for first in (0..n).step_by(COLUMNS) {
+        let width = COLUMNS.min(n - first);
+        let factor = b.rows(first, width).transpose();
+        out.view_mut((first, first), (n - first, width)).gemm(1.0, &a.rows(first, n - first), &factor, 1.0);
+    }
+    for j in 0..n {
+        for i in 0..j {
+            out[(i, j)] = out[(j, i)];
+        }
+    }
+}
+
+/// Columns of a symmetric product that are computed together.
+const COLUMNS: usize = 32;
 
 #[cfg(test)]
 mod tests {
