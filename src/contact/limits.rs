@@ -86,11 +86,16 @@ impl<'a> SteelLimits<'a> {
         self.pressure_at(x) / PRANDTL
     }
 
-    /// Largest pressure at `x` \[m] under a shear traction that is the share `ratio` of it \[Pa].
-    pub fn sheared_at(&self, x: f64, ratio: f64) -> f64 {
+    /// Share of the largest pressure that is left under a shear traction that is the share `ratio` of it \[1]; `None`:
+    /// all of it, to the last bit.
+    pub fn borne(&self, ratio: f64) -> Option<f64> {
+        (self.sheared != 0.0).then(|| borne_in_sliding(self.sheared, ratio))
+    }
+
+    /// Largest pressure at `x` \[m] where the share [`Self::borne`] is left of it \[Pa].
+    pub fn sheared_at(&self, x: f64, borne: Option<f64>) -> f64 {
         let most = self.pressure_at(x);
-        // To the last bit that without shear where this does not count.
-        if self.sheared == 0.0 { most } else { (most * borne_in_sliding(self.sheared, ratio)).max(self.least) }
+        borne.map_or(most, |borne| (most * borne).max(self.least))
     }
 
     /// Share of the friction coefficient at `x` \[m] that is left \[1].

@@ -50,6 +50,36 @@ impl Lagrange {
         self.coefficients.each_ref().map(|c| c.iter().rev().fold(0.0, |sum, c| sum * s + c))
     }
 
+    /// Values of all polynomials at several places, by polynomial.
+    #[inline(always)]
+    pub fn values_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
+        let scale = 1.0 / self.reach;
+        let mut all = [[0.0; N]; POINTS];
+        for (sums, c) in all.iter_mut().zip(&self.coefficients) {
+            for c in c.iter().rev() {
+                for i in 0..N {
+                    sums[i] = sums[i] * (x[i] * scale) + c;
+                }
+            }
+        }
+        all
+    }
+
+    /// Their derivatives at several places.
+    #[inline(always)]
+    pub fn slopes_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
+        let scale = 1.0 / self.reach;
+        let mut all = [[0.0; N]; POINTS];
+        for (sums, c) in all.iter_mut().zip(&self.coefficients) {
+            for k in (1..POINTS).rev() {
+                for i in 0..N {
+                    sums[i] = sums[i] * (x[i] * scale) + scale * k as f64 * c[k];
+                }
+            }
+        }
+        all
+    }
+
     /// Their derivatives at x.
     pub fn slopes(&self, x: f64) -> [f64; POINTS] {
         let s = x / self.reach;
@@ -111,6 +141,9 @@ mod tests {
             assert!((dot(basis.slopes(x)) - slope).abs() < 1e-12);
             assert!((polynomial.at(x) - quartic(x)).abs() < 1e-12 && (polynomial.slope(x) - slope).abs() < 1e-12);
             assert!((basis.values(x).iter().sum::<f64>() - 1.0).abs() < 1e-13);
+            let (values, slopes) = (basis.values_at(&[x, 0.1]), basis.slopes_at(&[x, 0.1]));
+            let near = |a: [[f64; 2]; POINTS], b: [f64; POINTS]| a.iter().zip(b).all(|(a, b)| (a[0] - b).abs() < 1e-13);
+            assert!(near(values, basis.values(x)) && near(slopes, basis.slopes(x)));
         }
     }
 }

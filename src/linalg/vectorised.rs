@@ -1,18 +1,21 @@
 //! Loops for the vector registers of the machine that runs them.
 
 /// Defines a function whose body is compiled for every kind of vector registers; in it `$simd` are those of the
-/// machine.
+/// machine. The compiler turns loops over arrays into vector instructions, but not closures such as those of
+/// `array::from_fn` and `map`, which become functions of their own.
 macro_rules! vectorised {
     (
         $(#[$meta:meta])*
-        fn $name:ident<$life:lifetime, $S:ident>($simd:ident, $($arg:ident: $type:ty),* $(,)?) $(-> $out:ty)? $body:block
+        fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)?>(
+            $simd:ident, $($arg:ident: $type:ty),* $(,)?
+        ) $(-> $out:ty)? $body:block
     ) => {
         $(#[$meta])*
-        pub(crate) fn $name<$life>($($arg: $type),*) $(-> $out)? {
-            struct Kernel<$life> {
+        pub(crate) fn $name<$life $(, const $N: usize)?>($($arg: $type),*) $(-> $out)? {
+            struct Kernel<$life $(, const $N: usize)?> {
                 $($arg: $type),*
             }
-            impl<$life> pulp::WithSimd for Kernel<$life> {
+            impl<$life $(, const $N: usize)?> pulp::WithSimd for Kernel<$life $(, $N)?> {
                 type Output = $crate::linalg::vectorised::vectorised!(@output $($out)?);
 
                 #[inline(always)]
@@ -136,7 +139,35 @@ vectorised! {
     }
 }
 
-/// Columns that are added at a time.
+vectorised! {
+    /// `out ← out + factor · Aᵀ x` with the columns of `A`, as long as `x`, whose first entries are `apart` entries
+    /// apart.
+    fn add_products<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
+        let (x, x_rest) = S::as_simd_f64s(x);
+        // Several columns in one pass over the vector.
+        for (block, out) in out.chunks_mut(COLUMNS).enumerate() {
+            let part = |j: usize| {
+                let first = (block * COLUMNS + j.min(out.len() - 1)) * apart;
+                S::as_simd_f64s(&columns[first..][..x.len() * S::F64_LANES + x_rest.len()])
+            };
+            let parts: [_; COLUMNS] = std::array::from_fn(part);
+            let [a, b, c, d] = parts.map(|(part, _)| &part[..x.len()]);
+            let mut sums = [simd.splat_f64s(0.0); COLUMNS];
+            for (k, &x) in x.iter().enumerate() {
+                sums[0] = simd.mul_add_e_f64s(a[k], x, sums[0]);
+                sums[1] = simd.mul_add_e_f64s(b[k], x, sums[1]);
+                sums[2] = simd.mul_add_e_f64s(c[k], x, sums[2]);
+                sums[3] = simd.mul_add_e_f64s(d[k], x, sums[3]);
+            }
+            for ((out, sum), (_, rest)) in out.iter_mut().zip(sums).zip(parts) {
+                let rest: f64 = rest.iter().zip(x_rest).map(|(a, b)| a * b).sum();
+                *out += factor * (simd.reduce_sum_f64s(sum) + rest);
+            }
+        }
+    }
+}
+
+/// Columns that are added, or multiplied, at a time.
 const COLUMNS: usize = 4;
 
 /// Effect of a product on its target.
@@ -245,6 +276,21 @@ mod tests {
                 for (i, out) in out.iter().enumerate() {
                     assert_eq!(*out, i as f64 - 2.0 * (0..count).map(|j| number(i, every * j) * x[j]).sum::<f64>());
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn columns_of_any_number_and_length_are_multiplied() {
+        for (length, count) in [(0, 3), (1, 1), (3, 4), (8, 6), (17, 9)] {
+            let number = |i: usize, j: usize| ((5 * i + 3 * j) % 13) as f64 - 6.0;
+            let apart = length + 2;
+            let matrix: Vec<f64> = (0..count).flat_map(|j| (0..apart).map(move |i| number(i, j))).collect();
+            let x: Vec<f64> = (0..length).map(|i| i as f64 - 2.0).collect();
+            let mut out: Vec<f64> = (0..count).map(|j| j as f64).collect();
+            add_products(-2.0, &matrix, apart, &x, &mut out);
+            for (j, out) in out.iter().enumerate() {
+                assert_eq!(*out, j as f64 - 2.0 * (0..length).map(|i| number(i, j) * x[i]).sum::<f64>());
             }
         }
     }

@@ -6,6 +6,7 @@
 
 use super::response::{BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::RetardedLayer;
+use crate::linalg::vectorised::dot;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 
@@ -70,13 +71,14 @@ pub(super) fn free_response(
     let square = stream.speed * stream.speed;
     if stream.speed != 0.0 || stream.acceleration != 0.0 {
         let twice = 2.0 * stream.speed;
-        for (rate, (v, y)) in product.iter_mut().zip(state.velocity.iter().zip(&state.displacement)) {
+        let moving = state.velocity.as_slice().iter().zip(state.displacement.as_slice());
+        for (rate, (v, y)) in product.as_mut_slice().iter_mut().zip(moving) {
             *rate = v * twice + stream.acceleration * y;
         }
         body.subtract_gyroscopic(product, load);
         body.add_ale_inertia(square, &state.displacement, load);
         if let Some(centrifugal) = body.centrifugal() {
-            load.axpy(square, centrifugal, 1.0);
+            add_column(square, centrifugal.as_slice(), load);
         }
     }
     product.copy_from(load);
@@ -86,10 +88,20 @@ pub(super) fn free_response(
         layer.add_known(&state.retarded, td, retarded, surface);
     }
     let a0_squared = op.a0 * op.a0;
-    for (value, known) in product.iter_mut().zip(acceleration.iter()) {
+    for (value, known) in product.as_mut_slice().iter_mut().zip(acceleration.as_slice()) {
         *value = *value * a0_squared + known;
     }
-    *momentum = std::array::from_fn(|k| body.rigid().column(k).dot(product));
+    *momentum = std::array::from_fn(|k| dot(column(body.rigid(), k), product.as_slice()));
+}
+
+/// `out ← out + factor · x`.
+fn add_column(factor: f64, x: &[f64], out: &mut DVector<f64>) {
+    out.as_mut_slice().iter_mut().zip(x).for_each(|(out, x)| *out += factor * x);
+}
+
+/// A column of a matrix.
+pub(super) fn column(a: &DMatrix<f64>, j: usize) -> &[f64] {
+    &a.as_slice()[j * a.nrows()..(j + 1) * a.nrows()]
 }
 
 /// See [`super::BodyResponse::commit`].
@@ -109,7 +121,7 @@ pub(super) fn commit(
     new.copy_from(&free.load);
     body.add_surface_forces(forces, new);
     for (k, acceleration) in rigid.iter().enumerate() {
-        new.axpy(-acceleration, &body.rigid().column(k), 1.0);
+        add_column(-acceleration, column(body.rigid(), k), new);
     }
     op.solver.solve_in_place(new);
     state.advance(td, next);

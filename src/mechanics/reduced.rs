@@ -13,13 +13,12 @@
 
 use super::MechanicsError;
 use super::damping::BodyDamping;
-use super::motion::{self, Equations};
+use super::motion::{self, Equations, column};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
-use crate::linalg::dense::symmetrise;
-use crate::linalg::vectorised::dot;
+use crate::linalg::vectorised::{self, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -43,6 +42,29 @@ struct ModalRates {
     /// Transposed, so that its columns are the rows of `Φᵀ T Φ`.
     transport: DMatrix<f64>,
 }
+
+impl ModalRates {
+    /// Power that the damping of the modes takes at the speed of the stream, with what the truncated modes carry
+    /// ([`ReducedBody::carried`]) [W/m].
+    fn dissipation(&self, state: &BodyState, speed: f64, carried: Option<(&DMatrix<f64>, &DVector<f64>)>) -> f64 {
+        let (y, v, rates) = (&state.displacement, state.velocity.as_slice(), self.rates.as_slice());
+        let mut power = 0.0;
+        for (block, (v, rates)) in v.chunks(TOGETHER).zip(rates.chunks(TOGETHER)).enumerate() {
+            let mut of_material = [0.0; TOGETHER];
+            let of_material = &mut of_material[..v.len()];
+            of_material.copy_from_slice(v);
+            for (matrix, x) in [(&self.transport, y)].into_iter().chain(carried) {
+                let columns = &matrix.as_slice()[block * TOGETHER * matrix.nrows()..];
+                vectorised::add_products(speed, columns, matrix.nrows(), x.as_slice(), of_material);
+            }
+            power += rates.iter().zip(of_material).map(|(rate, v)| rate * *v * *v).sum::<f64>();
+        }
+        power
+    }
+}
+
+/// Modes whose damping is added up together.
+const TOGETHER: usize = 16;
 
 /// Solutions with the matrix `A = a0² + a0 D + diag(Ω²)` of a step.
 struct Factorised {
@@ -96,7 +118,7 @@ impl ReducedBody {
 
 impl Equations for ReducedBody {
     fn set_inertia(&self, acceleration: &DVector<f64>, load: &mut DVector<f64>) {
-        load.iter_mut().zip(acceleration).for_each(|(load, a)| *load = -a);
+        load.as_mut_slice().iter_mut().zip(acceleration.as_slice()).for_each(|(load, a)| *load = -a);
     }
 
     fn is_damped(&self) -> bool {
@@ -114,7 +136,8 @@ impl Equations for ReducedBody {
                     add_products(speed, carried, forces, velocity);
                 }
             }
-            load.cmpy(-1.0, &modal.rates, velocity, 1.0);
+            let rates = modal.rates.as_slice().iter().zip(velocity.as_slice());
+            load.as_mut_slice().iter_mut().zip(rates).for_each(|(load, (rate, v))| *load -= rate * v);
         }
     }
 
@@ -164,8 +187,7 @@ impl BodyResponse for ReducedBody {
             Some(layer) => &layer.flexibility * layer.share(a0),
             None => basis.residual.clone(),
         };
-        surface.gemm(1.0, &weighted, &basis.shapes.transpose(), 1.0);
-        symmetrise(&mut surface);
+        add_symmetric_product(&weighted, &basis.shapes, &mut surface);
         let modal = &weighted * &basis.rigid;
         let square = a0 * a0;
         let momentum = modal.transpose() * square;
@@ -201,28 +223,21 @@ impl BodyResponse for ReducedBody {
 
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
         let basis = &self.basis;
-        let modal: f64 = (state.displacement.iter().zip(&basis.squared_frequencies)).map(|(y, w)| w * y * y).sum();
+        let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
+        let modal: f64 = y.iter().zip(basis.squared_frequencies.as_slice()).map(|(y, w)| w * y * y).sum();
         let residual = match &self.layer {
             Some(layer) => 2.0 * layer.energy(&state.retarded),
             None => quadratic_form(&basis.residual, forces),
         };
-        let kinetic = state.velocity.norm_squared();
-        let coupling: f64 =
-            rigid_velocity.iter().enumerate().map(|(k, w)| w * basis.rigid.column(k).dot(&state.velocity)).sum();
+        let kinetic = dot(v, v);
+        let coupling: f64 = rigid_velocity.iter().enumerate().map(|(k, w)| w * dot(column(&basis.rigid, k), v)).sum();
         0.5 * (modal + residual + kinetic) + coupling - motion::centrifugal_work(self, state, rigid_velocity)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
-        let (y, v) = (&state.displacement, &state.velocity);
-        let dashpots = self.basis.damping.as_ref().map_or(0.0, |damping| quadratic_form(damping, v));
-        let modes = self.modal.as_ref().map_or(0.0, |ModalRates { rates, transport }| {
-            let carried = |i: usize| match self.carried(state) {
-                Some((carried, forces)) => dot(column(carried, i), forces.as_slice()),
-                None => 0.0,
-            };
-            let rate_of = |i: usize| v[i] + speed * (dot(column(transport, i), y.as_slice()) + carried(i));
-            rates.iter().enumerate().map(|(i, rate)| rate * rate_of(i).powi(2)).sum()
-        });
+        let damping = self.basis.damping.as_ref();
+        let dashpots = damping.map_or(0.0, |damping| quadratic_form(damping, &state.velocity));
+        let modes = self.modal.as_ref().map_or(0.0, |modal| modal.dissipation(state, speed, self.carried(state)));
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }
 
@@ -235,10 +250,23 @@ impl BodyResponse for ReducedBody {
     }
 }
 
-/// A column of a matrix.
-fn column(a: &DMatrix<f64>, j: usize) -> &[f64] {
-    &a.as_slice()[j * a.nrows()..(j + 1) * a.nrows()]
+/// `out ← out + A Bᵀ` for a symmetric product: the lower half is computed in blocks of columns and mirrored.
+fn add_symmetric_product(a: &DMatrix<f64>, b: &DMatrix<f64>, out: &mut DMatrix<f64>) {
+    let n = out.nrows();
+    for first in (0..n).step_by(COLUMNS) {
+        let width = COLUMNS.min(n - first);
+        let factor = b.rows(first, width).transpose();
+        out.view_mut((first, first), (n - first, width)).gemm(1.0, &a.rows(first, n - first), &factor, 1.0);
+    }
+    for j in 0..n {
+        for i in 0..j {
+            out[(i, j)] = out[(j, i)];
+        }
+    }
 }
+
+/// Columns of a symmetric product that are computed together.
+const COLUMNS: usize = 32;
 
 #[cfg(test)]
 mod tests {

@@ -125,23 +125,29 @@ impl BodyState {
         }
     }
 
+    /// Displacement, velocity, acceleration, and the first two one step earlier, all of one length.
+    fn slices(&self) -> [&[f64]; 5] {
+        let Self { displacement, velocity, acceleration, displacement_before, velocity_before, .. } = self;
+        let all = [displacement, velocity, acceleration, displacement_before, velocity_before];
+        all.map(|values| &values.as_slice()[..displacement.len()])
+    }
+
     /// Writes the part of `d_t y` known before the step into `out`.
     pub fn velocity_offsets(&self, td: &TimeDerivative, out: &mut DVector<f64>) {
-        let Self { displacement, displacement_before, velocity, .. } = self;
-        fit(out, displacement.len());
-        for (i, value) in out.iter_mut().enumerate() {
-            *value = td.offset(displacement[i], displacement_before[i], velocity[i]);
+        let [y, v, _, y_before, _] = self.slices();
+        fit(out, y.len());
+        for (i, value) in out.as_mut_slice()[..y.len()].iter_mut().enumerate() {
+            *value = td.offset(y[i], y_before[i], v[i]);
         }
     }
 
     /// Writes the part of `d_tt y` known before the step into `out`: `a0 h_v + h_a` with the offsets of velocity and
     /// acceleration.
     pub fn acceleration_offsets(&self, td: &TimeDerivative, out: &mut DVector<f64>) {
-        let Self { displacement, velocity, acceleration, displacement_before, velocity_before, .. } = self;
-        fit(out, displacement.len());
-        for (i, value) in out.iter_mut().enumerate() {
-            let velocity_offset = td.offset(displacement[i], displacement_before[i], velocity[i]);
-            *value = td.a0 * velocity_offset + td.offset(velocity[i], velocity_before[i], acceleration[i]);
+        let [y, v, a, y_before, v_before] = self.slices();
+        fit(out, y.len());
+        for (i, value) in out.as_mut_slice()[..y.len()].iter_mut().enumerate() {
+            *value = td.a0 * td.offset(y[i], y_before[i], v[i]) + td.offset(v[i], v_before[i], a[i]);
         }
     }
 
@@ -150,19 +156,21 @@ impl BodyState {
     ///
     /// Stationary: velocity and acceleration vanish and the history is the new displacement.
     pub fn advance(&self, td: &TimeDerivative, next: &mut Self) {
-        let n = self.displacement.len();
+        let [y, v, a, y_before, v_before] = self.slices();
+        let n = y.len();
         let Self { displacement, velocity, acceleration, displacement_before, velocity_before, .. } = next;
         for values in [&mut *velocity, &mut *acceleration, &mut *displacement_before, &mut *velocity_before] {
             fit(values, n);
         }
-        let stationary = td.is_stationary();
+        let displacement = &displacement.as_slice()[..n];
+        let [velocity, acceleration] = [velocity, acceleration].map(|values| &mut values.as_mut_slice()[..n]);
         for i in 0..n {
-            let (y, v) = (self.displacement[i], self.velocity[i]);
-            velocity[i] = td.a0 * displacement[i] + td.offset(y, self.displacement_before[i], v);
-            acceleration[i] = td.a0 * velocity[i] + td.offset(v, self.velocity_before[i], self.acceleration[i]);
-            displacement_before[i] = if stationary { displacement[i] } else { y };
-            velocity_before[i] = if stationary { velocity[i] } else { v };
+            velocity[i] = td.a0 * displacement[i] + td.offset(y[i], y_before[i], v[i]);
+            acceleration[i] = td.a0 * velocity[i] + td.offset(v[i], v_before[i], a[i]);
         }
+        let stationary = td.is_stationary();
+        displacement_before.as_mut_slice().copy_from_slice(if stationary { displacement } else { y });
+        velocity_before.as_mut_slice().copy_from_slice(if stationary { velocity } else { v });
     }
 }
 

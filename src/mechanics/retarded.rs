@@ -3,7 +3,7 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
-use crate::linalg::vectorised::{self, add_columns, dot};
+use crate::linalg::vectorised::{self, add_columns};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -119,8 +119,9 @@ pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: 
 pub(super) fn add_products(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
     let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
     let filled = first..x.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
-    for (column, out) in a.as_slice().chunks(a.nrows().max(1)).zip(out.iter_mut()) {
-        *out += factor * dot(&column[filled.clone()], &x.as_slice()[filled.clone()]);
+    if !filled.is_empty() {
+        let (columns, x) = (&a.as_slice()[first..], &x.as_slice()[filled]);
+        vectorised::add_products(factor, columns, a.nrows(), x, out.as_mut_slice());
     }
 }
 

@@ -14,6 +14,9 @@ use nalgebra::DVector;
 /// with a friction that jumped, force and temperature jumped from step to step.
 const NEARLY_PLASTIC: f64 = 0.95;
 
+/// Difference of two ratios of shear and pressure that is rounding \[1].
+const SAME_RATIO: f64 = 1e-14;
+
 /// Limits of the nodal forces.
 #[derive(Default)]
 pub struct Strength {
@@ -39,9 +42,15 @@ impl Strength {
             // Nodes that close take the shear of the nearest ones.
             let closed = |i: &usize| pressed[*i] > 0.0;
             let ends = (0..grid.len()).find(closed).zip((0..grid.len()).rfind(closed));
+            // All nodes that slip have one ratio, but for rounding, and so have all beyond an edge.
+            let mut last = (f64::NAN, None);
             limit.extend(grid.x.iter().enumerate().map(|(i, &x)| {
                 let nearest = ends.map_or(0.0, |(first, last)| ratio(i.clamp(first, last)));
-                grid.width(i) * limits.sheared_at(x, if nearest.is_finite() { nearest } else { 0.0 })
+                let nearest = if nearest.is_finite() { nearest } else { 0.0 };
+                if !((nearest - last.0).abs() <= SAME_RATIO) {
+                    last = (nearest, limits.borne(nearest));
+                }
+                grid.width(i) * limits.sheared_at(x, last.1)
             }));
         }
         if !limits.film.is_empty() {

@@ -10,6 +10,7 @@
 //!
 //! where `−Z_0/0` stands for `−ln 2` on the stretch and for `ln ½(|t| + √(t² − 1))` beyond it.
 
+use crate::linalg::vectorised::vectorised;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 
@@ -75,48 +76,28 @@ impl Arch {
     }
 
     /// Places on the stretch.
+    #[inline(always)]
     fn places<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        x.map(|x| (x - self.centre) / self.half_width)
+        let (scale, mut t) = (1.0 / self.half_width, [0.0; N]);
+        for i in 0..N {
+            t[i] = (x[i] - self.centre) * scale;
+        }
+        t
     }
 
     /// Traction at x \[Pa].
     pub fn density<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        if self.half_width == 0.0 {
-            return [0.0; N];
-        }
-        let t = self.places(x);
-        let (mut next, mut now) = ([0.0; N], [0.0; N]);
-        for f in self.terms[..self.count].iter().rev() {
-            for i in 0..N {
-                (next[i], now[i]) = (now[i], f + 2.0 * t[i] * now[i] - next[i]);
-            }
-        }
-        std::array::from_fn(|i| now[i] * (1.0 - t[i] * t[i]).max(0.0).sqrt())
+        if self.half_width == 0.0 { [0.0; N] } else { density(self, x) }
     }
 
     /// `∫ f/(x − s) ds` \[Pa].
     pub fn cauchy<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        if self.half_width == 0.0 {
-            return [0.0; N];
-        }
-        sum(&Powers::at(&self.places(x)), &self.terms[..self.count]).map(|sum| PI * sum)
+        if self.half_width == 0.0 { [0.0; N] } else { cauchy(self, x) }
     }
 
     /// `∫ f ln|x − s| ds` [N/m], lengths in metres.
     pub fn logarithm<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        if self.half_width == 0.0 {
-            return [0.0; N];
-        }
-        let (f, mut orders) = (&self.terms, [0.0; TERMS + 1]);
-        for (k, order) in orders[..=self.count].iter_mut().enumerate() {
-            // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
-            let (below, own) = (if k > 0 { f[k - 1] } else { 0.0 }, if k + 1 < self.count { f[k + 1] } else { 0.0 });
-            *order = (below - own) * SHARES[k];
-        }
-        let (powers, size) = (Powers::at(&self.places(x)), self.half_width.ln());
-        let own = sum(&powers, &orders[..=self.count]);
-        let zeroth = powers.zeroth();
-        std::array::from_fn(|i| FRAC_PI_2 * self.half_width * (own[i] + (zeroth[i] + size) * f[0]))
+        if self.half_width == 0.0 { [0.0; N] } else { logarithm(self, x) }
     }
 
     /// True if all numbers are finite and in range.
@@ -156,6 +137,78 @@ impl Arch {
     }
 }
 
+vectorised! {
+    /// See [`Arch::density`].
+    fn density<'a, S, const N: usize>(_simd, arch: &'a Arch, x: &'a [f64; N]) -> [f64; N] {
+        let t = arch.places(x);
+        let (mut next, mut now) = ([0.0; N], [0.0; N]);
+        for f in arch.terms[..arch.count].iter().rev() {
+            for i in 0..N {
+                (next[i], now[i]) = (now[i], f + 2.0 * t[i] * now[i] - next[i]);
+            }
+        }
+        for i in 0..N {
+            now[i] *= (1.0 - t[i] * t[i]).max(0.0).sqrt();
+        }
+        now
+    }
+}
+
+vectorised! {
+    /// See [`Arch::cauchy`].
+    fn cauchy<'a, S, const N: usize>(_simd, arch: &'a Arch, x: &'a [f64; N]) -> [f64; N] {
+        let mut sums = sum(&Powers::at(&arch.places(x)), &arch.terms[..arch.count]);
+        for sum in &mut sums {
+            *sum *= PI;
+        }
+        sums
+    }
+}
+
+vectorised! {
+    /// See [`Arch::logarithm`].
+    fn logarithm<'a, S, const N: usize>(_simd, arch: &'a Arch, x: &'a [f64; N]) -> [f64; N] {
+        logarithm_of(arch, x)
+    }
+}
+
+vectorised! {
+    /// `∫ f ln|x − s| ds` of `factor` times the first traction and of the second [N/m].
+    fn logarithm_of_both<'a, S, const N: usize>(
+        _simd,
+        factor: f64,
+        tractions: [&'a Arch; 2],
+        x: &'a [f64; N],
+    ) -> [f64; N] {
+        let (mut sums, second) = (logarithm_of(tractions[0], x), logarithm_of(tractions[1], x));
+        for i in 0..N {
+            sums[i] = factor * sums[i] + second[i];
+        }
+        sums
+    }
+}
+
+#[inline(always)]
+fn logarithm_of<const N: usize>(arch: &Arch, x: &[f64; N]) -> [f64; N] {
+    if arch.half_width == 0.0 {
+        return [0.0; N];
+    }
+    let (f, mut orders) = (&arch.terms, [0.0; TERMS + 1]);
+    // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
+    orders[0] = -f[1];
+    for k in 1..TERMS {
+        orders[k] = (f[k - 1] - if k + 1 < TERMS { f[k + 1] } else { 0.0 }) * SHARES[k];
+    }
+    orders[TERMS] = f[TERMS - 1] * SHARES[TERMS];
+    let (powers, size) = (Powers::at(&arch.places(x)), arch.half_width.ln());
+    let (mut sums, zeroth) = (sum(&powers, &orders[..=arch.count]), powers.zeroth());
+    let scale = FRAC_PI_2 * arch.half_width;
+    for i in 0..N {
+        sums[i] = scale * (sums[i] + (zeroth[i] + size) * f[0]);
+    }
+    sums
+}
+
 /// How the `Z_n` of several places follow from each other.
 struct Powers<const N: usize> {
     /// Factors of Clenshaw's recursion on the stretch and of Horner's beyond it: of the last sum, of the one before,
@@ -166,6 +219,7 @@ struct Powers<const N: usize> {
 }
 
 impl<const N: usize> Powers<N> {
+    #[inline(always)]
     fn at(t: &[f64; N]) -> Self {
         let (mut now, mut next, mut end) = ([0.0; N], [0.0; N], [0.0; N]);
         for i in 0..N {
@@ -179,12 +233,20 @@ impl<const N: usize> Powers<N> {
     }
 
     /// Stand-in for `−Z_0/0`.
+    #[inline(always)]
     fn zeroth(&self) -> [f64; N] {
-        std::array::from_fn(|i| if self.next[i] == 1.0 { -LN_2 } else { -(2.0 * self.end[i].abs()).ln() })
+        let mut zeroth = [-LN_2; N];
+        for i in 0..N {
+            if self.next[i] == 0.0 {
+                zeroth[i] = -(2.0 * self.end[i].abs()).ln();
+            }
+        }
+        zeroth
     }
 }
 
 /// `Σ f_k Z_{k+1}` at all places.
+#[inline(always)]
 fn sum<const N: usize>(powers: &Powers<N>, f: &[f64]) -> [f64; N] {
     let (mut next, mut now) = ([0.0; N], [0.0; N]);
     for f in f.iter().rev() {
@@ -192,7 +254,10 @@ fn sum<const N: usize>(powers: &Powers<N>, f: &[f64]) -> [f64; N] {
             (next[i], now[i]) = (now[i], f + powers.now[i] * now[i] - powers.next[i] * next[i]);
         }
     }
-    std::array::from_fn(|i| powers.end[i] * now[i] - powers.next[i] * next[i])
+    for i in 0..N {
+        now[i] = powers.end[i] * now[i] - powers.next[i] * next[i];
+    }
+    now
 }
 
 /// 1, ½, ⅓, …

@@ -1,6 +1,7 @@
 //! End of a solution: histories move on, power and traction are taken.
 
 use super::hot_layers::SeriesLayers;
+use super::places::{AtPlaces, total};
 use super::series_line::SeriesLine;
 use super::state::{Past, SeriesState, Tractions};
 use super::surface::{less, plus};
@@ -15,10 +16,10 @@ use nalgebra::DVector;
 /// Elastic energy of both half-planes [J/m].
 fn energy(line: &SeriesLine) -> f64 {
     let Tractions { slide, stick, .. } = line.tractions;
-    let pressed: f64 = line.pressed.iter().map(|place| place.force * place.logarithm).sum();
-    let own = stick.logarithm(&line.stuck.map(|place| place.x));
-    let stuck = line.stuck.iter().zip(own);
-    let stuck: f64 = stuck.map(|(place, own)| place.force * (2.0 * slide * place.logarithm + own)).sum();
+    let pressed = total(&line.pressed.force, &line.pressed.logarithm);
+    let own = stick.logarithm(&line.stuck.x);
+    let both = std::array::from_fn(|q| 2.0 * slide * line.stuck.logarithm[q] + own[q]);
+    let stuck = total(&line.stuck.force, &both);
     // Pulls do little beside friction: of the tangential part the mean under the pressure is enough.
     let along = line.over_pressure(|layers, _| less(&layers.along[0], &layers.along[1]));
     let along = along * line.resultant()[0] / line.load();
@@ -30,10 +31,9 @@ fn energy(line: &SeriesLine) -> f64 {
 fn slope_power(line: &SeriesLine) -> f64 {
     let (coupling, Tractions { pressure, slide, .. }) = (line.constants.half_plane.coupling, &line.tractions);
     let smooth = line.constants.points.polynomial(&line.surface.rail.normal);
-    let [pressed, stuck] = [&line.pressed, &line.stuck].map(|places| pressure.density(&places.map(|place| place.x)));
-    let pressed = line.pressed.iter().zip(pressed);
-    let pressed: f64 = pressed.map(|(at, p)| at.force * (smooth.slope(at.x) + coupling * slide * p)).sum();
-    let stuck: f64 = line.stuck.iter().zip(stuck).map(|(at, p)| at.force * coupling * p).sum();
+    let [pressed, stuck] = [&line.pressed, &line.stuck].map(|places| pressure.density(&places.x));
+    let slopes: AtPlaces = std::array::from_fn(|q| smooth.slope(line.pressed.x[q]) + coupling * slide * pressed[q]);
+    let (pressed, stuck) = (total(&line.pressed.force, &slopes), coupling * total(&line.stuck.force, &stuck));
     let warm = line.over_pressure(|SeriesLayers { rail, .. }, x| plus(&rail.lift.slope(x), &rail.swelling.slope(x)));
     (line.rim_velocity() - line.rigid[0]) * (pressed + stuck + warm) - expansion(line)
 }

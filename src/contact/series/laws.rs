@@ -35,7 +35,7 @@ pub fn solve<R>(
             return Err(ContactError::Unsuited { reason: "the pressure cannot follow a hot layer" });
         }
         find(&mut line)?;
-        if line.pressed.iter().any(|place| place.force < 0.0) {
+        if line.pressed.force.iter().any(|force| *force < 0.0) {
             return Err(ContactError::Unsuited { reason: "the patch opens within" });
         }
         let next = next(&line, &problem, states);

@@ -2,25 +2,13 @@
 
 use super::constants::Constants;
 use super::hot_layers::{self, SeriesLayers};
+use super::places::{Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
-use super::surface::{AtPoints, Moments, SmoothSurfaces, dot};
+use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
 use crate::contact::line::LineHistory;
 use crate::contact::problem::{AxisDrive, SingleLine};
 use crate::contact::traction::Traction;
-
-/// A place of integration with everything that does not depend on shear.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct QuadraturePlace {
-    /// Position \[m].
-    pub x: f64,
-    /// Polynomials of the points there.
-    pub values: AtPoints,
-    /// Traction of the series there times the weight [N/m].
-    pub force: f64,
-    /// `∫ p ln|x − s| ds` there [N/m].
-    pub logarithm: f64,
-}
 
 /// Result of the step before.
 #[derive(Clone, Copy)]
@@ -50,9 +38,9 @@ pub struct SeriesLine<'a> {
     /// Friction coefficient \[1].
     pub friction: f64,
     /// Places of the pressure.
-    pub pressed: [QuadraturePlace; QUADRATURE],
+    pub pressed: Places,
     /// Places of the shear of [`Tractions::stick`].
-    pub stuck: [QuadraturePlace; QUADRATURE],
+    pub stuck: Places,
     /// Moments of all tractions.
     pub moments: Moments,
     /// Smooth displacements under them.
@@ -66,7 +54,6 @@ impl<'a> SeriesLine<'a> {
         let SeriesStart { before, history, traction } = *start;
         let start = |k: usize| problem.rigid[k].start();
         let hub = problem.rigid[1].target().unwrap_or(traction.rigid[1]);
-        let none = [QuadraturePlace::default(); QUADRATURE];
         let layers = SeriesLayers::new(constants, &problem, &before.tractions.pressure);
         Self {
             constants,
@@ -80,8 +67,8 @@ impl<'a> SeriesLine<'a> {
             slope: before.slope,
             rim_angle: history.rim_angle.now,
             friction: problem.line.friction.coefficient(traction.friction.tread_slip),
-            pressed: none,
-            stuck: none,
+            pressed: Places::default(),
+            stuck: Places::default(),
             moments: Moments::default(),
             surface: SmoothSurfaces::default(),
             slips: [0.0; POWER],
@@ -121,8 +108,7 @@ impl<'a> SeriesLine<'a> {
 
     /// `∫ p f dx` for something that hot layers do.
     pub fn over_pressure(&self, f: impl Fn(&SeriesLayers, &[f64; QUADRATURE]) -> [f64; QUADRATURE]) -> f64 {
-        let values = self.warm(&self.pressed.map(|place| place.x), f);
-        self.pressed.iter().zip(values).map(|(place, value)| place.force * value).sum()
+        total(&self.pressed.force, &self.warm(&self.pressed.x, f))
     }
 
     /// `∫ q f dx`.
@@ -131,8 +117,7 @@ impl<'a> SeriesLine<'a> {
         if self.tractions.slides() {
             return slipping;
         }
-        let values = self.warm(&self.stuck.map(|place| place.x), f);
-        slipping + self.stuck.iter().zip(values).map(|(place, value)| place.force * value).sum::<f64>()
+        slipping + total(&self.stuck.force, &self.warm(&self.stuck.x, f))
     }
 
     /// Tangential displacement of the wheel less that of the rail at the points, without half-planes under the contact
@@ -146,19 +131,11 @@ impl<'a> SeriesLine<'a> {
     pub fn place_pressure(&mut self) {
         let Constants { tables, points, .. } = self.constants;
         let pressure = &self.tractions.pressure;
-        self.moments.normal = AtPoints::default();
         if let Some(layers) = &mut self.layers {
             layers.fit(pressure);
         }
-        let places = tables.places.map(|t| pressure.centre + pressure.half_width * t);
-        let logarithms = pressure.logarithm(&places);
-        for (q, place) in self.pressed.iter_mut().enumerate() {
-            let x = places[q];
-            let terms = pressure.terms.iter().zip(&tables.moments);
-            let force = pressure.half_width * terms.take(pressure.count).map(|(p, m)| p * m[q]).sum::<f64>();
-            *place = QuadraturePlace { x, values: points.values(x), force, logarithm: logarithms[q] };
-            self.moments.normal.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
-        }
+        self.moments.normal = place(tables, points, pressure, &mut self.pressed);
+        self.pressed.logarithm = pressure.logarithm(&self.pressed.x);
         self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
     }
 
@@ -168,36 +145,25 @@ impl<'a> SeriesLine<'a> {
         let Tractions { pressure, slide, stick } = &self.tractions;
         self.moments.tangential = self.moments.normal.map(|m| slide * m);
         if stick.half_width == 0.0 {
-            self.stuck = [QuadraturePlace::default(); QUADRATURE];
+            self.stuck = Places::default();
             return;
         }
-        let places = tables.places.map(|t| stick.centre + stick.half_width * t);
-        let logarithms = pressure.logarithm(&places);
-        for (q, place) in self.stuck.iter_mut().enumerate() {
-            let x = places[q];
-            let terms = stick.terms.iter().zip(&tables.moments);
-            let force = stick.half_width * terms.take(stick.count).map(|(p, m)| p * m[q]).sum::<f64>();
-            *place = QuadraturePlace { x, values: points.values(x), force, logarithm: logarithms[q] };
-            self.moments.tangential.iter_mut().zip(&place.values).for_each(|(m, v)| *m += force * v);
-        }
+        let moments = place(tables, points, stick, &mut self.stuck);
+        self.stuck.logarithm = pressure.logarithm(&self.stuck.x);
+        self.moments.tangential = plus(&self.moments.tangential, &moments);
     }
 
     /// Smooth displacements under the present tractions, and the rim angle: the mean of `û_x` over the pressure
     /// vanishes.
     pub fn displace(&mut self) {
         self.surface = SmoothSurfaces::new(&self.problem, &self.moments, &self.pulls, self.accelerations());
-        let (radius, kernel, slide) =
-            (self.problem.line.surfaces.radius, self.constants.half_plane.kernel, self.tractions.slide);
-        let (mut sum, mut arm) = (0.0, 0.0);
-        for place in &self.pressed {
-            let smooth = dot(&place.values, &self.surface.wheel.tangential);
-            sum += place.force * (smooth - kernel * slide * place.logarithm);
-            arm += place.force * (radius * radius - place.x * place.x).sqrt();
-        }
+        let (kernel, radius) = (self.constants.half_plane.kernel, self.problem.line.surfaces.radius);
+        let along = &self.surface.wheel.tangential;
+        let [mut sum, arm] = turns(&self.pressed, along, kernel * self.tractions.slide, radius);
         sum += self.over_pressure(|layers, _| layers.along[0]);
         // Betti: the work of the pressure on the displacements by the shear is that of the shear on those by the
         // pressure.
-        sum -= kernel * self.stuck.iter().map(|place| place.force * place.logarithm).sum::<f64>();
+        sum -= kernel * total(&self.stuck.force, &self.stuck.logarithm);
         self.rim_angle = sum / arm;
     }
 
@@ -207,12 +173,9 @@ impl<'a> SeriesLine<'a> {
         let kernel = self.constants.half_plane.kernel;
         let Tractions { pressure, slide, stick } = &self.tractions;
         let tangential = slide * pressure.total() + stick.total();
-        let lift = |place: &QuadraturePlace| {
-            let smooth = dot(&place.values, &self.surface.wheel.normal);
-            place.force * (smooth - self.rim_angle * place.x - kernel * place.logarithm)
-        };
-        let lifted = slide * self.pressed.iter().map(lift).sum::<f64>() + self.stuck.iter().map(lift).sum::<f64>();
-        let middle: f64 = self.pressed.iter().map(|place| place.force * place.x).sum();
+        let lift = |places| lifts(places, &self.surface.wheel.normal, self.rim_angle, kernel);
+        let lifted = slide * lift(&self.pressed) + lift(&self.stuck);
+        let middle = total(&self.pressed.force, &self.pressed.x);
         [tangential, pressure.total(), lifted - self.problem.line.radius() * tangential - middle]
     }
 
@@ -265,7 +228,6 @@ impl<'a> SeriesLine<'a> {
             let (_, force) = self.slipping();
             return force.iter().zip(&self.slips).map(|(f, s)| f * s).sum::<f64>() / (slide * self.load());
         }
-        let slips = self.slip(&self.pressed.map(|place| place.x), &self.surface, true);
-        self.pressed.iter().zip(slips).map(|(place, slip)| place.force * slip).sum::<f64>() / self.load()
+        total(&self.pressed.force, &self.slip(&self.pressed.x, &self.surface, true)) / self.load()
     }
 }

@@ -2,56 +2,16 @@
 
 use super::chebyshev::{Arch, TERMS};
 use super::constants::Constants;
+use super::equations::{Coefficients, StickEquations};
+use super::places::moments;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
-use super::surface::{AtPoints, Moments, SmoothSurfaces, dot};
-use super::tables::{QUADRATURE, SHEAR, STICK};
+use super::surface::{AtPoints, Moments, SmoothSurfaces};
+use super::tables::{SHEAR, STICK, STICK_ROOM, Tables};
 use crate::contact::error::ContactError;
-use crate::linalg::POINTS;
+use crate::linalg::vectorised::vectorised;
+use crate::linalg::{Lagrange, POINTS};
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
-
-/// Most unknowns: terms of the shear, the strength of a root at the end where slip begins, V and Ω.
-const UNKNOWNS: usize = STICK + 2;
-
-/// Equations as rows; the last column is the right-hand side.
-pub(super) struct StickEquations {
-    pub rows: [[f64; UNKNOWNS + 1]; UNKNOWNS],
-    pub count: usize,
-}
-
-impl StickEquations {
-    fn new(count: usize) -> Self {
-        Self { rows: [[0.0; UNKNOWNS + 1]; UNKNOWNS], count }
-    }
-
-    /// Solution by elimination with the largest pivot of each column; every row is scaled first.
-    pub fn solve(mut self) -> Option<[f64; UNKNOWNS]> {
-        let n = self.count;
-        for row in &mut self.rows[..n] {
-            let scale = 1.0 / row[..n].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            row.iter_mut().for_each(|v| *v *= scale);
-        }
-        for k in 0..n {
-            let best = (k..n).max_by(|&i, &j| self.rows[i][k].abs().total_cmp(&self.rows[j][k].abs()))?;
-            self.rows.swap(k, best);
-            let pivot = self.rows[k];
-            if pivot[k] == 0.0 || !pivot[k].is_finite() {
-                return None;
-            }
-            // Whole rows, whose length is known beforehand, are quicker than the parts that matter.
-            for row in &mut self.rows[k + 1..n] {
-                let factor = row[k] / pivot[k];
-                row.iter_mut().zip(&pivot).for_each(|(v, p)| *v -= factor * p);
-            }
-        }
-        let mut x = [0.0; UNKNOWNS];
-        for k in (0..n).rev() {
-            let known: f64 = (k + 1..n).map(|j| self.rows[k][j] * x[j]).sum();
-            x[k] = (self.rows[k][UNKNOWNS] - known) / self.rows[k][k];
-        }
-        x[..n].iter().all(|v| v.is_finite()).then_some(x)
-    }
-}
 
 impl SeriesLine<'_> {
     /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`,
@@ -93,32 +53,30 @@ impl SeriesLine<'_> {
         let centre = pressure.centre + upstream * (pressure.half_width - half);
         self.tractions.stick = Arch { centre, half_width: half, count: SHEAR, terms: [0.0; TERMS] };
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
-        let moments = self.terms();
+        let x = tables.stick.map(|t| centre + half * t);
+        let values = self.constants.points.values_at(&tables.places.map(|t| centre + half * t));
+        let moments = moments(&tables.moments, &values, half);
         let base = Moments { tangential: self.moments.normal.map(|m| self.tractions.slide * m), ..self.moments };
         let surface = SmoothSurfaces::new(&self.problem, &base, &self.pulls, self.accelerations());
-        let mut rows = StickEquations::new(STICK + axes.len());
-        let kernels = self.convected();
-        let places = tables.stick.map(|t| centre + half * t);
-        let slips = self.slip(&places, &surface, false);
-        for (i, row) in rows.rows[..STICK].iter_mut().enumerate() {
-            let x = places[i];
-            self.stick_row(i, x, upstream, &kernels, &moments, row);
-            for (column, &axis) in axes.iter().enumerate() {
-                row[STICK + column] = self.motion_term(axis, x);
-            }
-            row[UNKNOWNS] = -slips[i];
+        let mut equations = StickEquations::new(STICK + axes.len());
+        let slips = self.slip(&x, &surface, false);
+        self.shear_columns(&x, upstream, &moments, &mut equations.columns);
+        for (column, &axis) in equations.columns[STICK..].iter_mut().zip(&axes) {
+            column[..STICK_ROOM].copy_from_slice(&self.motion_terms(axis, &x));
         }
+        equations.right()[..STICK].iter_mut().zip(slips).for_each(|(right, slip)| *right = -slip);
         let all = std::mem::replace(&mut self.moments, base);
         let slide = self.tractions.slide * pressure.total();
         let lifted = self.resultant()[2] + self.problem.line.radius() * (slide + self.tractions.stick.total());
+        let count = equations.count;
+        equations.columns[..count].iter_mut().for_each(|column| column[STICK..].fill(0.0));
         for (number, &axis) in axes.iter().enumerate() {
             let resultant = [slide, 0.0, lifted - self.problem.line.radius() * slide];
-            let row = &mut rows.rows[STICK + number];
-            self.balance_row(axis, half, &moments, &axes, row);
-            row[UNKNOWNS] = -self.unbalance(axis, resultant);
+            self.balance_row(axis, half, &moments, &axes, (STICK + number, &mut equations.columns));
+            equations.right()[STICK + number] = -self.unbalance(axis, resultant);
         }
         self.moments = all;
-        let x = rows.solve().ok_or(ContactError::Unsuited { reason: "the equations of stick are singular" })?;
+        let x = equations.solve().ok_or(ContactError::Unsuited { reason: "the equations of stick are singular" })?;
         self.tractions.stick.terms[..SHEAR].copy_from_slice(&x[..SHEAR]);
         for (column, &axis) in axes.iter().enumerate() {
             self.rigid[axis] += x[STICK + column];
@@ -126,20 +84,6 @@ impl SeriesLine<'_> {
         self.place_shear();
         self.displace();
         Ok(x[SHEAR])
-    }
-
-    /// Moments of the single terms of the shear [m].
-    fn terms(&self) -> [AtPoints; SHEAR] {
-        let Constants { tables, points, .. } = self.constants;
-        let Arch { centre, half_width, .. } = self.tractions.stick;
-        let values: [AtPoints; QUADRATURE] = tables.places.map(|t| points.values(centre + half_width * t));
-        std::array::from_fn(|k| {
-            let mut sum = AtPoints::default();
-            for (weight, values) in tables.moments[k].iter().zip(&values) {
-                sum.iter_mut().zip(values).for_each(|(s, v)| *s += half_width * weight * v);
-            }
-            sum
-        })
     }
 
     /// Effect of tangential forces on the slip by the smooth displacements: by their values and by their slopes.
@@ -155,59 +99,51 @@ impl SeriesLine<'_> {
         ]
     }
 
-    /// Coefficients of the terms of the shear and of the root in the slip at the place i of the stretch.
-    fn stick_row(
+    /// Coefficients of the terms of the shear and of the root in the slip at all places of the stretch.
+    fn shear_columns(
         &self,
-        i: usize,
-        x: f64,
+        x: &[f64; STICK_ROOM],
         upstream: f64,
-        kernels: &[[AtPoints; POINTS]; 2],
         moments: &[AtPoints; SHEAR],
-        row: &mut [f64],
+        columns: &mut [Coefficients],
     ) {
         let Constants { tables, points, half_plane, .. } = self.constants;
         let half = self.tractions.stick.half_width;
-        let (values, slopes) = (points.values(x), points.slopes(x));
-        let mut by_force = AtPoints::default();
-        for k in 0..POINTS {
-            for l in 0..POINTS {
-                by_force[l] += values[k] * kernels[0][k][l] + slopes[k] * kernels[1][k][l];
-            }
-        }
-        let convection = (self.rigid[0] + self.rim_velocity()) * half_plane.kernel * PI;
         let rate = -2.0 * half_plane.kernel * self.problem.line.time.a0 * half;
-        for k in 0..SHEAR {
-            row[k] = convection * tables.stick_cauchy[i][k] + rate * tables.stick_logarithm[i][k];
-            row[k] += dot(&by_force, &moments[k]);
-        }
-        row[0] += rate * FRAC_PI_2 * half.ln();
-        let root = -LN_2 + upstream * tables.stick[i] + half.ln();
-        row[SHEAR] = convection * upstream + rate * PI * root + 2.0 * dot(&by_force, &moments[0]);
+        let speed = self.rigid[0] + self.rim_velocity();
+        let factors = SlipFactors { convection: speed * half_plane.kernel * PI, rate, size: half.ln(), upstream };
+        write_columns(tables, points, x, &self.convected(), moments, &factors, columns);
     }
 
     /// Change of the slip at x per unit of V or Ω, the small effect of the strains left out.
-    fn motion_term(&self, axis: usize, x: f64) -> f64 {
-        let points = &self.constants.points;
-        let (values, slopes, rim) = (points.values(x), points.slopes(x), self.rim_velocity());
-        let inertial = &self.problem.line.bodies.inertial;
-        let shape = |at: &AtPoints| (0..POINTS).map(|k| at[k] * inertial[(2 * k, axis)]).sum::<f64>();
-        let by_acceleration = self.problem.line.time.a0 * shape(&values) - rim * shape(&slopes);
+    fn motion_terms(&self, axis: usize, x: &[f64; STICK_ROOM]) -> [f64; STICK_ROOM] {
+        let (bodies, rim) = (&self.problem.line.bodies, self.rim_velocity());
+        let answer: AtPoints = std::array::from_fn(|k| bodies.inertial[(2 * k, axis)]);
+        let shape = self.constants.points.polynomial(&answer);
         let own = if axis == 0 { 1.0 } else { -self.problem.line.radius() };
-        own + self.problem.rigid[axis].gain * by_acceleration
+        let (a0, gain) = (self.problem.line.time.a0, self.problem.rigid[axis].gain);
+        x.map(|x| own + gain * (a0 * shape.at(x) - rim * shape.slope(x)))
     }
 
     /// Coefficients of the shear and of the free motions in the balance of one of them.
-    fn balance_row(&self, axis: usize, half: f64, moments: &[AtPoints; SHEAR], axes: &[usize], row: &mut [f64]) {
+    fn balance_row(
+        &self,
+        axis: usize,
+        half: f64,
+        moments: &[AtPoints; SHEAR],
+        axes: &[usize],
+        (row, columns): (usize, &mut [Coefficients]),
+    ) {
         let (bodies, problem) = (&self.problem.line.bodies, self.problem);
         let arm = if axis == 0 { 1.0 } else { -problem.line.radius() };
         let total = FRAC_PI_2 * half;
-        for (k, moment) in moments.iter().enumerate() {
-            row[k] = (0..POINTS).map(|l| bodies.momentum[(axis, 2 * l)] * moment[l]).sum();
+        for (column, moment) in columns.iter_mut().zip(moments) {
+            column[row] = (0..POINTS).map(|l| bodies.momentum[(axis, 2 * l)] * moment[l]).sum();
         }
-        row[SHEAR] = 2.0 * (row[0] - arm * total);
-        row[0] -= arm * total;
-        for (column, &other) in axes.iter().enumerate() {
-            row[STICK + column] = self.inertia(axis, other) * problem.rigid[other].gain;
+        columns[SHEAR][row] = 2.0 * (columns[0][row] - arm * total);
+        columns[0][row] -= arm * total;
+        for (column, &other) in columns[STICK..].iter_mut().zip(axes) {
+            column[row] = self.inertia(axis, other) * problem.rigid[other].gain;
         }
     }
 
@@ -224,17 +160,17 @@ impl SeriesLine<'_> {
         self.displace();
         let axes: Vec<usize> = [0, 2].into_iter().filter(|&k| self.problem.rigid[k].target().is_none()).collect();
         let resultant = self.resultant();
-        let mut rows = StickEquations::new(axes.len());
-        for (row, &axis) in rows.rows.iter_mut().zip(&axes) {
-            for (column, &other) in axes.iter().enumerate() {
-                row[column] = self.inertia(axis, other) * self.problem.rigid[other].gain;
+        let mut equations = StickEquations::new(axes.len());
+        for (row, &axis) in axes.iter().enumerate() {
+            for (column, &other) in equations.columns.iter_mut().zip(&axes) {
+                column[row] = self.inertia(axis, other) * self.problem.rigid[other].gain;
             }
-            row[UNKNOWNS] = -self.unbalance(axis, resultant);
+            equations.right()[row] = -self.unbalance(axis, resultant);
         }
         if axes.is_empty() {
             return Ok(0.0);
         }
-        let x = rows.solve().ok_or(ContactError::Unsuited { reason: "a sliding wheel has no balance" })?;
+        let x = equations.solve().ok_or(ContactError::Unsuited { reason: "a sliding wheel has no balance" })?;
         let mut largest = 0.0_f64;
         for (column, &axis) in axes.iter().enumerate() {
             self.rigid[axis] += x[column];
@@ -242,5 +178,63 @@ impl SeriesLine<'_> {
         }
         self.displace();
         Ok(largest)
+    }
+}
+
+/// Common parts of the coefficients of all terms.
+pub(super) struct SlipFactors {
+    /// Of the Cauchy integrals over π, and of the logarithmic ones.
+    convection: f64,
+    rate: f64,
+    /// Logarithm of the half-length of the stretch.
+    size: f64,
+    upstream: f64,
+}
+
+vectorised! {
+    /// Writes the coefficients of the terms of the shear and of the root in the slip at the places x.
+    fn write_columns<'a, S>(
+        _simd,
+        tables: &'a Tables,
+        points: &'a Lagrange,
+        x: &'a [f64; STICK_ROOM],
+        kernels: &'a [[AtPoints; POINTS]; 2],
+        moments: &'a [AtPoints; SHEAR],
+        factors: &'a SlipFactors,
+        columns: &'a mut [Coefficients],
+    ) {
+        let SlipFactors { convection, rate, size, upstream } = *factors;
+        let (values, slopes) = (points.values_at(x), points.slopes_at(x));
+        // Slip at the places by a tangential force with a unit moment, by point.
+        let mut by_force = [[0.0; STICK_ROOM]; POINTS];
+        for (l, sum) in by_force.iter_mut().enumerate() {
+            for k in 0..POINTS {
+                let (of_value, of_slope) = (kernels[0][k][l], kernels[1][k][l]);
+                for i in 0..STICK_ROOM {
+                    sum[i] += values[k][i] * of_value + slopes[k][i] * of_slope;
+                }
+            }
+        }
+        let mut of_first = [0.0; STICK_ROOM];
+        for k in 0..SHEAR {
+            let mut sum = [0.0; STICK_ROOM];
+            for (by_force, moment) in by_force.iter().zip(&moments[k]) {
+                for i in 0..STICK_ROOM {
+                    sum[i] += by_force[i] * moment;
+                }
+            }
+            if k == 0 {
+                of_first = sum;
+            }
+            let (cauchy, logarithm) = (&tables.stick_cauchy[k], &tables.stick_logarithm[k]);
+            for i in 0..STICK_ROOM {
+                columns[k][i] = sum[i] + convection * cauchy[i] + rate * logarithm[i];
+            }
+        }
+        for i in 0..STICK_ROOM {
+            columns[0][i] += rate * FRAC_PI_2 * size;
+            let root = -LN_2 + upstream * tables.stick[i] + size;
+            columns[SHEAR][i] = convection * upstream + rate * PI * root + 2.0 * of_first[i];
+        }
     }
 }

@@ -115,7 +115,8 @@ impl SeriesSolver {
     fn check_limits(problem: &SingleLine, traction: &Traction) -> Result<(), ContactError> {
         let limits = &problem.line.limits;
         // Where it sticks friction shears the steel less; that is for the grid to find out.
-        let bears = |x: f64| limits.sheared_at(x, traction.friction.coefficient);
+        let borne = limits.borne(traction.friction.coefficient);
+        let bears = |x: f64| limits.sheared_at(x, borne);
         let yields = |(x, p): (&f64, &f64)| *p > bears(*x);
         let pressure = &traction.pressure;
         let any = limits.is_limited()

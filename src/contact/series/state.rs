@@ -1,6 +1,6 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
-use super::chebyshev::Arch;
+use super::chebyshev::{Arch, logarithm_of_both};
 use crate::linalg::{Lagrange, POINTS};
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +58,7 @@ impl Tractions {
 
     /// `∫ q ln|x − s| ds` [N/m].
     pub fn shear_logarithm<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        self.together(self.pressure.logarithm(x), self.stick.logarithm(x))
+        logarithm_of_both(self.slide, [&self.pressure, &self.stick], x)
     }
 
     /// Effect of the shear from the effects of pressure and stick.

@@ -31,6 +31,8 @@ const TOLERANCE: f64 = 1e-10;
 const EXPECTED: f64 = 0.05;
 /// Share of stick or slip at which it is \[1].
 const SURE: f64 = 0.1;
+/// Change of an iteration over that of the first one, at most: a step that is like the last one needs no more to know.
+const FIRST: f64 = 0.1;
 /// Largest relative change after which one is expected.
 const SMALL: f64 = 1e-7;
 /// Largest relative change that ends them where rounding allows no more.
@@ -75,7 +77,7 @@ pub fn solve(line: &mut SeriesLine) -> Result<(), ContactError> {
 
 /// True if the `change` of an iteration after the `last` two is the last one that counts.
 fn is_settled(change: f64, [last, before]: [f64; 2]) -> bool {
-    let falls = |from: f64| if from.is_finite() { (change / from).min(1.0) } else { 1.0 };
+    let falls = |from: f64| if from.is_finite() { (change / from).min(1.0) } else { FIRST };
     change * falls(last) <= TOLERANCE
         || change <= SMALL && last * falls(before) <= TOLERANCE
         || change <= ROUNDING && change >= last
@@ -249,8 +251,8 @@ impl StickSearch {
             return false;
         }
         let Tractions { pressure, slide, stick } = &it.tractions;
-        let places = it.stuck.map(|place| place.x);
-        let (shear, bears) = (it.tractions.shear(&places), pressure.density(&places));
+        let places = &it.stuck.x;
+        let (shear, bears) = (it.tractions.shear(places), pressure.density(places));
         let beyond = |q: usize| (shear[q].abs() - it.friction * bears[q]).max(0.0) * it.constants.tables.weights[q];
         let excess = stick.half_width * (0..places.len()).map(beyond).sum::<f64>();
         let (total, limit) = (slide * pressure.total() + stick.total(), it.friction * pressure.total());

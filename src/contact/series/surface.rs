@@ -2,6 +2,7 @@
 
 use crate::contact::problem::SingleLine;
 use crate::linalg::POINTS;
+use crate::linalg::vectorised::vectorised;
 use nalgebra::DMatrix;
 
 /// Values at the points of the polynomial.
@@ -42,30 +43,52 @@ pub fn plus<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
+impl PolynomialValues {
+    /// The `free` displacements of all ports and those under forces on them; `compliance` by columns.
+    fn under(free: &[f64], compliance: &[f64], forces: &[f64; 2 * POINTS]) -> Self {
+        let all = under(free, compliance, forces);
+        let component = |component: usize| std::array::from_fn(|k| all[2 * k + component]);
+        Self { tangential: component(0), normal: component(1) }
+    }
+}
+
+vectorised! {
+    /// `free + C f` with the columns of `C`.
+    fn under<'a, S>(_simd, free: &'a [f64], columns: &'a [f64], forces: &'a [f64; PORTS]) -> [f64; PORTS] {
+        let (mut all, (columns, _)) = ([0.0; PORTS], columns.as_chunks::<PORTS>());
+        all.copy_from_slice(free);
+        for (column, force) in columns.iter().zip(forces) {
+            for i in 0..PORTS {
+                all[i] += column[i] * force;
+            }
+        }
+        all
+    }
+}
+
+/// Components of the forces on all points.
+const PORTS: usize = 2 * POINTS;
+
 impl SmoothSurfaces {
     /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on
     /// wheel and rail; `accelerations` are the rigid ones.
     pub fn new(problem: &SingleLine, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
         let bodies = &problem.line.bodies;
         let body = |index: usize, sign: f64| {
-            let (free, compliance) = (bodies.free[index], bodies.own.compliance[index]);
-            let mut own = PolynomialValues::default();
+            let mut forces = [0.0; 2 * POINTS];
             for k in 0..POINTS {
-                let (mut t, mut n) = (free[2 * k], free[2 * k + 1]);
-                for l in 0..POINTS {
-                    let (force_t, force_n) = (sign * moments.tangential[l] + pulls[index][l], sign * moments.normal[l]);
-                    t += compliance[(2 * k, 2 * l)] * force_t + compliance[(2 * k, 2 * l + 1)] * force_n;
-                    n += compliance[(2 * k + 1, 2 * l)] * force_t + compliance[(2 * k + 1, 2 * l + 1)] * force_n;
-                }
-                (own.tangential[k], own.normal[k]) = (t, n);
+                forces[2 * k] = sign * moments.tangential[k] + pulls[index][k];
+                forces[2 * k + 1] = sign * moments.normal[k];
             }
-            own
+            let free = bodies.free[index].as_slice();
+            PolynomialValues::under(free, bodies.own.compliance[index].as_slice(), &forces)
         };
         let (mut wheel, rail) = (body(0, 1.0), body(1, -1.0));
-        for (axis, acceleration) in accelerations.into_iter().enumerate() {
+        let answers = bodies.inertial.as_slice().chunks(2 * POINTS);
+        for (acceleration, answer) in accelerations.into_iter().zip(answers) {
             for k in 0..POINTS {
-                wheel.tangential[k] += acceleration * bodies.inertial[(2 * k, axis)];
-                wheel.normal[k] += acceleration * bodies.inertial[(2 * k + 1, axis)];
+                wheel.tangential[k] += acceleration * answer[2 * k];
+                wheel.normal[k] += acceleration * answer[2 * k + 1];
             }
         }
         Self { wheel, rail }

@@ -15,6 +15,8 @@ pub const SLOPE: usize = 2 * SMOOTH;
 pub const STICK: usize = SHEAR + 1;
 /// Places of the rule that integrates tractions.
 pub const QUADRATURE: usize = 12;
+/// Room for the places at which the surfaces stick: whole vector registers.
+pub const STICK_ROOM: usize = 12;
 /// Places of the rule that integrates the power of friction.
 pub const POWER: usize = QUADRATURE;
 
@@ -28,12 +30,12 @@ pub struct Tables {
     pub closed: [f64; SMOOTH],
     /// `T_n` there, by n.
     pub closed_terms: [[f64; SMOOTH]; SMOOTH],
-    /// Zeros of `T_{SHEAR+1}`, where the surfaces stick.
-    pub stick: [f64; STICK],
-    /// `T_{k+1}` and `I_k` there.
-    pub stick_cauchy: [[f64; TERMS]; STICK],
+    /// Zeros of `T_{SHEAR+1}`, where the surfaces stick; the last one fills the room.
+    pub stick: [f64; STICK_ROOM],
+    /// `T_{k+1}` and `I_k` there, by k.
+    pub stick_cauchy: [[f64; STICK_ROOM]; SHEAR],
     /// See [`Self::stick_cauchy`].
-    pub stick_logarithm: [[f64; TERMS]; STICK],
+    pub stick_logarithm: [[f64; STICK_ROOM]; SHEAR],
     /// Places of the rule of Gauss and Chebyshev (second kind).
     pub places: [f64; QUADRATURE],
     /// Its weights for whole functions that rise like a root at both ends.
@@ -49,15 +51,19 @@ impl Tables {
     pub fn new() -> Self {
         let zeros = |n: usize, i: usize| ((i as f64 + 0.5) * PI / n as f64).cos();
         let closed: [f64; SMOOTH] = std::array::from_fn(|i| zeros(SMOOTH, i));
-        let stick: [f64; STICK] = std::array::from_fn(|i| zeros(STICK, i));
+        let stick: [f64; STICK_ROOM] = std::array::from_fn(|i| zeros(STICK, i.min(STICK - 1)));
+        let by_term = |of: fn(f64, usize) -> [f64; TERMS]| {
+            let at_places = stick.map(|t| of(t, SHEAR));
+            std::array::from_fn(|k| at_places.map(|terms| terms[k]))
+        };
         let angle = |q: usize| (q + 1) as f64 * PI / (QUADRATURE + 1) as f64;
         let weights = std::array::from_fn(|q| PI / (QUADRATURE + 1) as f64 * angle(q).sin());
         Self {
             closed,
             closed_terms: std::array::from_fn(|n| closed.map(|t| (n as f64 * t.acos()).cos())),
             stick,
-            stick_cauchy: stick.map(|t| cauchy_terms(t, SHEAR)),
-            stick_logarithm: stick.map(|t| logarithm_terms(t, SHEAR)),
+            stick_cauchy: by_term(cauchy_terms),
+            stick_logarithm: by_term(logarithm_terms),
             places: std::array::from_fn(|q| angle(q).cos()),
             weights,
             moments: std::array::from_fn(|k| {
