@@ -80,7 +80,7 @@ fn a_bound_that_is_not_reached_changes_nothing() {
 /// shares of the throughput as largest distances, and speeds of wheel and rim at the end \[m/s]. Measured, the limits are
 /// half as much again: with 16 steps 8e-4, 3.9 K, 4e-4 and 9e-5 m/s; with 8 4e-3, 10 K, 7e-3 and 3e-4 m/s; with 4 0.024,
 /// 29 K, 0.039 and 1e-3 m/s. The energy is out of balance for the milliseconds of the lock-up only: at the end by less
-/// than 1e-4. Steps of the same length are no loss: where their errors keep the tolerance nothing is told.
+/// than 1e-4. Longer steps whose errors keep the tolerance are no loss, and nothing is told of them.
 #[test]
 fn a_bound_holds_is_told_of_where_it_binds_and_costs_little_accuracy() {
     let model = railway();

@@ -27,6 +27,8 @@ use std::sync::Arc;
 pub struct ReducedBody {
     /// Modes and what else is constant.
     basis: ReducedBasis,
+    /// Modes on the surface, transposed.
+    transposed: DMatrix<f64>,
     /// Centrifugal load of the spinning wheel.
     centrifugal: bool,
     /// Damping of each mode; `None`: by dashpots at most.
@@ -85,7 +87,7 @@ impl ReducedBody {
         });
         let layer = (damping.stiffness > 0.0)
             .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
-        Self { basis, centrifugal, modal, layer }
+        Self { transposed: basis.shapes.transpose(), basis, centrifugal, modal, layer }
     }
 
     /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
@@ -187,7 +189,7 @@ impl BodyResponse for ReducedBody {
             Some(layer) => &layer.flexibility * layer.share(a0),
             None => basis.residual.clone(),
         };
-        add_symmetric_product(&weighted, &basis.shapes, &mut surface);
+        add_symmetric_product(&weighted, &self.transposed, &mut surface);
         let modal = &weighted * &basis.rigid;
         let square = a0 * a0;
         let momentum = modal.transpose() * square;
@@ -250,18 +252,18 @@ impl BodyResponse for ReducedBody {
     }
 }
 
-/// `out ← out + A Bᵀ` for a symmetric product: the lower half is computed in blocks of columns and mirrored.
+/// `out ← out + A B` for a symmetric product: the lower half is computed in blocks of columns and mirrored.
 fn add_symmetric_product(a: &DMatrix<f64>, b: &DMatrix<f64>, out: &mut DMatrix<f64>) {
     let n = out.nrows();
     for first in (0..n).step_by(COLUMNS) {
         let width = COLUMNS.min(n - first);
-        let factor = b.rows(first, width).transpose();
-        out.view_mut((first, first), (n - first, width)).gemm(1.0, &a.rows(first, n - first), &factor, 1.0);
+        let mut part = out.view_mut((first, first), (n - first, width));
+        part.gemm(1.0, &a.rows(first, n - first), &b.columns(first, width), 1.0);
     }
+    let all = out.as_mut_slice();
     for j in 0..n {
-        for i in 0..j {
-            out[(i, j)] = out[(j, i)];
-        }
+        let (above, own) = all.split_at_mut(j * n);
+        above.chunks_exact(n).zip(own).for_each(|(column, entry)| *entry = column[j]);
     }
 }
 
