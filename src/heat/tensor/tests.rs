@@ -210,54 +210,6 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
     assert_eq!(first.values, again.values);
 }
 
-/// Largest difference of a temperature from those in `other`, relative to the largest rise.
-fn apart(run: &[[f64; 2]], other: &[[f64; 2]]) -> f64 {
-    let largest = other.as_flattened().iter().fold(0.0, |largest: f64, rise| largest.max(*rise));
-    let pairs = run.as_flattened().iter().zip(other.as_flattened());
-    pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) / largest
-}
-
-/// Maxima of wheel and rail after every millisecond in which the wheel turns slower by 2 %, then faster, while its
-/// friction heat swings by a fifth; the heat goes with the speed of sliding. `pieces` steps are taken in a millisecond.
-fn hunting(shared: bool, pieces: usize) -> Vec<[f64; 2]> {
-    let (a, v) = (0.761e-3, 50.0 / 3.6);
-    let heat = both(a, v, 1e7);
-    let (mut state, mut next, mut seen) = (heat.initial(0.0, 0.0), HeatState::default(), Observation::default());
-    let (mut scratch, mut maxima, dt) = (HeatScratch::default(), Vec::new(), 1e-3 / pieces as f64);
-    for k in 1..=200 * pieces {
-        let time = k as f64 * dt;
-        let phase = (time / 0.06).rem_euclid(1.0);
-        let turning = v * (-0.6 * (1.0 - (2.0 * phase - 1.0).abs())).exp();
-        let power = 1e6 * (1.0 + 0.2 * (200.0 * time).sin()) * (0.2 + (v - turning) / v);
-        let exchange = Exchange {
-            patches: vec![Interval { low: -a, high: a }],
-            friction_power: Piecewise::sampled(-a, a, 41, |x| power * (1.0 - x / a)),
-            ..Exchange::default()
-        };
-        if !shared && let Some(last) = &mut state.last {
-            // Speeds that no rounding brings near the present ones; no jump either.
-            last.speeds = last.speeds.map(|speed| 1.1 * speed);
-        }
-        let flows = heat.step(&state, &mut next, dt, v, turning / R, &exchange, &mut scratch).unwrap();
-        std::mem::swap(&mut state, &mut next);
-        assert!(flows.relative_imbalance() < 1e-12, "{k}: {:e}", flows.relative_imbalance());
-        if k.is_multiple_of(pieces) {
-            heat.observe(&state, &mut seen).unwrap();
-            maxima.push([seen.temperatures.wheel_max, seen.temperatures.rail_max]);
-        }
-    }
-    maxima
-}
-
-#[test]
-fn a_speed_that_changes_by_two_percent_in_a_step_shares_inverses_and_errs_as_with_fresh_ones() {
-    let [own, fine] = [1, 10].map(|pieces| hunting(false, pieces));
-    let shared = hunting(true, 1);
-    let [own, shared, both] = [apart(&own, &fine), apart(&shared, &fine), apart(&shared, &own)];
-    println!("from steps of a tenth: own {own:.2e}, shared {shared:.2e}; from each other {both:.2e}");
-    assert!(shared < 1.01 * own && both < 0.1 * own);
-}
-
 #[test]
 fn kept_factors_of_a_full_contact_and_its_two_ends_are_the_factors_of_the_contact() {
     let (a, v) = (0.761e-3, 50.0 / 3.6);
