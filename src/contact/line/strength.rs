@@ -43,11 +43,11 @@ impl Strength {
             let closed = |i: &usize| pressed[*i] > 0.0;
             let ends = (0..grid.len()).find(closed).zip((0..grid.len()).rfind(closed));
             // All nodes that slip have one ratio, but for rounding, and so have all beyond an edge.
-            let mut last = (f64::NAN, None);
+            let mut last = (f64::INFINITY, None);
             limit.extend(grid.x.iter().enumerate().map(|(i, &x)| {
                 let nearest = ends.map_or(0.0, |(first, last)| ratio(i.clamp(first, last)));
                 let nearest = if nearest.is_finite() { nearest } else { 0.0 };
-                if !((nearest - last.0).abs() <= SAME_RATIO) {
+                if (nearest - last.0).abs() > SAME_RATIO {
                     last = (nearest, limits.borne(nearest));
                 }
                 grid.width(i) * limits.sheared_at(x, last.1)

@@ -236,9 +236,9 @@ impl<const N: usize> Powers<N> {
     #[inline(always)]
     fn zeroth(&self) -> [f64; N] {
         let mut zeroth = [-LN_2; N];
-        for i in 0..N {
-            if self.next[i] == 0.0 {
-                zeroth[i] = -(2.0 * self.end[i].abs()).ln();
+        for (zeroth, (next, end)) in zeroth.iter_mut().zip(self.next.iter().zip(&self.end)) {
+            if *next == 0.0 {
+                *zeroth = -(2.0 * end.abs()).ln();
             }
         }
         zeroth

@@ -47,8 +47,8 @@ vectorised! {
                 scale[i] = scale[i].max(column[i].abs());
             }
         }
-        for i in 0..ROOM {
-            scale[i] = if scale[i] > 0.0 { 1.0 / scale[i] } else { 0.0 };
+        for scale in &mut scale {
+            *scale = if *scale > 0.0 { 1.0 / *scale } else { 0.0 };
         }
         for column in columns.iter_mut() {
             for i in 0..ROOM {

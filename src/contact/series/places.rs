@@ -90,8 +90,8 @@ vectorised! {
     /// `factor` times the logarithms.
     fn lifts<'a, S>(_simd, places: &'a Places, u: &'a AtPoints, slope: f64, factor: f64) -> f64 {
         let mut lift = polynomial(&places.values, u);
-        for q in 0..QUADRATURE {
-            lift[q] -= slope * places.x[q] + factor * places.logarithm[q];
+        for (lift, (x, logarithm)) in lift.iter_mut().zip(places.x.iter().zip(&places.logarithm)) {
+            *lift -= slope * x + factor * logarithm;
         }
         total(&places.force, &lift)
     }
