@@ -13,10 +13,12 @@ use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Rotation, Simula
 fn coarse() -> Config {
     let mut config = preset("railway", 6);
     (config.solver.modes_wheel, config.solver.modes_rail) = (10, 6);
+    // Undivided steps, so that two runs show every change of solver.
+    config.tuning.tolerance = 0.0;
     config
 }
 
-/// Limit of the mirrored runs.
+/// Limit of the mirrored runs; ten times as much where it is not a mean that is compared.
 const MIRROR: f64 = 1e-8;
 
 fn few(cases: u32) -> ProptestConfig {
@@ -105,7 +107,7 @@ fn scaled([a, b]: &[Vec<Outputs>; 2], (name, of): Output, factor: f64, limit: f6
 fn profiles_mirrored(a: &Outputs, b: &Outputs) -> Result<(), TestCaseError> {
     let mirrored = |of: &[f64], a: &[f64], b: &[f64], sign: f64| {
         let scale = of.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        a.iter().zip(b.iter().rev()).all(|(a, b)| (a - sign * b).abs() <= MIRROR * scale)
+        a.iter().zip(b.iter().rev()).all(|(a, b)| (a - sign * b).abs() <= 10.0 * MIRROR * scale)
     };
     prop_assert!(mirrored(&a.profile_pressure, &a.profile_pressure, &b.profile_pressure, 1.0), "pressure profile");
     prop_assert!(mirrored(&a.profile_pressure, &a.profile_shear, &b.profile_shear, -1.0), "shear profile");
@@ -123,7 +125,6 @@ proptest! {
         moment in -8e3..8e3f64, force in -5e3..5e3f64, dt in 1e-4..5e-3f64,
     ) {
         static MODELS: OnceLock<[Arc<Model>; 2]> = OnceLock::new();
-        // Undivided steps, so that both runs show every change of solver.
         let methods = [(ContactMethod::Auto, 0.0), (ContactMethod::Grid, 2e-3)];
         let models = MODELS.get_or_init(|| methods.map(|(contact, tolerance)| {
             let mut config = coarse();

@@ -53,12 +53,12 @@ fn changes_by_the_error_of_the_grid(elements: usize) -> f64 {
     );
     assert!(left < 0.01 * error.abs(), "on the grid it is forgotten that the solution came from the series");
     assert!((end / error - 1.0).abs() < 0.1, "the series find their solution again");
-    assert!(largest < 0.5 * error.abs(), "the torsion of the wheel takes some steps for it");
+    assert!(largest < 0.5 * error.abs() && largest < 1e-4, "the torsion of the wheel takes some steps for it");
     error.abs()
 }
 
 #[test]
 fn a_change_of_solver_moves_the_force_by_the_error_of_the_grid() {
     let [coarse, fine] = [10, 20].map(changes_by_the_error_of_the_grid);
-    assert!(fine < 0.25 * coarse && fine < 1e-4, "{coarse} and {fine} of the load");
+    assert!(fine < 0.35 * coarse && fine < 1.5e-4, "{coarse} and {fine} of the load");
 }

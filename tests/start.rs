@@ -64,7 +64,7 @@ fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_s
             let (dt, time) = if heat { (1e-3, 1.0) } else { (1e-4, if velocity == 30.0 { 1.0 } else { 0.1 }) };
             let [force, change, _] = force_and_change(&model, &driven(&model, 0.0, 0.0), dt, time);
             println!("V {velocity} m/s, heat {heat}, step {dt} s: {force:.1e} N, change {change:.1e} N");
-            assert!(force.abs() < 5e-2 && change < 1e-5, "{velocity} m/s, heat {heat}: {force} N, {change} N");
+            assert!(force.abs() < 5e-2 && change < 1e-3, "{velocity} m/s, heat {heat}: {force} N, {change} N");
         }
     }
 }
@@ -103,13 +103,13 @@ fn a_plain_start_is_free_of_tangential_force_under_little_and_much_load_and_in_o
         inputs.drive.load *= share;
         let [force, change, _] = force_and_change(&model, &inputs, 1e-3, 0.3);
         println!("load {share}: {force:.1e} N, change {change:.1e} N");
-        assert!(force.abs() < 5e-2 && change < 1e-5, "{share}: {force} N, {change} N");
+        assert!(force.abs() < 5e-2 && change < 1e-3, "{share}: {force} N, {change} N");
     }
     for name in ["paper_a", "paper_b", "paper_d"] {
         let model = common::model(preset(name, 10));
         let [force, change, _] = force_and_change(&model, &driven(&model, 0.0, 0.0), 1e-3, 0.3);
         println!("{name}: {force:.1e} N, change {change:.1e} N");
-        assert!(force.abs() < 5e-2 && change < 1e-5, "{name}: {force} N, {change} N");
+        assert!(force.abs() < 5e-2 && change < 1e-3, "{name}: {force} N, {change} N");
     }
 }
 
