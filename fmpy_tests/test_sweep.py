@@ -51,7 +51,7 @@ def test_64_stops_survive_the_death_of_a_worker_and_are_not_computed_again(many,
     written = sweep.done(tmp_path / "sweep.csv", sweep.fingerprint(many, True))
     assert sorted(map(str, written)) == sorted(map(str, rows))
     # What the dead worker had finished is not computed again: every stop comes to its end once.
-    log = client.cluster.scheduler.transition_log
+    log = list(client.cluster.scheduler.transition_log)
     ends = Counter(entry[0] for entry in log if tuple(entry[1:3]) == ("processing", "memory"))
     assert sum(ends.values()) == len(ends) == 64
 
