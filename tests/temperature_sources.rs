@@ -197,3 +197,38 @@ fn no_temperature_leaves_the_interval_of_its_sources() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// The speed of a wheel at rest is round-off of either sign, so that rail ahead of it would be rail behind it in the next
+/// step. Rail of another temperature comes with the way, once it rolls.
+#[test]
+fn a_standing_wheel_meets_rail_of_another_temperature_only_once_it_rolls() {
+    let mut config = common::preset("railway", 10);
+    config.initial.velocity = 0.0;
+    let model = common::model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let (load, own) = (inputs.drive.load, inputs.drive.temperature);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut farthest = [0.0_f64; 2];
+    for k in 0..400 {
+        let time = f64::from(k) * 1e-3;
+        inputs.drive.load = load * (1.0 + 0.1 * (60.0 * time).sin());
+        inputs.drive.temperature = own + 20.0 * (15.0 * time).sin();
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let o = simulation.outputs();
+        for temperature in [o.temperature_rail_mean, o.temperature_rail_max, o.temperature_wheel_max] {
+            farthest[0] = farthest[0].max((temperature - own).abs());
+        }
+        farthest[1] = farthest[1].max(o.wheel_velocity.abs());
+    }
+    println!("{:.1e} K from its own temperature, at up to {:.1e} m/s", farthest[0], farthest[1]);
+    assert!(farthest[0] < 0.01);
+    (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+    (inputs.drive.load, inputs.drive.temperature) = (load, own + 20.0);
+    (inputs.drive.velocity, inputs.drive.omega) = (1.0, 1.0 / model.config().wheel.radius);
+    for _ in 0..100 {
+        simulation.advance(&inputs, 1e-3).unwrap();
+    }
+    let mean = simulation.outputs().temperature_rail_mean - own;
+    println!("{mean:.2} K on rail that is 20 K hotter");
+    assert!((5.0..20.05).contains(&mean));
+}

@@ -11,11 +11,12 @@ pub const ROOM: usize = 16;
 /// Coefficients of one unknown, by equation.
 pub type Coefficients = [f64; ROOM];
 
-/// StickEquations by columns. Those beyond their number are zero.
+/// Equations of a stretch that sticks, by columns. Those beyond their number are zero.
 #[derive(Clone)]
 pub struct StickEquations {
-    /// Those of the unknowns, and behind their number the right-hand side.
+    /// Coefficients of every unknown, and behind them the right-hand side.
     pub columns: [Coefficients; UNKNOWNS + 1],
+    /// Number of equations and unknowns.
     pub count: usize,
 }
 

@@ -10,6 +10,8 @@ use crate::heat::tensor::mesh::layout::HeatLayout;
 
 /// Length of the front in half-widths at the nominal load: elements resolve it \[1].
 const FRONT: f64 = 1.0;
+/// Speed below which a wheel stands [m/s]: heat goes faster than the rail then, and the direction may be round-off.
+const STANDS: f64 = 1e-5;
 
 /// Fills `begin` with `state` under the rail that arrives now with the heat content `arriving` over `ρc` \[K], and
 /// tells whether it differs from `state`. A standing wheel meets no other rail.
@@ -22,7 +24,7 @@ pub fn arrive(
     begin: &mut HeatState,
 ) -> bool {
     let change = arriving - state.arriving;
-    if change == 0.0 || velocity == 0.0 {
+    if change == 0.0 || velocity.abs() < STANDS {
         return false;
     }
     begin.clone_from(state);
