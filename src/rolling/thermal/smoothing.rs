@@ -5,7 +5,6 @@
 //! 14). A flash that is much thinner than an element lifts the surface above it; a locked wheel is heated to the depth
 //! of several elements, and hot spots narrower than that do not lift it by their own height.
 
-use crate::linalg::vectorised::dot;
 use std::f64::consts::PI;
 
 /// Depth from which on it matters, in distances of the surface nodes of the contact [1].
@@ -39,7 +38,7 @@ impl Smoothing {
         }
         let rows = self.weights.chunks_exact(x.len());
         self.smoothed.clear();
-        self.smoothed.extend(rows.map(|row| dot(row, values)));
+        self.smoothed.extend(rows.map(|row| product(row, values)));
         values.clone_from(&self.smoothed);
     }
 
@@ -84,6 +83,18 @@ impl Smoothing {
             }
         }
     }
+}
+
+/// Scalar product, as sums that do not wait for each other.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    const SUMS: usize = 8;
+    let (a, b) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
+    let rest = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum::<f64>();
+    let mut sums = [0.0; SUMS];
+    for (a, b) in a.zip(b) {
+        sums.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += a * b);
+    }
+    rest + sums.iter().sum::<f64>()
 }
 
 #[cfg(test)]
