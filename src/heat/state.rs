@@ -18,6 +18,8 @@ pub struct HeatState {
     pub(super) range: [f64; 2],
     /// Bounds of the values below every surface node, the wheel's first; empty: none are known.
     pub(super) rows: Vec<RowBounds>,
+    /// `∫ x ds` of every mode along the streamlines of wheel and rail [K m]; empty: not known.
+    pub(super) sums: [Vec<f64>; 2],
 }
 
 /// Bounds of the values below one surface node.
@@ -40,6 +42,11 @@ impl RowBounds {
 }
 
 impl HeatState {
+    /// Forgets the sums along the streamlines.
+    pub(super) fn forget_sums(&mut self) {
+        self.sums.iter_mut().for_each(Vec::clear);
+    }
+
     /// State of the given unknowns to which no step has led.
     pub fn new(values: Vec<f64>) -> Self {
         Self { values, ..Self::default() }

@@ -52,6 +52,9 @@ impl ObservationWeights {
     pub fn observe(&self, layout: &HeatLayout, latent: Option<&LatentHeat>, state: &HeatState, seen: &mut Observation) {
         let mut volume_means = [0.0; 2];
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(&state.values)).enumerate() {
+            seen.sums.clone_from(&state.sums[i]);
+            if seen.sums.is_empty() {
+                    }
             volume_means[i] = self.observe_body(layout, i, body, field, seen);
         }
         seen.lowest = state.range[0];
@@ -68,7 +71,8 @@ impl ObservationWeights {
         };
     }
 
-    /// Fills surface and layer of the body `i` (0: wheel, 1: rail); its mean over the volume \[K].
+    /// Fills surface and layer of the body `i` (0: wheel, 1: rail), whose sums along the streamlines are known; its mean
+    /// over the volume \[K].
     fn observe_body(
         &self,
         layout: &HeatLayout,

@@ -53,12 +53,7 @@ impl HeatBody {
     /// Adds a load given at the nodes `first..` to a right-hand side; `across` are the values of the modes where it
     /// enters.
     pub fn add_load(&self, first: usize, load: &[f64], across: &[f64], out: &mut [f64]) {
-        let nm = self.modes.len();
-        // Most of a surface bears no load.
-        let loaded = load.iter().zip(out[first * nm..].chunks_exact_mut(nm)).filter(|(value, _)| **value != 0.0);
-        for (value, target) in loaded {
-            target.iter_mut().zip(across).for_each(|(t, s)| *t += value * s);
-        }
+        kernels::add_rows(load, across, &mut out[first * self.modes.len()..]);
     }
 
     /// Surface values at a range of nodes.

@@ -60,6 +60,19 @@ fn add_weighted_block<S: Simd, const B: usize>(
 }
 
 vectorised! {
+    /// Adds `shape` times its number in `load` to every row of `x`; where the load is zero, nothing is done.
+    fn add_rows<'a, S>(simd, load: &'a [f64], shape: &'a [f64], x: &'a mut [f64]) {
+        let (shape, x) = (S::as_simd_f64s(shape).0, S::as_mut_simd_f64s(x).0);
+        for (x, &amount) in x.chunks_exact_mut(shape.len()).zip(load) {
+            if amount != 0.0 {
+                let many = simd.splat_f64s(amount);
+                x.iter_mut().zip(shape).for_each(|(x, &shape)| *x = simd.mul_add_e_f64s(many, shape, *x));
+            }
+        }
+    }
+}
+
+vectorised! {
     /// Scalar products of all rows of `x` with `shape`.
     fn products<'a, S>(simd, x: &'a [f64], shape: &'a [f64], out: &'a mut [f64]) {
         let (x, shape) = (S::as_simd_f64s(x).0, S::as_simd_f64s(shape).0);

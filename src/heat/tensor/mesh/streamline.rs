@@ -11,6 +11,8 @@ pub struct Streamline {
     pub nodes: Vec<f64>,
     /// Element lengths [m].
     pub lengths: Vec<f64>,
+    /// Length of the shortest element [m].
+    pub shortest: f64,
     /// Circumference of a closed streamline [m]; zero: open.
     pub closed: f64,
     /// `∫ Nᵢ ds` [m].
@@ -34,7 +36,8 @@ impl Streamline {
             weights[e] += 0.5 * h;
             weights[(e + 1) % n] += 0.5 * h;
         }
-        Self { nodes, lengths, closed, weights, zone: 0 }
+        let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        Self { nodes, lengths, shortest, closed, weights, zone: 0 }
     }
 
     /// Nodes `zone` (from zero on) and growing elements beyond to the distance `half`, mirrored.

@@ -11,6 +11,7 @@
 use super::rows;
 use super::transport::Transport;
 use crate::heat::tensor::mesh::body::HeatBody;
+use crate::heat::tensor::mesh::kernels;
 use crate::linalg::Update;
 
 /// Weights of storage and flow in the matrix of a stage: `S = μ ρc M̃ + β A`.
@@ -32,6 +33,10 @@ impl StageCoefficients {
     pub fn multiply(&self, body: &HeatBody, transport: &Transport, x: &[f64], out: &mut [f64], update: Update) {
         let [storage, flow] = self.mass_weight(body);
         rows::tridiagonal_product(transport, &body.modes.values, [storage, flow, self.flow], x, out, update);
+        if let Some((node, entry)) = transport.entry {
+            let row = node * body.modes.len()..(node + 1) * body.modes.len();
+            kernels::add(self.flow * entry, &x[row.clone()], &mut out[row]);
+        }
     }
 
     /// `out ← out + β k K ⊗ ∫(1/g − g)NN x`: the part of the conduction along the streamlines that the modal solver

@@ -196,8 +196,9 @@ vectorised! {
 }
 
 vectorised! {
-    /// `(α M̃ + β F) x` for the rows of a body, with `α = a + b λ` of the modes' `values` λ; it replaces `out` or is
-    /// added to it. Ends of an open streamline have no outer neighbour; the entries there are zero.
+    /// `(α M̃ + β F) x` for the rows of a body, with `α = a + b λ` of the modes' `values` λ, but for the entry of the
+    /// stream; it replaces `out` or is added to it. Ends of an open streamline have no outer neighbour; the entries
+    /// there are zero.
     fn tridiagonal_product<'a, S>(
         simd,
         line: &'a Transport,
@@ -214,7 +215,7 @@ vectorised! {
         for (i, out) in out.chunks_exact_mut(k).enumerate() {
             let (before, after) = (if i == 0 { n - 1 } else { i - 1 }, if i + 1 == n { 0 } else { i + 1 });
             let mass = [line.mass_lower[i], line.mass[i], line.mass_upper[i]].map(|m| simd.splat_f64s(m));
-            let carried = [line.flow_lower[i], line.flow_upper[i], line.entry(i)].map(|f| simd.splat_f64s(flow * f));
+            let carried = [line.flow_lower[i], line.flow_upper[i]].map(|f| simd.splat_f64s(flow * f));
             let neighbours = row(before).iter().zip(row(i)).zip(row(after));
             for ((out, &value), ((&a, &b), &c)) in out.iter_mut().zip(values).zip(neighbours) {
                 let alpha = simd.mul_add_e_f64s(conduction, value, storage);
@@ -222,7 +223,6 @@ vectorised! {
                 let held = simd.mul_add_e_f64s(mass[2], c, held);
                 let from = simd.mul_f64s(carried[0], simd.sub_f64s(a, b));
                 let moved = simd.mul_add_e_f64s(carried[1], simd.sub_f64s(c, b), from);
-                let moved = simd.mul_add_e_f64s(carried[2], b, moved);
                 let product = simd.mul_add_e_f64s(alpha, held, moved);
                 *out = match update {
                     Update::Add => simd.add_f64s(*out, product),

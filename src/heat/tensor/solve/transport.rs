@@ -1,6 +1,7 @@
 //! Matrices along the streamlines for one stream velocity.
 
 use crate::heat::tensor::mesh::streamline::Streamline;
+use crate::linalg::vectorised::vectorised;
 
 /// Tridiagonal matrices of one stream velocity: `M̃` and `F = ρc v D̃ + k K`, with `D̃ = D + τvK`, `M̃ = M + τv Dᵀ`.
 ///
@@ -25,28 +26,26 @@ pub struct Transport {
 impl Transport {
     /// Matrices for the stream velocity `speed` [m/s] and a step whose implicit coefficient is `1/rate` [s].
     pub fn set(&mut self, line: &Streamline, speed: f64, rate: f64, heat_capacity: f64, conductivity: f64) {
-        let n = line.len();
-        for values in
-            [&mut self.mass_lower, &mut self.mass, &mut self.mass_upper, &mut self.flow_lower, &mut self.flow_upper]
-        {
-            values.clear();
+        let (n, elements) = (line.len(), line.lengths.len());
+        let Self { mass_lower, mass, mass_upper, flow_lower, flow_upper, upwind, .. } = self;
+        for values in [&mut *mass_lower, mass, mass_upper, flow_lower, flow_upper] {
             values.resize(n, 0.0);
         }
-        self.upwind.clear();
         let advection = heat_capacity * speed;
-        let upwind = UpwindParameter::new(speed, conductivity / heat_capacity, rate);
-        for (e, &h) in line.lengths.iter().enumerate() {
-            let (a, b) = (e, line.after(e));
-            let sigma = upwind.of(h);
-            self.upwind.push(sigma);
-            let (shift, conduction) = (sigma * h, conductivity / h);
-            self.mass[a] += h / 3.0 - 0.5 * shift;
-            self.mass_upper[a] += h / 6.0 - 0.5 * shift;
-            self.mass_lower[b] += h / 6.0 + 0.5 * shift;
-            self.mass[b] += h / 3.0 + 0.5 * shift;
-            self.flow_upper[a] += advection * (0.5 - sigma) - conduction;
-            self.flow_lower[b] += -advection * (0.5 + sigma) - conduction;
+        UpwindParameter::new(speed, conductivity / heat_capacity, rate).fill(line, upwind);
+        let weights = [advection, conductivity];
+        let rows = [&mut mass[..elements], &mut mass_upper[..elements], &mut flow_upper[..elements]];
+        set_first_nodes(&line.lengths, upwind, weights, rows);
+        // On an open streamline no element follows the last node, and none comes before the first one.
+        for values in [&mut *mass, mass_upper, flow_upper] {
+            values[elements..].fill(0.0);
         }
+        (mass_lower[0], flow_lower[0]) = (0.0, 0.0);
+        let [(before, closing), (sigma, closing_sigma)] = [&line.lengths, &*upwind].map(|values| values.split_at(n - 1));
+        let rows = [&mut mass[1..], &mut mass_lower[1..], &mut flow_lower[1..]];
+        add_second_nodes(before, sigma, weights, rows);
+        let rows = [&mut mass[..1], &mut mass_lower[..1], &mut flow_lower[..1]];
+        add_second_nodes(closing, closing_sigma, weights, rows);
         let ends = if speed > 0.0 { (0, n - 1) } else { (n - 1, 0) };
         let open = line.closed == 0.0 && speed != 0.0;
         self.entry = open.then_some((ends.0, advection.abs()));
@@ -94,6 +93,47 @@ impl Transport {
     }
 }
 
+vectorised! {
+    /// Replaces the rows of the first node of every element by what the element adds to them: diagonal and upper band
+    /// of `M̃`, upper band of `F`; the weights are `ρc v` and the conductivity.
+    fn set_first_nodes<'a, S>(
+        simd,
+        lengths: &'a [f64],
+        upwind: &'a [f64],
+        weights: [f64; 2],
+        rows: [&'a mut [f64]; 3],
+    ) {
+        let (_, [advection, conductivity], [mass, mass_upper, flow_upper]) = (simd, weights, rows);
+        let elements = lengths.iter().zip(upwind).zip(mass).zip(mass_upper).zip(flow_upper);
+        for ((((&h, &sigma), mass), mass_upper), flow_upper) in elements {
+            let shift = 0.5 * sigma * h;
+            *mass = h / 3.0 - shift;
+            *mass_upper = h / 6.0 - shift;
+            *flow_upper = advection * (0.5 - sigma) - conductivity / h;
+        }
+    }
+}
+
+vectorised! {
+    /// Adds what every element adds to the row of its second node: diagonal and lower band of `M̃`, lower band of `F`.
+    fn add_second_nodes<'a, S>(
+        simd,
+        lengths: &'a [f64],
+        upwind: &'a [f64],
+        weights: [f64; 2],
+        rows: [&'a mut [f64]; 3],
+    ) {
+        let (_, [advection, conductivity], [mass, mass_lower, flow_lower]) = (simd, weights, rows);
+        let elements = lengths.iter().zip(upwind).zip(mass).zip(mass_lower).zip(flow_lower);
+        for ((((&h, &sigma), mass), mass_lower), flow_lower) in elements {
+            let shift = 0.5 * sigma * h;
+            *mass += h / 3.0 + shift;
+            *mass_lower = h / 6.0 + shift;
+            *flow_lower = -advection * (0.5 + sigma) - conductivity / h;
+        }
+    }
+}
+
 /// Adds `∫ q w̃ ds` of an element, whose test functions are tilted by `sigma`.
 fn add_tested(line: &Streamline, element: usize, sigma: f64, moments: [f64; 2], load: &mut [f64]) {
     let shifted = sigma * moments[0];
@@ -101,12 +141,19 @@ fn add_tested(line: &Streamline, element: usize, sigma: f64, moments: [f64; 2], 
     load[line.after(element)] += moments[1] + shifted;
 }
 
+/// Distance of the centroid of a conductance from the middle of its element that is round-off \[1].
+const ROUND_OFF: f64 = 1e-12;
+
 /// Upwinding of the test functions on an element for a conductance with the moments `∫ k_c ds` and `∫ k_c ξ ds`,
 /// instead of `sigma`.
 ///
 /// Where the contact begins or ends within the element, full upwinding would give the node upstream a share below
 /// zero, and its temperature would undershoot: both shares keep the sign of the whole.
 pub fn upwind_within(sigma: f64, [whole, first, _]: [f64; 3]) -> f64 {
+    // Where all of the element is in contact, nothing is changed.
+    if (first - 0.5 * whole).abs() <= ROUND_OFF * whole {
+        return sigma;
+    }
     let centroid = first / whole;
     if centroid.is_finite() { sigma.max(-centroid).min(1.0 - centroid) } else { sigma }
 }
@@ -127,14 +174,23 @@ impl UpwindParameter {
         Self { speed, peclet: 0.5 * speed.abs() / diffusivity, transient: 2.0 * rate / speed.abs() }
     }
 
+    /// Replaces `out` by the parameters of the elements of `line`.
+    fn fill(&self, line: &Streamline, out: &mut Vec<f64>) {
+        out.resize(line.lengths.len(), 0.0);
+        if self.peclet * line.shortest >= SATURATED {
+            set_upwind(&line.lengths, self.peclet, self.transient, self.speed, out);
+        } else {
+            out.iter_mut().zip(&line.lengths).for_each(|(out, &h)| *out = self.of(h));
+        }
+    }
+
     /// Parameter of an element of the given length.
     fn of(&self, length: f64) -> f64 {
         let peclet = self.peclet * length;
         let magic = if peclet < 0.05 {
             peclet / 3.0 * (1.0 - peclet * peclet / 15.0)
         } else {
-            // Beyond 20 the hyperbolic cotangent is 1 to the last bit.
-            (if peclet < 20.0 { 1.0 / peclet.tanh() } else { 1.0 }) - 1.0 / peclet
+            (if peclet < SATURATED { 1.0 / peclet.tanh() } else { 1.0 }) - 1.0 / peclet
         };
         let steady = 0.5 * magic;
         if steady == 0.0 {
@@ -143,5 +199,27 @@ impl UpwindParameter {
         // In units of h/|v|: τ = 1/√(1/steady² + (2 rate h/|v|)²).
         let transient = self.transient * length * steady;
         (steady / (1.0 + transient * transient).sqrt()).copysign(self.speed)
+    }
+}
+
+/// Péclet number from which on the hyperbolic cotangent is 1 to the last bit.
+const SATURATED: f64 = 20.0;
+
+vectorised! {
+    /// Parameters of elements whose Péclet numbers, `peclet` times their lengths, are saturated.
+    fn set_upwind<'a, S>(
+        simd,
+        lengths: &'a [f64],
+        peclet: f64,
+        transient: f64,
+        speed: f64,
+        out: &'a mut [f64],
+    ) {
+        let _ = simd;
+        for (out, &h) in out.iter_mut().zip(lengths) {
+            let steady = 0.5 * (1.0 - 1.0 / (peclet * h));
+            let transient = transient * h * steady;
+            *out = (steady / (1.0 + transient * transient).sqrt()).copysign(speed);
+        }
     }
 }

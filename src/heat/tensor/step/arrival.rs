@@ -29,6 +29,7 @@ pub fn arrive(
     }
     begin.clone_from(state);
     begin.arriving = arriving;
+    begin.forget_sums();
     let ahead = |x: f64| x * velocity.signum();
     let ends = exchange.patches.iter().flat_map(|patch| [ahead(patch.low), ahead(patch.high)]);
     let from = ends.fold(layout.config.zone, f64::max);

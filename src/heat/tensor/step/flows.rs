@@ -2,12 +2,30 @@
 
 use super::loads::SurfaceLoads;
 use crate::heat::flows::HeatFlows;
+use crate::heat::state::HeatState;
 use crate::heat::tensor::mesh::body::HeatBody;
 use crate::heat::tensor::mesh::kernels::dot;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::stage::{BodyOperator, Stage};
 
 impl Stage {
+    /// Sums the field of `state` along the streamlines, unless its sums are known.
+    pub fn take_sums(&mut self, layout: &HeatLayout, state: &HeatState) {
+        if state.sums.iter().any(Vec::is_empty) {
+            return self.set_sums(layout, &state.values);
+        }
+        for (operator, sums) in [&mut self.wheel, &mut self.rail].into_iter().zip(&state.sums) {
+            operator.sums[0].clone_from(sums);
+        }
+    }
+
+    /// Leaves the sums of the field at the end of a step to its state.
+    pub fn leave_sums(&self, state: &mut HeatState) {
+        for (sums, operator) in state.sums.iter_mut().zip([&self.wheel, &self.rail]) {
+            sums.clone_from(&operator.sums[0]);
+        }
+    }
+
     /// Sums the field from which a stage starts along the streamlines.
     pub fn set_sums(&mut self, layout: &HeatLayout, field: &[f64]) {
         let [wheel, rail] = layout.split(field);

@@ -116,7 +116,12 @@ pub fn advance(
         flows = integrate(layout, state, next, &StepPlan { smooth: false, melting, ..plan }, work)?;
         search(layout, next);
     }
-    keep_bounds(layout, next, &mut work.values)?;
+    let moved = keep_bounds(layout, next, &mut work.values)?;
+    if moved || plan.melting.or(melting).is_some() {
+        next.forget_sums();
+    } else {
+        work.solver.stage.leave_sums(next);
+    }
     if next.data[0] == f64::NEG_INFINITY {
         // The coldest node is a datum from now on.
         search(layout, next);
@@ -143,7 +148,7 @@ fn integrate(
         known.clone_from(&state.values);
     }
     known.resize(state.values.len(), 0.0);
-    solver.stage.set_sums(layout, &state.values);
+    solver.stage.take_sums(layout, state);
     let mut flows = HeatFlows::default();
     for index in 1..=stages {
         // Both the weight of the stage and the share of the step by which it takes the field on.

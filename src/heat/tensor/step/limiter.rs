@@ -19,8 +19,8 @@ use crate::heat::tensor::mesh::layout::HeatLayout;
 const RAISED: f64 = 0.5;
 
 /// Moves all nodes back that lie beyond a datum by more than a share of the margin, if one does by more than the
-/// margin; each body keeps its heat content.
-pub fn keep_bounds(layout: &HeatLayout, state: &mut HeatState, values: &mut Vec<f64>) -> Result<(), HeatError> {
+/// margin, and tells whether it does; each body keeps its heat content.
+pub fn keep_bounds(layout: &HeatLayout, state: &mut HeatState, values: &mut Vec<f64>) -> Result<bool, HeatError> {
     let [below, above] = beyond(state);
     let HeatState { values: field, data, range, rows, .. } = state;
     if below > 0.0 {
@@ -40,7 +40,7 @@ pub fn keep_bounds(layout: &HeatLayout, state: &mut HeatState, values: &mut Vec<
         }
         range[1] = ceiling;
     }
-    Ok(())
+    Ok(below > 0.0 || above > 0.0)
 }
 
 fn negate(field: &mut [f64], rows: &mut [RowBounds]) {

@@ -17,11 +17,13 @@ pub fn add_loads(stage: &mut Stage, layout: &HeatLayout, loads: &SurfaceLoads, o
         surface.clear();
         surface.resize(body.line.len(), 0.0);
         let first = body.line.zone;
-        for (e, q) in loads.friction.iter().enumerate() {
-            transport.add_load(&body.line, first + e, q.map(|q| share * loads.friction_share * q), surface);
+        for (e, q) in bearing(&loads.friction) {
+            let share = share * loads.friction_share;
+            transport.add_load(&body.line, first + e, [share * q[0], share * q[1]], surface);
         }
-        for (e, (q, conductance)) in loads.reversible.iter().zip(&loads.conductance).enumerate() {
-            transport.add_conducted(&body.line, first + e, q.map(|q| sign * q), *conductance, surface);
+        for (e, q) in bearing(&loads.reversible) {
+            let q = [sign * q[0], sign * q[1]];
+            transport.add_conducted(&body.line, first + e, q, loads.conductance[e], surface);
         }
         body.add_surface_load(0, surface, out);
         if let Some((node, stream)) = transport.entry
@@ -31,8 +33,8 @@ pub fn add_loads(stage: &mut Stage, layout: &HeatLayout, loads: &SurfaceLoads, o
         }
         if body.line.closed > 0.0 && !loads.tread.is_empty() {
             surface.fill(0.0);
-            for (e, q) in loads.tread.iter().enumerate() {
-                transport.add_load(&body.line, e, *q, surface);
+            for (e, q) in bearing(&loads.tread) {
+                transport.add_load(&body.line, e, q, surface);
             }
             body.add_load(0, surface, &body.modes.block, out);
         }
@@ -44,4 +46,9 @@ pub fn add_loads(stage: &mut Stage, layout: &HeatLayout, loads: &SurfaceLoads, o
             body.add_load(0, surface, &radiation.load, out);
         }
     }
+}
+
+/// Elements that bear a load, with its moments: most of a surface bears none.
+fn bearing(moments: &[[f64; 2]]) -> impl Iterator<Item = (usize, [f64; 2])> {
+    moments.iter().copied().enumerate().filter(|(_, q)| *q != [0.0; 2])
 }
