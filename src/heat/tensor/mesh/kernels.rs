@@ -103,13 +103,17 @@ vectorised! {
 }
 
 vectorised! {
-    /// `Σ |bₘ − aₘ| weightₘ`.
-    fn weighted_change<'a, S>(simd, a: &'a [f64], b: &'a [f64], weights: &'a [f64]) -> f64 {
+    /// `Σ |bₘ − aₘ| weightₘ` of all rows of `a` and `b`.
+    fn weighted_changes<'a, S>(simd, a: &'a [f64], b: &'a [f64], weights: &'a [f64], out: &'a mut [f64]) {
         let (a, b, weights) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0, S::as_simd_f64s(weights).0);
-        let sum = a.iter().zip(b).zip(weights).fold(simd.splat_f64s(0.0), |sum, ((&a, &b), &weight)| {
-            simd.mul_add_e_f64s(simd.abs_f64s(simd.sub_f64s(b, a)), weight, sum)
-        });
-        simd.reduce_sum_f64s(sum)
+        let k = weights.len();
+        for ((a, b), out) in a.chunks_exact(k).zip(b.chunks_exact(k)).zip(out) {
+            let mut sum = simd.splat_f64s(0.0);
+            for ((&a, &b), &weight) in a.iter().zip(b).zip(weights) {
+                sum = simd.mul_add_e_f64s(simd.abs_f64s(simd.sub_f64s(b, a)), weight, sum);
+            }
+            *out = simd.reduce_sum_f64s(sum);
+        }
     }
 }
 

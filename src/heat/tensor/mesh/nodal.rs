@@ -1,7 +1,7 @@
 //! Temperatures at the nodes across the streamlines, where bounds and melting act, and the way back to the modes.
 
 use super::depth_modes::{DepthModes, PADDING};
-use super::kernels::{self, dot, weighted_change};
+use super::kernels::{self, dot, weighted_changes};
 use crate::heat::error::HeatError;
 use crate::heat::state::RowBounds;
 use crate::linalg::vectorised::add_columns;
@@ -87,17 +87,21 @@ impl Nodal {
     /// looked at where it may have left the bounds `allowed`, or has moved by more than `slight`.
     pub fn follow(&self, [from, to]: [&[f64]; 2], rows: &mut [RowBounds], allowed: [f64; 2], slight: f64) -> [f64; 2] {
         let mut range = EMPTY;
-        let pairs = from.chunks_exact(self.modes).zip(to.chunks_exact(self.modes));
-        for (row, (from, to)) in rows.iter_mut().zip(pairs) {
-            // The largest change at any node below, or more.
-            row.moved += weighted_change(from, to, &self.peaks);
-            let bounds = row.range();
-            // Written so that NaN is not taken for known.
-            let clear = row.moved <= slight && bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
-            if !clear {
-                *row = RowBounds { found: self.extremes(to), moved: 0.0 };
+        let block = ROWS * self.modes;
+        for ((rows, from), to) in rows.chunks_mut(ROWS).zip(from.chunks(block)).zip(to.chunks(block)) {
+            // The largest changes at any node below, or more.
+            let mut changes = [0.0; ROWS];
+            weighted_changes(from, to, &self.peaks, &mut changes);
+            for ((row, change), to) in rows.iter_mut().zip(changes).zip(to.chunks_exact(self.modes)) {
+                row.moved += change;
+                let bounds = row.range();
+                // Written so that NaN is not taken for known.
+                let clear = row.moved <= slight && bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
+                if !clear {
+                    *row = RowBounds { found: self.extremes(to), moved: 0.0 };
+                }
+                range = joined(range, row.range());
             }
-            range = joined(range, row.range());
         }
         range
     }
@@ -106,6 +110,9 @@ impl Nodal {
 /// Value of a mode relative to its largest one below which it does not count where a field is searched for its
 /// extremes \[1].
 const NEGLIGIBLE: f64 = 1e-9;
+
+/// Rows whose changes are found at a time.
+const ROWS: usize = 16;
 
 /// Bounds of no values.
 const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
