@@ -224,12 +224,16 @@ $(BUILT): $(SOURCES)
 	$(CARGO) build --release --locked
 	touch $@
 
+# The stamp holds the folder it was made in: a copied checkout would import the package of the original, and makes its own.
+ifneq "$(shell cat $(INSTALLED) 2> /dev/null)" "$(CURDIR)"
+.PHONY: $(INSTALLED)
+endif
 $(INSTALLED): requirements.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable ./python
-	touch $@
+	echo '$(CURDIR)' > $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
