@@ -18,6 +18,7 @@
 # make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time;
 #                BEFORE=older.fmu runs beside it in turn
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
+# make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction
@@ -60,10 +61,10 @@ PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
 	$(shell find src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/coupling.md docs/validation.md docs/speed.md \
-	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
+	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -141,6 +142,9 @@ eight-wheels: $(FMU) $(INSTALLED)
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
+
+own-vehicle: $(FMU) $(INSTALLED)
+	$(PY) examples/ex12_own_vehicle.py --fmu $(FMU) --out results
 
 surfaces: $(FMU) $(INSTALLED)
 	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out results
