@@ -9,7 +9,8 @@
 # make reference the run in examples/reference that users can compare theirs with
 # make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
 # make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
-# make python-wheel  the Python package with the FMU inside: target/wheelrail-*.whl
+# make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
+# make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
@@ -64,7 +65,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -118,9 +119,12 @@ platforms-check: $(FMU_ALL)
 	$(PYTHON) packaging/check.py $(FMU_ALL) --run
 
 python-wheel: $(FMU) $(INSTALLED)
-	cp $(FMU) python/src/wheelrail/wheelrail.fmu
-	$(PY) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir target ./python; \
-		status=$$?; rm python/src/wheelrail/wheelrail.fmu; exit $$status
+	$(PY) packaging/wheel.py $(FMU) --out target
+
+# What is handed out: the wheel for Linux and Windows, and the sdist for what else there is.
+python-dist: $(FMU_ALL) $(INSTALLED)
+	$(PY) packaging/wheel.py $(FMU_ALL) --out target/dist
+	$(PY) packaging/wheel.py --sdist --out target/dist
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
