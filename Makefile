@@ -33,6 +33,7 @@
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
 # make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
+# make site      these pages with search, formulas set, and the API of Python and Rust: target/site/index.html
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
 
@@ -59,13 +60,14 @@ TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
+SITE := $(VENV)/.site
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
 	$(shell find src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/coupling.md docs/validation.md docs/speed.md \
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -198,6 +200,11 @@ house:
 docs:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
 
+# Strict: a link or an anchor that leads nowhere, and a page that the navigation lacks, are errors.
+site: docs $(SITE)
+	cd site && NO_MKDOCS_2_WARNING=1 ../$(PY) -m mkdocs build --quiet
+	@echo "written: target/site/index.html"
+
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new
 	mv modelDescription.xml.new modelDescription.xml
@@ -256,5 +263,9 @@ $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
 	touch $@
 
 $(PLATFORMS): requirements-platforms.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(SITE): requirements-site.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
