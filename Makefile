@@ -9,7 +9,8 @@
 # make reference the run in examples/reference that users can compare theirs with
 # make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
 # make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
-# make python-wheel  the Python package with the FMU inside: target/wheelrail-*.whl
+# make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
+# make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
@@ -18,6 +19,7 @@
 # make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time;
 #                BEFORE=older.fmu runs beside it in turn
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
+# make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction
@@ -31,6 +33,7 @@
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
 # make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
+# make site      these pages with search, formulas set, and the API of Python and Rust: target/site/index.html
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
 
@@ -57,13 +60,14 @@ TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
+SITE := $(VENV)/.site
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
 	$(shell find src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/coupling.md docs/validation.md docs/speed.md \
-	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
+	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel masters suspension creep-curve train sweep eight-wheels flat surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -117,9 +121,12 @@ platforms-check: $(FMU_ALL)
 	$(PYTHON) packaging/check.py $(FMU_ALL) --run
 
 python-wheel: $(FMU) $(INSTALLED)
-	cp $(FMU) python/src/wheelrail/wheelrail.fmu
-	$(PY) -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir target ./python; \
-		status=$$?; rm python/src/wheelrail/wheelrail.fmu; exit $$status
+	$(PY) packaging/wheel.py $(FMU) --out target
+
+# What is handed out: the wheel for Linux and Windows, and the sdist for what else there is.
+python-dist: $(FMU_ALL) $(INSTALLED)
+	$(PY) packaging/wheel.py $(FMU_ALL) --out target/dist
+	$(PY) packaging/wheel.py --sdist --out target/dist
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
@@ -141,6 +148,9 @@ eight-wheels: $(FMU) $(INSTALLED)
 
 flat: $(FMU) $(INSTALLED)
 	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
+
+own-vehicle: $(FMU) $(INSTALLED)
+	$(PY) examples/ex12_own_vehicle.py --fmu $(FMU) --out results
 
 surfaces: $(FMU) $(INSTALLED)
 	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out results
@@ -190,6 +200,11 @@ house:
 docs:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
 
+# Strict: a link or an anchor that leads nowhere, and a page that the navigation lacks, are errors.
+site: docs $(SITE)
+	cd site && NO_MKDOCS_2_WARNING=1 ../$(PY) -m mkdocs build --quiet
+	@echo "written: target/site/index.html"
+
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new
 	mv modelDescription.xml.new modelDescription.xml
@@ -224,12 +239,16 @@ $(BUILT): $(SOURCES)
 	$(CARGO) build --release --locked
 	touch $@
 
+# The stamp holds the folder it was made in: a copied checkout would import the package of the original, and makes its own.
+ifneq "$(shell cat $(INSTALLED) 2> /dev/null)" "$(CURDIR)"
+.PHONY: $(INSTALLED)
+endif
 $(INSTALLED): requirements.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable ./python
-	touch $@
+	echo '$(CURDIR)' > $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
@@ -244,5 +263,9 @@ $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
 	touch $@
 
 $(PLATFORMS): requirements-platforms.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(SITE): requirements-site.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@

@@ -46,8 +46,8 @@ const PAGES: [(&str, &str); 25] = files![include_str:
 ];
 
 /// Pictures on the pages, by their paths below `docs`, which they keep.
-pub const PICTURES: [(&str, &[u8]); 4] =
-    files![include_bytes: "flat.png", "masters.png", "surfaces.png", "suspension.png"];
+pub const PICTURES: [(&str, &[u8]); 5] =
+    files![include_bytes: "flat.png", "masters.png", "own_vehicle.png", "surfaces.png", "suspension.png"];
 
 /// All pages.
 pub fn pages() -> impl Iterator<Item = Page> {

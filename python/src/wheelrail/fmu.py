@@ -49,7 +49,7 @@ class Fmu:
     def __init__(self, path=None):
         path = default_path() if path is None else path
         if not Path(path).is_file():
-            raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`")
+            raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU")
         self._temporary = TemporaryDirectory(prefix="wheelrail-")
         self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
         self.description = fmpy.read_model_description(self.directory)

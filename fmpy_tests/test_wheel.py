@@ -1,0 +1,83 @@
+"""The wheel: installed away from any checkout it brings FMU, examples and licences; the sdist brings no FMU and says what to do."""
+
+import os
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+BUILDER = ROOT / "packaging" / "wheel.py"
+
+
+def run(*command, cwd, path=None, **variables):
+    """A command of this Python away from the checkout, with packages of a folder before others."""
+    plain = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "WHEELRAIL", "COV"))}
+    environment = plain | ({"PYTHONPATH": str(path)} if path else {}) | variables
+    return subprocess.run([sys.executable, *map(str, command)], cwd=cwd, env=environment, capture_output=True, text=True)
+
+
+def succeed(*command, **options):
+    """Standard output of a command that must succeed."""
+    done = run(*command, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory, packed):
+    """Folder of the installed wheel with the packed FMU."""
+    place = tmp_path_factory.mktemp("installed")
+    succeed(BUILDER, packed, "--out", place, cwd=place)
+    (wheel,) = place.glob("*.whl")
+    options = ("--quiet", "--disable-pip-version-check", "--no-deps", "--no-compile", "--no-index")
+    succeed("-m", "pip", "install", *options, "--target", place / "packages", wheel, cwd=place)
+    return place / "packages"
+
+
+def test_the_first_example_runs_from_the_wheel_alone(installed, tmp_path):
+    where = succeed("-c", "import wheelrail; print(wheelrail.__file__)", cwd=tmp_path, path=installed)
+    assert Path(where.strip()).is_relative_to(installed)
+    text = succeed("-m", "wheelrail.examples", "try", cwd=tmp_path, path=installed)
+    assert "python examples/ex00_minimal.py" in text
+    rows = succeed("examples/ex00_minimal.py", cwd=tmp_path / "try", path=installed).splitlines()
+    speeds = [float(row.split()[1]) for row in rows[1:]]
+    assert len(speeds) == 11 and speeds[0] == 27.8 and 26.0 < speeds[-1] < 26.2
+    again = run("-m", "wheelrail.examples", "try", cwd=tmp_path, path=installed)
+    assert again.returncode == 1 and again.stderr == "error: try is not an empty folder: name another one\n"
+
+
+def test_the_wheel_has_licences_examples_and_the_fmu_byte_for_byte(installed, packed):
+    (information,) = installed.glob("wheelrail-*.dist-info")
+    names = {path.name for path in (information / "licenses").iterdir()}
+    assert names == {"LICENSE-MIT", "LICENSE-APACHE", "LICENSE-THIRD-PARTY"}
+    assert (installed / "wheelrail" / "wheelrail.fmu").read_bytes() == packed.read_bytes()
+    examples = {path.name for path in (installed / "wheelrail" / "examples" / "files").iterdir()}
+    assert {"ex00_minimal.py", "ex01_braking_stop.py", "ex12_own_vehicle.py", "train"} <= examples
+
+
+def test_a_wheel_bears_the_platforms_of_its_fmu(packed, tmp_path):
+    """An FMU of two platforms, made of the packed one, whose second library is no library: only names count here."""
+    both = tmp_path / "both.fmu"
+    with zipfile.ZipFile(packed) as archive, zipfile.ZipFile(both, "w") as copy:
+        for name in archive.namelist():
+            if not name.startswith("binaries/"):
+                copy.writestr(name, archive.read(name))
+        for name in ("linux64/wheelrail.so", "win64/wheelrail.dll"):
+            copy.writestr(f"binaries/{name}", b"")
+    name = Path(succeed(BUILDER, both, "--out", tmp_path, cwd=tmp_path).split(":")[0]).name
+    assert name.endswith("-py3-none-manylinux2014_x86_64.manylinux_2_17_x86_64.win_amd64.whl")
+
+
+def test_the_sdist_brings_no_fmu_and_says_what_to_do(tmp_path):
+    succeed(BUILDER, "--sdist", "--out", tmp_path, cwd=tmp_path)
+    (made,) = tmp_path.glob("*.tar.gz")
+    with tarfile.open(made) as archive:
+        archive.extractall(tmp_path, filter="data")
+    source = made.with_name(made.name.removesuffix(".tar.gz"))
+    assert not list(source.rglob("*.fmu")) and "Other platforms" in (source / "README.md").read_text()
+    refused = run("-c", "from wheelrail import Fmu; Fmu()", cwd=tmp_path, path=source / "src")
+    assert refused.returncode == 1 and "WHEELRAIL_FMU" in refused.stderr.splitlines()[-1]

@@ -1,0 +1,1 @@
+"""The examples, in packages that were built with them: `python -m wheelrail.examples FOLDER` copies them."""

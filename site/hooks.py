@@ -1,0 +1,52 @@
+"""What MkDocs builds the site from: the repository's own files under their own paths, and Rust's documentation below rust/."""
+
+import re
+import shutil
+from pathlib import Path
+
+import mathematics
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).resolve().parent.parent
+# Pages, pictures, and what pages link to.
+SHOWN = (
+    "*.md", "LICENSE-*", "CITATION.cff", "docs/*.md", "docs/*/*.md", "docs/*.png", "docs/*.svg", "docs/LICENSE-THIRD-PARTY",
+    "python/README.md", "examples/*.py", "examples/*.ipynb", "examples/train/*.json", "examples/train/*.csv",
+    "examples/train/schema/*.json", "packaging/build", "packaging/*.py", "packaging/*.c", ".github/workflows/*.yml",
+)  # fmt: skip
+RUST = ROOT / "target" / "doc"
+
+
+def shown():
+    """Paths below the root of the repository of everything that is on the site."""
+    return sorted({path.relative_to(ROOT).as_posix() for pattern in SHOWN for path in ROOT.glob(pattern)})
+
+
+def on_files(files, config):
+    """Adds the files of the repository and of rustdoc."""
+    if not (RUST / "wheelrail" / "index.html").is_file():
+        raise PluginError(f"{RUST}/wheelrail/index.html does not exist: run `make docs`")
+    for path in shown():
+        files.append(File.generated(config, path.removeprefix("."), abs_src_path=str(ROOT / path)))
+    for index in RUST.glob("*/index.html"):
+        files.append(File.generated(config, f"rust/{index.relative_to(RUST).as_posix()}", abs_src_path=str(index)))
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    """Formulas of the theory are blocks of text on the forge."""
+    markdown = markdown.replace("](../.github/", "](../github/")  # a name that begins with a dot is no part of a site
+    if page.file.src_uri.startswith("docs/theory/"):
+        markdown = re.sub(r"^( *)```text$", r"\1```mathematics", markdown, flags=re.MULTILINE)
+    return markdown
+
+
+def on_page_content(html, page, config, files):
+    """Symbols within the text of the theory."""
+    return mathematics.symbols(html) if page.file.src_uri.startswith("docs/theory/") else html
+
+
+def on_post_build(config):
+    """All of rustdoc, to whose front pages the site links."""
+    shutil.copytree(RUST, Path(config.site_dir) / "rust", dirs_exist_ok=True, ignore=shutil.ignore_patterns(".lock"))
