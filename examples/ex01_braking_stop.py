@@ -38,7 +38,8 @@ COLUMNS = (
     "temperature.wheel_max", "temperature.rail_max", "temperature.wheel_mean", "temperature.rail_mean",
     "temperature.wheel_nominal", "temperature.rail_nominal", "temperature.wheel_bulk",
     "heat.friction_power", "heat.to_wheel", "heat.to_rail", "heat.conduction", "contact.friction",
-    "rail.friction", "brake.torque", "damage.t_gamma", "damage.time_above_ac1", "damage.flattening", "solver.energy_residual", "solver.heat_residual",
+    "rail.friction", "brake.torque", "damage.t_gamma", "damage.time_above_ac1", "damage.flattening",
+    "solver.energy_residual", "solver.heat_residual",
 )  # fmt: skip
 
 ROLL = 0.2  # s of free rolling before the brake is applied
@@ -59,7 +60,7 @@ FAST, SLOW = 5e-3, 0.1  # s between pictures of a film while the wheel slides, a
 
 
 class Driver:
-    """A driver who brakes with `torque` [N m], eases the brake at walking speed, and releases a wheel locked for `patience` [s]."""
+    """A driver who brakes with `torque` [N m], eases it at walking speed, and releases a wheel locked for `patience` [s]."""
 
     def __init__(self, torque, radius, patience=np.inf):
         self.torque, self.radius, self.patience = torque, radius, patience

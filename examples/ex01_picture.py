@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wheelrail.plots import COLOURS, GREY, pyplot
+from wheelrail.plots import COLOURS, GREY, pyplot, save
 
 KELVIN = 273.15  # K at 0 °C
 SLIDING = 0.01  # creepage
@@ -14,7 +14,8 @@ HIGHEST = 1450.0  # MPa, of the axis
 
 
 def draw(path, table, film, radius):
-    """Draws the stop: `table` has outputs over time by name, `film` profiles across the patch, `radius` [m] is the wheel's."""
+    """Draws the stop and returns its figure: `table` has outputs over time by name, `film` profiles across the patch, `radius` [m] is
+    the wheel's."""
     from matplotlib.colors import LinearSegmentedColormap, Normalize
 
     plt = pyplot()
@@ -38,17 +39,8 @@ def draw(path, table, film, radius):
     patches[0].set_ylabel("stress [MPa]")
     for text, place in (("pressure", (0.0, 800.0)), ("limit of friction", (0.0, 265.0)), ("shear", (-3.0, 40.0))):
         patches[0].text(*place, text, ha="center", va="bottom", fontsize=8.5, color=BLUE if text == "shear" else INK)
-    save(figure, path)
-    plt.close(figure)
-
-
-def save(figure, path):
-    """Writes a picture in 256 colours, a third of the size."""
-    from PIL import Image
-
-    figure.savefig(path)
-    with Image.open(path) as image:
-        image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True, dpi=image.info["dpi"])
+    save(path, figure)
+    return figure
 
 
 def slide(table):

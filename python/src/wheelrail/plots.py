@@ -24,6 +24,17 @@ def pyplot():
     return plt
 
 
+def save(path, figure):
+    """Writes a picture in 256 colours, which take a third of the room, and closes it."""
+    import matplotlib.pyplot as plt
+    from PIL import Image
+
+    figure.savefig(path)
+    plt.close(figure)
+    with Image.open(path) as image:
+        image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True, dpi=image.info["dpi"])
+
+
 def draw_stops(path, stops):
     """Draws stops side by side, one a column: `stops` is name to (table, rail map)."""
     plt = pyplot()
