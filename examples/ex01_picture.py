@@ -19,7 +19,7 @@ def draw(path, table, film, radius):
     from matplotlib.colors import LinearSegmentedColormap, Normalize
 
     plt = pyplot()
-    figure = plt.figure(figsize=(8, 7.2), layout="constrained")
+    figure = plt.figure(figsize=(8, 7.4), layout="constrained")
     grid = figure.add_gridspec(4, 3, height_ratios=(0.9, 1.0, 1.3, 1.4))
     hot = max(film.profile("temperature_wheel").max() - KELVIN, 200.0)
     colours = {"cmap": LinearSegmentedColormap.from_list("glow", GLOW), "norm": Normalize(0.0, hot)}
@@ -37,8 +37,7 @@ def draw(path, table, film, radius):
         friction.annotate(f"$\\bf{{{k + 1}}}$", (time, 1.0), (0, 2), xycoords=("data", "axes fraction"),
                           textcoords="offset points", ha="center", va="bottom", fontsize=10)  # fmt: skip
     patches[0].set_ylabel("stress [MPa]")
-    for text, place in (("pressure", (0.0, 800.0)), ("limit of friction", (0.0, 265.0)), ("shear", (-3.0, 40.0))):
-        patches[0].text(*place, text, ha="center", va="bottom", fontsize=8.5, color=BLUE if text == "shear" else INK)
+    figure.legend(*patches[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     save(path, figure)
     return figure
 
@@ -114,9 +113,9 @@ def _patch(axis, table, film, time, colours):
     extent = (x[0], x[-1], 0.0, pressure.max())
     image = axis.imshow(tread[None, :] - KELVIN, extent=extent, aspect="auto", interpolation="bilinear", **colours)
     image.set_clip_path(axis.fill_between(x, pressure, color="none").get_paths()[0], axis.transData)
-    axis.plot(x, pressure, color=INK)
-    axis.plot(x, shear, color=BLUE)
-    axis.plot(x, friction * pressure, color=INK, linestyle=":")
+    axis.plot(x, pressure, color=INK, label="pressure")
+    axis.plot(x, shear, color=BLUE, label="shear")
+    axis.plot(x, friction * pressure, color=INK, linestyle=":", label=r"limit of friction $\mu p$")
     axis.set(xlabel="x [mm]", xlim=(x[0], x[-1]), ylim=(0, HIGHEST))
     text = f"up to {tread.max() - KELVIN:.0f} °C, $\\mu$ = {friction:.2f}"
     axis.text(0.03, 0.96, text, transform=axis.transAxes, ha="left", va="top")
