@@ -87,7 +87,7 @@ impl Source {
 }
 
 impl Curve {
-    /// What the curve is about, after the comma of its name.
+    /// Subject of the curve: the words after the comma of its name.
     fn about(&self) -> Option<&str> {
         self.name.split_once(", ").map(|(_, about)| about)
     }
