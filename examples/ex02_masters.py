@@ -35,7 +35,7 @@ import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
 from wheelrail.ecco import StepControl, bond
-from wheelrail.plots import pyplot
+from wheelrail.plots import pyplot, save
 
 SPEED = 2.0  # m/s at the start
 RESIDUAL_SPEED = 0.05  # m/s, about, at the end
@@ -344,42 +344,59 @@ def limits(fmu):
     return np.array(rows)
 
 
+COLOUR = {"Jacobi": "#D55E00", "Gauss-Seidel": "#E69F00", "iterative": "#0072B2", None: "#777777"}
+STYLE = {"wheel": "o-", "vehicle": "s--", "monolithic": "x:"}
+
+
 def plot(path, found, limit, reference, shown):
     """Draws error over step, limit over speed, and the force with one step."""
-    plt, colours = pyplot(), {"Jacobi": "#D55E00", "Gauss-Seidel": "#E69F00", "iterative": "#0072B2", None: "#777777"}
-    figure, axes = plt.subplots(1, 3, figsize=(13.4, 3.6), layout="constrained")
+    figure, axes = pyplot().subplot_mosaic(
+        [["error", "limit"], ["force", "legend"]], figsize=(8, 5.8), layout="constrained", width_ratios=(1, 1)
+    )
+    draw_error(axes["error"], found)
+    draw_limit(axes["limit"], limit)
+    draw_force(axes["force"], reference, shown)
+    entries = {}
+    for axis in axes.values():
+        handles, labels = axis.get_legend_handles_labels()
+        entries |= {label: handle for handle, label in zip(handles, labels) if label not in entries}
+    axes["legend"].axis("off")
+    title = "master owns, and how it exchanges"
+    axes["legend"].legend(entries.values(), entries, title=title, loc="center left", alignment="left")
+    save(path, figure)
 
-    axis = axes[0]
+
+def draw_error(axis, found):
+    """Error of the velocity over the communication step."""
     for owns, master in dict.fromkeys(key[:2] for key in found):
         steps = [h for h in STEPS if (owns, master, h) in found]
-        style = {"wheel": "o-", "vehicle": "s--", "monolithic": "x:"}[owns]
-        label = f"{owns}, {master}" if master else owns
+        label = f"{owns}: {master}" if master else f"nothing: {owns}"
         error = [found[owns, master, h][0] for h in steps]
-        axis.loglog([1e3 * h for h in steps], error, style, color=colours[master], label=label, markersize=4)
+        axis.loglog([1e3 * h for h in steps], error, STYLE[owns], color=COLOUR[master], label=label, markersize=4)
     axis.set(title="Error of $V$, braking from 2 m/s", xlabel="communication step [ms]", ylabel="m/s")
     axis.set_xticks([1e3 * h for h in STEPS], [f"{1e3 * h:g}" for h in STEPS])
     axis.minorticks_off()
-    axis.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
-    axis = axes[1]
-    axis.loglog(LIMIT_SPEEDS, 1e6 * limit[:, 0], ":", color=colours[None], label=r"$2m/c$ (Carter's slope)")
+
+def draw_limit(axis, limit):
+    """Largest stable step over the speed."""
+    axis.loglog(LIMIT_SPEEDS, 1e6 * limit[:, 0], ":", color=COLOUR[None], label=r"limit $2m/c$ by Carter's slope")
     for k, master in enumerate(EXPLICIT, start=1):
-        axis.loglog(LIMIT_SPEEDS, 1e6 * limit[:, k], "o-", color=colours[master], label=master, markersize=4)
-    axis.set(title="Largest stable step, master owns the wheel", xlabel="$V$ [m/s]", ylabel="µs")
+        axis.loglog(LIMIT_SPEEDS, 1e6 * limit[:, k], STYLE["wheel"], color=COLOUR[master], label=f"wheel: {master}", markersize=4)
+    axis.set(title="Largest stable step, master owns wheel", xlabel="$V$ [m/s]", ylabel="µs")
     axis.set_xticks(LIMIT_SPEEDS, [f"{speed:g}" for speed in LIMIT_SPEEDS])
     axis.set_yticks([10, 20, 50, 100, 200], ["10", "20", "50", "100", "200"])
     axis.minorticks_off()
-    axis.legend()
 
-    axis = axes[2]
+
+def draw_force(axis, reference, shown):
+    """Tangential force over time with one step."""
     for master, table in shown.items():
         time = SHOWN * np.arange(len(table))
-        axis.plot(time, table[:, 1] / 1e3, color=colours[master], label=f"wheel, {master}", linewidth=0.8, alpha=0.4 if master in EXPLICIT else 1.0)
+        axis.plot(time, table[:, 1] / 1e3, color=COLOUR[master], linewidth=0.8, alpha=0.4 if master in EXPLICIT else 1.0)
     time = REFERENCE_STEP * np.arange(len(reference))
-    axis.plot(time, reference[:, 1] / 1e3, ":", color="black", label="monolithic", linewidth=1.4)
-    axis.set(title=f"Tangential force, step {1e3 * SHOWN:g} ms", xlabel="time [s]", ylabel="kN")
-    axis.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    figure.savefig(path, dpi=120)
+    axis.plot(time, reference[:, 1] / 1e3, ":", color="black", label="nothing: reference", linewidth=1.4)
+    axis.set(title=f"Tangential force, master owns wheel, {1e3 * SHOWN:g} ms", xlabel="time [s]", ylabel="kN")
 
 
 def arguments():

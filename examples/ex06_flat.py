@@ -11,7 +11,7 @@
 5. A table compares with what was published. Every number has its source, and says what is judgement.
 6. Results become a CSV and a plot.
 
-7. The run is repeated with half the step, with half the elements in the contact, and with spots of half the elements and
+7. The run is repeated with half the step, with twice the elements in the contact, and with spots of half the elements and
    steps: what is found must not change.
 
 Outputs that the FMU does not have (`damage.*` of an older one) are left out.
@@ -26,6 +26,7 @@ import numpy as np
 from tqdm import tqdm
 
 from wheelrail import Fmu, Refused, Wheel
+from wheelrail.plots import GREY, pyplot, save
 
 KELVIN = 273.15  # K at 0 °C
 LOCK = 0.02  # s, in which the rotation stops
@@ -46,7 +47,7 @@ LEFT = (
     "damage.time_above_ac1", "damage.flattening",
 )  # fmt: skip
 CONVERGED = 0.05  # change of these
-COARSE = {"mesh.elements_per_half_width": 5, "mesh.grid_elements_per_half_width": 10}  # half of the usual numbers
+FINE = {"mesh.elements_per_half_width": 20}  # twice the usual number
 
 # The rail lies on a track: stiffness and damping below a wheel, mass that moves with the rail (one rail of Zhai, Wang
 # and Lin, J. Sound Vib. 270 (2004), put together). On a rigid base the wheel would bounce for ever once its flat has
@@ -64,7 +65,7 @@ KOISTINEN = 0.011
 GALTON = ((7, 14, 27, 34, 41, 55, 60), (0.088, 0.072, 0.070, 0.065, 0.057, 0.038, 0.027))
 MPH = 1.609344 / 3.6  # m/s
 
-BLUE, ORANGE, GREY = "#0072B2", "#D55E00", "#777777"
+BLUE, ORANGE = "#0072B2", "#D55E00"
 
 # Half-plane of the independent computation: along the tread, forward of the contact point of the locked wheel.
 SPACING = 2e-4  # m
@@ -283,8 +284,8 @@ def repeated(fmu, options, changes, step):
 
 
 def convergence(fmu, options, usual):
-    """Prints what is left with finer spots, shorter steps and a coarser mesh; returns the largest change."""
-    cases = [("half the step", {}, 0.5 * options.step), ("half the elements", COARSE, options.step)]
+    """Prints what is left with finer spots, shorter steps and a finer mesh; returns the largest change."""
+    cases = [("half the step", {}, 0.5 * options.step), ("twice the elements", FINE, options.step)]
     if "damage.resolution" in fmu.variables:
         cases.append(("spots twice as fine", {"damage.resolution": 0.5}, options.step))
     found = [("as above", usual)] + [(name, repeated(fmu, options, *case)) for name, *case in cases]
@@ -303,25 +304,21 @@ def convergence(fmu, options, usual):
 
 def plot(path, slide, table, cooled, wheel):
     """Draws the slide, the temperatures in the depth and what is left."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
-    plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.4})
-    figure, axes = plt.subplots(2, 3, figsize=(12, 6.4), layout="constrained")
-    (speed, friction, pressure), (surface, depth, remains) = axes
+    figure = pyplot().figure(figsize=(8, 7.6), layout="constrained")
+    grid = figure.add_gridspec(3, 6, height_ratios=(1.0, 1.15, 1.15))
+    panel = lambda row, column, width: figure.add_subplot(grid[row, column : column + width])
+    slides = [panel(0, k, 2) for k in (0, 2, 4)]
+    (surface, remains), (depth, rate) = ([panel(row, k, 3) for k in (0, 3)] for row in (1, 2))
     released = LOCK + slide.options.slide
     near = slide.column(table, "time") < released + 0.4
-    draw_slide(slide, table[near], speed, friction, pressure)
-    draw_heat(cooled, wheel, surface, depth)
+    draw_slide(slide, table[near], *slides)
+    draw_heat(cooled, wheel, surface)
+    draw_depth(cooled, wheel, depth, rate)
     draw_remains(slide, table, cooled, wheel, remains)
-    for axis in (speed, friction, pressure, surface, remains):
+    for axis in (*slides, surface, remains):
         axis.set_xlabel("time [s]")
         axis.axvspan(LOCK, released, color=GREY, alpha=0.10, lw=0.0)
-    figure.savefig(path, dpi=100)
-    plt.close(figure)
+    save(path, figure)
 
 
 def draw_slide(slide, table, speed, friction, pressure):
@@ -329,53 +326,65 @@ def draw_slide(slide, table, speed, friction, pressure):
     column = lambda name: slide.column(table, name)
     t = column("time")
     speed.plot(t, 3.6 * column("wheel.velocity"), color=BLUE, label="travel")
-    speed.plot(t, 3.6 * slide.wheel.get("wheel.radius") * column("wheel.omega"), "--", color=ORANGE, label="rim")
-    speed.set(title="Speed: locked (grey), released", ylabel="km/h")
+    speed.plot(t, 3.6 * slide.wheel.get("wheel.radius") * column("wheel.omega"), "--", color=ORANGE, label="tread")
+    speed.set(title="Speed; locked: grey", ylabel="km/h")
     speed.legend(loc="center")
     friction.plot(t, -column("contact.force_x") / column("contact.force_y"), color=BLUE, label="force over load")
     mph = slide.options.speed_kmh / 3.6 / MPH
-    friction.axhline(np.interp(mph, *GALTON), color=GREY, ls=":", label="Galton 1878 (from memory)")
+    friction.axhline(np.interp(mph, *GALTON), color=GREY, ls=":", label="Galton 1878")
     friction.set(title="Friction", ylabel="1", ylim=(0, None))
-    friction.legend(loc="upper center")
+    friction.legend(loc="center", bbox_to_anchor=(0.43, 0.6), handlelength=1.3)
     pressure.plot(t, column("contact.pressure_max") / 1e6, color=ORANGE)
     pressure.set(title="Peak pressure", ylabel="MPa", ylim=(0, None))
 
 
-def draw_heat(cooled, wheel, surface, depth):
-    """Temperatures in the depth over time, and the highest one over the depth with the cooling rate."""
-    austenitisation = wheel.get("thermal.austenitisation") - KELVIN
-    start = steel(wheel, "damage.martensite_start") - KELVIN
+def limits(wheel):
+    """Temperatures [°C] at which austenite and martensite begin to form, by their names."""
+    return {"Ac1": wheel.get("thermal.austenitisation") - KELVIN, "Ms": steel(wheel, "damage.martensite_start") - KELVIN}
+
+
+def draw_heat(cooled, wheel, axis):
+    """Temperatures in some depths over time."""
     shades = ["#000004", "#51127C", "#B73779", "#FC8961", "#FEC287"]
     for k, place in enumerate(SHOWN):
-        surface.plot(cooled["time"], cooled["record"][:, k] - KELVIN, color=shades[k], label=f"{place * 1e3:g} mm deep")
-    for limit, name in ((austenitisation, "Ac1"), (start, "Ms")):
-        surface.axhline(limit, color=GREY, ls=":")
-        surface.text(5.9, limit, name, color=GREY, ha="right", va="bottom")
-    surface.set(title="Below one place (half-plane)", ylabel="°C", xlim=(0.0, 6.0))
-    surface.legend()
-    z = np.array(cooled["z"])
-    depth.plot(cooled["peak"] - KELVIN, z * 1e3, "--", color=ORANGE, label="°C, half-plane")
+        axis.plot(cooled["time"], cooled["record"][:, k] - KELVIN, color=shades[k], label=f"{place * 1e3:g} mm")
+    for name, limit in limits(wheel).items():
+        axis.axhline(limit, color=GREY, ls=":")
+        axis.text(1.01, limit, name, color=GREY, ha="left", va="center", transform=axis.get_yaxis_transform())
+    axis.set(title="Temperature below one place (half-plane)", ylabel="°C", xlim=(0.0, 6.0), ylim=(0.0, None))
+    axis.legend(title="depth", loc="upper right", frameon=True, facecolor="white", edgecolor="none", framealpha=1.0)
+
+
+def draw_depth(cooled, wheel, temperature, rate):
+    """The highest temperature and the cooling rate over the depth."""
+    z, ac1 = 1e3 * np.array(cooled["z"]), limits(wheel)["Ac1"]
+    temperature.plot(cooled["peak"] - KELVIN, z, "--", color=ORANGE, label="half-plane")
     if "profile.depth[1]" in wheel.fmu.variables:
         known, peak = np.array(wheel.profile("depth")), np.array(wheel.profile("peak_temperature"))
-        depth.plot(peak - KELVIN, known * 1e3, color=ORANGE, label="°C, FMU")
+        temperature.plot(peak - KELVIN, 1e3 * known, color=BLUE, label="FMU")
+    temperature.axvline(ac1, color=GREY, ls=":")
+    temperature.text(ac1, 3.95, " Ac1", color=GREY, va="bottom")
+    temperature.set(title="Highest temperature", xlabel="°C", ylabel="depth [mm]", ylim=(4, 0), xlim=(0, None))
+    temperature.legend(loc="lower right")
     hot = (cooled["rate"] > 0.0) & (z > 0.0)
-    depth.plot(cooled["rate"][hot], z[hot] * 1e3, color=BLUE, label="K/s, half-plane")
-    depth.axvline(austenitisation, color=GREY, ls=":")
-    depth.text(austenitisation, 3.95, " Ac1", color=GREY, va="bottom")
-    depth.set(title="Highest temperature and cooling rate", xlabel="°C, K/s", ylabel="depth [mm]", ylim=(4, 0), xlim=(0, None))
-    depth.legend(loc="lower right")
+    rate.plot(cooled["rate"][hot], z[hot], "o--", color=ORANGE, markersize=3, label="half-plane")
+    rate.axvline(steel(wheel, "damage.critical_cooling"), color=GREY, ls=":", label="critical")
+    rate.set(title="Cooling rate of the hottest places", xlabel="K/s", ylabel="depth [mm]", ylim=(4, 0), xlim=(0, None))
+    rate.legend(loc="lower right")
 
 
 def draw_remains(slide, table, cooled, wheel, axis):
     """Depths of flattening, austenite and martensite."""
-    for name, color in (("flattening", GREY), ("ac1_depth", ORANGE), ("martensite_depth", BLUE)):
+    for name, label, color in (
+        ("ac1_depth", "steel above Ac1", ORANGE), ("martensite_depth", "martensite", BLUE), ("flattening", "flattening", GREY),
+    ):  # fmt: skip
         values = slide.column(table, f"damage.{name}")
         if values is not None:
-            axis.plot(slide.column(table, "time"), values * 1e3, color=color, label=f"damage.{name}")
+            axis.plot(slide.column(table, "time"), values * 1e3, color=color, label=label)
     depth = depth_of(cooled["z"], cooled["peak"], wheel.get("thermal.austenitisation"))
-    axis.axhline(depth * 1e3, color=ORANGE, ls=":", label="Ac1 depth, half-plane")
-    axis.set(title="What is left", ylabel="mm", xlim=(0.0, 9.0))
-    axis.legend(loc="center right")
+    axis.axhline(depth * 1e3, color=ORANGE, ls=":", label="above Ac1, half-plane")
+    axis.set(title="Depth of what is left", ylabel="mm", xlim=(0.0, 6.0), ylim=(-0.05, 2.4))
+    axis.legend(loc="upper right")
 
 
 def arguments():

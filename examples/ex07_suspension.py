@@ -25,7 +25,7 @@ import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
 from wheelrail.ecco import StepControl, Suspension
-from wheelrail.plots import pyplot
+from wheelrail.plots import pyplot, save
 
 SPEED = 5.0  # m/s
 VEHICLE = 8460.0  # kg on one wheel's suspension
@@ -194,6 +194,7 @@ CONTROLLED = {"held": 2, "ramped": 3}  # power of the step with which the energy
 ENERGIES = (1e-3, 1e-4, 1e-5)  # J, tolerated in a step
 SMALLEST, LARGEST = 1e-4, 1e-2  # s, steps
 REFERENCE = 1e-4  # s, step of the ramped run with which forces are compared
+LEAST = 1e-5  # %, kN: what is smaller is drawn here
 STYLES = {"held": "s-", "ramped": "o-", "velocity": "^-", "iterative": "x:"}
 
 
@@ -256,28 +257,30 @@ def equal_and_controlled(fmu):
 
 def plot(path, found, reference, steps):
     """Error of the distance and both swings over the step; deviation of the force over the number of steps."""
-    figure, axes = pyplot().subplots(1, 4, figsize=(15, 3.4), layout="constrained")
-    titles = ("Error of the stopping distance [%]", "Swing while braking [kN]", "Swing after 2 s of standstill [kN]")
-    for axis, title, k in zip(axes[:3], titles, range(3)):
+    figure, grid = pyplot().subplots(2, 2, figsize=(8, 6), layout="constrained")
+    axes = grid.flat
+    quantities = (
+        ("Error of the stopping distance", "%"), ("Swing while braking", "kN"), ("Swing after 2 s of standstill", "kN"),
+    )  # fmt: skip
+    for axis, (title, unit), k in zip(axes[:3], quantities, range(3)):
         for master in MASTERS:
             rows = [(1e3 * h, found[master, h][k]) for h in STEPS if found[master, h]]
-            values = [max(100.0 * abs(v / reference - 1.0) if k == 0 else v, 1e-5) for _, v in rows]
+            values = [max(100.0 * abs(v / reference - 1.0) if k == 0 else v, LEAST) for _, v in rows]
             axis.loglog([h for h, _ in rows], values, STYLES[master], label=master, markersize=4)
-        axis.set(title=title, xlabel="communication step [ms]")
+        axis.set(title=title, xlabel="communication step [ms]", ylabel=unit)
         axis.set_xticks([1e3 * h for h in STEPS], [f"{1e3 * h:g}" for h in STEPS])
         axis.minorticks_off()
     axes[2].set_yticks([1, 2, 5], ["1", "2", "5"])
-    axes[0].axhline(0.3, color="#777777", linestyle=":")
-    axes[0].legend()
+    axes[0].legend(loc="center left", bbox_to_anchor=(0.0, 0.42))
     for (master, controlled), points in steps.items():
-        label = f"{master}, by energy" if controlled else f"{master}, equal"
+        label = f"{master}, by energy" if controlled else f"{master}, equal steps"
         line = "*--" if controlled else STYLES[master]
         axes[3].loglog(*zip(*points), line, label=label, color=f"C{MASTERS.index(master)}", markersize=8 if controlled else 4)
-    axes[3].set(title="Deviation of the force, rms [N]", xlabel="steps")
+    axes[3].set(title="Deviation of the force, rms", xlabel="steps", ylabel="N", ylim=(0.03, None))
     axes[3].set_xticks([1e3, 3e3, 1e4, 3e4], ["1,000", "3,000", "10,000", "30,000"])
     axes[3].minorticks_off()
-    axes[3].legend()
-    figure.savefig(path, dpi=110)
+    axes[3].legend(loc="lower left")
+    save(path, figure)
 
 
 def run(options):

@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 
 from wheelrail import Fmu, Refused, Wheel
+from wheelrail.plots import COLOURS, pyplot, save
 
 SPEED, LOAD, RADIUS = 10.0, 106.7e3, 0.625  # m/s, N, m
 LAW = {"friction.coefficient": 0.36, "friction.falling_ratio": 0.38, "friction.falling_decay": 0.7, "friction.softening": 0.0}
@@ -47,20 +48,14 @@ def judged(curve):
 
 def plot(path, curve):
     """The curve and the scatter of the measurement."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axis = plt.subplots(figsize=(6, 3.6), layout="constrained")
-    axis.plot(*zip(*curve), "o-", color="#0072B2", markersize=3, label="FMU")
+    figure, axis = pyplot().subplots(figsize=(8, 4), layout="constrained")
+    axis.plot(*zip(*curve), "o-", color=COLOURS[0], markersize=4, label="FMU")
     for k, (low, high, least, most) in enumerate(MEASURED):
-        label = "Eurosprinter, measured" if k == 0 else None
-        wide = max(high - low, 0.3)
-        axis.add_patch(plt.Rectangle((low, least), wide, most - least, color="#D55E00", alpha=0.3, label=label))
-    axis.set(xlabel="creep [%]", ylabel="adhesion [1]", xlim=(0, 22), ylim=(0, 0.36))
-    axis.legend()
-    figure.savefig(path, dpi=110)
+        label = "Eurosprinter, scatter of the measurement" if k == 0 else None
+        axis.fill_between([low, max(high, low + 0.3)], least, most, color=COLOURS[1], alpha=0.3, linewidth=0, label=label)
+    axis.set(xlabel="creep [%]", ylabel="adhesion [1]", xlim=(0, 22), ylim=(0, 0.4))
+    axis.legend(loc="upper right")
+    save(path, figure)
 
 
 def run(options):

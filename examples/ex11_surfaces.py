@@ -26,12 +26,13 @@ import numpy as np
 from tqdm import tqdm
 
 from wheelrail import Fmu, Wheel, signals, surfaces
-from wheelrail.plots import COLOURS, GREY, pyplot
+from wheelrail.plots import COLOURS, GREY, pyplot, save
 
 KMH = 1.0 / 3.6
 LOAD = 4.7e6  # N, of Paper A on a width of 1 m
 PAPER = {"preset": "paper_a", "thermal.enabled": False, "damping.rayleigh_stiffness": 1e-4}
 RAILWAY = {"preset": "railway", "thermal.enabled": False}
+RAILWAY_LOAD = 1e5  # N, of the preset
 # First natural frequency of the wheel of Paper A on its contact [rad/s], from an independent eigenvalue analysis.
 RESONANCE = 2922.0
 MASS = 8000.0 * np.pi * (0.46**2 - 0.046**2)  # kg, of 1 m of width
@@ -171,47 +172,73 @@ def filtered(found):
 
 
 def draw(path, found, axes, half_width):
-    """The gallery."""
-    plt = pyplot()
-    figure, ((a, b, c), (d, e, f), (g, h, i)) = plt.subplots(3, 3, figsize=(13.5, 10.5), layout="constrained")
-    speeds = axes["speeds"]
-    fine = np.linspace(speeds[0], speeds[-1], 300)
-    omega = lambda speed: 2.0 * np.pi * speed / WAVELENGTH
-    a.plot(omega(fine), closed_form(fine, half_width) / 1e6, color=GREY, label="closed form")
-    a.plot(omega(speeds), [found["corrugation", v] / 1e6 for v in speeds], "o", color=COLOURS[0], label="simulated")
-    a.set(title="waves, 5 µm and 5 cm", xlabel="excitation [rad/s]", ylabel="amplitude of the force [MN]")
+    """The gallery. Forces are drawn over the static load: they belong to wheels of different width."""
+    figure, grid = pyplot().subplots(3, 3, figsize=(8, 8), layout="constrained")
+    waves, hole, met = grid[0]
+    draw_waves(waves, found, axes["speeds"], half_width)
     for key, colour in zip((key for key in found if key[0] == "hole"), COLOURS):
         x, force = found[key]
-        b.plot(1e3 * x, force / LOAD, color=colour, label=f"{key[1] / KMH:.0f} km/h")
-    b.set(title="sharp hole, 5 mm", xlabel="distance from its middle [mm]", ylabel="force over load [1]")
-    labels = {"speed": lambda k: f"{k[0] / KMH:.0f} km/h", "load": lambda k: f"{k[1] / 1e6:.2f} MN", "unsprung mass": lambda k: f"{(MASS + k[2]) / 1e3:.1f} t"}
-    for axis, (name, group) in zip((d, e, f), axes["varied"].items()):
+        hole.plot(1e3 * x, force / LOAD, color=colour, label=f"{key[1] / KMH:.0f} km/h")
+    hole.set(title="Sharp hole, 5 mm", xlabel="from its middle [mm]", ylabel="force / load [1]", ylim=(None, 1.25))
+    draw_densities(grid[1], found, axes["varied"])
+    draw_flats(grid[2, :2], found, axes["flats"])
+    draw_levels(met, grid[2, 2], found)
+    for axis in figure.axes:
+        axis.legend(handlelength=1.2, borderpad=0.1, labelspacing=0.25)
+    save(path, figure)
+
+
+def draw_waves(axis, found, speeds, half_width):
+    """Amplitude of the force over waves."""
+    fine = np.linspace(speeds[0], speeds[-1], 300)
+    omega = lambda speed: 2e-3 * np.pi * speed / WAVELENGTH
+    axis.plot(omega(fine), closed_form(fine, half_width) / LOAD, color=GREY, label="closed form")
+    axis.plot(omega(speeds), [found["corrugation", v] / LOAD for v in speeds], "o", color=COLOURS[0], label="FMU", markersize=4)
+    axis.set(title="Waves of 5 µm, 5 cm", xlabel="excitation [rad/ms]", ylabel="amplitude / load [1]")
+
+
+def draw_densities(axes, found, varied):
+    """Densities of the force on a rough rail."""
+    labels = {
+        "speed": lambda k: f"{k[0] / KMH:.0f} km/h",
+        "load": lambda k: f"load × {k[1] / LOAD:g}",
+        "unsprung mass": lambda k: f"{(MASS + k[2]) / 1e3:.1f} t/m",
+    }
+    for axis, (name, group) in zip(axes, varied.items()):
         for case, colour in zip(group, COLOURS):
             edges, share = signals.density(*found["rough", *case], classes=40)
-            axis.plot(0.5 * (edges[1:] + edges[:-1]) / 1e6, 1e6 * share, color=colour, label=labels[name](case))
-        axis.set(title=f"rough rail: {name}", xlabel="force [MN]", ylabel="probability density [1/MN]")
+            axis.plot(0.5 * (edges[1:] + edges[:-1]) / LOAD, LOAD * share, color=colour, label=labels[name](case))
+        axis.set(title=f"Rough rail: {name}", xlabel="force / load [1]", ylim=(0, 1.35 * axis.get_ylim()[1]))
+    axes[0].set_ylabel("density [1]")
+
+
+def draw_flats(axes, found, speeds):
+    """Largest force of flats and how long they take contact away."""
+    force, lost = axes
     for shape, colour in zip(("fresh", "rounded"), COLOURS):
-        g.plot(axes["flats"] / KMH, [found["flat", shape, v][0] / 1e3 for v in axes["flats"]], "o-", color=colour, label=shape)
-        c.plot(axes["flats"] / KMH, [1e3 * found["flat", shape, v][1] for v in axes["flats"]], "o-", color=colour, label=shape)
-    g.set(title="flat, 40 mm", xlabel="speed [km/h]", ylabel="largest force [kN]")
-    c.set(title="flat, 40 mm", xlabel="speed [km/h]", ylabel="time without contact [ms]")
+        values = np.array([found["flat", shape, v] for v in speeds])
+        force.plot(speeds / KMH, values[:, 0] / RAILWAY_LOAD, "o-", color=colour, label=shape, markersize=4)
+        lost.plot(speeds / KMH, 1e3 * values[:, 1], "o-", color=colour, label=shape, markersize=4)
+    force.set(title="Flat, 40 mm: strike", xlabel="speed [km/h]", ylabel="largest force / load [1]", ylim=(1, None))
+    lost.set(title="Flat, 40 mm: in the air", xlabel="speed [km/h]", ylabel="time without contact [ms]")
+
+
+def draw_levels(rough, filtering, found):
+    """Roughness that the wheel met, and the contact filter."""
     met = found["spectrum",]
-    h.semilogx(1e3 * met[:, 0], [surfaces.EN_ISO_3095[round(10 * np.log10(x))] for x in met[:, 0]], "--", color=GREY, label="EN ISO 3095")
-    h.semilogx(1e3 * met[:, 0], met[:, 1], "o", color=COLOURS[0], label="met by the wheel")
-    h.set(title="roughness", xlabel="wavelength [mm]", ylabel="level [dB re 1 µm]")
+    limit = [surfaces.EN_ISO_3095[round(10 * np.log10(x))] for x in met[:, 0]]
+    rough.semilogx(1e3 * met[:, 0], limit, "--", color=GREY, label="EN ISO 3095")
+    rough.semilogx(1e3 * met[:, 0], met[:, 1], "o", color=COLOURS[0], label="met by the wheel", markersize=4)
+    rough.set(title="Roughness", xlabel="wavelength [mm]", ylabel="level [dB re 1 µm]")
     lengths, levels, exact = np.array(list(filtered(found))).T
-    i.semilogx(1e3 * lengths, exact, color=GREY, label="Bessel function")
-    i.semilogx(1e3 * lengths, levels, "o", color=COLOURS[0], label="standing wheel")
-    i.semilogx(1e3 * lengths, surfaces.cnossos_filter(lengths), "x", color=COLOURS[1], label="CNOSSOS-EU, 100 kN, 920 mm")
-    i.set(title="contact filter", xlabel="wavelength [mm]", ylabel="level [dB]")
-    for axis in (h, i):
-        axis.set_xticks([20, 50, 100, 200, 400] if axis is h else [20, 30, 50, 100])
+    filtering.semilogx(1e3 * lengths, exact, color=GREY, label="Bessel function")
+    filtering.semilogx(1e3 * lengths, levels, "o", color=COLOURS[0], label="standing wheel", markersize=4)
+    filtering.semilogx(1e3 * lengths, surfaces.cnossos_filter(lengths), "x", color=COLOURS[1], label="CNOSSOS-EU")
+    filtering.set(title="Contact filter", xlabel="wavelength [mm]", ylabel="level [dB]")
+    for axis, ticks in ((rough, [20, 50, 100, 200, 400]), (filtering, [20, 30, 50, 100])):
+        axis.set_xticks(ticks)
         axis.xaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_minor_formatter("")
-    for axis in figure.axes:
-        axis.legend(fontsize=7)
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def main():

@@ -1,8 +1,10 @@
 """The braking stop of examples/ex01_braking_stop.py, from a lower speed and on a coarser mesh."""
 
+import numpy as np
 import pytest
 
-from ex01_braking_stop import brake_to_standstill, column, results
+from ex01_braking_stop import COLUMNS, Film, brake_to_standstill, column, results
+from ex01_picture import draw
 from wheelrail import Wheel
 
 MOMENT = 0.6 * 0.3 * 1e5 * 0.46
@@ -69,3 +71,23 @@ def test_the_brake_of_the_fmu_needs_no_logic_in_the_master(start):
     while wheel.time < 3.5 - 1e-9:
         wheel.step(1e-3)
     assert wheel.get("wheel.velocity") == pytest.approx(5e3 * 2.0 / rolling, abs=0.02)
+
+
+def test_a_wheel_that_locks_on_leaves_is_released_and_its_picture_is_legible(fmu, start, tmp_path):
+    """At a width of 800 px, as README shows it, the smallest type is 11 px high."""
+    from matplotlib.text import Text
+
+    wheel, film = start(COARSE | {"initial.velocity": 8.0}), Film(fmu)
+    table = brake_to_standstill(wheel, MOMENT, 2e-3, film.see, leaves=(6.0, 7.0), patience=0.3)
+    time, peripheral, speed = (column(table, name) for name in ("time", "wheel.omega", "wheel.velocity"))
+    locked = np.flatnonzero((peripheral == 0.0) & (speed > 1.0))
+    assert time[locked[-1]] - time[locked[0]] == pytest.approx(0.3, abs=0.01)
+    assert column(table, "rail.friction")[locked[-1]] == 0.3, "it stays locked on dry rail"
+    assert column(table, "contact.friction")[locked[-1]] < 0.15, "for it is hot"
+    assert 0.46 * peripheral[locked[-1] :].max() > 0.9 * speed[locked[-1]], "it rolls again"
+    assert film.profile("temperature_wheel").max() > 500.0
+    picture = tmp_path / "stop.png"
+    figure = draw(picture, {name: column(table, name) for name in ("time", *COLUMNS)}, film, 0.46)
+    shown = [text.get_fontsize() for text in figure.findobj(Text) if text.get_text()]
+    assert len(shown) > 50 and min(shown) * 800.0 / (72.0 * figure.get_figwidth()) > 11.0
+    assert picture.stat().st_size < 200_000

@@ -9,7 +9,7 @@ pub enum Source {
     Method,
     /// The product: solid.
     Ours,
-    /// Closed form: dots.
+    /// Closed form: circles.
     Exact,
     /// A number in the text: a thin line.
     Quoted,
@@ -57,7 +57,9 @@ const HEIGHT: f64 = 360.0;
 const TALLEST: f64 = 620.0;
 /// Left, right, top and bottom margin.
 const MARGIN: [f64; 4] = [70.0, 15.0, 15.0, 48.0];
-/// Colours of curves: a drawing that has more curves than these is refused ([`Plot::flaw`]).
+/// Smallest distance of the circles of a closed form.
+const APART: f64 = 11.0;
+/// Colours of curves: a drawing that needs more than these is refused ([`Plot::flaw`]).
 const COLOURS: [&str; 12] = [
     "#1b5e9e", "#b3401a", "#2e7d32", "#6a3d9a", "#8a6d00", "#00838f", "#c2185b", "#4e342e", "#7cb342", "#5c6bc0",
     "#ef6c00", "#455a64",
@@ -70,15 +72,68 @@ fn shade(level: usize) -> String {
     format!("rgb({},{},{})", mix(255.0, 110.0), mix(243.0, 0.0), mix(190.0, 40.0))
 }
 
+impl Source {
+    /// How a line of it is drawn.
+    fn style(self) -> &'static str {
+        match self {
+            Self::Method => "stroke-width=\"1.8\" stroke-dasharray=\"7 4\"",
+            Self::Ours => "stroke-width=\"1.8\"",
+            Self::Exact => "stroke-width=\"1.2\"",
+            Self::Quoted => "stroke-width=\"1\"",
+            Self::Mesh => "stroke-width=\"0.35\"",
+            Self::Level(_) => "stroke-width=\"0.4\"",
+        }
+    }
+}
+
+impl Curve {
+    /// Subject of the curve: the words after the comma of its name.
+    fn about(&self) -> Option<&str> {
+        self.name.split_once(", ").map(|(_, about)| about)
+    }
+}
+
 impl Plot {
     /// Flaws of the plot: curves that look alike.
     pub fn flaw(&self) -> Option<String> {
-        let curves = self.curves.iter().filter(|curve| !curve.source.is_picture()).count();
-        (curves > COLOURS.len())
-            .then(|| format!("{curves} curves over \"{}\" have {} colours", self.axes[0], COLOURS.len()))
+        let needed = self.colours().into_iter().flatten().max().map_or(0, |last| last + 1);
+        (needed > COLOURS.len()).then(|| format!("curves over \"{}\" need {needed} colours", self.axes[0]))
     }
 
-    /// The drawing as SVG.
+    /// Number of the colour of each curve, none for places. Curves about the same, but from different sources, share one.
+    fn colours(&self) -> Vec<Option<usize>> {
+        let (mut found, mut next): (Vec<Option<usize>>, usize) = (Vec::new(), 0);
+        for (i, curve) in self.curves.iter().enumerate() {
+            let earlier = || self.curves[..i].iter().zip(&found).filter(|(other, _)| curve.about() == other.about());
+            let of_another =
+                |(other, colour): (&Curve, &Option<usize>)| colour.filter(|_| other.source != curve.source);
+            let shared = earlier().find_map(of_another);
+            let alike = curve.about().is_none() || earlier().any(|(other, _)| other.source == curve.source);
+            let colour = match shared {
+                _ if curve.source.is_picture() => None,
+                Some(_) if !alike => shared,
+                _ => {
+                    next += 1;
+                    Some(next - 1)
+                }
+            };
+            found.push(colour);
+        }
+        found
+    }
+
+    /// The colour of each curve as text.
+    fn inks(&self) -> Vec<String> {
+        let ink = |(curve, number): (&Curve, Option<usize>)| match (curve.source, number) {
+            // Of the fill, so that neighbouring cells leave no seam.
+            (Source::Level(level), _) => shade(level),
+            (_, Some(number)) => COLOURS[number % COLOURS.len()].into(),
+            _ => "#5a5a5a".into(),
+        };
+        self.curves.iter().zip(self.colours()).map(ink).collect()
+    }
+
+    /// The drawing as SVG, with its legend.
     pub fn svg(&self) -> String {
         let [left, right, top, bottom] = MARGIN;
         let ranges = [0, 1].map(|axis| self.range(axis));
@@ -90,32 +145,15 @@ impl Plot {
         let wide = if picture { (height - top - bottom) * across / up } else { WIDTH - left - right };
         let x = |value: f64| left + (value - ranges[0][0]) / across * wide;
         let y = |value: f64| height - bottom - (value - ranges[1][0]) / up * (height - top - bottom);
-        let mut svg = format!("<svg viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\">");
+        let mut svg = format!("<figure><svg viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\">");
         let (end, floor) = (left + wide, height - bottom);
         svg += &self.frame([left, end, top, floor], &x, &y);
-        let mut colours = COLOURS.iter().cycle();
-        for curve in &self.curves {
-            let fill = if let Source::Level(level) = curve.source { shade(level) } else { "none".into() };
-            let colour = match curve.source {
-                // Of the fill, so that neighbouring cells leave no seam.
-                Source::Level(_) => fill.as_str(),
-                Source::Mesh => "#5a5a5a",
-                _ => colours.next().unwrap_or(&""),
-            };
+        for (curve, ink) in self.curves.iter().zip(self.inks()) {
             if curve.source == Source::Exact {
-                for [a, b] in &curve.points {
-                    let _ =
-                        write!(svg, "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.2\" fill=\"{colour}\"/>", x(*a), y(*b));
-                }
+                svg += &circles(curve.points.iter().map(|[a, b]| [x(*a), y(*b)]), &ink);
                 continue;
             }
-            let style = match curve.source {
-                Source::Method => "stroke-width=\"1.8\" stroke-dasharray=\"7 4\"",
-                Source::Quoted => "stroke-width=\"1\"",
-                Source::Mesh => "stroke-width=\"0.35\"",
-                Source::Level(_) => "stroke-width=\"0.4\"",
-                _ => "stroke-width=\"1.8\"",
-            };
+            let fill = if matches!(curve.source, Source::Level(_)) { ink.as_str() } else { "none" };
             // One path for all lines and outlines of a curve, each from its first point on.
             let mut path = String::new();
             let mut starts = true;
@@ -125,9 +163,10 @@ impl Plot {
                 }
                 starts = a.is_nan();
             }
-            let _ = write!(svg, "<path d=\"{path}\" fill=\"{fill}\" stroke=\"{colour}\" {style}/>");
+            let style = curve.source.style();
+            let _ = write!(svg, "<path d=\"{path}\" fill=\"{fill}\" stroke=\"{ink}\" {style}/>");
         }
-        svg + "</svg>" + &self.legend()
+        svg + "</svg>" + &self.legend() + "</figure>"
     }
 
     /// Grid, numbers and names of the axes; `x` and `y` give the place of a value.
@@ -151,25 +190,27 @@ impl Plot {
         svg
     }
 
-    /// Names of the curves in their colours.
+    /// Names of the curves, each after a piece of it.
     fn legend(&self) -> String {
-        let mut colours = COLOURS.iter().cycle();
-        let line = |curve: &Curve| {
-            let mark = match curve.source {
-                Source::Method => "– –",
-                Source::Ours => "——",
-                Source::Exact => "• •",
-                Source::Quoted => "──",
+        let entry = |(curve, ink): (&Curve, String)| {
+            let key = match curve.source {
                 Source::Mesh => return None,
-                Source::Level(level) => {
-                    let chip = format!("<span class=\"chip\" style=\"background:{}\"></span>", shade(level));
-                    return Some(format!("<span>{chip} {}</span>", curve.name));
+                Source::Level(_) => format!("<span class=\"chip\" style=\"background:{ink}\"></span>"),
+                Source::Exact => {
+                    format!(
+                        "<svg class=\"key\" viewBox=\"0 0 28 8\">{}</svg>",
+                        circles([7.0, 21.0].map(|x| [x, 4.0]), &ink)
+                    )
                 }
+                source => format!(
+                    "<svg class=\"key\" viewBox=\"0 0 28 8\"><line x2=\"28\" y1=\"4\" y2=\"4\" style=\"stroke:{ink}\" {}/></svg>",
+                    source.style()
+                ),
             };
-            Some(format!("<span style=\"color:{}\">{mark} {}</span>", colours.next().unwrap_or(&""), curve.name))
+            Some(format!("<span>{key} {}</span>", curve.name))
         };
-        let lines: Vec<String> = self.curves.iter().filter_map(line).collect();
-        format!("<p class=\"legend\">{}</p>", lines.join(" &nbsp; "))
+        let entries: Vec<String> = self.curves.iter().zip(self.inks()).filter_map(entry).collect();
+        format!("<figcaption class=\"legend\">{}</figcaption>", entries.join(" "))
     }
 
     /// Smallest and largest value along an axis, a little apart if they are equal.
@@ -180,6 +221,18 @@ impl Plot {
         let room = if axis == 1 && !picture { 0.05 * (high - low) } else { 0.0 };
         if high > low { [low - room, high + room] } else { [low - 1.0, high + 1.0] }
     }
+}
+
+/// Circles at some places, left out where they would lie closer together than [`APART`].
+fn circles(places: impl IntoIterator<Item = [f64; 2]>, ink: &str) -> String {
+    let (mut text, mut last): (String, Option<[f64; 2]>) = (String::new(), None);
+    for place @ [x, y] in places {
+        if last.is_none_or(|[a, b]| (x - a).hypot(y - b) >= APART) {
+            let _ = write!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"none\" stroke=\"{ink}\"/>");
+            last = Some(place);
+        }
+    }
+    text
 }
 
 /// Round numbers within a range, about six, and how they are written: all with as many digits as tell neighbours apart.
@@ -233,6 +286,24 @@ mod tests {
         let svg = plot(COLOURS.len()).svg();
         assert!(COLOURS.iter().all(|colour| svg.matches(&format!("stroke=\"{colour}\"")).count() == 1));
         assert!(plot(COLOURS.len()).flaw().is_none() && plot(COLOURS.len() + 1).flaw().is_some());
+    }
+
+    #[test]
+    fn curves_about_the_same_share_a_colour_and_differ_in_style() {
+        let sources = [Source::Ours, Source::Exact, Source::Ours, Source::Method, Source::Ours];
+        let names = ["ours, µ 0.4", "Carter, µ 0.4", "ours, µ 0.5", "mesh 2, µ 0.5", "ours, finer, µ 0.5"];
+        let curve =
+            |(source, name): (Source, &str)| Curve { source, name: name.into(), points: vec![[0.0, 0.0], [1.0, 1.0]] };
+        let curves = sources.into_iter().zip(names).map(curve).collect();
+        let plot = Plot { axes: ["x".into(), "y".into()], curves };
+        assert_eq!(plot.colours(), [Some(0), Some(0), Some(1), Some(1), Some(2)]);
+    }
+
+    #[test]
+    fn circles_of_a_closed_form_leave_what_lies_below_visible() {
+        let dense = circles((0..1000).map(|i| [0.1 * f64::from(i), 0.0]), "red");
+        assert!((9..=10).contains(&dense.matches("<circle").count()), "{dense}");
+        assert_eq!(circles((0..20).map(|i| [20.0 * f64::from(i), 0.0]), "red").matches("<circle").count(), 20);
     }
 
     #[test]

@@ -6,14 +6,19 @@ use crate::quoted::{Quoted, Status};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-const STYLE: &str = "body{font:15px/1.5 Georgia,serif;max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a}\
-h1,h2,h3,th,.status,svg,.legend{font-family:system-ui,sans-serif}table{border-collapse:collapse;width:100%;font-size:13px}\
+const STYLE: &str = "body{font:16px/1.5 Georgia,serif;max-width:76rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a}\
+p,ul{max-width:52rem}h1,h2,h3,th,.status,svg,.legend,.items{font-family:system-ui,sans-serif}\
+h3{border-top:1px solid #ccc;padding-top:1rem;margin-top:2rem}h3 .status{font-size:.8em;margin-left:.5em}\
+table{border-collapse:collapse;width:100%;font-size:14px}\
 td,th{border-bottom:1px solid #ccc;padding:.3rem .5rem;text-align:left;vertical-align:top}\
-svg{width:100%;font-size:12px}.grid{stroke:#e2e2e2}.legend{font-size:12px;margin-top:0}\
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(30rem,100%),1fr));gap:1rem 2rem}\
+figure{margin:0;max-width:44rem}figure>svg{width:100%;font-size:15px}.grid{stroke:#e2e2e2}\
+.legend{font-size:14px;padding-left:3.5rem}.legend span{display:inline-block;margin-right:1.2em}.key{width:28px;height:8px}\
 .agrees{color:#1b6e2c}.thesis_error{color:#a3260f}.not_stated{color:#7a5b00}.misprint,.judgement{color:#6a3d9a}\
-.open,.given,.follows,.fitted,.qualitative{color:#555}.chip{display:inline-block;width:.9em;height:.9em;vertical-align:-.1em}\
-.items a{margin-right:.5em;white-space:nowrap}.legend span{display:inline-block}\
-section,tr{break-inside:avoid}@media print{body{max-width:none;margin:0}h2{break-before:page}}";
+.open,.given,.follows,.fitted,.qualitative{color:#555}\
+.legend .chip{display:inline-block;width:.9em;height:.9em;vertical-align:-.1em;margin:0}\
+.items{columns:20rem;font-size:14px;max-width:none;list-style:none;padding:0}\
+section,tr,figure{break-inside:avoid}@media print{body{max-width:none;margin:0}h2{break-before:page}}";
 
 /// Status in words, and what it says.
 fn words(status: Status) -> [&'static str; 2] {
@@ -76,16 +81,16 @@ pub fn html(figures: &[(Figure, f64)], quoted: &[Quoted]) -> String {
         "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>The thesis recomputed</title>\
          <style>{STYLE}</style></head><body><h1>The thesis recomputed</h1>\
          <p>A. Draganis, <i>Numerical simulation of thermomechanically coupled transient rolling contact</i>, Chalmers 2014. The \
-         thesis's own method is dashed, ours solid, closed forms are dots, quoted numbers thin lines. I is the introduction, A to D \
+         thesis's own method is dashed, ours solid, closed forms are circles, quoted numbers thin lines. I is the introduction, A to D \
          are the papers. Figures come first, then where text and recomputation differ, then every quoted number.</p>{}",
         counts(quoted)
     );
-    page += "<p class=\"items\">";
+    page += "<ul class=\"items\">";
     for (figure, _) in figures {
         let item = figure.item.replace(' ', "");
-        let _ = write!(page, "<a href=\"#{item}\" title=\"{}\">{}</a> ", figure.title, figure.item);
+        let _ = write!(page, "<li><a href=\"#{item}\">{}</a> {}</li>", figure.item, figure.title);
     }
-    page += "</p>";
+    page += "</ul>";
     if !MISSING.is_empty() {
         let _ = write!(page, "<p class=\"open\">Not recomputed: {}.</p>", MISSING.join(", "));
     }
@@ -94,8 +99,9 @@ pub fn html(figures: &[(Figure, f64)], quoted: &[Quoted]) -> String {
         let _ = write!(page, "<section id=\"{}\">", figure.item.replace(' ', ""));
         let _ = write!(page, "<h3>{}: {} {}</h3>", figure.item, figure.title, badge(figure.status));
         let _ = write!(page, "<p>{}</p><p><i>{}</i></p>", escape(&figure.finding), escape(figure.parameters));
+        page += "<div class=\"plots\">";
         figure.plots.iter().for_each(|plot| page += &plot.svg());
-        page += "<ul>";
+        page += "</div><ul>";
         for predicate in &figure.predicates {
             let mark = if predicate.holds { "holds" } else { "<b>does not hold</b>" };
             let _ = write!(page, "<li>{}: {mark}</li>", escape(&predicate.says));

@@ -10,15 +10,29 @@ GREY = "#777777"
 
 
 def pyplot():
-    """matplotlib without a window, in the style of this project."""
+    """matplotlib without a window, in the style of this project: for pictures of up to 8 inch, which pages show 800 px wide, type
+    of 8 pt is 11 px high."""
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False})
-    plt.rcParams.update({"axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.1})
+    plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8.5, "axes.titlelocation": "left"})
+    plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False})
+    plt.rcParams.update({"legend.frameon": False, "lines.linewidth": 1.3, "savefig.dpi": 150})
+    plt.rcParams["axes.prop_cycle"] = matplotlib.cycler(color=COLOURS)
     return plt
+
+
+def save(path, figure):
+    """Writes a picture in 256 colours, which take a third of the room, and closes it."""
+    import matplotlib.pyplot as plt
+    from PIL import Image
+
+    figure.savefig(path)
+    plt.close(figure)
+    with Image.open(path) as image:
+        image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True, dpi=image.info["dpi"])
 
 
 def draw_stops(path, stops):

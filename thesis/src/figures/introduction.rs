@@ -35,7 +35,8 @@ fn plot(curves: Vec<Curve>) -> Plot {
 pub fn rod() -> Result<Figure, String> {
     let velocities = [2.0, 20.0, 200.0];
     let rods = velocities.map(Rod::of_the_thesis);
-    let curves = rods.iter().flat_map(|rod| [exact(rod, 80), computed(rod, Scheme::Supg, "SUPG")]).collect();
+    let supg = |rod: &Rod| computed(rod, Scheme::Supg, &format!("SUPG, V = {}", rod.velocity));
+    let curves = rods.iter().flat_map(|rod| [exact(rod, 80), supg(rod)]).collect();
     let worst = rods.iter().fold(0.0_f64, |worst, rod| worst.max(rod.nodal_error(ELEMENTS, Scheme::Supg)));
     let peaks = rods.map(|rod| (0..=4000).map(|i| rod.exact(f64::from(i) / 2000.0)).fold(0.0, f64::max));
     Ok(Figure {
