@@ -162,6 +162,33 @@ fn a_braked_wheel_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
     assert!(residual < 5e-3);
 }
 
+/// An implicit master looks for the velocities of free rolling: the answer to small ones has the slope of Carter's
+/// tractions on both sides, down to a millionth of friction.
+#[test]
+fn small_creep_forces_of_both_signs_have_one_slope() {
+    const SMALL: [f64; 5] = [-2e-5, -2.5e-6, -1e-6, 1e-6, 2e-5];
+    for h in [4e-3, 1e-3] {
+        let model = solved_by(ContactMethod::Patch, "railway", |_| ());
+        let start = |xi: f64| Simulation::new(model.clone(), &prescribed(&model, 2.0, xi)).unwrap();
+        let (mut low, mut high) = (-3e-4, 3e-4);
+        assert!(start(low).outputs().contact_force_x > 0.0 && start(high).outputs().contact_force_x < 0.0);
+        for _ in 0..45 {
+            let middle = 0.5 * (low + high);
+            *(if start(middle).outputs().contact_force_x > 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        let force = |turning: f64| {
+            let mut inputs = prescribed(&model, 2.0, low);
+            let mut simulation = start(low);
+            inputs.drive.omega += turning;
+            simulation.advance(&inputs, h).unwrap();
+            simulation.outputs().contact_force_x
+        };
+        let slopes = SMALL.map(|turning| (force(turning) - force(0.0)) / turning);
+        println!("steps of {h} s: {slopes:?} N s/rad");
+        assert!(slopes.iter().all(|slope| (slope / slopes[0] - 1.0).abs() < 5e-3));
+    }
+}
+
 #[test]
 fn a_state_of_the_patch_goes_back_and_through_bytes_bit_for_bit() {
     [false, true].into_iter().for_each(goes_back);

@@ -146,7 +146,8 @@ impl StickSearch {
         if slope.is_finite() { slope } else { 0.0 }
     }
 
-    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change.
+    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change,
+    /// infinite where the search begins anew: how changes fall is not known then.
     pub fn advance(&mut self, it: &mut SeriesLine, normal: f64) -> Result<f64, ContactError> {
         let scale =
             it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
@@ -176,11 +177,11 @@ impl StickSearch {
             stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
             *slide = -*slide;
             self.turn_over(it, Some(1.0))?;
-            return Ok(1.0);
+            return Ok(f64::INFINITY);
         }
         if next < SHORTEST && share <= SHORTEST {
             self.turn_over(it, None)?;
-            return Ok(1.0);
+            return Ok(f64::INFINITY);
         }
         let next = next.clamp((0.3 * share).max(SHORTEST), 1.0);
         self.share = Some(next);

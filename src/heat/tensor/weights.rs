@@ -53,8 +53,7 @@ impl ObservationWeights {
         let mut volume_means = [0.0; 2];
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(&state.values)).enumerate() {
             seen.sums.clone_from(&state.sums[i]);
-            if seen.sums.is_empty() {
-                    }
+            if seen.sums.is_empty() {}
             volume_means[i] = self.observe_body(layout, i, body, field, seen);
         }
         seen.lowest = state.range[0];

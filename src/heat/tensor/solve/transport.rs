@@ -41,7 +41,8 @@ impl Transport {
             values[elements..].fill(0.0);
         }
         (mass_lower[0], flow_lower[0]) = (0.0, 0.0);
-        let [(before, closing), (sigma, closing_sigma)] = [&line.lengths, &*upwind].map(|values| values.split_at(n - 1));
+        let [(before, closing), (sigma, closing_sigma)] =
+            [&line.lengths, &*upwind].map(|values| values.split_at(n - 1));
         let rows = [&mut mass[1..], &mut mass_lower[1..], &mut flow_lower[1..]];
         add_second_nodes(before, sigma, weights, rows);
         let rows = [&mut mass[..1], &mut mass_lower[..1], &mut flow_lower[..1]];
