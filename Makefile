@@ -58,6 +58,8 @@ INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
 TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
+# The report page is tried in a browser where there is one.
+BROWSER := $(if $(shell command -v chromium chromium-browser google-chrome 2> /dev/null),$(VENV)/.browser)
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
@@ -82,7 +84,7 @@ test-rust:
 	$(CARGO) test --release --locked -p wheelrail -p wheelrail-slave
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 
 # Programs that take less than a second each, from every room of the house.
@@ -104,7 +106,7 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
 
-test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
 
 fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
@@ -259,6 +261,10 @@ $(TRAIN): requirements-train.txt $(INSTALLED)
 	touch $@
 
 $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(VENV)/.browser: requirements-browser.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 
