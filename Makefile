@@ -1,4 +1,4 @@
-# make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
+# make demo      braking stop from 100 km/h through fmpy: table, CSV, picture and page (report.html) in results/
 # make test      every test, Rust and fmpy
 # make quick     what tells most after an edit: architecture, documents, unit tests and fast programs
 # make loop TEST=brake  one test program after an edit; ARGS=name runs the tests of that name in it
@@ -12,7 +12,7 @@
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
-# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
+# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
