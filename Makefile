@@ -1,4 +1,4 @@
-# make demo      braking stop from 100 km/h through fmpy: table, CSV and plot in results/
+# make demo      braking stop from 100 km/h through fmpy: table, CSV, picture and page (report.html) in results/
 # make test      every test, Rust and fmpy
 # make quick     what tells most after an edit: architecture, documents, unit tests and fast programs
 # make loop TEST=brake  one test program after an edit; ARGS=name runs the tests of that name in it
@@ -12,7 +12,7 @@
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
-# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV and plot in results/
+# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
@@ -58,6 +58,8 @@ INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
 TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
+# The report page is tried in a browser where there is one.
+BROWSER := $(if $(shell command -v chromium chromium-browser google-chrome 2> /dev/null),$(VENV)/.browser)
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
@@ -82,7 +84,7 @@ test-rust:
 	$(CARGO) test --release --locked -p wheelrail -p wheelrail-slave
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 
 # Programs that take less than a second each, from every room of the house.
@@ -104,7 +106,7 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
 
-test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
 
 fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
@@ -259,6 +261,10 @@ $(TRAIN): requirements-train.txt $(INSTALLED)
 	touch $@
 
 $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(VENV)/.browser: requirements-browser.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 

@@ -10,6 +10,7 @@
 5. At walking speed the brake is eased; it holds the wheel at rest, while the vehicle swings out on the elasticity of wheel and
    rail.
 6. Outputs of every step become a table and a CSV; profiles across the contact patch become a film, drawn by `ex01_picture.py`.
+7. All of it becomes a page to look at in a browser, with the patch as a film: `results/report.html`.
 
 Without leaves: --dry. A torque beyond the adhesion limit then locks the wheel until it stands: --dry --utilisation 1.5.
 """
@@ -24,10 +25,11 @@ import numpy as np
 from tqdm import tqdm
 
 from ex01_picture import draw
-from wheelrail import Fmu, Refused, Wheel
+from wheelrail import Fmu, Refused, Wheel, page
+from wheelrail.page.run import Profiles, of_table
 
 # Recorded across the contact patch.
-PROFILES = ("x", "pressure", "shear", "temperature_wheel")
+PROFILES = ("x", "pressure", "shear", "slip", "temperature_wheel", "temperature_rail")
 
 # Recorded at every communication point.
 COLUMNS = (
@@ -40,6 +42,8 @@ COLUMNS = (
     "heat.friction_power", "heat.to_wheel", "heat.to_rail", "heat.conduction", "contact.friction",
     "rail.friction", "brake.torque", "damage.t_gamma", "damage.time_above_ac1", "damage.flattening",
     "solver.energy_residual", "solver.heat_residual",
+    "heat.to_hub", "wheel.mass", "wheel.inertia", "energy.hub_work", "energy.thermal_work", "energy.stored", "energy.brake",
+    "energy.friction", "energy.plastic", "energy.damping",
 )  # fmt: skip
 
 ROLL = 0.2  # s of free rolling before the brake is applied
@@ -168,11 +172,25 @@ def write_csv(path, table):
         writer.writerows([f"{value:.9g}" for value in row] for row in table)
 
 
+def write_page(path, wheel, parameters, dry, table, film):
+    """Writes the report page of the stop, if plotly is installed, which draws it; the paths that were written."""
+    if not page.drawable():
+        return []
+    about = {
+        "preset": parameters["preset"], "parameters": parameters, "inputs": {"drive.load": wheel.get("drive.load")},
+        "warnings": list(wheel.log), "vehicle_mass": wheel.get("vehicle.mass"),
+    }  # fmt: skip
+    patch = Profiles(np.array(film.times), {quantity: film.profile(quantity) for quantity in PROFILES})
+    title = f"Braking stop from {3.6 * parameters['initial.velocity']:g} km/h"
+    title += "" if dry else f", leaves after {LEAVES[0]:g} m"
+    return [page.write(path, of_table(title, wheel.fmu, COLUMNS, table, patch, about))]
+
+
 def arguments():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fmu", type=Path, default=Path("target/wheelrail.fmu"), help="default: %(default)s")
-    parser.add_argument("--out", type=Path, default=Path("results"), help="directory for CSV and plot")
+    parser.add_argument("--out", type=Path, default=Path("results"), help="directory for CSV, picture and page")
     parser.add_argument("--step", type=float, default=1e-3, help="communication step [s], default %(default)s")
     parser.add_argument("--speed-kmh", type=float, default=100.0, help="speed at the start [km/h]")
     parser.add_argument("--preset", default="railway", help="parameter set, default %(default)s")
@@ -213,6 +231,8 @@ def run(options):
         friction, load, radius = wheel.get("rail.friction", "drive.load", "wheel.radius")
         moment = options.moment or options.utilisation * friction * load * radius
         table, wall = stop(wheel, options, moment, film)
+        options.out.mkdir(parents=True, exist_ok=True)
+        pages = write_page(options.out / "report.html", wheel, parameters, options.dry, table, film)
 
     figures = results(table)
     figures += [
@@ -229,11 +249,10 @@ def run(options):
         number = f"{value:d}" if isinstance(value, int) else f"{value:.4g}"
         print(f"  {name:<38}{number:>10} {unit}")
 
-    options.out.mkdir(parents=True, exist_ok=True)
     data, picture = options.out / "braking_stop.csv", options.out / "braking_stop.png"
     write_csv(data, table)
     draw(picture, {name: column(table, name) for name in ("time", *COLUMNS)}, film, radius)
-    print(f"\nwritten: {data}, {picture}")
+    print(f"\nwritten: {', '.join(map(str, (data, picture, *pages)))}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Command line: `python -m wheelrail train|sweep|ssp SCENARIO`, `schema KIND`; what results say: see `analysis`."""
+"""Command line: `python -m wheelrail train|sweep|ssp SCENARIO`, `report RUN`, `schema KIND`; what results say: see `analysis`."""
 
 import argparse
 import json
@@ -10,6 +10,7 @@ from . import analysis
 from . import scenario as scenarios
 from .files import BadFile, json_schema
 from .fmu import Fmu, Refused, default_path
+from .page import command as page
 
 
 def arguments(argv=None):
@@ -38,6 +39,7 @@ def arguments(argv=None):
     schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
     analysis.add_commands(commands)
+    page.add_command(commands)
     return parser.parse_args(argv)
 
 
@@ -66,6 +68,7 @@ def train(options, scenario):
         report.write_csv(written[-1], table)
     written.append(options.out / "train.png")
     draw_stops(written[-1], stops)
+    written += page.of_train(options.out / "train.html", stops, scenario)
     simulated = sum(table[-1, 0] for table, _ in stops.values())
     wall = time.perf_counter() - began
     print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written: {', '.join(map(str, written))}")
@@ -106,6 +109,9 @@ def main(argv=None):
     try:
         if options.command in analysis.COMMANDS:
             analysis.run(options)
+            return
+        if options.command == "report":
+            page.run(options)
             return
         scenario = scenarios.load(options.scenario)
         if options.command == "ssp":

@@ -1,0 +1,56 @@
+"""The report page: one HTML file with curves, the contact patch as a film, parameters, warnings and balances of a run.
+
+`write(path, dataset)` takes what `wheelrail.records` makes, or a `run.Run`; `of_stops` the stops of a train; `of_file` whatever
+`python -m wheelrail report` takes. plotly draws (`pip install 'wheelrail[report]'`) and is inside the page, which needs no
+network.
+"""
+
+from datetime import datetime
+from pathlib import Path
+
+from ..files import BadFile
+from . import sources
+from .html import drawable
+from .run import Run, of_dataset
+from .stops import Stop, of_table
+from .writing import run_page, stops_page
+
+__all__ = ["Run", "drawable", "of_file", "of_stops", "write"]
+
+
+def write(path, dataset):
+    """Writes the page of a run, an xarray Dataset or a `Run`; returns its path."""
+    return _save(path, run_page(dataset if isinstance(dataset, Run) else of_dataset(dataset), _now()))
+
+
+def of_stops(path, stops, title="A train brakes", about=()):
+    """Writes the page of stops side by side: name to the table of `train.Stop.run` or (table, rail map), or to a `stops.Stop`.
+    `about` has rows of texts on the scenario, name and value. Returns the path."""
+    found = {
+        name: stop if isinstance(stop, Stop) else of_table(stop[0] if isinstance(stop, tuple) else stop)
+        for name, stop in stops.items()
+    }
+    return _save(path, stops_page(title, found, about, _now()))
+
+
+def of_file(source, out=None, fmu=None):
+    """Writes the page of a NetCDF record, a CSV or a directory of results; returns its path, by default beside the source."""
+    source = Path(source)
+    found = sources.read(source, fmu)
+    out = Path(out) if out else (source / "report.html" if source.is_dir() else source.with_suffix(".html"))
+    return write(out, found) if isinstance(found, Run) else of_stops(out, found, source.stem.replace("_", " "))
+
+
+def _save(path, text):
+    """Writes a page, its directory too."""
+    path = Path(path)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise BadFile(f"{path}: cannot be written ({error.strerror})") from error
+    return path
+
+
+def _now():
+    return f"{datetime.now():%Y-%m-%d %H:%M}"

@@ -1,0 +1,129 @@
+"""A run as a page shows it: quantities over time with unit and meaning, profiles over patch and depth, what was set."""
+
+import json
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass
+class Series:
+    """A quantity over time in SI units; `meaning` is the description of the FMU."""
+
+    values: np.ndarray
+    unit: str = ""
+    meaning: str = ""
+
+
+@dataclass
+class Profiles:
+    """Quantities over place and time: `time` [s] of every row, `values` name to array (time, place), SI units."""
+
+    time: np.ndarray
+    values: dict
+
+
+@dataclass
+class Field:
+    """A temperature [K] over time [s] and depth [m]."""
+
+    time: np.ndarray
+    depth: np.ndarray
+    values: np.ndarray
+    meaning: str = ""
+
+
+@dataclass
+class Run:
+    """A wheel over time. `series` are the FMU's variables by name; `about` may hold fmu_version, preset, parameters (those
+    that differ from the preset), inputs (the constant ones), warnings (texts, or pairs of time [s] and text)."""
+
+    title: str
+    time: np.ndarray
+    series: dict
+    patch: Profiles | None = None
+    fields: dict = field(default_factory=dict)
+    about: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        # A run without heat has temperatures of 0 K.
+        self.series = {name: s for name, s in self.series.items() if s.unit != "K" or np.any(s.values)}
+
+    def get(self, name):
+        """Values of a series, None if there is none or it has no finite value."""
+        found = self.series.get(name)
+        return found.values if found is not None and np.isfinite(found.values).any() else None
+
+    def has(self, *names):
+        """Whether all of these are there."""
+        return all(self.get(name) is not None for name in names)
+
+
+def of_table(title, fmu, names, table, patch=None, about=None):
+    """The run of a table whose columns are `time` and the variables `names` of an opened `Fmu`, which says what they are."""
+    table = np.asarray(table, float)
+    unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
+    series = {
+        name: Series(table[:, k], unit(fmu.variable(name)), fmu.variable(name).description or "")
+        for k, name in enumerate(names, 1)
+    }
+    about = {"fmu_version": fmu.description.version or ""} | (about or {})
+    return Run(title, table[:, 0], series, seen_rows(patch) if patch else None, about=about)
+
+
+def of_dataset(dataset):
+    """The run of an xarray Dataset as `wheelrail.records` makes them."""
+    time = np.asarray(dataset["time"].values, float)
+    series, patch, fields = {}, {}, {}
+    at = time
+    for name, variable in dataset.data_vars.items():
+        unit, meaning = variable.attrs.get("units", ""), variable.attrs.get("long_name", variable.attrs.get("description", ""))
+        values = _numbers(variable)
+        if values is None:
+            continue
+        if variable.dims == ("time",):
+            series[name] = Series(values, unit, meaning)
+        elif values.ndim == 2 and variable.dims[1] == "depth":
+            seen = np.isfinite(values).any(axis=1)
+            at_depth = np.asarray(dataset["depth"].values, float)
+            fields[name.removeprefix("profile.")] = Field(
+                _axis(dataset, variable.dims[0], time)[seen], at_depth, values[seen], meaning
+            )
+        elif values.ndim == 2 and name.startswith("profile."):
+            patch[name.removeprefix("profile.")] = values
+            at = _axis(dataset, variable.dims[0], time)
+    about = {name: _loaded(value) for name, value in dataset.attrs.items()}
+    title = str(about.pop("title", "") or "Run")
+    return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about)
+
+
+def _numbers(variable):
+    """Values as floats, of choices and flags too; None of what is no number."""
+    values = np.asarray(variable.values)
+    return values.astype(float) if values.dtype.kind in "fiub" else None
+
+
+def _axis(dataset, name, time):
+    """Coordinate of a dimension [s], `time` if it has none."""
+    return np.asarray(dataset[name].values, float) if name in dataset.coords else time
+
+
+def _loaded(value):
+    """An attribute, decoded if it is JSON."""
+    if isinstance(value, str) and value[:1] in "[{":
+        try:
+            return json.loads(value)
+        except ValueError:
+            return value
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def seen_rows(profiles):
+    """Profiles without the rows in which nothing was recorded; None if nothing is left."""
+    if "x" not in profiles.values or not len(profiles.time):
+        return None
+    x = np.asarray(profiles.values["x"], float)
+    rows = np.isfinite(x).any(axis=1) if x.ndim == 2 else np.ones(len(profiles.time), bool)
+    whole = lambda v: np.broadcast_to(v, (len(profiles.time), len(v))) if np.ndim(v) == 1 else np.asarray(v, float)
+    values = {name: whole(v)[rows] for name, v in profiles.values.items()}
+    return Profiles(np.asarray(profiles.time, float)[rows], values) if rows.any() else None

@@ -1,0 +1,185 @@
+"""What `wheelrail report` reads: a record as NetCDF, a CSV of `wheelrail simulate --out`, the results of `wheelrail train`."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from zipfile import ZipFile
+
+import numpy as np
+from fmpy import read_model_description
+
+from ..files import BadFile
+from . import stops
+from .run import Profiles, Run, Series, of_dataset, seen_rows
+from .units import READ
+
+HDF, CLASSIC = b"\x89HDF", b"CDF"
+FLAGS = {"true": 1.0, "false": 0.0}
+HEADER = re.compile(r"^(?P<name>.*?)(?:\s+\[(?P<unit>[^\]]*)\])?$")
+POINT = re.compile(r"^profile\.(?P<name>\w+)\[(?P<point>\d+)\]$")
+# Units of the FMU's variables by name, for a CSV beside which there is no FMU.
+GUESSES = (
+    (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
+    (r".*\.(force|load)|damage\.t_gamma$", "N"),
+    (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
+    (r".*velocity$|.*slip$", "m/s"), (r"wheel\.omega$", "rad/s"),
+    (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
+    (r".*(half_width|approach|distance|height|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
+    (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|fi_surf)$", "1"),
+)  # fmt: skip
+
+
+def read(path, fmu=None):
+    """What a file or directory holds: a `Run`, or a dict of stops, name to `stops.Stop`. `fmu` is a path: what its
+    description says of units and meaning holds for a CSV without units."""
+    path = Path(path)
+    if path.is_dir():
+        return _directory(path)
+    try:
+        with open(path, "rb") as file:
+            start = file.read(4)
+    except OSError as error:
+        raise BadFile(
+            f"{path}: cannot be read ({error.strerror}); expected a NetCDF or CSV file, or a directory of results"
+        ) from error
+    if start.startswith((HDF, CLASSIC)):
+        return _netcdf(path, fmu)
+    header, columns = table(path)
+    if stops.recognised(header):
+        return {path.stem: stops.of_columns(columns)}
+    return _of_csv(path, columns, _described(fmu))
+
+
+def _netcdf(path, fmu):
+    try:
+        import xarray
+
+        with xarray.open_dataset(path, engine="h5netcdf", decode_timedelta=False) as dataset:
+            loaded = dataset.load()
+    except ImportError:
+        raise BadFile(f"{path}: NetCDF is read by xarray, h5netcdf and h5py: pip install 'wheelrail[records]'") from None
+    except Exception as error:  # Whatever the libraries below say of a file that is damaged or something else.
+        raise BadFile(
+            f"{path}: is no NetCDF file that xarray reads ({(str(error) or type(error).__name__).splitlines()[0]})"
+        ) from error
+    if "time" not in loaded.coords or loaded["time"].ndim != 1:
+        raise BadFile(f"{path}: has no dimension `time`; expected a record as wheelrail.records writes them")
+    run = of_dataset(loaded)
+    _ascending(path, run.time)
+    run.title = path.stem if run.title == "Run" else run.title
+    mass = _vehicle_mass(fmu, run.about)
+    return replace(run, about=run.about | ({} if mass is None else {"vehicle_mass": mass}))
+
+
+def _vehicle_mass(fmu, about):
+    """vehicle.mass [kg] of a record: its own, else that of its preset in an FMU of its version, else None."""
+    given, name = about.get("parameters") or {}, "vehicle.mass"
+    if name in given:
+        return float(given[name])
+    if fmu is None or not Path(fmu).is_file():
+        return None
+    description = read_model_description(str(fmu), validate=False)
+    variable = next((v for v in description.modelVariables if v.name == name), None)
+    if variable is None or str(about.get("fmu_version")) != str(description.version):
+        return None
+    with ZipFile(fmu) as archive:
+        path = f"resources/{about.get('preset')}.json"
+        preset = json.loads(archive.read(path)) if path in archive.namelist() else {}
+    return float(preset.get("vehicle", {}).get("mass", variable.start))
+
+
+def table(path):
+    """Names and columns of a CSV: name to (unit or None, values in SI). Columns may say `name [unit]`."""
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as file:
+            rows = [line.strip() for line in file]
+    except OSError as error:
+        raise BadFile(f"{path}: cannot be read ({error.strerror})") from error
+    except UnicodeDecodeError:
+        raise BadFile(f"{path}: is neither NetCDF nor a CSV of text; expected a record or `wheelrail simulate --out`") from None
+    numbered = [(k, line) for k, line in enumerate(rows, start=1) if line and not line.startswith("#")]
+    names = [HEADER.match(name.strip()) for name in numbered[0][1].split(",")] if numbered else []
+    if "time" not in [name["name"] for name in names]:
+        raise BadFile(f"{path}:{numbered[0][0] if numbered else 1}: no column `time`; the first line names the columns")
+    if len(numbered) < 3:
+        raise BadFile(f"{path}: {len(numbered) - 1} lines of values; a curve needs two")
+    values, columns = _values(path, numbered[1:], len(names)), {}
+    for found, column in zip(names, values.T):
+        unit, factor, offset = READ.get(found["unit"], (found["unit"], 1.0, 0.0))
+        columns[found["name"]] = unit, factor * column + offset
+    _ascending(path, columns["time"][1])
+    return list(columns), columns
+
+
+def _values(path, numbered, width):
+    """The numbers of lines of a CSV; flags count 1 and 0."""
+    try:
+        values = np.loadtxt((line for _, line in numbered), delimiter=",", ndmin=2)
+        if values.shape[1] == width:
+            return values
+    except ValueError:
+        pass
+    values = np.empty((len(numbered), width))
+    for row, (line, text) in zip(values, numbered):
+        cells = text.split(",")
+        if len(cells) != width:
+            raise BadFile(f"{path}:{line}: {len(cells)} entries, the first line has {width}")
+        for k, cell in enumerate(map(str.strip, cells)):
+            try:
+                row[k] = FLAGS[cell] if cell in FLAGS else float(cell or "nan")
+            except ValueError:
+                raise BadFile(f"{path}:{line}: {cell[:40]!r} in column {k + 1} is no number") from None
+    return values
+
+
+def _ascending(path, time):
+    """Refuses times that do not grow."""
+    back = np.flatnonzero(~(np.diff(time) > 0.0)) if len(time) > 1 else [0]
+    if len(back):
+        k = int(back[0])
+        after = f"{time[k]:g} s is followed by {time[k + 1]:g} s" if len(time) > 1 else f"{len(time)} instant"
+        raise BadFile(f"{path}: time must grow from row to row: {after}")
+
+
+def _described(fmu):
+    """Name to (unit, description) of the outputs of an FMU, nothing without one."""
+    if fmu is None or not Path(fmu).is_file():
+        return {}
+    unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
+    return {v.name: (unit(v), v.description or "") for v in read_model_description(str(fmu), validate=False).modelVariables}
+
+
+def guessed(name):
+    """Unit of a variable by its name, empty if that does not say."""
+    return next((unit for pattern, unit in GUESSES if re.match(pattern, name)), "")
+
+
+def _of_csv(path, columns, described):
+    """The run of a CSV of `wheelrail simulate --out`."""
+    time, series, points = columns.pop("time")[1], {}, {}
+    for name, (unit, values) in columns.items():
+        point = POINT.match(name)
+        if point:
+            points.setdefault(point["name"], {})[int(point["point"])] = values
+            continue
+        known, meaning = described.get(name, (guessed(name), ""))
+        series[name] = Series(values, unit or known, meaning)
+    patch = {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points.items()}
+    about = {} if described else {"note": "Units are guessed from the names: there is no FMU here that says them."}
+    return Run(path.stem, time, series, seen_rows(Profiles(time, patch)), about=about)
+
+
+def _directory(path):
+    """The stops of a directory of results: every CSV with columns of a stop, the shortest first."""
+    found = {}
+    for file in sorted(path.glob("*.csv")):
+        with open(file, encoding="utf-8-sig", errors="replace") as opened:
+            header = [HEADER.match(name.strip())["name"] for name in opened.readline().split(",")]
+        if stops.recognised(header):
+            found[file.stem.removeprefix("train_").replace("_", " ")] = stops.of_columns(table(file)[1])
+    if not found:
+        raise BadFile(
+            f"{path}: no CSV of a stop in it (columns time, speed, peripheral_1); expected results of `wheelrail train`"
+        )
+    return dict(sorted(found.items(), key=lambda item: item[1].travelled()))
