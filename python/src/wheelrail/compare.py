@@ -3,10 +3,12 @@
 import multiprocessing
 import queue
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import nullcontext
 from copy import deepcopy
 
 from .fmu import Fmu
+from .interrupt import kept_from_children
 from .train import Stop
 
 DRY, PROTECTED, UNPROTECTED = "dry", "WSP on", "WSP off"
@@ -42,18 +44,39 @@ def stop(name, scenario, dry, path, news=None):
     return name, table, run.contacts.rail
 
 
+class Died(Exception):
+    """A stop whose process was killed."""
+
+
 def side_by_side(scenario, path, progress=lambda name, done: None):
-    """All variants at once; name to (table, rail map)."""
+    """All variants at once; name to (table, rail map). The first that fails ends the others."""
     context = multiprocessing.get_context("spawn")
-    runs = variants(scenario)
-    with context.Manager() as manager, ProcessPoolExecutor(len(runs), mp_context=context) as pool:
+    runs, before = variants(scenario), set(multiprocessing.active_children())
+    with kept_from_children():
+        manager, pool = context.Manager(), ProcessPoolExecutor(len(runs), context)
+        helper = set(multiprocessing.active_children())
         news = manager.Queue()
         jobs = [pool.submit(stop, name, s, dry, path, news) for name, (s, dry) in runs.items()]
-        while not all(job.done() for job in jobs):
-            try:
-                progress(*news.get(timeout=0.2))
-            except queue.Empty:
-                pass
-        while not news.empty():
-            progress(*news.get())
-        return {name: (table, rail) for name, table, rail in (job.result() for job in jobs)}
+    with manager, pool:
+        try:
+            while not all(job.done() for job in jobs):
+                _hear(news, progress)
+                for job in jobs:
+                    if job.done():
+                        job.result()
+            while not news.empty():
+                progress(*news.get())
+            return {name: (table, rail) for name, table, rail in (job.result() for job in jobs)}
+        except BrokenProcessPool:
+            raise Died("the process of a stop was killed; it may have had too little memory") from None
+        finally:
+            for child in set(multiprocessing.active_children()) - before - helper:
+                child.terminate()
+
+
+def _hear(news, progress):
+    """Passes on what comes within a moment."""
+    try:
+        progress(*news.get(timeout=0.2))
+    except queue.Empty:
+        pass
