@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -144,9 +145,12 @@ def main(argv=None):
         return
     try:
         run(options)
+    except BrokenPipeError:  # who read what is printed has gone, such as `head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
     except (BadFile, FileNotFoundError) as error:
         end(error, 2)
-    except (Refused, TimeoutError, ControllerFailed, TrackEnds, Died, SweepStopped) as error:
+    except (Refused, TimeoutError, ControllerFailed, TrackEnds, Died, SweepStopped, OSError) as error:
         end(error, getattr(error, "code", 1))
     except KeyboardInterrupt:
         end("stopped", 130)

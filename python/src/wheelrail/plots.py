@@ -131,5 +131,5 @@ def _rail(axis, table, rail):
     sanded = rail.sand.sum(axis=0) > 0.0
     if np.any(sanded):
         axis.fill_between(place, 0.0, 0.04, where=sanded, transform=axis.get_xaxis_transform(), color="#B8860B", linewidth=0)
-        axis.text(0.99, 0.08, "sand", ha="right", va="bottom", transform=axis.transAxes, color="#8A6508", fontsize=8)
+        axis.text(0.02, 0.08, "sand", ha="left", va="bottom", transform=axis.transAxes, color="#8A6508", fontsize=8)
     axis.set(ylabel="friction\nmet [1]", xlabel="position [m]", xlim=(0, place[end - 1]))

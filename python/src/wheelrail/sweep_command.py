@@ -9,7 +9,7 @@ from .interrupt import kept_from_children
 from .progress import Progress
 from .results import directory
 from .sweep import Files, SchedulerGone, described, lists, points, references, scenarios_of, speed, sweep
-from .sweep_table import DRY, REASON, columns_path, dry_path, unfinished
+from .sweep_table import REASON, columns_path, dry_path, unfinished
 
 PATIENCE = 10.0  # s, for a scheduler to answer and for its first worker
 
