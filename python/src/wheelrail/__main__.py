@@ -50,32 +50,35 @@ def arguments(argv=None):
 
 
 def train(options, scenario):
-    """Three stops side by side: table, CSV, plot."""
+    """Three stops side by side: table, CSV, plot. What has come to its end is kept, whatever becomes of the others."""
     from . import compare, report
     from .plots import draw_stops
     from .progress import Progress
 
     out = directory(options.out, scenario)
-    names = {name: f"train_{name.lower().replace(' ', '_')}.csv" for name in compare.variants(scenario)}
-    spare([out / name for name in (*names.values(), "train.png", "train_columns.csv")], options.force)
-    began, done = time.perf_counter(), {}
+    path_of = {name: out / f"train_{name.lower().replace(' ', '_')}.csv" for name in compare.variants(scenario)}
+    spare([*path_of.values(), out / "train.png", out / "train_columns.csv"], options.force)
+    began, done, endless = time.perf_counter(), {}, {}
     with Progress(300, "braking") as bar:
 
         def progress(name, share):
             bar.advance(share - done.get(name, 0), ", ".join(f"{n} {s} %" for n, s in (done | {name: share}).items()))
             done[name] = share
 
-        stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress)
-    print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
-    print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
-    for name, (table, _) in stops.items():
-        report.write_csv(out / names[name], table)
-    report.write_columns(out / "train_columns.csv", report.described(table))
-    draw_stops(out / "train.png", stops, scenario.name)
-    simulated = sum(table[-1, 0] for table, _ in stops.values())
-    wall = time.perf_counter() - began
-    written = ", ".join((*names.values(), "train_columns.csv", "train.png"))
-    print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {written}")
+        stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
+    if stops:
+        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
+        print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
+        written = [out / "train_columns.csv", out / "train.png"]
+        report.write_columns(written[0], report.described(next(iter(stops.values()))[0]))
+        draw_stops(written[1], stops, scenario.name)
+        for name, (table, _) in stops.items():
+            written.append(path_of[name])
+            report.write_csv(written[-1], table)
+        simulated, wall = sum(table[-1, 0] for table, _ in stops.values()), time.perf_counter() - began
+        print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {', '.join(path.name for path in written)}")
+    if endless:
+        raise TrackEnds("; ".join(f"{name}: {endless[name]}" for name in path_of if name in endless))
 
 
 def packages(options, scenario):

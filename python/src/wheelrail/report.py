@@ -1,6 +1,7 @@
 """Key figures of a stop in the manner of EN 15595: table of several stops side by side, and CSV."""
 
 import csv
+import math
 
 import numpy as np
 
@@ -113,16 +114,16 @@ def standing(table):
 
 
 def lines(stops):
-    """A text table of several stops: name to `figures`. The first is the dry one that the others are compared with."""
+    """A text table of several stops: name to `figures`. One named `dry` is what the others are compared with."""
     names = list(stops)
-    dry = stops[names[0]]["stopping distance"][0]
     width = 34
     yield f"{'':42}" + "".join(f"{name:>{width}}" for name in names)
+    dry = stops["dry"]["stopping distance"][0] if "dry" in stops else math.nan
     extension = [f"{100.0 * (stops[name]['stopping distance'][0] / dry - 1.0):.1f}" for name in names]
     for figure in stops[names[0]]:
         cells = [_cell(stops[name][figure][0]) for name in names]
         yield f"{figure + ' [' + stops[names[0]][figure][1] + ']':42}" + "".join(f"{cell:>{width}}" for cell in cells)
-        if figure == "stopping distance":
+        if figure == "stopping distance" and "dry" in stops:
             yield f"{'extension over dry [%]':42}" + "".join(f"{cell:>{width}}" for cell in extension)
 
 
