@@ -3,8 +3,11 @@
 import csv
 import math
 import os
+import re
 import shutil
 import signal
+import subprocess
+import sys
 import threading
 from collections import Counter
 from pathlib import Path
@@ -160,6 +163,32 @@ def test_any_key_of_any_file_is_swept_and_own_classes_reach_workers_that_have_no
     assert units["vehicle.body.mass"] == "kg" and units["peak temperature"] == "°C" and units["extension over dry"] == "%"
 
     assert draw_sweep(tmp_path / "many.png", rows, names, "four keys") is None and (tmp_path / "many.png").stat().st_size > 20000
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C of a terminal is a signal to a group of processes")
+def test_ctrl_c_is_one_line_and_the_same_command_goes_on(tmp_path):
+    for path in TRAIN.glob("*.*"):
+        shutil.copy(path, tmp_path)
+    text = (tmp_path / "low_adhesion.json").read_text().replace('"step": 0.005', '"step": 0.01')
+    speeds = ", ".join(f"{0.5 + 0.1 * k:.1f}" for k in range(40))
+    begin = text.index('"sweep": ') + len('"sweep": ')
+    (tmp_path / "low_adhesion.json").write_text(text[:begin] + '{ "speed": [' + speeds + "] } }")
+    command = [sys.executable, "-m", "wheelrail", "sweep", "low_adhesion.json", "--rigid", "--out", "."]
+    pipe = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "cwd": tmp_path, "start_new_session": True}
+    with subprocess.Popen(command, **pipe) as running:
+        lines = [running.stderr.readline()]
+        while not lines[-1].startswith("stops:"):
+            assert lines[-1], lines
+            lines.append(running.stderr.readline())
+        os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers, too
+        out, rest = running.communicate(timeout=120)
+    assert running.returncode == 130 and "Traceback" not in rest and out.startswith("a coach brakes"), rest
+    last = rest.strip().splitlines()[-1]
+    count = int(re.fullmatch(r"error: stopped after (\d+) of 80 stops; results are in low_adhesion, and the same .*", last).group(1))
+    loaded = scenario.load(tmp_path / "low_adhesion.json")
+    missing = sweep.Files(loaded, True, tmp_path / "low_adhesion" / "sweep.csv").missing(loaded)
+    # One may be written and not yet counted.
+    assert 0 < count and len(missing) in (80 - count, 79 - count)
 
 
 def test_pictures_of_one_key_and_of_none():

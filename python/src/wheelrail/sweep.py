@@ -208,13 +208,13 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
     write_meanings(columns_path(files.path), files.stops.keys)
     for (dry, point), found in finished(client, missing, made, fmu, limit):
         row = point | ({DRY: True} if dry else {}) | found
-        progress(row)
         if REASON in row:
             failed.append(row)
         elif dry:
             files.dry.add(row)
         else:
             files.stops.add(files.over_dry(row))
+        progress(row)
     files.fill()
     write_unfinished(unfinished(files.path), files.name, [*files.stops.keys, DRY], failed)
     return files.stops.rows, failed
