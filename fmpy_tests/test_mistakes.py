@@ -80,6 +80,7 @@ MISTAKES = [
     wrong(SCENARIO, '"step": 0.005', '"step": 0.05', "error: low_adhesion.json:8: step = 0.05 s is outside 1e-05 to 0.01 s"),
     wrong(SCENARIO, '"hold": 2.0', '"demand": 80', "error: low_adhesion.json:9: demand = 80 is outside 0 to 1"),
     wrong(SCENARIO, '"hold": 2.0', '"coaches": 1.5', "error: low_adhesion.json:9: coaches is 1.5, not a whole number"),
+    wrong(SCENARIO, None, "[" * 200000, "error: low_adhesion.json: nested too deeply"),
     wrong(SCENARIO, '"hold": 2.0', '"fmu_coaches": [2]', "error: low_adhesion.json: fmu_coaches entry = 2 is outside 1 to 1"),
     wrong(SCENARIO, '"coach.json"', "5", "error: low_adhesion.json:4: vehicle is 5, not a text"),
     wrong(SCENARIO, '"disc_brake.json"', '"drum_brake.json"', "error: drum_brake.json: cannot be read"),
@@ -136,6 +137,9 @@ MISTAKES = [
     wrong("leaves.csv", "400,wet", "400,ice", "error: leaves.csv:3: condition 'ice' is none of dry, wet, contaminated"),
     wrong("leaves.csv", "400,wet", "\n400,wet", "error: leaves.csv:3: an empty line"),
     wrong("leaves.csv", None, "position,condition\n", "error: leaves.csv:2: no line of values"),
+    wrong("leaves.csv", "400,wet", "4" * 200000 + ",wet", "error: leaves.csv: is no CSV file: field larger than field limit"),
+    wrong("leaves.json", '"cell": 0.25', '"cell": 0.0001', "error: leaves.json:5: cell = 0.0001 m is outside 0.01 to 100 m"),
+    wrong("leaves.json", '"length": 3000, "cell": 0.25', '"length": 1e6, "cell": 0.1', "leaves.json: length = 1e.06 m in cells .* 1e.07 cells, more"),
     wrong("leaves.json", '"length": 3000', '"length": 3', "error: leaves.json:5: length = 3 m is outside 10 to 1e.06 m"),
 ]  # fmt: skip
 

@@ -116,6 +116,8 @@ def read_json(path, schema):
         values = json.loads(text, object_pairs_hook=_once, parse_constant=_refuse)
     except json.JSONDecodeError as error:
         raise BadFile(f"{path}:{error.lineno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise BadFile(f"{path}: nested too deeply") from None
     except ValueError as error:
         raise BadFile(f"{path}: {error}") from None
     return _Reader(path, _lines(text)).group(values, schema, ())
@@ -125,7 +127,10 @@ def read_csv(path, columns):
     """The columns of a CSV file: name to list of values. The first line names them; all of `columns` without default must
     be there, no others."""
     path = Path(path)
-    rows = list(csv.reader(_text(path).splitlines()))
+    try:
+        rows = list(csv.reader(_text(path).splitlines()))
+    except csv.Error as error:
+        raise BadFile(f"{path}: is no CSV file: {error}") from None
     if not rows:
         raise BadFile(f"{path}:1: empty; expected a line with {', '.join(columns)}")
     header = [name.strip() for name in rows[0]]
@@ -265,11 +270,13 @@ def number(value, field):
     put into them."""
     if isinstance(field, Several):
         return [number(entry, field.item) for entry in value]
-    return float(value) if isinstance(field, Real) and not field.whole else value
+    return (int(value) if field.whole else float(value)) if isinstance(field, Real) else value
 
 
 def _text(path):
     """Text of a file."""
+    if path.is_fifo() or path.is_char_device():
+        raise BadFile(f"{path}: is no regular file")
     try:
         return path.read_text(encoding="utf-8-sig")  # some editors begin files with a mark
     except (OSError, UnicodeDecodeError) as error:

@@ -157,6 +157,7 @@ SCENARIO = {
     "driver": Text("driver of one's own, module:Class; a constant demand if empty", ""),
     "driver_parameters": Named(Real(-1e12, 1e12, "", "value"), "numbers that its class is made with, by name", {}),
 }
+MOST_CELLS = 5e6  # of the map of the rail, which keeps values of every axle for each of them
 PARTS = {"vehicle": VEHICLE, "brake": BRAKE, "track": TRACK}
 # Short names of swept keys beside dotted paths.
 SHORT = {"slide_high": "brake.wsp.slide_high"}
@@ -325,6 +326,10 @@ def check(scenario):
             f"{scenario.paths['brake']}: wsp.slide_high = {wsp.slide_high:g} is below wsp.slide_low = {wsp.slide_low:g}: "
             "an axle is held before it is vented"
         )
+    track = scenario.track
+    if track.length > MOST_CELLS * track.cell:
+        cells = f"{track.length / track.cell:g} cells, more than {MOST_CELLS:g}"
+        raise BadFile(f"{scenario.paths['track']}: length = {track.length:g} m in cells of cell = {track.cell:g} m makes {cells}")
     for coach in scenario.fmu_coaches:
         if coach > scenario.coaches:
             raise BadFile(f"{path}: fmu_coaches entry = {coach} is outside 1 to {scenario.coaches}, the number of coaches")
