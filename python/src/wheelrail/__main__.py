@@ -107,7 +107,7 @@ def rigid(scenario):
 
 
 def opened(path, scenario):
-    """Refuses, before anything is computed, an FMU that is missing or another one, and parameters of wheels that it does not know."""
+    """Refuses, before anything is computed, an FMU that is missing or another one, and wheel parameters that it does not know."""
     if not path.is_file():
         raise BadFile(
             f"{path} does not exist: build it with `make fmu`, name one with --fmu or the variable WHEELRAIL_FMU, or take --rigid"

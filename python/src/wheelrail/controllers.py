@@ -56,8 +56,8 @@ class Driving(Protocol):
         """`scenario`: its values (`scenario.speed`, `scenario.demand` ...); `parameters`: `driver_parameters` of the file."""
 
     def step(self, h, time, speed, travelled):
-        """Share of the full brake pressure, 0 to 1, for the next `h` [s], at a time [s] and speed [m/s], `travelled` [m] after the
-        start."""
+        """Share of the full brake pressure, 0 to 1, for the next `h` [s], at a time [s] and speed [m/s], `travelled` [m] after
+        the start."""
 
 
 class ControllerFailed(Exception):

@@ -264,8 +264,8 @@ def _find(scenario, path, name):
 
 
 def changed(scenario, changes):
-    """A copy of a scenario with other values: dotted path to value, checked as in files. A file's name takes the place of all that
-    was read from another one; values within it go before it."""
+    """A copy of a scenario with other values: dotted path to value, checked as in files. A file's name takes the place of all
+    that was read from another one; values within it go before it."""
     copy = deepcopy(scenario)
     longer = lambda path: path not in SCENARIO or path in OWN
     for path in sorted(changes, key=lambda path: (longer(path), path.count("."))):

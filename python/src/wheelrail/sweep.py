@@ -195,8 +195,8 @@ class Files:
 
 def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
     """Computes what is missing in the file at `path`; returns all rows with results, and the points without, with their
-    reasons. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none. `progress` gets every row; those of dry stops have
-    `DRY` true."""
+    reasons. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none. `progress` gets every row; those of dry stops
+    have `DRY` true."""
     from distributed.diagnostics.plugin import UploadFile
 
     files = Files(scenario, fmu is None, path)

@@ -91,7 +91,7 @@ MISTAKES = [
     # The sweep.
     swept("[1, 2]", r"error: low_adhesion.json:11: sweep is \[1, 2\], not an object"),
     swept('{ "vehicle.body.mas": [1] }', "sweep.vehicle.body.mas is unknown; did you mean 'vehicle.body.mass'"),
-    swept('{ "gradient": [0] }', "sweep.gradient is unknown; it is a key of the scenario, or vehicle, brake, track or wheel, a dot"),
+    swept('{ "gradient": [0] }', "sweep.gradient is unknown; it is a key of the scenario, or vehicle, brake, track or wheel"),
     swept('{ "vehicle.body": [1] }', "sweep.vehicle.body is no value but a group; did you mean 'vehicle.body.mass'"),
     swept('{ "wheel": [1] }', r"sweep.wheel is \[1\], not an object"),
     swept('{ "speed": 20 }', "error: low_adhesion.json:11: sweep.speed is 20, not a list with entries"),
@@ -102,7 +102,7 @@ MISTAKES = [
     swept('{ "speed": [20, 30, 20] }', "sweep.speed entry 20.0 is there twice"),
     swept('{ "track.conditions.ice.friction": [0.02] }', "has no condition 'ice'; known: dry, wet, contaminated"),
     swept('{ "slide_high": [0.1], "brake.wsp.slide_high": [0.2] }', "slide_high and brake.wsp.slide_high are the same key"),
-    swept('{ "speed": [9], "slide_high": [0.01] }', "sweep, speed 9, slide_high 0.01: disc_brake.json: wsp.slide_high = 0.01 is below"),
+    swept('{ "speed": [9], "slide_high": [0.01] }', "sweep, speed 9, slide_high 0.01: disc_brake.json: wsp.slide_high = 0.01 is"),
     swept('{ "track": ["leaves.json", "none.json"] }', "sweep, track none.json: none.json: cannot be read"),
     swept('{ "brake.protection": ["", "none:P"] }', "brake.protection none:P: disc_brake.json: protection: no module none"),
     swept('{ "coaches": [2, 2.5] }', "sweep.coaches entry is 2.5, not a whole number"),
@@ -139,7 +139,8 @@ MISTAKES = [
     wrong("leaves.csv", None, "position,condition\n", "error: leaves.csv:2: no line of values"),
     wrong("leaves.csv", "400,wet", "4" * 200000 + ",wet", "error: leaves.csv: is no CSV file: field larger than field limit"),
     wrong("leaves.json", '"cell": 0.25', '"cell": 0.0001', "error: leaves.json:5: cell = 0.0001 m is outside 0.01 to 100 m"),
-    wrong("leaves.json", '"length": 3000, "cell": 0.25', '"length": 1e6, "cell": 0.1', "leaves.json: length = 1e.06 m in cells .* 1e.07 cells, more"),
+    wrong("leaves.json", '"length": 3000, "cell": 0.25', '"length": 1e6, "cell": 0.1',
+        "leaves.json: length = 1e.06 m in cells .* 1e.07 cells, more"),
     wrong("leaves.json", '"length": 3000', '"length": 3', "error: leaves.json:5: length = 3 m is outside 10 to 1e.06 m"),
 ]  # fmt: skip
 
