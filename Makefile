@@ -12,7 +12,8 @@
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
-# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/
+# make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/low_adhesion/
+#                make train SCENARIO=my/scenario.json; FORCE=1 overwrites results that are there
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
@@ -140,10 +141,10 @@ creep-curve: $(FMU) $(INSTALLED)
 	$(PY) examples/ex08_creep_curve.py --fmu $(FMU) --out results
 
 train: $(FMU) $(INSTALLED)
-	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out results
+	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out results $(if $(FORCE),--force)
 
 sweep: $(FMU) $(TRAIN)
-	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(SCHEDULER),--scheduler $(SCHEDULER))
+	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(FORCE),--force) $(if $(SCHEDULER),--scheduler $(SCHEDULER))
 
 eight-wheels: $(FMU) $(INSTALLED)
 	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU) $(if $(BEFORE),--before $(BEFORE)) $(ARGS)

@@ -3,8 +3,6 @@
 import json
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -86,11 +84,3 @@ def test_the_schemas_for_editors_are_those_of_the_program():
     for kind, schema in scenario.SCHEMAS.items():
         written = json.loads((TRAIN / "schema" / f"{kind}.json").read_text())
         assert written == json.loads(json.dumps(json_schema(schema))), f"python -m wheelrail schema {kind}"
-
-
-def test_the_command_says_one_line(folder):
-    (folder / "leaves.csv").write_text("position,condition\n0,icy\n")
-    command = [sys.executable, "-m", "wheelrail", "train", str(folder / "low_adhesion.json"), "--rigid"]
-    ran = subprocess.run(command, capture_output=True, text=True, cwd=folder)
-    assert ran.returncode == 1 and ran.stdout == ""
-    assert ran.stderr == f"error: {folder / 'leaves.csv'}:2: condition 'icy' is none of dry, wet, contaminated\n"

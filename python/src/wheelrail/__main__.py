@@ -2,15 +2,22 @@
 
 import argparse
 import json
+import os
 import sys
 import time
 from pathlib import Path
 
 from . import analysis
 from . import scenario as scenarios
+from .compare import Died
+from .controllers import ControllerFailed
 from .files import BadFile, json_schema
 from .fmu import Fmu, Refused, default_path
 from .page import command as page
+from .results import directory, spare
+from .sweep_command import SweepStopped
+from .sweep_command import run as sweep
+from .train import TrackEnds
 
 
 def arguments(argv=None):
@@ -20,7 +27,8 @@ def arguments(argv=None):
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
         command = commands.add_parser(name, help=about)
         command.add_argument("scenario", type=Path, help="JSON file, see `wheelrail schema scenario`")
-        command.add_argument("--out", type=Path, default=Path("results"), help="directory, default %(default)s")
+        command.add_argument("--out", type=Path, default=Path("results"), help="results go to OUT/SCENARIO, default %(default)s")
+        command.add_argument("--force", action="store_true", help="overwrite results that are there")
         wheels = command.add_mutually_exclusive_group()
         wheels.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
         wheels.add_argument("--rigid", action="store_true", help="rigid wheelsets with a creep law, no FMU")
@@ -44,34 +52,36 @@ def arguments(argv=None):
 
 
 def train(options, scenario):
-    """Three stops side by side: table, CSV, plot."""
-    from tqdm import tqdm
-
+    """Three stops side by side: table, CSV, plot. What has come to its end is kept, whatever becomes of the others."""
     from . import compare, report
     from .plots import draw_stops
+    from .progress import Progress
 
-    began, done = time.perf_counter(), {}
-    with tqdm(total=300, desc="braking", bar_format="{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]") as bar:
+    out = directory(options.out, scenario)
+    path_of = {name: out / f"train_{name.lower().replace(' ', '_')}.csv" for name in compare.variants(scenario)}
+    spare([*path_of.values(), out / "train.png", out / "train.html", out / "train_columns.csv"], options.force)
+    began, done, endless = time.perf_counter(), {}, {}
+    with Progress(300, "braking") as bar:
 
         def progress(name, share):
+            bar.advance(share - done.get(name, 0), ", ".join(f"{n} {s} %" for n, s in (done | {name: share}).items()))
             done[name] = share
-            bar.set_postfix_str(", ".join(f"{name} {share} %" for name, share in done.items()), refresh=False)
-            bar.update(sum(done.values()) - bar.n)
 
-        stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress)
-    print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
-    print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
-    options.out.mkdir(parents=True, exist_ok=True)
-    written = []
-    for name, (table, _) in stops.items():
-        written.append(options.out / f"train_{name.lower().replace(' ', '_')}.csv")
-        report.write_csv(written[-1], table)
-    written.append(options.out / "train.png")
-    draw_stops(written[-1], stops)
-    written += page.of_train(options.out / "train.html", stops, scenario)
-    simulated = sum(table[-1, 0] for table, _ in stops.values())
-    wall = time.perf_counter() - began
-    print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written: {', '.join(map(str, written))}")
+        stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
+    if stops:
+        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
+        print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
+        written = [out / "train_columns.csv", out / "train.png"]
+        report.write_columns(written[0], report.described(next(iter(stops.values()))[0]))
+        draw_stops(written[1], stops, scenario.name)
+        for name, (table, _) in stops.items():
+            written.append(path_of[name])
+            report.write_csv(written[-1], table)
+        written += page.of_train(out / "train.html", stops, scenario)
+        simulated, wall = sum(table[-1, 0] for table, _ in stops.values()), time.perf_counter() - began
+        print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {', '.join(path.name for path in written)}")
+    if endless:
+        raise TrackEnds("; ".join(f"{name}: {endless[name]}" for name in path_of if name in endless))
 
 
 def packages(options, scenario):
@@ -92,46 +102,89 @@ def rigid(scenario):
     from .wheelset import LAW, FrictionLaw
 
     if default_path().is_file():
-        with Fmu() as known:
-            scenarios.check_wheel(scenario, [v.name for v in known.description.modelVariables if v.causality == "parameter"])
+        opened(default_path(), scenario)
     FrictionLaw.of(scenario.wheel | scenario.sweep.wheel)
     ignored = [name for name in scenario.wheel | scenario.sweep.wheel if name not in LAW]
     if ignored:
         print(f"rigid wheelsets know {' and '.join(LAW)} only; without effect: {', '.join(ignored)}", file=sys.stderr)
 
 
+def opened(path, scenario):
+    """Refuses, before anything is computed, an FMU that is missing or another one, and wheel parameters that it does not know."""
+    if not path.is_file():
+        raise BadFile(
+            f"{path} does not exist: build it with `make fmu`, name one with --fmu or the variable WHEELRAIL_FMU, or take --rigid"
+        )
+    try:
+        with Fmu(path) as known:
+            parameters = [v.name for v in known.description.modelVariables if v.causality == "parameter"]
+    except Exception as error:  # whatever zip, XML and fmpy say of a file that is no FMU
+        raise BadFile(f"{path} is no FMU: {' '.join(str(error).split()) or type(error).__name__}") from None
+    if "mesh.elements_per_half_width" not in parameters:
+        raise BadFile(f"{path} is an FMU, but not that of a wheel")
+    scenarios.check_wheel(scenario, parameters)
+
+
+def checked(options, scenario):
+    """Options that fit together and to the scenario."""
+    if options.step is not None:
+        wrong = scenarios.SCENARIO["step"].check(options.step)
+        if wrong:
+            raise BadFile(f"--step {wrong}")
+        scenario.step = options.step
+    if options.command == "sweep":
+        if options.workers < 1:
+            raise BadFile(f"--workers = {options.workers} is below 1")
+        if not options.limit >= 0.0:
+            raise BadFile(f"--limit = {options.limit:g} s is below 0, which is no limit")
+    if options.rigid:
+        rigid(scenario)
+    else:
+        opened(options.fmu, scenario)
+
+
 def main(argv=None):
-    """Runs a command; errors of files and of the FMU become one line."""
+    """Runs a command. Errors become one line: wrong arguments and files end with 2, runs that fail with 1, Ctrl-C with 130."""
     options = arguments(argv)
     if options.command == "schema":
         print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))
         return
     try:
-        if options.command in analysis.COMMANDS:
-            analysis.run(options)
-            return
-        if options.command == "report":
-            page.run(options)
-            return
-        scenario = scenarios.load(options.scenario)
-        if options.command == "ssp":
-            packages(options, scenario)
-            return
-        if options.step is not None:
-            wrong = scenarios.SCENARIO["step"].check(options.step)
-            if wrong:
-                raise BadFile(f"--step {wrong}")
-            scenario.step = options.step
-        if options.rigid:
-            rigid(scenario)
-        if options.command == "train":
-            train(options, scenario)
-        else:
-            from .sweep import run
+        run(options)
+    except BrokenPipeError:  # who read what is printed has gone, such as `head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except (BadFile, FileNotFoundError) as error:
+        end(error, 2)
+    except (Refused, TimeoutError, ControllerFailed, TrackEnds, Died, SweepStopped, OSError) as error:
+        end(error, getattr(error, "code", 1))
+    except KeyboardInterrupt:
+        end("stopped", 130)
 
-            run(options, scenario)
-    except (BadFile, FileNotFoundError, Refused, TimeoutError) as error:
-        sys.exit(f"error: {error}")
+
+def end(error, code):
+    """Ends with one line."""
+    print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
+    sys.exit(code)
+
+
+def run(options):
+    """Runs a command but `schema`."""
+    if options.command in analysis.COMMANDS:
+        analysis.run(options)
+        return
+    if options.command == "report":
+        page.run(options)
+        return
+    scenario = scenarios.load(options.scenario)
+    if options.command == "ssp":
+        packages(options, scenario)
+        return
+    checked(options, scenario)
+    if options.command == "train":
+        train(options, scenario)
+    else:
+        sweep(options, scenario)
 
 
 if __name__ == "__main__":

@@ -5,17 +5,9 @@ slide protection, which follows the control pressure, holds, or vents (`Cylinder
 only, as a real one does, and sets the valves.
 """
 
-from enum import Enum
-
 import numpy as np
 
-
-class Valve(Enum):
-    """What the valve of an axle does."""
-
-    APPLY = 0
-    HOLD = 1
-    VENT = 2
+from .controllers import OwnProtection, OwnSanding, Valve
 
 
 class Distributor:
@@ -126,27 +118,50 @@ class SlideProtection:
 
 
 class Sander:
-    """Sand in front of chosen axles while an axle is vented, at `rate` [kg/s] per rail, above `off_speed` [m/s]."""
+    """Sand in front of chosen axles at `rate` [kg/s] per rail, above `off_speed` [m/s], in bursts.
+
+    A burst is called for by an axle that is vented. It reaches the rail `delay` [s] later, lasts `minimum_time` [s] at least, and
+    ends `run_on` [s] after the last axle was vented. Below `off_speed` it ends at once.
+    """
 
     def __init__(self, sander):
         self.sander, self.used = sander, 0.0
+        self.called, self.laid, self.calm = None, None, 0.0  # s, since the call, of the burst, since an axle was vented
 
-    def step(self, h, speed, valves):
+    def step(self, h, speeds, valves):
         """Mass [kg] laid on each rail in front of each of the sander's axles in `h` [s]."""
         s = self.sander
-        laying = s.active and speed > s.off_speed and Valve.VENT in valves
-        mass = s.rate * h if laying else 0.0
-        self.used += 2.0 * mass * len(s.axles)
-        return mass
+        if not s.active or max(speeds) <= s.off_speed:
+            self.called = self.laid = None
+            return 0.0
+        sliding = Valve.VENT in valves
+        self.calm = 0.0 if sliding else self.calm + h
+        if self.laid is None:
+            self.called = (0.0 if sliding else None) if self.called is None else self.called + h
+            if self.called is None or self.called < s.delay - 1e-9:
+                return 0.0
+            self.called, self.laid = None, 0.0
+        elif self.calm > s.run_on and self.laid >= s.minimum_time - 1e-9:
+            self.laid = None
+            return 0.0
+        self.laid += h
+        self.used += 2.0 * s.rate * h * len(s.axles)
+        return s.rate * h
 
 
 class Brakes:
-    """The brake of a coach: what a demand and the speeds of its axles make of torques and sand."""
+    """The brake of a coach: what a demand and the speeds of its axles make of torques and sand. Slide protection and sanding are
+    those that `brake.protection` and `brake.sanding` name, or the ones of this file."""
 
-    def __init__(self, brake, speeds):
+    def __init__(self, brake, speeds, of=""):
+        """`brake`: the values of its file; `speeds`: of the axles at the start [m/s]; `of` says in messages of which coach."""
         self.distributor, self.protection = Distributor(brake), SlideProtection(brake.wsp, speeds)
-        self.cylinders = [Cylinder(brake) for _ in speeds]
         self.sander = Sander(brake.sander)
+        if brake.protection:
+            self.protection = OwnProtection(brake.protection, brake.wsp, speeds, brake.protection_parameters, of)
+        if brake.sanding:
+            self.sander = OwnSanding(brake.sanding, brake.sander, brake.sanding_parameters, of)
+        self.cylinders = [Cylinder(brake) for _ in speeds]
         self.valves = self.protection.valves
         self.sanded = {axle - 1 for axle in brake.sander.axles}
 
@@ -156,7 +171,7 @@ class Brakes:
         self.valves = self.protection.step(h, speeds)
         for cylinder, valve in zip(self.cylinders, self.valves):
             cylinder.step(h, supply, valve)
-        mass = self.sander.step(h, max(speeds), self.valves)
+        mass = self.sander.step(h, speeds, self.valves)
         sand = [mass if axle in self.sanded else 0.0 for axle in range(len(speeds))]
         return [cylinder.torque() for cylinder in self.cylinders], sand
 

@@ -3,11 +3,13 @@
 import multiprocessing
 import queue
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import nullcontext
 from copy import deepcopy
 
 from .fmu import Fmu
-from .train import Stop
+from .interrupt import kept_from_children
+from .train import Stop, TrackEnds
 
 DRY, PROTECTED, UNPROTECTED = "dry", "WSP on", "WSP off"
 
@@ -42,18 +44,50 @@ def stop(name, scenario, dry, path, news=None):
     return name, table, run.contacts.rail
 
 
-def side_by_side(scenario, path, progress=lambda name, done: None):
-    """All variants at once; name to (table, rail map)."""
+class Died(Exception):
+    """A stop whose process was killed."""
+
+
+def side_by_side(scenario, path, progress=lambda name, done: None, endless=None):
+    """All variants at once; name to (table, rail map). The first that fails ends the others, but one that comes to no end, in time
+    or on the track, is put into `endless`, name to error, if that is given."""
     context = multiprocessing.get_context("spawn")
-    runs = variants(scenario)
-    with context.Manager() as manager, ProcessPoolExecutor(len(runs), mp_context=context) as pool:
+    runs, before = variants(scenario), set(multiprocessing.active_children())
+    with kept_from_children():
+        manager, pool = context.Manager(), ProcessPoolExecutor(len(runs), context)
+        helper = set(multiprocessing.active_children())
         news = manager.Queue()
         jobs = [pool.submit(stop, name, s, dry, path, news) for name, (s, dry) in runs.items()]
-        while not all(job.done() for job in jobs):
-            try:
-                progress(*news.get(timeout=0.2))
-            except queue.Empty:
-                pass
-        while not news.empty():
-            progress(*news.get())
-        return {name: (table, rail) for name, table, rail in (job.result() for job in jobs)}
+    with manager, pool:
+        try:
+            while not all(job.done() for job in jobs):
+                _hear(news, progress)
+                _ended(runs, jobs, endless)
+            while not news.empty():
+                progress(*news.get())
+            return _ended(runs, jobs, endless)
+        except BrokenProcessPool:
+            raise Died("the process of a stop was killed; it may have had too little memory") from None
+        finally:
+            for child in set(multiprocessing.active_children()) - before - helper:
+                child.terminate()
+
+
+def _ended(runs, jobs, endless):
+    """Stops that have come to their ends: name to (table, rail map). Errors are raised, or put into `endless`."""
+    found = {}
+    for name, job in zip(runs, jobs):
+        error = job.exception() if job.done() else None
+        if isinstance(error, TimeoutError | TrackEnds) and endless is not None:
+            endless[name] = error
+        elif job.done():
+            found[name] = job.result()[1:]
+    return found
+
+
+def _hear(news, progress):
+    """Passes on what comes within a moment."""
+    try:
+        progress(*news.get(timeout=0.2))
+    except queue.Empty:
+        pass

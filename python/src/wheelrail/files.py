@@ -5,6 +5,8 @@ import difflib
 import json
 import math
 import re
+from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
@@ -90,6 +92,18 @@ class Named:
     default: dict | None = None
 
 
+@dataclass(frozen=True)
+class Swept:
+    """An object whose names are dotted paths to fields and whose values are lists for them. `field_of` gives the field of a path,
+    or a text about what is wrong with it; `apart` are names with fields of their own, `common` those that editors offer."""
+
+    field_of: Callable
+    about: str
+    apart: dict
+    common: tuple = ()
+    default = None
+
+
 # Names that every object may have: where its numbers come from, and the schema for editors.
 REMARKS = ("source", "$schema")
 
@@ -102,6 +116,8 @@ def read_json(path, schema):
         values = json.loads(text, object_pairs_hook=_once, parse_constant=_refuse)
     except json.JSONDecodeError as error:
         raise BadFile(f"{path}:{error.lineno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise BadFile(f"{path}: nested too deeply") from None
     except ValueError as error:
         raise BadFile(f"{path}: {error}") from None
     return _Reader(path, _lines(text)).group(values, schema, ())
@@ -111,13 +127,16 @@ def read_csv(path, columns):
     """The columns of a CSV file: name to list of values. The first line names them; all of `columns` without default must
     be there, no others."""
     path = Path(path)
-    rows = list(csv.reader(_text(path).splitlines()))
+    try:
+        rows = list(csv.reader(_text(path).splitlines()))
+    except csv.Error as error:
+        raise BadFile(f"{path}: is no CSV file: {error}") from None
     if not rows:
         raise BadFile(f"{path}:1: empty; expected a line with {', '.join(columns)}")
     header = [name.strip() for name in rows[0]]
     for name in header:
         if name not in columns:
-            raise BadFile(f"{path}:1: unknown column {name!r}{_meant(name, columns)}")
+            raise BadFile(f"{path}:1: unknown column {name!r}{meant(name, columns)}")
         if header.count(name) > 1:
             raise BadFile(f"{path}:1: column {name!r} twice")
     for name, field in columns.items():
@@ -164,6 +183,11 @@ def _describe(field):
             return {"type": "array", "minItems": 1, "items": _describe(field.item)} | about
         case Named():
             return {"type": "object", "additionalProperties": _describe(field.item)} | about
+        case Swept():
+            lists = {name: Several(field.field_of(name), f"values of {name}") for name in field.common}
+            properties = {name: _describe(item) for name, item in (lists | field.apart).items()}
+            properties |= {name: {"type": "string"} for name in REMARKS}
+            return {"type": "object", "properties": properties, "additionalProperties": {"type": "array", "minItems": 1}} | about
     raise TypeError(f"no JSON Schema for {field!r}")
 
 
@@ -171,7 +195,7 @@ def _needed(field):
     """Whether a field, or any field of a group, must be given."""
     if isinstance(field, dict):
         return any(map(_needed, field.values()))
-    return field.default is None and not getattr(field, "optional", False)
+    return field.default is None and not getattr(field, "optional", False) and not isinstance(field, Swept)
 
 
 class _Reader:
@@ -192,7 +216,7 @@ class _Reader:
             self.fail(place, f"is {values!r}, not an object")
         for name in values:
             if name not in schema and name not in REMARKS:
-                self.fail((*place, name), f"is unknown{_meant(name, schema)}")
+                self.fail((*place, name), f"is unknown{meant(name, schema)}")
         return SimpleNamespace(**{name: self.one(values, name, field, place) for name, field in schema.items()})
 
     def one(self, values, name, field, place):
@@ -204,16 +228,18 @@ class _Reader:
             if _needed(field):
                 about = "" if isinstance(field, dict) else f" ({field.about})"
                 self.fail(place, f"is missing{about}")
-            return field.default
+            return self.swept({}, field, place) if isinstance(field, Swept) else deepcopy(field.default)
         value = values[name]
         if isinstance(field, dict):
             return self.group(value, field, place)
         if isinstance(field, Named):
             return self.named(value, field, place)
+        if isinstance(field, Swept):
+            return self.swept(value, field, place)
         wrong = field.check(value)
         if wrong:
             self.fail(place, wrong)
-        return _number(value, field)
+        return number(value, field)
 
     def named(self, value, field, place):
         """An object with free names."""
@@ -221,19 +247,38 @@ class _Reader:
             self.fail(place, f"is {value!r}, not an object")
         return {name: self.one(value, name, field.item, place) for name in value if name not in REMARKS}
 
+    def swept(self, value, field, place):
+        """Lists for dotted paths, as attributes; those that stand apart are there in any case."""
+        if not isinstance(value, dict):
+            self.fail(place, f"is {value!r}, not an object")
+        found = {name: self.one(value, name, item, place) for name, item in field.apart.items()}
+        for name in value:
+            if name in (*REMARKS, *field.apart):
+                continue
+            kind = field.field_of(name)
+            if isinstance(kind, str):
+                self.fail((*place, name), kind)
+            found[name] = self.one(value, name, Several(kind, f"values of {name}"), place)
+            for entry in found[name]:
+                if found[name].count(entry) > 1:
+                    self.fail((*place, name), f"entry {entry!r} is there twice")
+        return SimpleNamespace(**found)
 
-def _number(value, field):
+
+def number(value, field):
     """The value; numbers that need not be whole are floats, however they are written, for arrays of integers cut off what is
     put into them."""
     if isinstance(field, Several):
-        return [_number(entry, field.item) for entry in value]
-    return float(value) if isinstance(field, Real) and not field.whole else value
+        return [number(entry, field.item) for entry in value]
+    return (int(value) if field.whole else float(value)) if isinstance(field, Real) else value
 
 
 def _text(path):
     """Text of a file."""
+    if path.is_fifo() or path.is_char_device():
+        raise BadFile(f"{path}: is no regular file")
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")  # some editors begin files with a mark
     except (OSError, UnicodeDecodeError) as error:
         raise BadFile(f"{path}: cannot be read: {error}") from None
 
@@ -252,7 +297,7 @@ def _refuse(constant):
     raise ValueError(f"{constant} is not a number")
 
 
-def _meant(name, known):
+def meant(name, known):
     """A hint at a name that resembles the unknown one."""
     close = difflib.get_close_matches(name, known, n=1)
     return f"; did you mean {close[0]!r}?" if close else f"; known: {', '.join(known)}"

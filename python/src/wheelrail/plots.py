@@ -1,4 +1,4 @@
-"""Pictures of stops and of parameter studies."""
+"""Pictures of stops."""
 
 import numpy as np
 
@@ -35,116 +35,101 @@ def save(path, figure):
         image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True, dpi=image.info["dpi"])
 
 
-def draw_stops(path, stops):
-    """Draws stops side by side, one a column: `stops` is name to (table, rail map)."""
+WIDTH = 8.0  # inch, shown 800 px wide: 9 points are 12 px there
+PLACES = 300  # of a curve along the track
+
+
+def draw_stops(path, stops, title=""):
+    """Draws stops side by side, one a column: `stops` is name to (table, rail map), `title` names the scenario."""
     plt = pyplot()
-    rows = (_speeds, _slides, _brakes, _adhesion, _temperatures, _rail)
+    over_time = (_speeds, _slides, _brakes, _adhesion, _temperatures)
+    rows = len(over_time) + 1
     figure, axes = plt.subplots(
-        len(rows), len(stops), figsize=(4.6 * len(stops), 2.1 * len(rows)), layout="constrained", squeeze=False
+        rows, len(stops), figsize=(WIDTH, 1.45 * rows + 0.5), layout="constrained", squeeze=False, sharey="row"
     )
     for k, (name, (table, rail)) in enumerate(stops.items()):
-        for draw, axis in zip(rows, axes[:, k]):
-            draw(axis, table, rail)
-        axes[0, k].set_title(name)
-    for row in axes:
-        low, high = min(a.get_ylim()[0] for a in row), max(a.get_ylim()[1] for a in row)
-        for axis in row:
-            axis.set_ylim(low, high)
-    axes[0, 0].legend(fontsize=7)
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
+        for draw, axis in zip(over_time, axes[:, k]):
+            draw(axis, table)
+            axis.sharex(axes[0, k])
+            axis.tick_params(labelbottom=draw is over_time[-1])
+        axes[len(over_time) - 1, k].set_xlabel("time [s]")
+        _rail(axes[-1, k], table, rail)
+        axes[0, k].set_title(name, fontsize=10)
+    for axis in axes[:, 1:].flat:
+        axis.set_ylabel("")
+    figure.align_ylabels(axes[:, 0])
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), fontsize=9, title=title, title_fontsize=11)
+    save(path, figure)
 
 
-def _speeds(axis, table, _rail):
-    """Speed of travel and of the four treads."""
+def _per_axle(axis, table, values, **style):
+    """A thin curve over time for every axle."""
+    for k in axles_of(table):
+        axis.plot(column(table, "time"), values(k), color=COLOURS[k % len(COLOURS)], linewidth=0.8, **style)
+
+
+def _speeds(axis, table):
+    """Speed of travel and of the treads."""
     time = column(table, "time")
     for k in axles_of(table):
-        axis.plot(time, 3.6 * column(table, "peripheral", k), color=COLOURS[k % len(COLOURS)], label=f"axle {k + 1}" if k < len(COLOURS) else None, linewidth=0.7)
+        label = f"axle {k + 1}" if k < len(COLOURS) else None
+        axis.plot(time, 3.6 * column(table, "peripheral", k), color=COLOURS[k % len(COLOURS)], label=label, linewidth=0.8)
     axis.plot(time, 3.6 * column(table, "speed"), color="black", label="coach")
-    axis.set(ylabel="speed [km/h]", xlabel="time [s]")
+    axis.set(ylabel="speed\n[km/h]")
 
 
-def _slides(axis, table, _rail):
+def _slides(axis, table):
     """Slide of every axle."""
-    for k in axles_of(table):
-        axis.plot(column(table, "time"), 100.0 * slide(table, k)[0], color=COLOURS[k % len(COLOURS)], linewidth=0.7)
-    axis.set(ylabel="slide [%]", xlabel="time [s]")
+    _per_axle(axis, table, lambda k: 100.0 * slide(table, k)[0])
+    axis.set(ylabel="slide\n[%]")
 
 
-def _brakes(axis, table, _rail):
+def _brakes(axis, table):
     """Cylinder pressures; venting is marked."""
     time = column(table, "time")
     axis.plot(time, column(table, "control_pressure") / 1e5, ":", color=GREY)
+    _per_axle(axis, table, lambda k: column(table, "pressure", k) / 1e5)
     for k in axles_of(table):
-        pressure = column(table, "pressure", k) / 1e5
         venting = column(table, "valve", k) == Valve.VENT.value
-        axis.plot(time, pressure, color=COLOURS[k % len(COLOURS)], linewidth=0.7)
-        axis.plot(time[venting], pressure[venting], ".", color=COLOURS[k % len(COLOURS)], markersize=1.5)
-    axis.set(ylabel="pressure [bar]", xlabel="time [s]")
+        pressure = column(table, "pressure", k)[venting] / 1e5
+        axis.plot(time[venting], pressure, ".", color=COLOURS[k % len(COLOURS)], markersize=2)
+    axis.set(ylabel="pressure\n[bar]")
 
 
-def _adhesion(axis, table, _rail):
+def _adhesion(axis, table):
     """Adhesion used by every axle."""
-    for k in axles_of(table):
-        used = -column(table, "force", k) / column(table, "load", k)
-        axis.plot(column(table, "time"), used, color=COLOURS[k % len(COLOURS)], linewidth=0.7)
-    axis.set(ylabel="adhesion used [1]", xlabel="time [s]")
+    _per_axle(axis, table, lambda k: -column(table, "force", k) / column(table, "load", k))
+    axis.set(ylabel="adhesion\nused [1]")
 
 
-def _temperatures(axis, table, _rail):
-    """Hottest point of the contact."""
-    for k in axles_of(table):
-        hottest = column(table, "hottest", k)
-        if np.any(hottest > 0.0):
-            axis.plot(column(table, "time"), hottest - CELSIUS, color=COLOURS[k % len(COLOURS)], linewidth=0.7)
-    axis.set(ylabel="contact [°C]", xlabel="time [s]")
+def _temperatures(axis, table):
+    """Hottest point of the contact; rigid wheelsets have none."""
+    if any(np.any(column(table, "hottest", k) > 0.0) for k in axles_of(table)):
+        celsius = lambda k: np.where(column(table, "hottest", k) > 0.0, column(table, "hottest", k) - CELSIUS, np.nan)
+        _per_axle(axis, table, celsius)
+    else:
+        axis.text(0.5, 0.5, "rigid: not known", ha="center", va="center", transform=axis.transAxes, color=GREY)
+    axis.set(ylabel="contact\n[°C]")
 
 
 def _rail(axis, table, rail):
-    """Friction that each axle met along the track, and what another one would."""
-    place = rail.centres()
-    axles = len(axles_of(table))
+    """Friction that each axle met along the track, and what another one would, as means of some metres; where sand lay."""
+    place, axles = rail.centres(), len(axles_of(table))
+    used = np.flatnonzero(rail.energy[0])
+    end = used[-1] + 1 if len(used) else len(place)
+    first = int(np.searchsorted(place, 0.0))
+    size = max((end - first) // PLACES, 1)
+    kept = slice(first, first + max((end - first) // size, 1) * size)
+    means = lambda values: values[kept].reshape(-1, size).mean(axis=1)
     for axle in range(axles + 1):
         energy = rail.energy[:axle].sum(axis=0) / rail.cell
         sand = rail.sand[: axle + 1].sum(axis=0) / rail.cell
         met = rail.law.friction(rail.degraded, rail.recovered, energy, sand)
         colour = COLOURS[axle % len(COLOURS)] if axle < axles else "black"
-        axis.plot(place, met, color=colour, linewidth=0.8, linestyle="-" if axle < axles else ":")
-    used = np.flatnonzero(rail.energy[0])
-    axis.set(ylabel="friction met [1]", xlabel="position [m]", xlim=(0, place[used[-1]] if len(used) else place[-1]))
-
-
-def draw_sweep(path, rows):
-    """Draws stopping distances over speed and adhesion, one map for every payload and threshold. Colours say by how much a stop is
-    longer than the shortest one from its speed with its payload: over speed itself distances differ too much."""
-    plt = pyplot()
-    axis_of = lambda key: sorted({row[key] for row in rows})
-    speeds, adhesions, payloads, thresholds = map(axis_of, ("speed", "adhesion", "payload", "slide_high"))
-    figure, axes = plt.subplots(
-        len(payloads), len(thresholds), figsize=(3.4 * len(thresholds) + 1.2, 2.8 * len(payloads)),
-        layout="constrained", squeeze=False,
-    )  # fmt: skip
-    distances = {tuple(row[k] for k in ("payload", "slide_high", "adhesion", "speed")): row["stopping distance"] for row in rows}
-    shortest = {}
-    for (payload, _, _, speed), distance in distances.items():
-        shortest[payload, speed] = min(distance, shortest.get((payload, speed), distance))
-    longer = lambda payload, speed, distance: 100.0 * (distance / shortest.get((payload, speed), np.nan) - 1.0)
-    most = max(longer(key[0], key[3], distance) for key, distance in distances.items())
-    for i, payload in enumerate(payloads):
-        for j, threshold in enumerate(thresholds):
-            axis = axes[i, j]
-            table = [[distances.get((payload, threshold, a, v), np.nan) for v in speeds] for a in adhesions]
-            share = [[longer(payload, v, value) for v, value in zip(speeds, row)] for row in table]
-            image = axis.imshow(share, origin="lower", aspect="auto", cmap="viridis", vmin=0.0, vmax=max(most, 1.0))
-            for (y, x), value in np.ndenumerate(np.array(table)):
-                text = f"{value:.0f}" if np.isfinite(value) else "none"
-                bright = share[y][x] > 0.6 * most
-                axis.text(x, y, text, ha="center", va="center", color="black" if bright else "white", fontsize=8)
-            axis.grid(False)
-            axis.set_xticks(range(len(speeds)), [f"{3.6 * v:.0f}" for v in speeds])
-            axis.set_yticks(range(len(adhesions)), [f"{a:g}" for a in adhesions])
-            axis.set(title=f"{payload / 1e3:g} t, slide {100 * threshold:g} %", xlabel="speed [km/h]", ylabel="adhesion [1]")
-    figure.suptitle("stopping distance [m]", fontsize=9)
-    figure.colorbar(image, ax=axes, label="longer than the shortest from this speed with this load [%]")
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
+        axis.plot(means(place), means(met), color=colour, linewidth=0.9, linestyle="-" if axle < axles else ":")
+    sanded = rail.sand.sum(axis=0) > 0.0
+    if np.any(sanded):
+        axis.fill_between(place, 0.0, 0.04, where=sanded, transform=axis.get_xaxis_transform(), color="#B8860B", linewidth=0)
+        axis.text(0.02, 0.08, "sand", ha="left", va="bottom", transform=axis.transAxes, color="#8A6508", fontsize=8)
+    axis.set(ylabel="friction\nmet [1]", xlabel="position [m]", xlim=(0, place[end - 1]))

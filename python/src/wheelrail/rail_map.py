@@ -25,6 +25,10 @@ import numpy as np
 SHORTEST = 1e-3  # s: equation (3) does not hold while the wheel is still there
 
 
+class OffTheMap(ValueError):
+    """A position that the map does not have."""
+
+
 @dataclass(frozen=True)
 class RailLaw:
     """Numbers of equations (1) to (3)."""
@@ -95,7 +99,7 @@ class RailMap:
         last = len(self.degraded) - 1
         if not -0.5 <= place <= last + 0.5:
             end = self.begin + self.cell * len(self.degraded)
-            raise ValueError(f"position {position:g} m is off the rail map, {self.begin:g} to {end:g} m")
+            raise OffTheMap(f"position {position:g} m is off the rail map, {self.begin:g} to {end:g} m")
         left = min(max(math.floor(place), 0), max(last - 1, 0))
         share = min(max(place - left, 0.0), 1.0)
         return np.array([left, min(left + 1, last)]), np.array([1.0 - share, share])
@@ -104,7 +108,7 @@ class RailMap:
         """The cells that a movement crosses and the share of it in each."""
         low, high = ((min(start, end) - self.begin) / self.cell, (max(start, end) - self.begin) / self.cell)
         if low < 0.0 or high > len(self.degraded):
-            raise ValueError(f"movement from {start:g} to {end:g} m leaves the rail map")
+            raise OffTheMap(f"movement from {start:g} to {end:g} m leaves the rail map")
         first, last = int(low), min(int(high), len(self.degraded) - 1)
         cells = np.arange(first, last + 1)
         if high <= low:

@@ -1,10 +1,11 @@
 """Key figures of a stop in the manner of EN 15595: table of several stops side by side, and CSV."""
 
 import csv
+import math
 
 import numpy as np
 
-from .train import AT_REST, AXLES, OF_AXLE, OF_VEHICLE, columns
+from .train import AT_REST, AXLES, COUPLER, OF_AXLE, OF_VEHICLE, columns
 
 MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
 SLIDING = 0.01  # slide from which an axle counts as sliding
@@ -36,7 +37,7 @@ def slide(table, axle):
 
 
 def figures(table):
-    """Key figures of a stop: name to (value or list of one per axle, unit)."""
+    """Key figures of a stop, of a table of `Stop.run`: name to (value or list of one per axle, unit)."""
     time, speed = column(table, "time"), column(table, "speed")
     rest = int(np.argmax(speed < AT_REST)) if np.any(speed < AT_REST) else len(table) - 1
     running, step = table[: rest + 1], time[1] - time[0]
@@ -113,16 +114,16 @@ def standing(table):
 
 
 def lines(stops):
-    """A text table of several stops: name to `figures`. The first is the dry one that the others are compared with."""
+    """A text table of several stops: name to `figures`. One named `dry` is what the others are compared with."""
     names = list(stops)
-    dry = stops[names[0]]["stopping distance"][0]
     width = 34
     yield f"{'':42}" + "".join(f"{name:>{width}}" for name in names)
+    dry = stops["dry"]["stopping distance"][0] if "dry" in stops else math.nan
     extension = [f"{100.0 * (stops[name]['stopping distance'][0] / dry - 1.0):.1f}" for name in names]
     for figure in stops[names[0]]:
         cells = [_cell(stops[name][figure][0]) for name in names]
         yield f"{figure + ' [' + stops[names[0]][figure][1] + ']':42}" + "".join(f"{cell:>{width}}" for cell in cells)
-        if figure == "stopping distance":
+        if figure == "stopping distance" and "dry" in stops:
             yield f"{'extension over dry [%]':42}" + "".join(f"{cell:>{width}}" for cell in extension)
 
 
@@ -135,9 +136,39 @@ def _cell(value):
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
+# Columns of files that are not those of the table: temperatures, which a person reads in °C; nan if unknown.
+IN_CELSIUS = {
+    "hottest": ("contact_celsius", "highest temperature of the wheels in the contact now; nan if unknown"),
+    "peak": ("tread_peak_celsius", "highest temperature of the tread so far; nan if unknown"),
+}
+
+
 def write_csv(path, table):
-    """Writes a table with a line of names."""
+    """Writes a table with a line of plain names, which `write_columns` explains; temperatures in °C."""
+    names, values = columns(coaches_of(table)), table.copy()
+    for k, name in enumerate(names):
+        kind, _, axle = name.rpartition("_")
+        if kind in IN_CELSIUS:
+            names[k] = f"{IN_CELSIUS[kind][0]}_{axle}"
+            values[:, k] = np.where(values[:, k] > 0.0, values[:, k] - CELSIUS, np.nan)
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(columns(coaches_of(table)))
-        writer.writerows([f"{value:.9g}" for value in row] for row in table)
+        writer.writerow(names)
+        writer.writerows([f"{value:.9g}" for value in row] for row in values)
+
+
+def write_columns(path, rows):
+    """Writes what the columns of other files are: name, unit, description."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([("column", "unit", "description"), *rows])
+
+
+def described(table):
+    """Name, unit and description of the columns that `write_csv` writes."""
+    yield from ((name, *about) for name, about in OF_VEHICLE.items())
+    for axle in axles_of(table):
+        for name, (unit, about) in OF_AXLE.items():
+            if name in IN_CELSIUS:
+                (name, about), unit = IN_CELSIUS[name], "°C"
+            yield f"{name}_{axle + 1}", unit, f"axle {axle + 1}: {about}"
+    yield from ((f"coupler_{k + 1}", *COUPLER) for k in range(coaches_of(table) - 1))

@@ -1,13 +1,17 @@
-"""What a stop consists of, as files: scenario, vehicle, brake, track. `load` reads and checks all of them."""
+"""What a stop consists of, as files: scenario, vehicle, brake, track. `load` reads and checks all of them, `changed` gives a copy
+with other values."""
 
 import difflib
 from bisect import bisect_right
+from copy import deepcopy
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 
-from .files import BadFile, Flag, Named, Real, Several, Text, read_csv, read_json
+from .controllers import Driving, Protection, Sanding
+from .files import BadFile, Flag, Named, Real, Several, Swept, Text, meant, number, read_csv, read_json
+from .own import find
 from .rail_map import RailLaw, RailMap
 
 VEHICLE = {
@@ -88,7 +92,14 @@ BRAKE = {
         "axles": Several(Real(1, 4, "", "axle from the front", whole=True), "axles behind a sander", (1,)),
         "rate": Real(0, 1, "kg/s", "on each rail", 0.008),
         "off_speed": Real(0, 100, "m/s", "below which none is laid", 2.0),
+        "delay": Real(0, 60, "s", "between an axle that is vented and sand on the rail", 0.3),
+        "minimum_time": Real(0, 60, "s", "that sand is laid at least", 1.0),
+        "run_on": Real(0, 60, "s", "that sand is laid on after the last axle was vented", 2.0),
     },
+    "protection": Text("slide protection of one's own, module:Class; the built-in one if empty", ""),
+    "protection_parameters": Named(Real(-1e12, 1e12, "", "value"), "numbers that its class is made with, by name", {}),
+    "sanding": Text("sanding of one's own, module:Class; the built-in one if empty", ""),
+    "sanding_parameters": Named(Real(-1e12, 1e12, "", "value"), "numbers that its class is made with, by name", {}),
 }
 
 CONDITION = {
@@ -143,39 +154,156 @@ SCENARIO = {
     "longest": Real(0.01, 3600, "s", "a stop may take", 240.0),
     "dry": Real(1e-3, 1, "1", "friction of the dry stop that the others are compared with", 0.3),
     "wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU, of one wheel", {}),
-    "sweep": {
-        "speed": Several(Real(0.5, 60, "m/s", "at the start"), "speeds", (27.8, 38.9)),
-        "adhesion": Several(Real(1e-3, 1, "1", "contaminated rail"), "friction", (0.05, 0.1)),
-        "payload": Several(Real(0, 1e6, "kg", "load"), "loads", (0.0,)),
-        "slide_high": Several(Real(0, 1, "1", "threshold"), "thresholds of the slide protection", (0.15,)),
-        "wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU in a sweep, before those of wheel", {}),
-    },
+    "driver": Text("driver of one's own, module:Class; a constant demand if empty", ""),
+    "driver_parameters": Named(Real(-1e12, 1e12, "", "value"), "numbers that its class is made with, by name", {}),
 }
+MOST_CELLS = 5e6  # of the map of the rail, which keeps values of every axle for each of them
+PARTS = {"vehicle": VEHICLE, "brake": BRAKE, "track": TRACK}
+# Short names of swept keys beside dotted paths.
+SHORT = {"slide_high": "brake.wsp.slide_high"}
+# Classes of one's own by the key that names them, with what they must have.
+OWN = {"brake.protection": Protection, "brake.sanding": Sanding, "driver": Driving}
 
-SCHEMAS = {"scenario": SCENARIO, "vehicle": VEHICLE, "brake": BRAKE, "track": TRACK}
+
+def field_of(path):
+    """The field of a dotted path, such as `speed`, `vehicle.body.mass` or `wheel.friction.falling_ratio`; a text about what is
+    wrong with it, if there is none."""
+    names, schema = SHORT.get(path, path).split("."), {k: v for k, v in SCENARIO.items() if k not in ("name", "sweep")}
+    for k, name in enumerate(names):
+        rest = names[k + 1 :]
+        if isinstance(schema, Named):  # names are free; those of numbers may have dots
+            schema, rest = schema.item, rest if isinstance(schema.item, dict) else []
+            if not rest:
+                break
+        elif not isinstance(schema, dict) or name not in schema:
+            close = difflib.get_close_matches(path, paths(), n=1)
+            known = "it is a key of the scenario, or vehicle, brake, track or wheel, a dot and a key of that file"
+            return f"is unknown; {f'did you mean {close[0]!r}?' if close else known}"
+        else:
+            schema = PARTS[name] if k == 0 and rest and name in PARTS else schema[name]
+    if isinstance(schema, dict | Named):
+        below = [other for other in paths() if other.startswith(f"{path}.")]
+        return f"is no value but a group{meant(path, below) if below else ''}"
+    return schema
 
 
-def load(path):
-    """Reads a scenario and the files it names, which lie beside it."""
+def paths():
+    """Dotted paths of all fields whose names are not free."""
+
+    def below(schema, prefix):
+        for name, field in schema.items():
+            if isinstance(field, dict):
+                yield from below(field, f"{prefix}{name}.")
+            else:
+                yield prefix + name
+
+    own = {name: field for name, field in SCENARIO.items() if name not in ("name", "sweep")}
+    return [*SHORT, *below(own, ""), *(path for part, schema in PARTS.items() for path in below(schema, f"{part}."))]
+
+
+# Last, since it knows all the others.
+SCENARIO["sweep"] = Swept(
+    field_of, "lists of values by key: of this file, or of another one, such as vehicle.body.mass",
+    {"wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU in a sweep, before those of wheel", {})},
+    ("speed", "adhesion", "payload", "slide_high"),
+)  # fmt: skip
+SCHEMAS = {"scenario": SCENARIO, **PARTS}
+
+
+def load(path, changes=None):
+    """Reads a scenario and the files it names, which lie beside it. Values of `changes`, dotted path to value, take the place of
+    those in the files: `load("low_adhesion.json", {"vehicle.body.mass": 40e3})`."""
     path = Path(path)
     scenario = read_json(path, SCENARIO)
-    brake = path.parent / scenario.brake
-    for kind in ("vehicle", "brake", "track"):
-        setattr(scenario, kind, read_json(path.parent / getattr(scenario, kind), SCHEMAS[kind]))
+    scenario.paths = {"scenario": path}
+    for part in PARTS:
+        _read_part(scenario, part, getattr(scenario, part))
+    if scenario.driver:
+        scenario.driver = find(scenario.driver, path.parent, f"{path}: driver", Driving)
+    settle(scenario)
+    check(scenario)
+    return changed(scenario, changes) if changes else scenario
+
+
+def _read_part(scenario, part, name):
+    """Reads vehicle, brake or track from a file beside the scenario, with what that names."""
+    path = scenario.paths[part] = scenario.paths["scenario"].parent / name
+    values = read_json(path, PARTS[part])
+    setattr(scenario, part, values)
+    if part == "track":
+        _read_sections(scenario, values.sections)
+        _read_profile(scenario, values.profile)
+    if part == "brake":
+        for key in ("protection", "sanding"):
+            if getattr(values, key):
+                _find(scenario, f"brake.{key}", getattr(values, key))
+
+
+def _read_sections(scenario, name):
+    """Reads the sections of the track from a file beside the scenario."""
     track = scenario.track
-    track.path = path.parent / track.sections
+    track.path = scenario.paths["scenario"].parent / name
     track.sections = SimpleNamespace(**read_csv(track.path, SECTIONS))
     check_sections(track)
-    if track.profile:
-        profile = path.parent / track.profile
-        track.profile = SimpleNamespace(**read_csv(profile, PROFILE))
-        check_profile(track.profile, profile)
-    check_thresholds(scenario, path, brake)
-    for coach in scenario.fmu_coaches:
-        if coach > scenario.coaches:
-            raise BadFile(f"{path}: fmu_coaches entry = {coach} is outside 1 to {scenario.coaches}, the number of coaches")
-    settle(scenario)
-    return scenario
+
+
+def _read_profile(scenario, name):
+    """Reads the height profile of the track from a file beside the scenario, if there is one."""
+    scenario.track.profile = name
+    if name:
+        path = scenario.paths["scenario"].parent / name
+        scenario.track.profile = SimpleNamespace(**read_csv(path, PROFILE))
+        check_profile(scenario.track.profile, path)
+
+
+def _find(scenario, path, name):
+    """Puts a class of one's own where a dotted path says, found beside the file that has the key."""
+    part, _, key = path.rpartition(".")
+    file = scenario.paths[part or "scenario"]
+    setattr(getattr(scenario, part) if part else scenario, key, find(name, file.parent, f"{file}: {key}", OWN[path]))
+
+
+def changed(scenario, changes):
+    """A copy of a scenario with other values: dotted path to value, checked as in files. A file's name takes the place of all
+    that was read from another one; values within it go before it."""
+    copy = deepcopy(scenario)
+    longer = lambda path: path not in SCENARIO or path in OWN
+    for path in sorted(changes, key=lambda path: (longer(path), path.count("."))):
+        if longer(path):
+            continue
+        _put(copy, path, changes[path])
+    if {"vehicle", "track", "payload", "adhesion"} & set(changes):
+        settle(copy)
+    for path in filter(longer, changes):
+        _put(copy, path, changes[path])
+    check(copy)
+    return copy
+
+
+def _put(scenario, path, value):
+    """Puts a value where a dotted path says."""
+    field = field_of(path)
+    wrong = field if isinstance(field, str) else field.check(value)
+    if wrong:
+        raise BadFile(f"{path} {wrong}")
+    path, value = SHORT.get(path, path), number(value, field)
+    if path in PARTS:
+        return _read_part(scenario, path, value)
+    if path in ("track.sections", "track.profile"):
+        return {"track.sections": _read_sections, "track.profile": _read_profile}[path](scenario, value)
+    if path in OWN and value:
+        return _find(scenario, path, value)
+    place, names = scenario, path.split(".")
+    while not isinstance(place, dict) and len(names) > 1:
+        place = getattr(place, names.pop(0))
+        if isinstance(place, dict) and len(names) > 1 and names[0] in place and isinstance(place[names[0]], SimpleNamespace):
+            place = place[names.pop(0)]
+    if isinstance(place, dict) and path.startswith("track.conditions"):
+        raise BadFile(f"{path}: the track has no condition {names[0]!r}; known: {', '.join(place)}")
+    if isinstance(place, dict):
+        place[".".join(names)] = value
+    else:
+        setattr(place, names[0], value)
 
 
 def settle(scenario):
@@ -185,27 +313,40 @@ def settle(scenario):
     if scenario.adhesion is not None:
         conditions = scenario.track.conditions
         if "contaminated" not in conditions:
-            raise BadFile("adhesion is given, but the track has no condition named contaminated")
+            raise BadFile(f"adhesion is given, but {scenario.paths['track']} has no condition named contaminated")
         conditions["contaminated"].friction = scenario.adhesion
         conditions["contaminated"].recovered = max(scenario.adhesion, conditions["contaminated"].recovered)
 
 
-def check_thresholds(scenario, path, brake):
-    """Axles are held before they are vented."""
-    low = scenario.brake.wsp.slide_low
-    thresholds = [(brake, "wsp.slide_high", scenario.brake.wsp.slide_high)]
-    thresholds += [(path, "sweep.slide_high entry", high) for high in scenario.sweep.slide_high]
-    for file, name, high in thresholds:
-        if high < low:
-            raise BadFile(f"{file}: {name} = {high:g} is below wsp.slide_low = {low:g}: an axle is held before it is vented")
+def check(scenario):
+    """Values fit those of other keys and files."""
+    wsp, path = scenario.brake.wsp, scenario.paths["scenario"]
+    if wsp.slide_high < wsp.slide_low:
+        raise BadFile(
+            f"{scenario.paths['brake']}: wsp.slide_high = {wsp.slide_high:g} is below wsp.slide_low = {wsp.slide_low:g}: "
+            "an axle is held before it is vented"
+        )
+    track = scenario.track
+    if track.length > MOST_CELLS * track.cell:
+        cells = f"{track.length / track.cell:g} cells, more than {MOST_CELLS:g}"
+        raise BadFile(f"{scenario.paths['track']}: length = {track.length:g} m in cells of cell = {track.cell:g} m makes {cells}")
+    for coach in scenario.fmu_coaches:
+        if coach > scenario.coaches:
+            raise BadFile(f"{path}: fmu_coaches entry = {coach} is outside 1 to {scenario.coaches}, the number of coaches")
+    for owner, key in ((scenario.brake, "protection"), (scenario.brake, "sanding"), (scenario, "driver")):
+        if getattr(owner, f"{key}_parameters") and not getattr(owner, key):
+            file = scenario.paths["scenario" if owner is scenario else "brake"]
+            raise BadFile(f"{file}: {key}_parameters are given, but no {key}: module:Class")
 
 
 def check_wheel(scenario, known):
-    """The parameters of the wheels are among those that are `known`."""
-    for name in scenario.wheel | scenario.sweep.wheel:
+    """The parameters of the wheels, those that are swept too, are among those that are `known`."""
+    swept = [key.removeprefix("wheel.") for key in vars(scenario.sweep) if key.startswith("wheel.")]
+    for name in [*scenario.wheel, *scenario.sweep.wheel, *swept]:
         if name not in known:
             close = difflib.get_close_matches(name, known, n=1)
-            raise BadFile(f"wheel: {name} is no parameter of the FMU" + "".join(f"; did you mean {other}?" for other in close))
+            hint = "".join(f"; did you mean {other}?" for other in close)
+            raise BadFile(f"{scenario.paths['scenario']}: wheel: {name} is no parameter of the FMU{hint}")
 
 
 def check_sections(track):

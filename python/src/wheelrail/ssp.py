@@ -48,6 +48,8 @@ def coach_values(scenario):
     values = {"initial.speed": scenario.speed, "demand": scenario.demand}
     if scenario.brake.sander.active:
         raise BadFile("the coach of a system package has no sander: set sander.active to false")
+    if scenario.brake.protection or scenario.brake.sanding or scenario.driver:
+        raise BadFile("the coach of a system package brakes by its own code: leave out protection, sanding and driver")
     if scenario.coaches > 1:
         raise BadFile(f"a system package holds one coach: coaches = {scenario.coaches} is outside its range, 1")
     for prefix, group in (("", scenario.vehicle), ("brake.", scenario.brake)):
@@ -60,7 +62,7 @@ def _flat(group, prefix=""):
     for name, value in vars(group).items():
         if isinstance(value, SimpleNamespace):
             yield from _flat(value, f"{prefix}{name}.")
-        elif not isinstance(value, str):
+        elif not isinstance(value, str | dict):
             yield prefix + name, float(value) if not isinstance(value, list | tuple) else value
 
 

@@ -1,57 +1,124 @@
-"""Many stops on many machines: speed x adhesion x payload x threshold of the slide protection, over dask.distributed.
+"""Many stops on many machines: all combinations of the values that a scenario lists for any keys, over dask.distributed.
 
 Every stop is a task of its own; its row is written as soon as it is there. A sweep that was stopped goes on where it was: rows
 that are in the file already are not computed again. A worker that dies loses nothing: its tasks go to others.
 A stop that fails, or computes for longer than a limit, is named with its reason in a file of its own, and the next run tries it
-again; the others go on.
+again; the others go on. What a stop is longer than is a dry one with the same speed, load and brake, computed once each.
 """
 
-import csv
 import hashlib
+import inspect
 import json
+import math
 import time
 from contextlib import nullcontext
-from copy import deepcopy
 from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
 
+from .controllers import ControllerFailed
 from .files import BadFile
 from .fmu import Fmu, Refused
+from .own import OwnClass
 from .report import figures, known
-from .scenario import settle
-from .train import Stop
+from .scenario import SHORT, changed
+from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table
+from .sweep_table import columns_path, dry_path, unfinished, write_meanings, write_unfinished
+from .train import Stop, TrackEnds
 
-KEYS = ("speed", "adhesion", "payload", "slide_high")
-RESULTS = (
-    "stopping distance", "stopping time", "slide while sliding, p95", "longest lock", "mean adhesion",
-    "energy into rail and tread", "peak temperature", "depth above Ac1", "air used",
-)  # fmt: skip
-REASON = "reason"  # why a stop has no results
+# Swept if a scenario names no key.
+DEFAULT = {"speed": [27.8, 38.9], "adhesion": [0.05, 0.1]}
+# What a row does not depend on: the time after which a stop is given up, what comes after it, names, where files are.
+APART = ("sweep", "longest", "hold", "name", "paths", "path")
+# Keys on which a dry stop does not depend: nothing slides there. Those of `brake.wsp` count if the protection is one's own.
+WITHOUT_SLIDE = ("adhesion", "track.conditions.", "track.sand.", "track.cleaning_energy", "brake.sander.")
+OF_PROTECTION = "brake.wsp."
+OF_VALVES = ("brake.wsp.fill_time", "brake.wsp.vent_time")
 
 
-# What a row does not depend on: swept values, the time after which a stop is given up, and what comes after it.
-APART = ("sweep", "speed", "adhesion", "payload", "longest", "hold")
+class SchedulerGone(Exception):
+    """The scheduler does not answer any more."""
 
 
-def header():
-    """Names of the columns: scenario, keys, results; of the worst axle where there is one value per axle."""
-    return ["scenario", *KEYS, *RESULTS]
+def lists(scenario):
+    """Swept keys and their values."""
+    named = {key: values for key, values in vars(scenario.sweep).items() if key != "wheel"}
+    twice = [short for short, path in SHORT.items() if short in named and path in named]
+    if twice:
+        raise BadFile(f"{scenario.paths['scenario']}: sweep: {twice[0]} and {SHORT[twice[0]]} are the same key")
+    return named or DEFAULT
 
 
 def points(scenario):
     """All combinations of a scenario's sweep, the fastest first: they take longest, and no worker is left with one at the end."""
-    values = vars(scenario.sweep)
-    found = [dict(zip(KEYS, map(float, point))) for point in product(*(values[key] for key in KEYS))]
-    return sorted(found, key=lambda point: -point["speed"])
+    swept = lists(scenario)
+    found = [dict(zip(swept, point)) for point in product(*swept.values())]
+    return sorted(found, key=lambda point: -speed(scenario, point))
+
+
+def speed(scenario, point):
+    """Initial speed of a point [m/s]."""
+    return point.get("speed", scenario.speed)
+
+
+def reference(scenario, point):
+    """What of a point its dry stop depends on."""
+    own = scenario.brake.protection or "brake.protection" in point
+    apart = WITHOUT_SLIDE if own else (*WITHOUT_SLIDE, OF_PROTECTION)
+    path = lambda key: SHORT.get(key, key)
+    return {key: value for key, value in point.items() if path(key) in OF_VALVES or not path(key).startswith(apart)}
+
+
+def references(scenario):
+    """The dry stops of all points, each once."""
+    found = {}
+    for point in points(scenario):
+        needed = reference(scenario, point)
+        found.setdefault(json.dumps(needed), needed)
+    return list(found.values())
+
+
+def at(scenario, point):
+    """The scenario of a point."""
+    found = changed(scenario, point)
+    found.wheel |= {k: v for k, v in scenario.sweep.wheel.items() if f"wheel.{k}" not in point}
+    found.hold = 0.0  # rows hold nothing of the time after it stands
+    return found
+
+
+def scenarios_of(scenario, of):
+    """Scenarios of points; a wrong value is an error that names the point."""
+    found = []
+    for point in of:
+        try:
+            found.append(at(scenario, point))
+        except BadFile as error:
+            raise BadFile(f"{scenario.paths['scenario']}: sweep, {described(point)}: {error}") from None
+    return found
 
 
 def fingerprint(scenario, rigid):
     """Names what a sweep is of, the swept values apart, so that rows of another one are not taken for its own."""
     rest = {k: v for k, v in vars(scenario).items() if k not in APART}
     rest["wheel"] = scenario.wheel | scenario.sweep.wheel
-    text = json.dumps([rest, rigid], default=lambda v: vars(v) if isinstance(v, SimpleNamespace) else str(v), sort_keys=True)
+    swept = sorted(SHORT.get(key, key) for key in lists(scenario))
+    text = json.dumps([_without(rest, swept), swept, rigid], default=str, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def _without(value, swept, place=""):
+    """Plain values of a scenario without those that are swept and without what results do not depend on."""
+    if isinstance(value, OwnClass):
+        return value.digest()
+    if inspect.isclass(value):
+        return f"{value.__module__}:{value.__qualname__}"
+    if isinstance(value, SimpleNamespace):
+        value = vars(value)
+    if not isinstance(value, dict):
+        return value
+    return {
+        k: _without(v, swept, f"{place}{k}.") for k, v in value.items() if f"{place}{k}" not in swept and k not in APART
+    }
 
 
 class TooSlow(Exception):
@@ -72,158 +139,115 @@ def watch(limit):
     return check
 
 
-def one(scenario, point, path, limit=0.0):
-    """One stop: the point with its results, or with why there are none, under `REASON`. `path` of the FMU; None takes rigid
-    wheelsets; a bare name is looked for where dask puts files that were sent to its workers; `limit` as in `watch`."""
+def one(scenario, dry, path, limit=0.0):
+    """Results of one stop, or why there are none, under `REASON`. `dry`: a friction in place of the track's, or None; `path` of
+    the FMU; None takes rigid wheelsets; a bare name is looked for where dask puts files that were sent to its workers; `limit` as
+    in `watch`."""
     try:
-        return point | results(scenario, point, path, limit)
-    except (TooSlow, TimeoutError, Refused, ValueError) as error:
-        return point | {REASON: " ".join(str(error).split())}
+        return results(scenario, dry, path, limit)
+    except (TooSlow, TimeoutError, Refused, ControllerFailed, TrackEnds, BadFile, ValueError) as error:
+        return {REASON: " ".join(str(error).split())}
 
 
-def results(scenario, point, path, limit):
+def results(scenario, dry, path, limit):
     """Key figures of one stop."""
-    scenario = deepcopy(scenario)
-    scenario.speed, scenario.adhesion, scenario.payload = point["speed"], point["adhesion"], point["payload"]
-    scenario.brake.wsp.slide_high = point["slide_high"]
-    scenario.wheel |= scenario.sweep.wheel
-    scenario.hold = 0.0  # rows hold nothing of the time after it stands
-    settle(scenario)
     if path is not None and not Path(path).is_absolute():
         from distributed import get_worker
 
         path = Path(get_worker().local_directory) / path
     with Fmu(path) if path else nullcontext() as fmu:
-        run = Stop(scenario, fmu)
+        run = Stop(scenario, fmu, dry)
         try:
             found = figures(run.run(watch(limit)))
         finally:
             run.close()
     worst = lambda name: min if name == "mean adhesion" else max
-    values = {name: found[name][0] for name in RESULTS}
+    values = {name: found[name][0] for name in (RESULTS if dry is None else OF_DRY)}
     return {name: float(worst(name)(known(v)) if isinstance(v, list) else v) for name, v in values.items()}
 
 
-def done(path, name):
-    """Rows of a file that belong to the scenario of this name; others are an error. A torn last line is cut off."""
-    path = Path(path)
-    if not path.is_file():
-        return []
-    text = path.read_text(encoding="utf-8")
-    if not text.endswith("\n"):
-        text = text[: text.rfind("\n") + 1]
-        path.write_text(text, encoding="utf-8")
-    rows = list(csv.DictReader(text.splitlines()))
-    for line, row in enumerate(rows, start=2):
-        if list(row) != header():
-            raise BadFile(f"{path}:1: not the columns of a sweep: {', '.join(row)}")
-        if row["scenario"] != name:
-            raise BadFile(f"{path}:{line}: a row of another scenario ({row['scenario']}, this is {name}); take another --out")
-    return [{key: float(value) for key, value in row.items() if key != "scenario"} for row in rows]
+class Files:
+    """Files of a sweep: the stops, and the dry ones."""
 
+    def __init__(self, scenario, rigid, path):
+        self.path, self.name = Path(path), fingerprint(scenario, rigid)
+        self.stops = Table(self.path, self.name, lists(scenario), [*RESULTS, *OVER_DRY])
+        self.dry = Table(dry_path(self.path), self.name, references(scenario)[0], OF_DRY)
 
-def unfinished(path):
-    """Where stops without results are named: beside the results."""
-    path = Path(path)
-    return path.with_name(f"{path.stem}_unfinished.csv")
+    def missing(self, scenario):
+        """What is to be computed, dry stops first: (dry, point)."""
+        dry = [(True, point) for point in references(scenario) if not self.dry.has(point)]
+        return dry + [(False, point) for point in points(scenario) if not self.stops.has(point)]
+
+    def over_dry(self, row):
+        """Adds what a row is longer than."""
+        known = {self.dry.identity(dry): dry["stopping distance"] for dry in self.dry.rows}
+        row[DRY] = known.get(self.dry.identity(row), math.nan)
+        row[EXTENSION] = 100.0 * (row["stopping distance"] / row[DRY] - 1.0)
+        return row
+
+    def fill(self):
+        """Writes what was not known yet when a row was written."""
+        waiting = [row for row in self.stops.rows if math.isnan(row[DRY])]
+        if any(not math.isnan(self.over_dry(row)[DRY]) for row in waiting):
+            self.stops.rewrite()
 
 
 def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
     """Computes what is missing in the file at `path`; returns all rows with results, and the points without, with their
-    reasons. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none."""
-    from distributed import as_completed
+    reasons. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none. `progress` gets every row; those of dry stops
+    have `DRY` true."""
     from distributed.diagnostics.plugin import UploadFile
 
-    name = fingerprint(scenario, fmu is None)
-    rows = done(path, name)
-    known = {tuple(row[key] for key in KEYS) for row in rows}
-    missing = [point for point in points(scenario) if tuple(point.values()) not in known]
+    files = Files(scenario, fmu is None, path)
+    missing, failed = files.missing(scenario), []
+    made = scenarios_of(scenario, [point for _, point in missing])
     if fmu is not None:
         client.register_plugin(UploadFile(str(fmu)))
         fmu = Path(fmu).name
-    # Whoever kills a worker may hit the same task several times.
-    futures = client.map(lambda point: one(scenario, point, fmu, limit), missing, pure=False, retries=3)
-    point_of, failed = dict(zip((future.key for future in futures), missing)), []
-    with open(path, "a", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, header())
-        if not rows and file.tell() == 0:
-            writer.writeheader()
-        for future in as_completed(futures):
-            error = future.exception()
-            row = future.result() if error is None else point_of[future.key] | {REASON: f"{type(error).__name__}: {error}"}
-            future.release()  # or it is computed again when the worker that keeps its result dies
-            progress(row)
-            if REASON in row:
-                failed.append(row)
-                continue
-            writer.writerow({"scenario": name} | {key: repr(value) for key, value in row.items()})
-            file.flush()
-            rows.append(row)
-    write_unfinished(unfinished(path), name, failed)
-    return rows, failed
+    write_meanings(columns_path(files.path), files.stops.keys)
+    for (dry, point), found in finished(client, missing, made, fmu, limit):
+        row = point | ({DRY: True} if dry else {}) | found
+        if REASON in row:
+            failed.append(row)
+        elif dry:
+            files.dry.add(row)
+        else:
+            files.stops.add(files.over_dry(row))
+        progress(row)
+    files.fill()
+    write_unfinished(unfinished(files.path), files.name, [*files.stops.keys, DRY], failed)
+    return files.stops.rows, failed
 
 
-def write_unfinished(path, name, failed):
-    """Names stops without results in a file; without any there is no file."""
-    if not failed:
-        path.unlink(missing_ok=True)
-        return
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ["scenario", *KEYS, REASON])
-        writer.writeheader()
-        writer.writerows({"scenario": name} | row for row in failed)
+def finished(client, missing, made, fmu, limit):
+    """(dry, point) and results of stops, as they come to their ends; dry ones have precedence."""
+    from distributed import CancelledError, as_completed
+
+    submit = lambda task, scenario: client.submit(
+        # Whoever kills a worker may hit the same task several times.
+        one, scenario, scenario.dry if task[0] else None, fmu, limit, pure=False, retries=3, priority=int(task[0])
+    )
+    futures = [submit(task, scenario) for task, scenario in zip(missing, made)]
+    task_of = {future.key: task for future, task in zip(futures, missing)}
+    # Those who wait for results hold no futures: a result whose worker dies is not computed again.
+    waiting = as_completed(futures)
+    del futures
+    for future in waiting:
+        if future.cancelled():
+            raise SchedulerGone("it does not answer any more")
+        error = future.exception()
+        if isinstance(error, CancelledError):
+            raise SchedulerGone("it does not answer any more")
+        found = future.result() if error is None else {REASON: " ".join(f"{type(error).__name__}: {error}".split())}
+        task = task_of[future.key]
+        future.release()
+        yield task, found
 
 
 def described(row):
     """A point in words."""
-    return ", ".join(f"{key} {row[key]:g}" for key in KEYS)
-
-
-class Progress:
-    """A bar whose share and remaining time count a stop by its initial speed, which its duration follows; `known` rows are done."""
-
-    def __init__(self, scenario, known):
-        from tqdm import tqdm
-
-        everything = points(scenario)
-        self.count, self.done = len(everything), len(known)
-        weigh = lambda rows: sum(row["speed"] for row in rows)
-        form = "{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]"
-        self.bar = tqdm(total=weigh(everything), initial=weigh(known), desc="stops", bar_format=form)
-
-    def tell(self, row):
-        """A stop has come to its end, or failed."""
-        self.done += 1
-        found = "no result" if REASON in row else f"{row['stopping distance']:.0f} m"
-        self.bar.set_postfix_str(f"{self.done} of {self.count}; {described(row)}: {found}", refresh=False)
-        self.bar.update(row["speed"])
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.bar.close()
-
-
-def run(options, scenario):
-    """The command: cluster, progress, file, picture."""
-    from distributed import Client, LocalCluster
-
-    from .plots import draw_sweep
-
-    options.out.mkdir(parents=True, exist_ok=True)
-    path = options.out / "sweep.csv"
-    fmu = None if options.rigid else options.fmu
-    known = done(path, fingerprint(scenario, options.rigid))
-    local = lambda: LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None)
-    with nullcontext() if options.scheduler else local() as cluster, Client(options.scheduler or cluster) as client:
-        with Progress(scenario, known) as progress:
-            rows, failed = sweep(client, scenario, fmu, path, progress.tell, options.limit)
-    for row in failed:
-        print(f"no result: {described(row)}: {row[REASON]}")
-    if not rows:
-        raise TimeoutError(f"no stop came to its end; see {unfinished(path)}")
-    draw_sweep(options.out / "sweep.png", rows)
-    if failed:
-        print(f"{len(failed)} stops without results, named in {unfinished(path)}; the next run tries them again")
-    print(f"{len(rows)} stops, {len(known)} of them known before; written: {path}, {options.out / 'sweep.png'}")
+    keys = [key for key in row if key not in (*RESULTS, *OVER_DRY, REASON)]
+    text = lambda value: f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
+    words = ", ".join(f"{key} {text(row[key])}" for key in keys)
+    return ", ".join(filter(None, ["dry" if row.get(DRY) is True else "", words])) or "the scenario"

@@ -15,7 +15,9 @@ The wheelsets own their inertia (force and moment control); a step of `h` goes l
 import numpy as np
 
 from . import scenario as scenarios
-from .brake import Brakes, Valve
+from .brake import Brakes
+from .controllers import OwnDriver
+from .rail_map import OffTheMap
 from .team import Team
 from .vehicle import AXLES, GRAVITY, Coach
 from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset
@@ -25,18 +27,43 @@ STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow tha
 IMMOBILE = 1e6  # times its mass counts a wheelset that is held
 AT_REST = 2e-3  # m/s
 
-# Columns of a result: of the vehicle, and of every axle.
-OF_VEHICLE = ("time", "speed", "travelled", "control_pressure", "reference_speed", "air", "sand")
-OF_AXLE = (
-    "velocity", "peripheral", "force", "load", "pull", "torque", "pressure", "valve", "friction", "rail_excess", "energy",
-    "hottest", "peak", "ac1_depth",
-)  # fmt: skip
+# Columns of a result, of the vehicle and of every axle: name to unit and meaning.
+OF_VEHICLE = {
+    "time": ("s", "since the start, end of a step"),
+    "speed": ("m/s", "of the car body, the leading one of a set"),
+    "travelled": ("m", "way of the car body"),
+    "control_pressure": ("Pa", "over ambient, of the leading coach"),
+    "reference_speed": ("m/s", "which the slide protection of the leading coach takes for that of the train"),
+    "air": ("m3", "let into all cylinders so far, at ambient pressure"),
+    "sand": ("kg", "laid on both rails so far"),
+}
+OF_AXLE = {
+    "velocity": ("m/s", "of the wheelset along the track"),
+    "peripheral": ("m/s", "speed of the tread, radius times angular velocity"),
+    "force": ("N", "of the contact on both wheels along the track, forward positive"),
+    "load": ("N", "of both wheels on the rails"),
+    "pull": ("N", "of the primary suspension on the wheelset along the track, forward positive"),
+    "torque": ("N m", "of the brake on the wheelset, forward positive"),
+    "pressure": ("Pa", "in the cylinder, over ambient"),
+    "valve": ("1", "of the slide protection: 0 applies, 1 holds, 2 vents"),
+    "friction": ("1", "coefficient of the rail that the axle meets"),
+    "rail_excess": ("K", "temperature of the rail that the axle meets less the reference"),
+    "energy": ("J", "of friction so far, both wheels"),
+    "hottest": ("K", "highest temperature of the wheels in the contact now; 0 if unknown"),
+    "peak": ("K", "highest temperature of the tread so far; 0 if unknown"),
+    "ac1_depth": ("m", "of the tread that was hotter than Ac1"),
+}
+COUPLER = ("N", "force of the coupler behind this coach, tension positive")
 
 
 def columns(coaches=1):
     """Names of all columns: of the vehicle, of every axle, and the force of every coupler, tension positive."""
     axles = [f"{name}_{axle + 1}" for axle in range(coaches * AXLES) for name in OF_AXLE]
     return [*OF_VEHICLE, *axles, *(f"coupler_{k + 1}" for k in range(coaches - 1))]
+
+
+class TrackEnds(Exception):
+    """A stop that is longer than the track; the text names the key and the file that say how long that is."""
 
 
 class Contacts:
@@ -117,18 +144,24 @@ def wheelsets_of(fmu, scenario, coach):
 
 
 class Stop:
-    """A stop of a coach. `fmu` None takes rigid wheelsets; `dry` is a friction in place of the track's; `coach` another
-    vehicle with the methods of `Coach`."""
+    """A stop of a coach, or of a set: `run` gives the table of its steps, `close` frees the wheelsets.
+
+    `scenario` is what `scenario.load` gives, and may be changed before. `fmu` None takes rigid wheelsets; `dry` is a friction in
+    place of the track's; `coach` another vehicle with the methods of `Coach`. Between steps `coach`, `brakes` (one per coach) and
+    `contacts.seen` (one `Seen` per axle) say how things are.
+    """
 
     def __init__(self, scenario, fmu=None, dry=None, coach=None):
         self.scenario = scenario
         self.coach = coach or Coach(scenario.vehicle, scenario.coaches)
         self.axles = self.coach.axles
         self.coach.start(scenario.speed)
+        of = lambda k: f", coach {k + 1}," if self.coach.count > 1 else ""
+        self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES, of(k)) for k in range(self.coach.count)]
+        self.driver = OwnDriver(scenario.driver, scenario, scenario.driver_parameters) if scenario.driver else None
         ahead = self.coach.axle_positions - self.coach.axle_positions[0]
         rail = scenarios.rail_map(scenario.track, -ahead[-1], self.axles, dry)
         self.contacts = Contacts(wheelsets_of(fmu, scenario, self.coach), ahead, rail, scenario.track)
-        self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES) for _ in range(self.coach.count)]
         self.torques = np.zeros(self.axles)
         self.radius = scenario.vehicle.wheelset.radius
         self.rows = []
@@ -136,10 +169,8 @@ class Stop:
     def run(self, progress=lambda stop: None):
         """Brakes to rest, watches it for a while; returns the table of `columns()`."""
         s, rest = self.scenario, None
-        steps = 0
         while rest is None or self.contacts.time < rest + s.hold:
             self.step(s.step)
-            steps += 1
             progress(self)
             if rest is None and self.at_rest():
                 rest = self.contacts.time
@@ -152,7 +183,18 @@ class Stop:
         return self.coach.speed() < AT_REST
 
     def step(self, h):
-        """One step of all parts."""
+        """One step of all parts, of `h` [s]."""
+        try:
+            self._step(h)
+        except OffTheMap as error:
+            s, seen = self.scenario, self.contacts
+            raise TrackEnds(
+                f"the stop is longer than the track: after {seen.time:.1f} s and {self.coach.travelled():.0f} m still "
+                f"{self.coach.speed():.3g} m/s; raise length = {s.track.length:g} m in {s.paths['track']}"
+            ) from error
+
+    def _step(self, h):
+        """One step; positions beyond the map of the rail are refused by the map."""
         seen, mass = self.contacts.seen, self.scenario.vehicle.wheelset.mass
         omegas = [w.omega for w in seen] if seen else [self.scenario.speed / self.radius] * self.axles
         torques, sand = self._brake(h, [self.radius * omega for omega in omegas])
@@ -175,9 +217,11 @@ class Stop:
 
     def _brake(self, h, speeds):
         """Torques and sand of all axles; every coach has brakes of its own, which know the speeds of its axles only."""
-        torques, sand = [], []
+        torques, sand, demand = [], [], self.scenario.demand
+        if self.driver:
+            demand = self.driver.step(h, self.contacts.time, self.coach.speed(), self.coach.travelled())
         for k, brakes in enumerate(self.brakes):
-            of = brakes.step(h, self.scenario.demand, speeds[k * AXLES : (k + 1) * AXLES])
+            of = brakes.step(h, demand, speeds[k * AXLES : (k + 1) * AXLES])
             torques += of[0]
             sand += of[1]
         return torques, sand

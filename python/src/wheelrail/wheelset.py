@@ -59,7 +59,7 @@ class FmuWheelset:
         self.reference, *held = self.wheel.get("thermal.reference", "wheel.mass", "wheel.inertia")
         if not np.allclose(held, [self.mass, self.inertia], rtol=1e-6):
             self.close()
-            raise ValueError(f"the FMU holds {held[0]:g} kg, {held[1]:g} kg m2 in place of {wheelset}")
+            raise Refused(f"the FMU holds {held[0]:g} kg, {held[1]:g} kg m2 in place of {wheelset}")
         self._heat = 0.0
 
     def step(self, h, drive):
@@ -92,7 +92,7 @@ def whole_wheelset(fmu, wheelset, parameters):
         mass, inertia = (WHEELS * value for value in one.get("wheel.mass", "wheel.inertia"))
         doubled = {name: WHEELS * value for name, value in zip(DOUBLED, one.get(*DOUBLED))}
     if mass > wheelset.mass or inertia > wheelset.inertia:
-        raise ValueError(f"a wheelset of {wheelset.mass:g} kg, {wheelset.inertia:g} kg m2 is lighter than its two rims")
+        raise Refused(f"a wheelset of {wheelset.mass:g} kg, {wheelset.inertia:g} kg m2 is lighter than its two rims")
     hub = {"wheel.hub_mass": wheelset.mass - mass, "wheel.hub_inertia": wheelset.inertia - inertia}
     return parameters | doubled | hub | {"wheel.radius": wheelset.radius}
 

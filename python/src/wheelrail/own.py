@@ -1,0 +1,166 @@
+"""Classes of one's own that files name as `module:Class`: found beside the file, in the working directory, or installed.
+
+A class that was found travels with the text of its module and of the modules beside it that it imports, so that workers on other
+machines need no copy of them.
+"""
+
+import ast
+import difflib
+import hashlib
+import importlib
+import importlib.util
+import inspect
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from .files import BadFile
+
+FORM = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
+
+
+@dataclass(frozen=True)
+class OwnClass:
+    """A class by the name `module:Class`; `where` says which file names it. `files` are path and text of its module, first, and
+    of those beside it that it imports; none if it is installed."""
+
+    name: str
+    where: str
+    files: tuple = ()
+
+    def load(self):
+        """The class."""
+        module, _, wanted = self.name.partition(":")
+        known = vars(_module(module, self.files))
+        if wanted not in known:
+            classes = [name for name, value in known.items() if inspect.isclass(value)]
+            close = difflib.get_close_matches(wanted, classes, n=1)
+            hint = f"; did you mean {close[0]}?" if close else ""
+            raise BadFile(f"{self.where}: {self.files[0][0] if self.files else module} has no class {wanted}{hint}")
+        if not inspect.isclass(known[wanted]):
+            raise BadFile(f"{self.where}: {self.name} is a {type(known[wanted]).__name__}, not a class")
+        return known[wanted]
+
+    def digest(self):
+        """Name and texts in short: of another class, or of one that was changed, it is another one."""
+        texts = [self.name, *(text for _, text in self.files)]
+        return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:12]
+
+
+def find(name, folder, where, protocol):
+    """The class `module:Class` that a file in a folder names, checked for the methods of `protocol`; `where` in the file is for
+    messages."""
+    if not FORM.fullmatch(name):
+        raise BadFile(f"{where} = {name!r} is not of the form module:Class, such as my_brake:Gentle")
+    module = name.partition(":")[0]
+    places = dict.fromkeys([Path(folder).resolve(), Path.cwd()])
+    files = next((path for path in (there / f"{module.replace('.', '/')}.py" for there in places) if path.is_file()), None)
+    if files is None and not _installed(module):
+        looked = " and ".join(map(str, places))
+        raise BadFile(f"{where}: no module {module}: there is no {module}.py in {looked}, and none is installed")
+    found = OwnClass(name, where, tuple(_texts(files, where).items()) if files else ())
+    _check(found, protocol)
+    return found
+
+
+def _installed(module):
+    """Whether Python itself finds a module."""
+    try:
+        return importlib.util.find_spec(module) is not None
+    except (ImportError, ValueError):
+        return False
+
+
+def _texts(path, where):
+    """Path to text of a module and of all beside it that it imports, however indirectly."""
+    found, waiting = {}, [path]
+    while waiting:
+        path = waiting.pop(0)
+        if str(path) in found:
+            continue
+        try:
+            found[str(path)] = text = path.read_text(encoding="utf-8")
+            tree = ast.parse(text, str(path))
+        except (OSError, UnicodeDecodeError) as error:
+            raise BadFile(f"{where}: {path}: cannot be read: {error}") from None
+        except (SyntaxError, ValueError) as error:
+            raise BadFile(f"{where}: {path}:{getattr(error, 'lineno', 1)}: not Python: {getattr(error, 'msg', error)}") from None
+        names = [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
+        names += [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module]
+        waiting += [beside for beside in (path.with_name(f"{name}.py") for name in names) if beside.is_file()]
+    return found
+
+
+def _check(found, protocol):
+    """The class can be loaded and has what the protocol asks for."""
+    try:
+        own = found.load()
+    except BadFile:
+        raise
+    except (Exception, SystemExit) as error:
+        text = " ".join(f"{type(error).__name__}: {error}".split())
+        module = found.name.partition(":")[0]
+        raise BadFile(f"{found.where}: importing {module} failed: {text}{_line(error, found.files)}") from None
+    wanted = [name for name in inspect.signature(protocol.step).parameters if name != "self"]
+    call = f"step({', '.join(wanted)})"
+    if not callable(getattr(own, "step", None)):
+        raise BadFile(f"{found.where}: {found.name} has no method {call}")
+    try:
+        inspect.signature(own.step).bind("self", *wanted)
+    except TypeError as error:
+        raise BadFile(f"{found.where}: {found.name}: step{inspect.signature(own.step)} is not {call}: {error}") from None
+    except ValueError:
+        pass  # written in C: it has no signature
+
+
+def _line(error, files):
+    """Where in the files an error was raised."""
+    trace, own, place = error.__traceback__, [path for path, _ in files], ""
+    while trace:
+        path = trace.tb_frame.f_code.co_filename
+        if path in own:
+            place = f" ({Path(path).name}:{trace.tb_lineno})"
+        trace = trace.tb_next
+    return place
+
+
+_modules, _folders = {}, []
+
+
+def _module(name, files):
+    """The module of a name: imported if it is installed, else made of the texts of its files, once in a process."""
+    if not files:
+        return importlib.import_module(name)
+    if files not in _modules:
+        _modules[files] = _made(name, files)
+    return _modules[files]
+
+
+def _made(name, files):
+    """A module of a text. Those beside it are found in its folder, or, where that does not hold them, in a temporary one."""
+    path, text = files[0]
+    folder = Path(path).parent
+    beside = {Path(other).stem: (Path(other), content) for other, content in files[1:]}
+    if not all(other.is_file() and other.read_text(encoding="utf-8") == content for other, content in beside.values()):
+        _folders.append(TemporaryDirectory(prefix="wheelrail-own-"))
+        folder = Path(_folders[-1].name)
+        for other, content in beside.values():
+            (folder / other.name).write_text(content, encoding="utf-8")
+    unique = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(unique, loader=None, origin=path))
+    module.__file__ = path
+    for stem in beside:
+        sys.modules.pop(stem, None)
+    sys.path.insert(0, str(folder))
+    sys.modules[unique] = module
+    importlib.invalidate_caches()
+    try:
+        exec(compile(text, path, "exec"), vars(module))
+    except BaseException:
+        del sys.modules[unique]
+        raise
+    finally:
+        sys.path.remove(str(folder))
+    return module
