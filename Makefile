@@ -55,6 +55,7 @@ INSTALLED := $(VENV)/.installed
 MASTERS := $(VENV)/.masters
 TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
+RECORDS := $(VENV)/.records
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
@@ -78,7 +79,7 @@ test-rust:
 	$(CARGO) test --release --locked -p wheelrail -p wheelrail-slave
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 
 # Programs that take less than a second each, from every room of the house.
@@ -100,7 +101,7 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
 
-test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK)
+test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(RECORDS)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
 
 fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
@@ -240,6 +241,10 @@ $(TRAIN): requirements-train.txt $(INSTALLED)
 	touch $@
 
 $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(RECORDS): requirements-records.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 
