@@ -41,7 +41,8 @@ def test_a_record_is_what_the_wheel_said_at_every_nth_step(start):
 
 def test_units_meanings_and_the_parameters_that_differ_are_attributes(fmu):
     run = wheelrail.simulate({"preset": "railway_dry", "initial.velocity": 10.0, "solver.contact": "grid"}, stop=2e-3, fmu=fmu)
-    assert run["contact.pressure_max"].attrs["units"] == "Pa" and "peak" in run["contact.pressure_max"].attrs["long_name"]
+    assert run["contact.pressure_max"].attrs["units"] == "Pa" and "peak" in run["contact.pressure_max"].attrs["comment"]
+    assert run["contact.pressure_max"].attrs["long_name"] == "Largest contact pressure"
     assert run.attrs["preset"] == "railway_dry" and run.attrs["fmu_version"] == fmu.description.version
     assert json.loads(run.attrs["parameters"]) == {"initial.velocity": 10.0, "solver.contact": "grid"}
     assert run["brake.locked"].dtype == bool and "units" not in run["brake.locked"].attrs
@@ -51,7 +52,7 @@ def test_units_meanings_and_the_parameters_that_differ_are_attributes(fmu):
 
 def test_a_wheel_that_goes_back_takes_its_record_along(start):
     wheel = start()
-    record = wheel.record("wheel.distance")
+    record, rare = wheel.record("wheel.distance"), wheel.record("wheel.distance", every=2)
     wheel.step(1e-3)
     saved = wheel.save()
     wheel.step(5e-3)
@@ -60,6 +61,7 @@ def test_a_wheel_that_goes_back_takes_its_record_along(start):
     wheel.step(1e-3)
     run = record.dataset()
     np.testing.assert_allclose(run.time, [0.0, 1e-3, 2e-3], rtol=1e-12)
+    np.testing.assert_allclose(rare.dataset().time, [0.0, 2e-3], rtol=1e-12)
     assert (np.diff(run["wheel.distance"]) > 0.0).all()
 
 
@@ -134,3 +136,30 @@ def test_what_stops_a_run_carries_the_record_so_far(fmu):
 def test_a_bar_is_for_terminals(fmu, capsys):
     wheelrail.simulate(stop=2e-3, fmu=fmu)
     assert capsys.readouterr() == ("", "")
+
+
+def test_the_page_does_what_it_says(packed, tmp_path, monkeypatch):
+    pytest.importorskip("pyarrow")
+    import matplotlib
+
+    matplotlib.use("Agg")
+    monkeypatch.setenv("WHEELRAIL_FMU", str(Path(packed).resolve()))
+    monkeypatch.chdir(tmp_path)
+    blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.S)
+    place = {}
+    for block in blocks:
+        exec(compile(block, str(PAGE), "exec"), place)
+    assert len(blocks) == 6 and len(place["frame"]) == 51
+    assert place["again"].identical(place["run"]) and Path("results/run.parquet").is_file()
+    surface = place["again"]["profile.temperature_wheel"]
+    assert surface.dims == ("time", "node") and surface["x"].attrs["units"] == "m"
+
+
+def test_depth_profiles_begin_with_the_surface(fmu):
+    run = wheelrail.simulate({"initial.velocity": 20.0}, {"brake.torque": 6000.0}, stop=5e-3, depth=True, fmu=fmu)
+    below = run["profile.temperature_wheel_below"]
+    assert below.dims == ("time", "depth") and run["depth"].attrs["units"] == "m" and run["depth"][-1] == pytest.approx(0.02)
+    np.testing.assert_allclose(below[:, 0], run["temperature.wheel_nominal"], rtol=1e-9)
+    np.testing.assert_allclose(run["profile.temperature_rail_below"][:, 0], run["temperature.rail_nominal"], rtol=1e-9)
+    warm = wheelrail.celsius(run)["temperature.wheel_nominal"]
+    assert warm.attrs["units"] == "°C" and warm[0] == pytest.approx(run["temperature.wheel_nominal"][0].item() - 273.15)

@@ -88,7 +88,8 @@ class Fmu:
 
     def profiles(self):
         """Names of the quantities of `Wheel.profile`."""
-        return list(dict.fromkeys(name.split("[")[0].removeprefix("profile.") for name in self.variables if name.startswith("profile.")))
+        points = (name.removeprefix("profile.") for name in self.variables if name.startswith("profile."))
+        return list(dict.fromkeys(point.split("[")[0] for point in points))
 
     def points(self, quantity):
         """Names of the variables that are the points of a profile."""

@@ -40,7 +40,7 @@ class Recorder:
         self._depths = wheel.profile("depth") if self._over_depth() else None
         self._settings = _settings(wheel)
         self._warnings, self._heard = [], 0
-        self._times, self._samples, self._steps = [], [], 0
+        self._times, self._samples, self._steps = [], [], []
         self.sample()
 
     def _over_depth(self):
@@ -48,8 +48,8 @@ class Recorder:
 
     def stepped(self):
         """Takes note of a step, and a sample if it is its turn."""
-        self._steps += 1
-        if self._steps % self.every == 0:
+        self._steps.append(self.wheel.time)
+        if len(self._steps) % self.every == 0:
             self.sample()
 
     def sample(self):
@@ -63,7 +63,9 @@ class Recorder:
         self._listen()
 
     def rewind(self):
-        """Drops samples from after the present time of the wheel."""
+        """Drops steps and samples from after the present time of the wheel."""
+        while self._steps and self._steps[-1] > self.wheel.time:
+            self._steps.pop()
         while self._times and self._times[-1] > self.wheel.time:
             self._times.pop()
             self._samples.pop()
@@ -105,6 +107,9 @@ class Recorder:
             below = name.removeprefix("profile.") in BELOW
             values = block[:, first : first + len(points)]
             data[name] = (("time", "depth" if below else "node"), values, attributes(points[0]))
+        if "profile.x" in data:
+            # The zone in which there may be contact does not move, and neither do the points.
+            coordinates["x"] = ("node", data["profile.x"][1][0], data["profile.x"][2])
         if self._depths is not None:
             coordinates["depth"] = ("depth", self._depths, attributes(self.wheel.fmu.variable(self.wheel.fmu.points("depth")[0])))
         settings = self._settings | {"inputs": held, "warnings": self._warnings}
@@ -113,10 +118,12 @@ class Recorder:
 
 
 def attributes(variable):
-    """Unit and meaning of a variable."""
-    meaning = variable.description or variable.name
-    meaning = meaning.rsplit(", point ", 1)[0] if "[" in variable.name else meaning
-    return ({"units": variable.unit} if variable.unit else {}) | {"long_name": meaning}
+    """Unit and meaning of a variable: in short as `long_name`, and if there is more to say, all of it as `comment`."""
+    text = variable.description or variable.name
+    text = text.rsplit(", point ", 1)[0] if "[" in variable.name else text
+    short_name = re.split("[;:] ", text)[0]
+    more = {"comment": text} if short_name != text else {}
+    return ({"units": variable.unit} if variable.unit else {}) | {"long_name": short_name} | more
 
 
 def table(run):
@@ -126,6 +133,17 @@ def table(run):
     frame = flat.to_dataframe()
     frame.attrs = {"run": dict(run.attrs), "variables": {name: dict(run[name].attrs) for name in (*flat.data_vars, "time")}}
     return frame
+
+
+def celsius(record):
+    """A Dataset or DataArray with temperatures in °C in the place of K."""
+
+    def shown(values):
+        return (values - 273.15).assign_attrs(values.attrs, units="°C") if values.attrs.get("units") == "K" else values
+
+    if hasattr(record, "data_vars"):
+        return record.assign({name: shown(values) for name, values in record.data_vars.items()})
+    return shown(record)
 
 
 def save(run, path):
@@ -277,7 +295,7 @@ def _settings(wheel):
     """Version, preset and the parameters that differ from it, choices by name."""
     fmu = wheel.fmu
     parameters = [v for v in fmu.variables.values() if v.causality == "parameter"]
-    values = dict(zip((v.name for v in parameters), wheel.get(*(v.name for v in parameters))))
+    values = {v.name: wheel.get(v.name) for v in parameters}
     preset = values.pop("preset", "")
     base = {v.name: _start(v) for v in parameters} | _preset(fmu, preset)
     # The package itself writes the first of these, so that everything counts that is written.
