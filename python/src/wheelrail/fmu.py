@@ -16,7 +16,7 @@ from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi2 import fmi2CallbackAllocateMemoryTYPE, fmi2CallbackFreeMemoryTYPE
 from fmpy.logging import addLoggerProxy
 
-from .values import Refused, check_names, kind, plain, saved_state, to_fmu
+from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
 
 
 class Message(str):
@@ -115,8 +115,8 @@ class Wheel:
     """
 
     def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
-        if not isinstance(fmu, Fmu):
-            raise ValueError(f"Wheel({fmu!r}): expected an opened FMU, `with Fmu(path) as fmu: Wheel(fmu)`")
+        if not hasattr(fmu, "description"):
+            raise ValueError(f"Wheel({short(fmu)}): expected an opened FMU, `with Fmu(path) as fmu: Wheel(fmu)`")
         for values in (parameters, inputs):
             check_names(values or {}, "Wheel")
         self.fmu, self.time = fmu, 0.0
@@ -207,7 +207,7 @@ class Wheel:
     def step(self, h):
         """Advances by `h` seconds."""
         if not isinstance(h, Real):
-            raise ValueError(f"step({h!r}): expected a number of seconds")
+            raise ValueError(f"step({short(h)}): expected a number of seconds")
         self._call(self.slave.doStep, self.time, h)
         self.time += h
         for recorder in self._recorders:

@@ -40,7 +40,7 @@ def simulate(
     check_names(parameters, "simulate")
     check_names(inputs, "simulate")
     with ExitStack() as stack:
-        fmu = fmu if isinstance(fmu, Fmu) else stack.enter_context(Fmu(fmu))
+        fmu = fmu if hasattr(fmu, "description") else stack.enter_context(Fmu(fmu))
         courses = {name: _course(fmu, name, given) for name, given in inputs.items()}
         step = _seconds("step", step, "more than 0")
         if stop is None:

@@ -27,7 +27,7 @@ def plain(variable, value):
 def check_names(values, call):
     """Refuses what maps no names to values."""
     if not hasattr(values, "items"):
-        raise ValueError(f"{call}({values!r}): expected names and values, such as {{'drive.load': 8e4}}")
+        raise ValueError(f"{call}({short(values)}): expected names and values, such as {{'drive.load': 8e4}}")
 
 
 def to_fmu(variable, value):
