@@ -61,6 +61,7 @@ TRAIN := $(VENV)/.train
 NOTEBOOK := $(VENV)/.notebook
 # The report page is tried in a browser where there is one.
 BROWSER := $(if $(shell command -v chromium chromium-browser google-chrome 2> /dev/null),$(VENV)/.browser)
+RECORDS := $(VENV)/.records
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
@@ -85,7 +86,7 @@ test-rust:
 	$(CARGO) test --release --locked -p wheelrail -p wheelrail-slave
 	$(CARGO) test --release --locked -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER)
+test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 
 # Programs that take less than a second each, from every room of the house.
@@ -107,7 +108,7 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
 
-test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER)
+test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
 
 fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
@@ -266,6 +267,10 @@ $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
 	touch $@
 
 $(VENV)/.browser: requirements-browser.txt $(INSTALLED)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	touch $@
+
+$(RECORDS): requirements-records.txt $(INSTALLED)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
 	touch $@
 

@@ -236,7 +236,9 @@ impl Simulation {
             return Ok(());
         }
         let present = outputs::observe(&model.rolling, &checkpoint.state);
-        let before = std::mem::replace(outputs, present);
+        let mut before = std::mem::replace(outputs, present);
+        // A state does not depend on who has asked for what.
+        outputs::forget(&mut before);
         checkpoint.before.insert(0, (spare.clock.time, before));
         checkpoint.before.truncate(KEPT_POINTS);
         checkpoint.tuning.clone_from(tuning);
@@ -297,8 +299,16 @@ impl Simulation {
         }
     }
 
-    /// Outputs of the present state.
+    /// Outputs of the present state, but for deferred ones.
     pub fn outputs(&self) -> &Outputs {
+        &self.outputs
+    }
+
+    /// Outputs of the present state, deferred ones included.
+    pub fn all_outputs(&mut self) -> &Outputs {
+        if self.outputs.profile_wheel_below.is_empty() {
+            outputs::complete(&self.model.rolling, &self.checkpoint.state, &mut self.outputs);
+        }
         &self.outputs
     }
 

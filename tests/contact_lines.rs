@@ -59,7 +59,7 @@ fn difference(a: &[Outputs], b: &[Outputs], rows: impl Fn(&str) -> bool) -> (f64
     use wheelrail::rolling::{OutputRow, Read};
     let values = |row: &OutputRow, outputs: &Outputs| match row.read {
         Read::Real(read) => vec![read(outputs)],
-        Read::Profile(read) => read(outputs).to_vec(),
+        Read::Profile(read) | Read::Deferred(read) => read(outputs).to_vec(),
         Read::Count(read) => vec![read(outputs) as f64],
         Read::Flag(read) => vec![f64::from(u8::from(read(outputs)))],
     };

@@ -35,8 +35,8 @@ fn committed_reference_is_the_generated_one() {
 #[test]
 fn a_profile_is_one_row_and_its_points_are_scalars() {
     let arrays: Vec<_> = table().iter().filter(|row| row.dimension.is_some()).collect();
-    assert_eq!(arrays.len(), 8);
-    assert_eq!(variables().len(), table().len() - 8 + 8 * PROFILE_POINTS);
+    assert_eq!(arrays.len(), 11);
+    assert_eq!(variables().len(), table().len() - 11 + 11 * PROFILE_POINTS);
     let values: Vec<f64> = (0..PROFILE_POINTS).map(|k| k as f64).collect();
     let outputs = Outputs { profile_shear: values.clone(), ..Outputs::default() };
     let shear = arrays.iter().find(|row| row.name == "profile.shear").unwrap();

@@ -170,12 +170,12 @@ impl HeatModel for FlashModel {
         Ok(())
     }
 
-    fn depth_weights(&self, depths: &[f64]) -> Vec<f64> {
+    fn depth_weights(&self, _body: usize, depths: &[f64]) -> Vec<f64> {
         depths.to_vec()
     }
 
-    fn wheel_column(&self, state: &HeatState, _s: f64, _weights: &[f64], column: &mut [f64]) {
-        column.fill(if self.fits(state) { state.values[0] } else { 0.0 });
+    fn column(&self, body: usize, state: &HeatState, _s: f64, _weights: &[f64], column: &mut [f64]) {
+        column.fill(if self.fits(state) { state.values[body] } else { 0.0 });
     }
 
     fn fields(&self, state: &HeatState) -> Result<[TemperatureField; 2], HeatError> {

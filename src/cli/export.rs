@@ -4,7 +4,7 @@ use super::run::{Course, Run};
 use super::setting::Setting;
 use super::setup::{Setup, failed};
 use super::steady::{OperatingPoint, Velocity, parse_creepage};
-use super::vtu::{self, Data};
+use super::vtu::{self, Data, Encoding};
 use super::{Failure, model};
 use std::path::PathBuf;
 use wheelrail::fmi::instance::{Instance, simulation};
@@ -13,10 +13,11 @@ use wheelrail::simulation::{BodyField, Fields, Stress, TemperatureField};
 /// Write displacement, velocity, stress and temperature of wheel and rail for ParaView (.vtu).
 ///
 /// Of stationary rolling at --creepage (with --velocity), or of the end of a run (--scenario, --stop), or of the start
-/// state of a run. Displacement and stress need all finite-element equations, so solver.response is full here, which
-/// costs seconds instead of milliseconds. They are those of contact, inertia and centrifugal load, without thermal
-/// strain. Lengths are in metres with wheel and rail just touching at the origin; the displacement brings them into
-/// contact. velocity is that of the material seen from the wheel centre.
+/// state of a run, or with --every of a whole run as a series in binary files. Displacement and stress need all
+/// finite-element equations, so solver.response is full here, which costs seconds instead of milliseconds. They are
+/// those of contact, inertia and centrifugal load, without thermal strain. Lengths are in metres with wheel and rail
+/// just touching at the origin; the displacement brings them into contact. velocity is that of the material seen from
+/// the wheel centre.
 #[derive(clap::Args)]
 pub struct Export {
     #[command(flatten)]
@@ -28,7 +29,11 @@ pub struct Export {
     /// Creepage 2 (V - r omega)/(V + r omega) of a stationary state, braking positive.
     #[arg(long, value_name = "X", value_parser = parse_creepage, allow_hyphen_values = true)]
     creepage: Option<f64>,
-    /// Directory for the files; fields.vtm there opens all of them.
+    /// Write a series over the run: at its start, at the first communication point after every so many seconds, and at
+    /// its end; fields.pvd opens all of it.
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    every: Option<f64>,
+    /// Directory for the files; fields.vtm there, or fields.pvd, opens all of them.
     #[arg(long, default_value = "fields", value_name = "DIR")]
     out: PathBuf,
 }
@@ -36,15 +41,22 @@ pub struct Export {
 impl Export {
     /// Writes the files.
     pub fn run(self) -> Result<(), Failure> {
-        eprintln!("displacement and stress need all finite-element equations: using solver.response = full");
+        if let Some(every) = self.every {
+            return self.series(every);
+        }
         let (mut instance, when) = self.instance()?;
-        let fields = simulation(&mut instance).map_err(failed)?.fields().map_err(|e| Failure::Run(e.to_string()))?;
-        self.write(&fields, &when)
+        self.write(&fields(&mut instance)?, &when)
+    }
+
+    /// Settings that the command decides, for displacement and stress of the whole bodies.
+    fn fixed() -> Result<[Setting; 1], Failure> {
+        eprintln!("displacement and stress need all finite-element equations: using solver.response = full");
+        Ok([Setting::new("solver.response", "full")?])
     }
 
     /// The slave in the state to be exported, and what that is.
     fn instance(&self) -> Result<(Instance, String), Failure> {
-        let fixed = [Setting::new("solver.response", "full")?];
+        let fixed = Self::fixed()?;
         if self.creepage.is_some() || self.velocity.is_given() {
             if self.course.scenario.is_some() || self.course.stop.is_some() {
                 let why =
@@ -70,27 +82,86 @@ impl Export {
     }
 
     fn write(&self, fields: &Fields, when: &str) -> Result<(), Failure> {
+        let blocks = self.grids(fields, Encoding::Text, "", when)?;
+        let index = self.out.join("fields.vtm");
+        vtu::write_index(&index, &comment("wheel and rail", when), &blocks)?;
+        eprintln!("{when}: {} and {} files beside it", index.display(), blocks.len());
+        Ok(())
+    }
+
+    /// Writes the grids of one moment, whose file names end in `suffix`; their names and files.
+    fn grids(
+        &self,
+        fields: &Fields,
+        encoding: Encoding,
+        suffix: &str,
+        when: &str,
+    ) -> Result<Vec<(&'static str, String)>, Failure> {
         let mut blocks = Vec::new();
-        let comment = |what: &str| format!(" wheelrail: {what}, {when}; SI units ");
-        for (name, body) in [("wheel", &fields.wheel), ("rail", &fields.rail)] {
-            let file = format!("{name}.vtu");
-            let (path, mesh) = (self.out.join(&file), &body.mesh);
-            vtu::write(&path, &comment(name), &mesh.nodes, &mesh.cells, &mechanical(body))?;
+        let mut grid = |name, nodes: &[_], cells: &[_], data: &[Data]| -> Result<(), Failure> {
+            let file = format!("{name}{suffix}.vtu");
+            vtu::write(&self.out.join(&file), encoding, &comment(name, when), nodes, cells, data)?;
             blocks.push((name, file));
+            Ok(())
+        };
+        for (name, body) in [("wheel", &fields.wheel), ("rail", &fields.rail)] {
+            grid(name, &body.mesh.nodes, &body.mesh.cells, &mechanical(body))?;
         }
         let names = ["wheel_temperature", "rail_temperature"];
         for (name, TemperatureField { mesh, temperature }) in names.into_iter().zip(fields.temperature.iter().flatten())
         {
-            let file = format!("{name}.vtu");
-            let data = [Data::scalar("temperature", temperature.clone())];
-            vtu::write(&self.out.join(&file), &comment(name), &mesh.nodes, &mesh.cells, &data)?;
-            blocks.push((name, file));
+            grid(name, &mesh.nodes, &mesh.cells, &[Data::scalar("temperature", temperature.clone())])?;
         }
-        let index = self.out.join("fields.vtm");
-        vtu::write_index(&index, &comment("wheel and rail"), &blocks)?;
-        eprintln!("{when}: {} and {} files beside it", index.display(), blocks.len());
+        Ok(blocks)
+    }
+
+    /// Writes a series over a run. The index is complete after every moment, whatever happens then.
+    fn series(&self, every: f64) -> Result<(), Failure> {
+        let step = self.course.step;
+        if !(every.is_finite() && every >= step) {
+            let range = format!("finite, at least --step = {step} s");
+            return Err(Failure::Usage(format!("--every = {every} is outside its range: {range}")));
+        }
+        if self.creepage.is_some() || self.velocity.is_given() {
+            let why =
+                "a stationary state (--creepage, --velocity) does not change: --every needs a run (--scenario, --stop)";
+            return Err(Failure::Usage(why.to_owned()));
+        }
+        let mut run = Run::start(&self.setup, &self.course, &Self::fixed()?)?;
+        let bar = model::bar("export", run.steps as u64);
+        let (index, mut frames) = (self.out.join("fields.pvd"), Vec::new());
+        loop {
+            // A time that is short of a moment by rounding only counts as there.
+            if run.time() >= frames.len() as f64 * every - ROUNDING * step || run.done == run.steps {
+                let when = format!("time {} s", run.time());
+                let suffix = format!("_{:04}", frames.len());
+                let blocks = self.grids(&fields(&mut run.instance)?, Encoding::Raw, &suffix, &when)?;
+                frames.push((run.time(), blocks.into_iter().map(|(_, file)| file).collect()));
+                vtu::write_series(&index, &comment("wheel and rail", "a series over time"), &frames)?;
+            }
+            bar.set_position(run.done as u64);
+            if !run.advance()? {
+                break;
+            }
+        }
+        bar.finish_and_clear();
+        run.finish()?;
+        eprintln!("time 0 to {} s: {} with {} moments", run.time(), index.display(), frames.len());
         Ok(())
     }
+}
+
+/// Difference of times, in steps, that is rounding only.
+const ROUNDING: f64 = 1e-6;
+
+/// Fields of the present state.
+fn fields(instance: &mut Instance) -> Result<Fields, Failure> {
+    simulation(instance).map_err(failed)?.fields().map_err(|error| Failure::Run(error.to_string()))
+}
+
+/// Comment of a file: its content, and the moment or run that it is of.
+fn comment(what: &str, when: &str) -> String {
+    format!(" wheelrail: {what}, {when}; SI units ")
 }
 
 /// Displacement, velocity and stress.

@@ -248,6 +248,10 @@ parameters! {
                  too long: a bound on the computing time. solver.limited_steps counts those it spoils";
             1125 expert austenitisation: f64 = 1000.0, of "thermal", in "K" as "degC", from 1.0 to 1e4,
                 "Austenitisation temperature Ac1";
+            1195 expert tread_point: f64 = 0.0, of "thermal", in "rad" as "deg", from -1e9 to 1e9,
+                "Value of wheel.angle at which the point of the tread touches the rail below which temperatures are given over the \
+                 depth; 0: the point that touches at the start. For a place that the locked wheel heats, the angle at which it is \
+                 locked. Elsewhere these temperatures are means over the length of an element along the tread";
             1160 expert martensite_start: f64 = 575.0, of "damage", in "K" as "degC", from 1.0 to 1e4,
                 "Temperature Ms below which quickly cooled austenite becomes martensite";
             1161 expert critical_cooling: f64 = 50.0, of "damage", in "K/s", from 0.0 to 1e6,

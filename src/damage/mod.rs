@@ -217,8 +217,27 @@ impl HotSpots {
 
     /// Distance of a spot from the contact point along the tread \[m], the shorter way round.
     fn distance(&self, spot: &Spot, now: &TreadStep) -> f64 {
+        self.shorter_way(spot.arc - self.radius * now.angle)
+    }
+
+    /// A distance along the tread \[m], the shorter way round.
+    fn shorter_way(&self, distance: f64) -> f64 {
         let round = TAU * self.radius;
-        (spot.arc - self.radius * now.angle + 0.5 * round).rem_euclid(round) - 0.5 * round
+        (distance + 0.5 * round).rem_euclid(round) - 0.5 * round
+    }
+
+    /// Distance along the tread \[m] from the contact point to the point that touches when the wheel has turned by another
+    /// `ahead` \[rad].
+    pub fn along_tread(&self, ahead: f64) -> f64 {
+        self.shorter_way(self.radius * ahead)
+    }
+
+    /// Excess temperatures \[K] at the depths of the mesh below the point of the tread that touches at the angle `point`
+    /// of the wheel \[rad], if that point lies on a hot place; of several the latest counts.
+    pub fn column(&self, damage: &Damage, point: f64) -> Option<Vec<f64>> {
+        let mut column = vec![0.0; self.mesh.depth.len()];
+        let beside = |spot: &Spot| self.shorter_way(self.radius * point - spot.arc);
+        damage.spots.iter().rev().any(|spot| spot.column(&self.mesh, beside(spot), &mut column)).then_some(column)
     }
 
     /// Coefficient of the heat that a rolling wheel gives to the cold rail, as a mean over a turn [W/(m² K)]: bodies of

@@ -49,7 +49,7 @@ pub fn cells(variable: &Variable) -> Cells {
         Some(points) => (
             format!("{}[1 … {points}]", variable.name),
             variable.reference + 1,
-            format!("{}, evenly spaced points", variable.description),
+            format!("{}, at {points} points", variable.description),
         ),
         None => (variable.name.to_owned(), variable.reference, variable.description.to_owned()),
     };

@@ -97,7 +97,7 @@ fn outputs() -> impl Iterator<Item = Variable> {
     let rows: &'static [_] = &Outputs::ROWS;
     rows.iter().map(|o| {
         let kind = match o.read {
-            Read::Real(_) | Read::Profile(_) => real(o.measure, [o.low, o.high], o.nominal),
+            Read::Real(_) | Read::Profile(_) | Read::Deferred(_) => real(o.measure, [o.low, o.high], o.nominal),
             Read::Count(_) => Kind::Integer { min: 0, max: i32::MAX },
             Read::Flag(_) => Kind::Boolean,
         };

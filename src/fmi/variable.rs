@@ -118,11 +118,16 @@ impl Variable {
             Read::Real(get) => Value::Real(get(outputs)),
             Read::Count(get) => Value::Integer(i32::try_from(get(outputs)).unwrap_or(i32::MAX)),
             Read::Flag(get) => Value::Boolean(get(outputs)),
-            Read::Profile(get) => match self.element {
+            Read::Profile(get) | Read::Deferred(get) => match self.element {
                 Some(point) => Value::Real(get(outputs).get(point).copied().unwrap_or(0.0)),
                 None => Value::Reals(get(outputs).to_vec()),
             },
         })
+    }
+
+    /// True for an output that is computed only when it is asked for.
+    pub fn is_deferred(&self) -> bool {
+        matches!(self.access, Access::Output(OutputRow { read: Read::Deferred(_), .. }))
     }
 
     /// Value of a real output, 0 for other variables.

@@ -57,13 +57,13 @@ pub trait HeatModel: Send + Sync {
     /// of [`Self::zone_x`]. Depths from a tenth to four half-widths at the nominal load are told apart.
     fn mean_over_depth(&self, state: &HeatState, depth: f64, out: &mut [Vec<f64>; 2]) -> Result<(), HeatError>;
 
-    /// Data from which [`Self::wheel_column`] finds the temperatures at the given `depths` \[m] of the wheel; computed
-    /// once, their meaning is the model's.
-    fn depth_weights(&self, depths: &[f64]) -> Vec<f64>;
+    /// Data from which [`Self::column`] finds the temperatures of a body (0: wheel, 1: rail) at the given `depths` \[m],
+    /// which end at its far side; computed once, their meaning is the model's.
+    fn depth_weights(&self, body: usize, depths: &[f64]) -> Vec<f64>;
 
-    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread from the contact
-    /// point, at the depths that `weights` were made for; zeros for a state of another model.
-    fn wheel_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]);
+    /// Fills `column` with the temperatures of a body (0: wheel, 1: rail) at the distance `s` \[m] along its surface
+    /// from the contact point, at the depths that `weights` were made for; zeros for a state of another model.
+    fn column(&self, body: usize, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]);
 
     /// Temperature fields of wheel and rail.
     fn fields(&self, state: &HeatState) -> Result<[TemperatureField; 2], HeatError>;

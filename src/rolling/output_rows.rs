@@ -13,8 +13,10 @@ pub enum Read {
     Count(fn(&Outputs) -> u64),
     /// Yes or no.
     Flag(fn(&Outputs) -> bool),
-    /// All points of a profile across the contact zone.
+    /// All points of a profile across the contact zone, or over the depth.
     Profile(fn(&Outputs) -> &[f64]),
+    /// All points of a profile that is computed only when it is asked for; empty until then.
+    Deferred(fn(&Outputs) -> &[f64]),
 }
 
 /// The row of one output.
@@ -63,11 +65,14 @@ macro_rules! outputs {
     (@type count) => { u64 };
     (@type flag) => { bool };
     (@type profile) => { Vec<f64> };
+    (@type deferred) => { Vec<f64> };
     (@read real $field:ident) => { Read::Real(|outputs| outputs.$field) };
     (@read count $field:ident) => { Read::Count(|outputs| outputs.$field) };
     (@read flag $field:ident) => { Read::Flag(|outputs| outputs.$field) };
     (@read profile $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
+    (@read deferred $field:ident) => { Read::Deferred(|outputs| &outputs.$field) };
     (@points profile $name:literal $text:literal) => { points!($name, $text) };
+    (@points deferred $name:literal $text:literal) => { points!($name, $text) };
     (@points $sort:ident $name:literal $text:literal) => { &[] };
     (@measure) => { Measure { unit: "1", display: None } };
     (@measure $unit:literal) => { Measure { unit: $unit, display: None } };
@@ -322,4 +327,10 @@ outputs! {
         "Depth below the tread";
     18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest temperature so far at that depth, of the places counted by damage.flats; thermal.reference without any";
+    19000 profile_wheel_below: deferred "profile.temperature_wheel_below", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature of the wheel below the contact point, at profile.depth";
+    20000 profile_rail_below: deferred "profile.temperature_rail_below", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature of the rail below the contact point, at profile.depth";
+    21000 profile_tread_below: deferred "profile.temperature_tread_below", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature of the wheel below the point of its tread at thermal.tread_point, at profile.depth";
 }

@@ -101,6 +101,29 @@ pub fn observe(model: &RollingModel, state: &State) -> Outputs {
     }
 }
 
+/// Observables of a state, those included that [`observe`] leaves empty.
+pub fn observe_all(model: &RollingModel, state: &State) -> Outputs {
+    let mut outputs = observe(model, state);
+    complete(model, state, &mut outputs);
+    outputs
+}
+
+/// Fills the observables that [`observe`] leaves empty because few people ask for them: temperatures over the depth under
+/// the line with the largest pressure.
+pub fn complete(model: &RollingModel, state: &State, outputs: &mut Outputs) {
+    let shown = state.line_of_largest(|line| line.contact.traction.pressure_max);
+    let columns = match (&model.thermal, shown.and_then(|line| line.thermal.as_ref())) {
+        (Some(heat), Some(thermal)) => heat.below(thermal, state.motion.angle, state.tread_point),
+        _ => [(); 3].map(|()| vec![0.0; PROFILE_POINTS]),
+    };
+    [outputs.profile_wheel_below, outputs.profile_rail_below, outputs.profile_tread_below] = columns;
+}
+
+/// Empties what [`complete`] fills.
+pub fn forget(outputs: &mut Outputs) {
+    [outputs.profile_wheel_below, outputs.profile_rail_below, outputs.profile_tread_below] = Default::default();
+}
+
 /// Values of a profile at ascending positions.
 fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
     let mut values = Vec::with_capacity(points.len());
@@ -137,7 +160,6 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs
     let of = |of: &dyn Fn(&ThermalState) -> f64, line: &Line| line.thermal.as_ref().map_or(0.0, of);
     let mean = |value: &dyn Fn(&ThermalState) -> f64| state.sum(|line| of(value, line));
     let most = |value: &dyn Fn(&ThermalState) -> f64| state.largest(|line| of(value, line));
-    let depths = profile_depths();
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
         temperature_wheel_max: kelvin + most(&|thermal| thermal.temperatures.wheel_max),
@@ -153,8 +175,8 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs
         thermal_growth: state.growth(),
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),
-        profile_peak: heat.peaks(thermal, &depths),
-        profile_depth: depths,
+        profile_peak: heat.peaks(thermal),
+        profile_depth: profile_depths(),
         ..flow_outputs(model, state)
     }
 }

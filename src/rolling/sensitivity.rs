@@ -12,7 +12,7 @@ use super::error::StepError;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
 use super::output_rows::Outputs;
-use super::outputs::observe;
+use super::outputs::observe_all;
 use super::state::State;
 use super::{stationary, substeps};
 use crate::config::Tuning;
@@ -92,7 +92,7 @@ pub fn difference(
     let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
     let scales = scales(model, inputs, state);
     let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
-    let present = observe(model, state);
+    let present = observe_all(model, state);
     if size == 0.0 {
         return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
     }
@@ -105,7 +105,7 @@ pub fn difference(
             let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
             let end = repeat(model, tuning, origin, &inputs, workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
-            end.ok().filter(|end| same_branch(model, end, state)).map(|end| observe(model, &end))
+            end.ok().filter(|end| same_branch(model, end, state)).map(|end| observe_all(model, &end))
         });
         match (ends[0].take(), ends[1].take()) {
             (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),

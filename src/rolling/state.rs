@@ -25,6 +25,8 @@ pub struct State {
     pub lines: Vec<Line>,
     /// Friction coefficient that was available in the last step \[1].
     pub available_friction: f64,
+    /// Angle of the wheel at which the point of the tread touches that is looked at \[rad].
+    pub tread_point: f64,
     /// Forces on the hub in the last step.
     pub hub: HubForces,
     /// Mean power of friction over the last communication step; at the start the stationary one [W/m].

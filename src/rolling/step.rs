@@ -141,6 +141,7 @@ fn heat(
     let brake_power = (next.audit.brake - state.audit.brake) / dt;
     let tread_heat = brake::tread_heat(model, demand.target, brake_power);
     let step = HeatStep { dt, tread_heat, criteria: thermal::criteria(demand.tuning) };
+    next.tread_point = demand.tuning.tread_point;
     for (before, line) in state.lines.iter().zip(&mut next.lines) {
         let temperatures = line.thermal.take();
         if let (Some(thermal), Some(before)) = (&model.thermal, &before.thermal) {

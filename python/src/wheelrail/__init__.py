@@ -1,7 +1,9 @@
-"""Python side of wheelrail.fmu: wheels by name, rails that remember, a coach that brakes."""
+"""Python side of wheelrail.fmu: wheels by name, runs and records, rails that remember, a coach that brakes."""
 
 from .fmu import Fmu, Refused, Wheel
+from .records import celsius, load, save, table
+from .runs import simulate
 from .team import Team
 
-__all__ = ["Fmu", "Refused", "Team", "Wheel"]
+__all__ = ["Fmu", "Refused", "Team", "Wheel", "celsius", "load", "save", "simulate", "table"]
 __version__ = "0.3.0"

@@ -4,9 +4,11 @@ import difflib
 import os
 from ctypes import byref
 from itertools import count
+from numbers import Real
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from xml.etree import ElementTree
+from zipfile import BadZipFile
 
 import fmpy
 from fmpy.fmi1 import FMICallException
@@ -14,9 +16,13 @@ from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi2 import fmi2CallbackAllocateMemoryTYPE, fmi2CallbackFreeMemoryTYPE
 from fmpy.logging import addLoggerProxy
 
+from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
 
-class Refused(Exception):
-    """A call that the FMU refused; the text is what it logged."""
+
+class Message(str):
+    """A message of the FMU: its text, with the `status` that it was logged with (1: warning, 2: discarded step, 3: error)."""
+
+    status = 0
 
 
 # fmpy formats messages through one proxy per process, which knows one logger only: the messages of all instances arrive
@@ -26,8 +32,10 @@ _numbers = count(1)
 
 
 @fmi2CallbackLoggerTYPE
-def _receive(_component, instance, _status, _category, message):
-    _messages.setdefault(instance.decode(), []).append(message.decode())
+def _receive(_component, instance, status, _category, message):
+    text = Message(message.decode())
+    text.status = status
+    _messages.setdefault(instance.decode(), []).append(text)
 
 
 _callbacks = fmi2CallbackFunctions()
@@ -48,17 +56,29 @@ class Fmu:
 
     def __init__(self, path=None):
         path = default_path() if path is None else path
+        if not isinstance(path, (str, os.PathLike)):
+            raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
         if not Path(path).is_file():
             raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU")
         self._temporary = TemporaryDirectory(prefix="wheelrail-")
-        self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
-        self.description = fmpy.read_model_description(self.directory)
+        try:
+            self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
+            self.description = fmpy.read_model_description(self.directory)
+        except (BadZipFile, KeyError, OSError, ValueError, SyntaxError) as failure:
+            self._temporary.cleanup()
+            why = (str(failure).splitlines() or [type(failure).__name__])[0]
+            raise Refused(f"{path} is no FMU: {why}") from failure
+        if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2"):
+            self._temporary.cleanup()
+            raise Refused(f"{path} is no FMU of FMI 2.0 for co-simulation")
         self.variables = {v.name: v for v in self.description.modelVariables}
         notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iterfind("VendorAnnotations/Tool//Retired")
         self.retired = {note.get("name"): note.get("refusal") for note in notes}
 
     def variable(self, name):
         """The variable of a name."""
+        if not isinstance(name, str):
+            raise ValueError(f"{name!r} is not the name of a variable, such as 'contact.force_x'")
         if name in self.retired:
             raise Refused(self.retired[name])
         if name not in self.variables:
@@ -68,7 +88,16 @@ class Fmu:
 
     def profiles(self):
         """Names of the quantities of `Wheel.profile`."""
-        return list(dict.fromkeys(name.split("[")[0].removeprefix("profile.") for name in self.variables if name.startswith("profile.")))
+        points = (name.removeprefix("profile.") for name in self.variables if name.startswith("profile."))
+        return list(dict.fromkeys(point.split("[")[0] for point in points))
+
+    def points(self, quantity):
+        """Names of the variables that are the points of a profile."""
+        names = [name for name in self.variables if name.startswith(f"profile.{quantity}[")]
+        if names:
+            return names
+        known = self.profiles()
+        raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(known) or 'none, being built without'}")
 
     def __enter__(self):
         return self
@@ -86,15 +115,16 @@ class Wheel:
     """
 
     def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
+        if not hasattr(fmu, "description"):
+            raise ValueError(f"Wheel({short(fmu)}): expected an opened FMU, `with Fmu(path) as fmu: Wheel(fmu)`")
+        for values in (parameters, inputs):
+            check_names(values or {}, "Wheel")
         self.fmu, self.time = fmu, 0.0
         name = f"{name}-{next(_numbers)}"
         self.log = _messages[name] = []
-        d = fmu.description
-        identifier = d.coSimulation.modelIdentifier
-        self.slave = FMU2Slave(
-            guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name
-        )
-        self.slave.instantiate(callbacks=_callbacks)
+        self._recorders = []
+        self.slave = _loaded(fmu, name)
+        self._call(self.slave.instantiate, callbacks=_callbacks)
         try:
             self._call(self.slave.setupExperiment, startTime=0.0)
             # Other FMUs of this project, such as the coach, have no such choice.
@@ -114,73 +144,93 @@ class Wheel:
         self.close()
 
     def close(self):
-        """Terminates and frees the instance."""
+        """Terminates and frees the instance; nothing happens if that has been done. Records keep what they have."""
+        if isinstance(self.slave, _Closed):
+            return
         try:
             self._call(self.slave.terminate)
         finally:
             self.slave.freeInstance()
+            self.slave = _Closed()
 
     def set(self, values):
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
-        references, reals = [], []
-        for name, value in values.items():
-            variable = self.fmu.variable(name)
-            if variable.type == "Real":
-                references.append(variable.valueReference)
-                reals.append(value)
-                continue
-            if variable.type == "Enumeration" and isinstance(value, str):
-                items = [item.name for item in variable.declaredType.items]
-                if value not in items:
-                    raise Refused(f"{name} = {value!r} is none of {', '.join(items)}")
-                value = 1 + items.index(value)
-            if isinstance(value, float):
-                if not value.is_integer():
-                    raise Refused(f"{name} = {value!r} is not a whole number")
-                value = int(value)
-            self._call(self._access("set", variable), [variable.valueReference], [value])
-        if references:
-            self._call(self.slave.setReal, references, reals)
+        check_names(values, "set")
+        given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
+        for variable, value in given:
+            if variable.type != "Real":
+                self._call(self._access("set", variable), [variable.valueReference], [value])
+        reals = [(variable.valueReference, value) for variable, value in given if variable.type == "Real"]
+        if reals:
+            self._call(self.slave.setReal, *map(list, zip(*reals)))
 
     def set_rates(self, values):
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
-        references = [self.fmu.variable(name).valueReference for name in values]
-        self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), list(values.values()))
+        check_names(values, "set_rates")
+        given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
+        for variable, _ in given:
+            if variable.type != "Real":
+                raise Refused(f"{variable.name} is a choice, which has no rate")
+        references, rates = [variable.valueReference for variable, _ in given], [rate for _, rate in given]
+        self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), rates)
 
     def get(self, *names):
-        """Values of variables; one name gives a scalar, several a list. Several must be of one type."""
-        variables = [self.fmu.variable(name) for name in names]
-        values = self._call(self._access("get", variables[0]), [v.valueReference for v in variables])
+        """Values of variables of any types, choices by number; one name gives a scalar, several a list."""
+        if not names:
+            raise ValueError("get() needs the name of a variable, such as get('contact.force_x')")
+        variables, values = [self.fmu.variable(name) for name in names], {}
+        for sort in dict.fromkeys(map(kind, variables)):
+            references = [v.valueReference for v in variables if kind(v) == sort]
+            values |= zip(references, self._call(getattr(self.slave, "get" + sort), references))
+        values = [plain(variable, values[variable.valueReference]) for variable in variables]
         return values[0] if len(names) == 1 else values
 
     def profile(self, quantity):
-        """A profile across the contact patch: x [m], pressure [Pa], shear [Pa] or slip [m/s], or another of `profiles`."""
-        names = [name for name in self.fmu.variables if name.startswith(f"profile.{quantity}[")]
-        if not names:
-            raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(self.fmu.profiles())}")
-        return self.get(*names)
+        """A profile as a list over its points.
+
+        Across the contact patch: `x` [m], positive ahead of the wheel centre, `pressure` [Pa], `shear` [Pa], `slip` [m/s],
+        `temperature_wheel` and `temperature_rail` [K] of the surfaces. Below the surface: `depth` [m],
+        `temperature_wheel_below` and `temperature_rail_below` [K] under the contact point, `temperature_tread_below` [K] under
+        the point of the tread at `thermal.tread_point`, `peak_temperature` [K] so far of the places that were heated in one
+        piece. `Fmu.profiles` lists them.
+        """
+        return self.get(*self.fmu.points(quantity))
+
+    def record(self, *outputs, profiles=False, depth=False, every=1, title=""):
+        """A recorder of this wheel, which takes a sample now and after every `every`-th `step`: see `records.Recorder`."""
+        from .records import Recorder
+
+        recorder = Recorder(self, outputs or None, profiles=profiles, depth=depth, every=every, title=title)
+        self._recorders.append(recorder)
+        return recorder
 
     def step(self, h):
         """Advances by `h` seconds."""
+        if not isinstance(h, Real):
+            raise ValueError(f"step({short(h)}): expected a number of seconds")
         self._call(self.slave.doStep, self.time, h)
         self.time += h
+        for recorder in self._recorders:
+            recorder.stepped()
 
     def save(self):
         """A handle for `restore`; free it with `forget`."""
         return self._call(self.slave.getFMUstate), self.time
 
     def restore(self, saved):
-        """Returns to a saved state."""
-        self._call(self.slave.setFMUstate, saved[0])
-        self.time = saved[1]
+        """Returns to a saved state; records lose what came after it."""
+        state, time = saved_state(saved)
+        self._call(self.slave.setFMUstate, state)
+        self.time = time
+        for recorder in self._recorders:
+            recorder.rewind()
 
     def forget(self, saved):
         """Frees a saved state."""
-        self._call(self.slave.freeFMUstate, saved[0])
+        self._call(self.slave.freeFMUstate, saved_state(saved)[0])
 
     def _access(self, direction, variable):
-        kind = "Integer" if variable.type == "Enumeration" else variable.type
-        return getattr(self.slave, direction + kind)
+        return getattr(self.slave, direction + kind(variable))
 
     def _call(self, function, *arguments, **named):
         seen = len(self.log)
@@ -188,3 +238,22 @@ class Wheel:
             return function(*arguments, **named)
         except FMICallException as failure:
             raise Refused("; ".join(self.log[seen:]) or str(failure)) from failure
+
+
+class _Closed:
+    """Stands for the instance of a wheel that has been closed."""
+
+    def __getattr__(self, _):
+        raise Refused("the wheel is closed: read its results before, or record them")
+
+
+def _loaded(fmu, name):
+    """An instance of the FMU's library, which is loaded with it."""
+    d = fmu.description
+    if not Path(fmu.directory).is_dir():
+        raise Refused("the FMU is closed: open wheels within `with Fmu() as fmu`")
+    try:
+        identifier = d.coSimulation.modelIdentifier
+        return FMU2Slave(guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name)
+    except Exception as failure:  # fmpy raises plain exceptions
+        raise Refused(f"the library of the FMU cannot be loaded on this machine: {failure}") from failure

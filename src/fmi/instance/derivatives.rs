@@ -68,10 +68,14 @@ pub(super) fn rates(simulation: &Simulation, outputs: &[(&Variable, i32)]) -> Ve
     outputs.iter().map(|(variable, _)| simulation.rate(|o| variable.real_output(o))).collect()
 }
 
-/// Refuses variables that are no outputs, and orders other than the first.
+/// Refuses variables that are no outputs, outputs of which earlier values are not known, and orders other than the first.
 pub(super) fn check_orders(outputs: &[(&Variable, i32)]) -> Outcome {
     outputs.iter().try_for_each(|(variable, order)| {
         check_outputs(&[*variable])?;
+        if variable.is_deferred() {
+            let why = "has no time derivative: it is computed only when it is read";
+            return Err(CallError::error(format!("{} {why}", variable.name)));
+        }
         first_order(variable, *order, OUTPUT_DERIVATIVE_ORDER)
     })
 }

@@ -161,7 +161,10 @@ impl WheelSlave {
     /// Values of variables.
     pub fn values(&mut self, variables: &[&Variable], life: &Life) -> Outcome<Vec<Value>> {
         if variables.iter().any(|variable| variable.causality() == Causality::Output) {
-            self.simulation(life)?;
+            let simulation = self.simulation(life)?;
+            if variables.iter().any(|variable| variable.is_deferred()) {
+                simulation.all_outputs();
+            }
         }
         let mut inputs = self.inputs(life);
         let outputs = self.simulation.as_ref().map(Simulation::outputs);

@@ -100,15 +100,17 @@ impl HeatModel for Heat {
         Ok(())
     }
 
-    fn depth_weights(&self, depths: &[f64]) -> Vec<f64> {
-        let at_depths: Vec<_> = depths.iter().map(|&z| self.layout.wheel.modes.at(z)).collect();
-        (0..self.layout.wheel.modes.len()).flat_map(|mode| at_depths.iter().map(move |values| values[mode])).collect()
+    fn depth_weights(&self, body: usize, depths: &[f64]) -> Vec<f64> {
+        let modes = &self.layout.bodies()[body].modes;
+        let bottom = modes.depths.last().copied().unwrap_or(0.0);
+        let at_depths: Vec<_> = depths.iter().map(|&z| modes.at(z.min(bottom))).collect();
+        (0..modes.len()).flat_map(|mode| at_depths.iter().map(move |values| values[mode])).collect()
     }
 
-    fn wheel_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
+    fn column(&self, body: usize, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
         column.fill(0.0);
         if self.fits(state) {
-            self.fill_column(state, s, weights, column);
+            self.fill_column(body, state, s, weights, column);
         }
     }
 

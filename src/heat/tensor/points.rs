@@ -37,18 +37,19 @@ impl Heat {
         let (field, body_at) = (self.layout.split(&state.values)[body], self.layout.bodies()[body]);
         let nm = body_at.modes.len();
         let (nodes, xi) = element(body_at, s);
-        let mut rows: Vec<f64> = nodes.iter().flat_map(|node| &field[node * nm..(node + 1) * nm]).copied().collect();
+        let mut rows = Vec::with_capacity(2 * nm);
+        nodes.iter().for_each(|node| rows.extend_from_slice(&field[node * nm..(node + 1) * nm]));
         if let Some(latent) = self.melting_within(state.range) {
             latent.cool(body, &body_at.nodal, &mut rows);
         }
         (rows, xi)
     }
 
-    /// Fills `column` with the temperatures of the wheel at the distance `s` \[m] along the tread, at the depths at
-    /// which the modes have the values `weights`, mode by mode.
-    pub(super) fn fill_column(&self, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
-        let (mut rows, xi) = self.columns_at(0, state, s);
-        let (from, to) = rows.split_at_mut(self.layout.wheel.modes.len());
+    /// Adds the temperatures of a body (0: wheel, 1: rail) at the distance `s` \[m] along its surface to `column`, at the
+    /// depths at which the modes have the values `weights`, mode by mode.
+    pub(super) fn fill_column(&self, body: usize, state: &HeatState, s: f64, weights: &[f64], column: &mut [f64]) {
+        let (mut rows, xi) = self.columns_at(body, state, s);
+        let (from, to) = rows.split_at_mut(self.layout.bodies()[body].modes.len());
         from.iter_mut().zip(to).for_each(|(from, to)| *from += xi * (*to - *from));
         add_columns(1.0, weights, column.len(), from, column);
     }

@@ -54,6 +54,7 @@ pub(super) fn settle(
         rail,
         lines: lines(model, load, !goal.moving && goal.drive.friction > 0.0, thermal),
         available_friction: goal.drive.friction,
+        tread_point: tuning.tread_point,
         ..State::default()
     };
     let radius = model.rolling_radius(&state);

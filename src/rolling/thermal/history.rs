@@ -5,6 +5,7 @@ use crate::config::{Config, Tuning};
 use crate::damage::{ConductionScratch, Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 use crate::heat::{HeatModel, HeatState, Observation};
 use crate::piecewise::interpolate;
+use crate::rolling::profile::profile_depths;
 use crate::rolling::state::Motion;
 
 /// Follows the material of the wheel through the temperature field of the contact.
@@ -13,6 +14,9 @@ pub struct MaterialHistory {
     spots: HotSpots,
     /// Weights of the heat model's modes at the depths of the spots' mesh.
     weights: Vec<f64>,
+    /// Weights at the depths of profiles, of wheel and rail, and these depths [m].
+    below: [Vec<f64>; 2],
+    depths: Vec<f64>,
 }
 
 /// End of a step as the heat model found it.
@@ -43,8 +47,9 @@ impl MaterialHistory {
             reference: thermal.reference,
             resolution: config.damage.resolution,
         });
-        let weights = heat.depth_weights(&spots.mesh().depth);
-        Self { spots, weights }
+        let (weights, depths) = (heat.depth_weights(0, &spots.mesh().depth), profile_depths());
+        let below = [0, 1].map(|body| heat.depth_weights(body, &depths));
+        Self { spots, weights, below, depths }
     }
 
     /// Damage of a wheel at the start.
@@ -77,15 +82,36 @@ impl MaterialHistory {
             criteria,
         };
         let (heat, state) = seen.field;
-        let column = |s: f64, out: &mut [f64]| heat.wheel_column(state, s, &self.weights, out);
+        let column = |s: f64, out: &mut [f64]| heat.column(0, state, s, &self.weights, out);
         self.spots.advance(damage, &moment, &column, scratch);
     }
 
-    /// Highest temperature at given depths \[m] of places that were heated in one piece \[K]; none: the reference.
-    pub fn peaks(&self, damage: &Damage, depths: &[f64], reference: f64) -> Vec<f64> {
+    /// Highest temperature at the depths of profiles of places that were heated in one piece \[K]; none: the reference.
+    pub fn peaks(&self, damage: &Damage, reference: f64) -> Vec<f64> {
         let known = &damage.peaks;
         let at = |z: &f64| if known.is_empty() { reference } else { interpolate(&self.spots.mesh().depth, known, *z) };
-        depths.iter().map(at).collect()
+        self.depths.iter().map(at).collect()
+    }
+
+    /// Excess temperatures at the depths of profiles \[K]: of wheel and rail below the contact point, and of the wheel
+    /// below the point of its tread that touches at the angle `point` of a wheel which is at `angle` now \[rad]. If that
+    /// point lies on a place that is followed because the contact has heated it, they are those of that place.
+    pub fn below(
+        &self,
+        damage: &Damage,
+        (heat, state): (&dyn HeatModel, &HeatState),
+        [angle, point]: [f64; 2],
+    ) -> [Vec<f64>; 3] {
+        let column = |body: usize, s: f64| {
+            let mut column = vec![0.0; self.depths.len()];
+            heat.column(body, state, s, &self.below[body], &mut column);
+            column
+        };
+        let mesh = &self.spots.mesh().depth;
+        let of_place = |place: Vec<f64>| self.depths.iter().map(|z| interpolate(mesh, &place, *z)).collect();
+        let tread = self.spots.column(damage, point).map(of_place);
+        let tread = tread.unwrap_or_else(|| column(0, self.spots.along_tread(point - angle)));
+        [column(0, 0.0), column(1, 0.0), tread]
     }
 
     /// Test that a history has the dimensions of this model.

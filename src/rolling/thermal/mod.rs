@@ -313,9 +313,17 @@ impl ThermalModel {
             && profiles.clone().all(|profile| profile.check().is_ok())
     }
 
-    /// Highest temperature \[K] so far at given depths \[m] of the wheel, where the contact has heated it in one piece.
-    pub fn peaks(&self, thermal: &ThermalState, depths: &[f64]) -> Vec<f64> {
-        self.history.peaks(&thermal.damage, depths, self.reference)
+    /// Highest temperature \[K] so far at the depths of profiles, where the contact has heated the wheel in one piece.
+    pub fn peaks(&self, thermal: &ThermalState) -> Vec<f64> {
+        self.history.peaks(&thermal.damage, self.reference)
+    }
+
+    /// Absolute temperatures \[K] at the depths of profiles: of wheel and rail below the contact point, and of the wheel
+    /// below the point of its tread that touches at the angle `point` of a wheel which is at `angle` now \[rad].
+    pub fn below(&self, thermal: &ThermalState, angle: f64, point: f64) -> [Vec<f64>; 3] {
+        let field = (&*self.heat, &thermal.fields);
+        let columns = self.history.below(&thermal.damage, field, [angle, point]);
+        columns.map(|column| column.into_iter().map(|excess| self.reference + excess).collect())
     }
 
     /// Absolute temperatures in the whole bodies \[K].

@@ -1,0 +1,66 @@
+"""Values of variables on their way to and from the FMU, and what is refused before it gets there."""
+
+import os
+from numbers import Integral, Real
+
+
+# What a value that is no number at all should have been.
+NUMBERS = {"Boolean": "True or False", "Integer": "a whole number", "Enumeration": "the name or number of a choice"}
+
+
+class Refused(Exception):
+    """A call that the FMU refused; the text is what it logged."""
+
+
+def kind(variable):
+    """The type by which a variable crosses the interface."""
+    return "Integer" if variable.type == "Enumeration" else variable.type
+
+
+def plain(variable, value):
+    """A value as Python has it."""
+    if variable.type == "String":
+        return value.decode() if isinstance(value, bytes) else value
+    return bool(value) if variable.type == "Boolean" else value
+
+
+def check_names(values, call):
+    """Refuses what maps no names to values."""
+    if not hasattr(values, "items"):
+        raise ValueError(f"{call}({short(values)}): expected names and values, such as {{'drive.load': 8e4}}")
+
+
+def to_fmu(variable, value):
+    """A value as the variable wants it."""
+    name, unit = variable.name, f" [{variable.unit}]" if variable.unit else ""
+    if getattr(value, "shape", None) == ():
+        value = value.item()
+    if variable.type == "String":
+        if not isinstance(value, (str, os.PathLike)):
+            raise Refused(f"{name} = {value!r} is not a text")
+        return str(value)
+    if variable.type == "Enumeration" and isinstance(value, str):
+        items = [item.name for item in variable.declaredType.items]
+        if value not in items:
+            raise Refused(f"{name} = {value!r} is none of {', '.join(items)}")
+        return 1 + items.index(value)
+    if not isinstance(value, Real):
+        raise Refused(f"{name} = {short(value)} is not {NUMBERS.get(variable.type, 'a number' + unit)}")
+    if variable.type == "Real":
+        return float(value)
+    if not isinstance(value, Integral) and not float(value).is_integer():
+        raise Refused(f"{name} = {value!r} is not a whole number")
+    return int(value)
+
+
+def short(value):
+    """A value in not too many characters."""
+    text = " ".join(repr(value).split())
+    return text if len(text) < 60 else text[:57] + "..."
+
+
+def saved_state(saved):
+    """State and time of what `save` gave."""
+    if not (isinstance(saved, tuple) and len(saved) == 2):
+        raise ValueError(f"{short(saved)} is not what save() returned")
+    return saved
