@@ -49,7 +49,7 @@ def test_results_lie_in_a_directory_of_their_scenario_and_are_overwritten_by_for
     command = ["train", str(TRAIN / "low_adhesion.json"), "--rigid"]
     main(command)
     there = tmp_path / "results" / "low_adhesion"
-    names = {"train_dry.csv", "train_wsp_on.csv", "train_wsp_off.csv", "train_columns.csv", "train.png"}
+    names = {"train_dry.csv", "train_wsp_on.csv", "train_wsp_off.csv", "train_columns.csv", "train.png", "train.html"}
     assert {path.name for path in there.iterdir()} == names and "written to results/low_adhesion" in capsys.readouterr().out
     monkeypatch.setattr(plots, "draw_stops", lambda path, *_: path.write_bytes(b""))  # once is enough
     (there / "train_dry.csv").write_text("mine\n")

@@ -227,4 +227,4 @@ def test_a_track_that_is_shorter_than_the_stop_is_named_and_stops_that_fit_are_k
     last = "the stop is longer than the track: after 5.\\d s and [12][09] m still 3.\\d+ m/s; raise length = 20 m in leaves.json"
     assert code == 1 and re.fullmatch(f"error: WSP on: {last}; WSP off: {last}", errors.strip().splitlines()[-1]), errors
     there = {path.name for path in (folder / "results" / "low_adhesion").iterdir()}
-    assert there == {"train_dry.csv", "train_columns.csv", "train.png"}
+    assert there == {"train_dry.csv", "train_columns.csv", "train.png", "train.html"}
