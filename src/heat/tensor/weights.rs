@@ -53,7 +53,9 @@ impl ObservationWeights {
         let mut volume_means = [0.0; 2];
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(&state.values)).enumerate() {
             seen.sums.clone_from(&state.sums[i]);
-            if seen.sums.is_empty() {}
+            if seen.sums.is_empty() {
+                body.integrate(field, &mut seen.sums);
+            }
             volume_means[i] = self.observe_body(layout, i, body, field, seen);
         }
         seen.lowest = state.range[0];
@@ -88,7 +90,6 @@ impl ObservationWeights {
             &mut values[..]
         });
         products_of_three(zone, [&body.modes.surface, weights, moments], out);
-        body.integrate(field, &mut seen.sums);
         let mean =
             |weights: &[f64]| if body.line.closed > 0.0 { dot(&seen.sums, weights) / body.line.closed } else { 0.0 };
         let (along, moment_along) = (mean(weights), mean(moments));
