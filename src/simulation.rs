@@ -312,6 +312,18 @@ impl Simulation {
         &self.outputs
     }
 
+    /// Times and outputs at both ends of the last communication step, deferred ones included; `None` before the first.
+    pub fn step_ends(&self) -> Option<[(f64, Outputs); 2]> {
+        let Checkpoint { state, before, origin, .. } = &self.checkpoint;
+        let (Origin::Step { state: earlier, .. }, Some((time, before))) = (origin, before.first()) else { return None };
+        let ends = [(*time, before, &**earlier), (state.clock.time, &self.outputs, state)];
+        Some(ends.map(|(time, outputs, state)| {
+            let mut outputs = outputs.clone();
+            outputs::complete(&self.model.rolling, state, &mut outputs);
+            (time, outputs)
+        }))
+    }
+
     /// Displacement, velocity, stress and temperature in the whole bodies.
     pub fn fields(&self) -> Result<Fields, FieldError> {
         fields::fields(&self.model.rolling, &self.checkpoint.state)

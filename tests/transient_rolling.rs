@@ -48,10 +48,11 @@ fn creepage_ramp_converges_with_at_least_first_order_in_the_time_step() {
     let model = model(config);
     let end = |steps: usize| creepage_ramp(&model, 1e-3, steps)[9];
     let exact = end(3200);
-    let errors = [50, 100, 200].map(|n| (end(n) - exact).abs());
-    let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());
-    println!("errors of F/μP with 50, 100 and 200 steps {errors:?}, observed orders {orders:.2?}");
-    assert!(orders.iter().all(|order| *order > 0.9), "{orders:?}");
+    let errors = [50, 100, 200, 400, 800].map(|n| (end(n) - exact).abs());
+    let orders = [0, 1, 2, 3].map(|k| (errors[k] / errors[k + 1]).log2());
+    println!("errors of F/μP with 50 to 800 steps {errors:?}, observed orders {orders:.2?}");
+    // The error changes its sign between 100 and 200 steps: none may exceed what first order leaves of that of 50 steps.
+    assert!(errors.iter().zip([1.0, 0.5, 0.25, 0.125, 0.0625]).all(|(error, left)| *error <= left * errors[0]));
 }
 
 /// Paper D's controlled braking from 50 km/h (section 6.2.2) with BDF2; returns end speed [km/h], peak creepage and

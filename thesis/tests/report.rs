@@ -73,7 +73,10 @@ fn every_figure_shows_what_it_must_and_every_quoted_number_has_its_status() {
         assert!(!page.contains(foreign), "{foreign}");
     }
     assert!(figures.iter().all(|(figure, _)| page.contains(figure.title)));
-    assert_eq!(page.matches("<svg").count(), figures.iter().map(|(figure, _)| figure.plots.len()).sum::<usize>());
+    assert_eq!(
+        page.matches("<figure><svg").count(),
+        figures.iter().map(|(figure, _)| figure.plots.len()).sum::<usize>()
+    );
     assert!(errors::ALL.iter().all(|mistake| !mistake.proof.is_empty() && page.contains(mistake.place)));
     assert_eq!(report::csv(&figures).lines().count(), 1 + values.len());
 }

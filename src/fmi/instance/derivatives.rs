@@ -63,19 +63,22 @@ pub(super) fn quotients(difference: &Difference, outputs: &[&Variable]) -> Outco
     outputs.iter().map(quotient).collect()
 }
 
-/// Time derivatives of outputs, each of an order.
+/// Time derivatives of outputs, each of an order: of deferred ones the difference over the last communication step.
 pub(super) fn rates(simulation: &Simulation, outputs: &[(&Variable, i32)]) -> Vec<f64> {
-    outputs.iter().map(|(variable, _)| simulation.rate(|o| variable.real_output(o))).collect()
+    let deferred = outputs.iter().any(|(variable, _)| variable.is_deferred());
+    let ends = deferred.then(|| simulation.step_ends()).flatten();
+    let rate = |variable: &Variable| match &ends {
+        _ if !variable.is_deferred() => simulation.rate(|o| variable.real_output(o)),
+        Some([(from, before), (to, now)]) => (variable.real_output(now) - variable.real_output(before)) / (to - from),
+        None => 0.0,
+    };
+    outputs.iter().map(|(variable, _)| rate(variable)).collect()
 }
 
-/// Refuses variables that are no outputs, outputs of which earlier values are not known, and orders other than the first.
+/// Refuses variables that are no outputs, and orders other than the first.
 pub(super) fn check_orders(outputs: &[(&Variable, i32)]) -> Outcome {
     outputs.iter().try_for_each(|(variable, order)| {
         check_outputs(&[*variable])?;
-        if variable.is_deferred() {
-            let why = "has no time derivative: it is computed only when it is read";
-            return Err(CallError::error(format!("{} {why}", variable.name)));
-        }
         first_order(variable, *order, OUTPUT_DERIVATIVE_ORDER)
     })
 }
