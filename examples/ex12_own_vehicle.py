@@ -118,7 +118,7 @@ class Coupled:
     """Wagon and wheels. `correction` False leaves the vehicle with the wheels that it predicted, for comparison only."""
 
     def __init__(self, fmu, speed=SPEED, parameters=None, correction=True, threads=None):
-        self.wagon, self.correction, self.time, self.moments = Wagon(speed), correction, 0.0, np.zeros(WHEELS)
+        self.wagon, self.correction, self.time = Wagon(speed), correction, 0.0
         # The state of the start on both sides: free rolling, springs under their static loads.
         own = {"initial.velocity": speed, "model.nominal_load": self.wagon.load, "wheel.radius": WHEELSET["radius"]}
         own |= {"vehicle.mass": 0.0, "vehicle.damping": BOX["upward"][1]} | hub(fmu) | (parameters or {})

@@ -1,6 +1,7 @@
 """A sweep over workers: nothing is lost when one is killed, nothing is computed twice when it goes on."""
 
 import csv
+import json
 import math
 import os
 import re
@@ -189,6 +190,19 @@ def test_ctrl_c_is_one_line_and_the_same_command_goes_on(tmp_path):
     missing = sweep.Files(loaded, True, tmp_path / "low_adhesion" / "sweep.csv").missing(loaded)
     # One may be written and not yet counted.
     assert 0 < count and len(missing) in (80 - count, 79 - count)
+
+
+def test_a_file_that_is_swept_and_edited_makes_another_sweep(tmp_path):
+    """Rows of the file as it was are not taken for those of the file as it is; numbers that are swept do not count."""
+    folder = shutil.copytree(TRAIN, tmp_path / "train")
+    text = json.loads((folder / "low_adhesion.json").read_text()) | {"sweep": {"track": ["leaves.json", "soap.json"]}}
+    (folder / "mine.json").write_text(json.dumps(text))
+    name = lambda: sweep.fingerprint(scenario.load(folder / "mine.json"), True)
+    before = name()
+    assert name() == before
+    soap = (folder / "soap.json").read_text()
+    (folder / "soap.json").write_text(soap.replace('"cleaning_energy": ', '"cleaning_energy": 1'))
+    assert name() != before
 
 
 def test_pictures_of_one_key_and_of_none():

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import os
 import sys
 import time
@@ -22,11 +23,11 @@ from .train import TrackEnds
 
 def arguments(argv=None):
     """Command line."""
-    parser = argparse.ArgumentParser(prog="wheelrail", description="A train brakes; what results say.")
+    parser = argparse.ArgumentParser(prog="python -m wheelrail", description="A train brakes; what results say.")
     commands = parser.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
         command = commands.add_parser(name, help=about)
-        command.add_argument("scenario", type=Path, help="JSON file, see `wheelrail schema scenario`")
+        command.add_argument("scenario", type=Path, help="JSON file, see `python -m wheelrail schema scenario`")
         command.add_argument("--out", type=Path, default=Path("results"), help="results go to OUT/SCENARIO, default %(default)s")
         command.add_argument("--force", action="store_true", help="overwrite results that are there")
         wheels = command.add_mutually_exclusive_group()
@@ -59,7 +60,8 @@ def train(options, scenario):
 
     out = directory(options.out, scenario)
     path_of = {name: out / f"train_{name.lower().replace(' ', '_')}.csv" for name in compare.variants(scenario)}
-    spare([*path_of.values(), out / "train.png", out / "train.html", out / "train_columns.csv"], options.force)
+    listed = [*path_of.values(), out / "train.png", out / "train.html", out / "train_columns.csv"]
+    spare(listed, options.force)
     began, done, endless = time.perf_counter(), {}, {}
     with Progress(300, "braking") as bar:
 
@@ -69,6 +71,8 @@ def train(options, scenario):
 
         stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
     if stops:
+        for old in listed:
+            old.unlink(missing_ok=True)
         print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
         print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
         written = [out / "train_columns.csv", out / "train.png"]
@@ -88,7 +92,13 @@ def packages(options, scenario):
     """Writes coach.fmu and the packages."""
     from . import ssp
 
-    options.out.mkdir(parents=True, exist_ok=True)
+    for name, value in (("--step", options.step), ("--stop", options.stop)):
+        if not (value > 0.0 and math.isfinite(value)):
+            raise BadFile(f"{name} = {value:g} s is no time above zero")
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadFile(f"--out {options.out}: {error.strerror}") from None
     coach = options.out / "coach.fmu"
     texts = [path for path in map(Path, ("LICENSE-MIT", "LICENSE-APACHE", "docs/LICENSE-THIRD-PARTY")) if path.is_file()]
     ssp.pack_coach(options.coach / "coach", options.coach / "libcoach.so", coach, texts)
@@ -136,7 +146,7 @@ def checked(options, scenario):
         if options.workers < 1:
             raise BadFile(f"--workers = {options.workers} is below 1")
         if not options.limit >= 0.0:
-            raise BadFile(f"--limit = {options.limit:g} s is below 0, which is no limit")
+            raise BadFile(f"--limit = {options.limit:g} s is not 0 (no limit) or more")
     if options.rigid:
         rigid(scenario)
     else:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Protocol
 
 from .own import OwnClass
+from .values import short
 
 MOST_SAND = 1.0  # kg/s
 
@@ -94,7 +95,7 @@ class Guard:
     def number(self, value, low, high, what):
         """The value as a float, if it is a number within its range."""
         if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
-            self.refuse(f"step returned {shown(value)} for {what}, not a number")
+            self.refuse(f"step returned {short(value)} for {what}, not a number")
         if not low <= value <= high:
             self.refuse(f"step returned {what} = {float(value):g}, outside {low:g} to {high:g}")
         return float(value)
@@ -110,12 +111,6 @@ def place(error):
     return f"{Path(last.filename).name}:{last.lineno} in {last.name}" + (f": {last.line}" if last.line else "")
 
 
-def shown(value):
-    """A value in a message, cut short."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
 class OwnProtection(Guard):
     """Guard of a `Protection`. Where the slide protection is switched off (`wsp.active`), it is not asked."""
 
@@ -126,7 +121,7 @@ class OwnProtection(Guard):
     @property
     def reference(self):
         """Speed that it takes for that of the train [m/s]; nan if it has none."""
-        value = getattr(self.made, "reference", None)
+        value = self._call("reference", lambda: getattr(self.made, "reference", None))
         return float(value) if isinstance(value, numbers.Real) else math.nan
 
     def step(self, h, speeds):
@@ -135,7 +130,7 @@ class OwnProtection(Guard):
             return self.valves
         found = self.ask(h, list(speeds))
         if isinstance(found, str) or not hasattr(found, "__len__") or len(found) != len(speeds):
-            self.refuse(f"step returned {shown(found)}, not a list of {len(speeds)} valves, one per axle")
+            self.refuse(f"step returned {short(found)}, not a list of {len(speeds)} valves, one per axle")
         self.valves = [self._valve(axle, value) for axle, value in enumerate(found, start=1)]
         return self.valves
 
@@ -145,7 +140,7 @@ class OwnProtection(Guard):
             return value
         if isinstance(value, str) and value.upper() in Valve.__members__:
             return Valve[value.upper()]
-        return self.refuse(f"axle {axle}: valve {shown(value)} is none of apply, hold, vent")
+        return self.refuse(f"axle {axle}: valve {short(value)} is none of apply, hold, vent")
 
 
 class OwnSanding(Guard):

@@ -220,6 +220,8 @@ class Wheel:
     def restore(self, saved):
         """Returns to a saved state; records lose what came after it."""
         state, time = saved_state(saved)
+        for recorder in self._recorders:
+            recorder.listen()
         self._call(self.slave.setFMUstate, state)
         self.time = time
         for recorder in self._recorders:

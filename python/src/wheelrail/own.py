@@ -38,7 +38,7 @@ class OwnClass:
             classes = [name for name, value in known.items() if inspect.isclass(value)]
             close = difflib.get_close_matches(wanted, classes, n=1)
             hint = f"; did you mean {close[0]}?" if close else ""
-            raise BadFile(f"{self.where}: {self.files[0][0] if self.files else module} has no class {wanted}{hint}")
+            raise BadFile(f"{self.where}: {Path(self.files[0][0]).name if self.files else module} has no class {wanted}{hint}")
         if not inspect.isclass(known[wanted]):
             raise BadFile(f"{self.where}: {self.name} is a {type(known[wanted]).__name__}, not a class")
         return known[wanted]

@@ -5,6 +5,7 @@ import json
 import re
 from ctypes import c_double, c_int, c_uint
 from fnmatch import fnmatchcase
+from math import isclose
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from .values import Refused, kind, short
 
 # Profiles over the depth below the surface; all others lie across the contact patch.
 BELOW = ("depth", "peak_temperature", "temperature_wheel_below", "temperature_rail_below", "temperature_tread_below")
+SAME_TIME = 1e-12  # relative difference of times that is rounding
 _BUFFERS = {"Real": c_double, "Integer": c_int, "Boolean": c_int}
 
 
@@ -55,27 +57,29 @@ class Recorder:
     def sample(self):
         """Takes a sample now, in the place of one of the same time."""
         values = [reader() for reader in self._readers]
-        if self._times and self._times[-1] == self.wheel.time:
-            self._samples[-1] = values
+        if self._times and isclose(self._times[-1], self.wheel.time, rel_tol=SAME_TIME):
+            self._times[-1], self._samples[-1] = self.wheel.time, values
         else:
             self._times.append(self.wheel.time)
             self._samples.append(values)
-        self._listen()
+        self.listen()
 
     def rewind(self):
-        """Drops steps and samples from after the present time of the wheel."""
+        """Drops steps, samples and warnings from after the present time of the wheel."""
+        self._warnings = [(heard, warning) for heard, warning in self._warnings if heard <= self.wheel.time]
         while self._steps and self._steps[-1] > self.wheel.time:
             self._steps.pop()
         while self._times and self._times[-1] > self.wheel.time:
             self._times.pop()
             self._samples.pop()
 
-    def _listen(self):
+    def listen(self):
         """Takes note of new warnings and refusals, with the time that they name, or else that of the sample."""
         for message in self.wheel.log[self._heard :]:
             if message.status:
                 named = re.match(r"t = (\S+) s: ", message)
-                self._warnings.append({"time": float(named[1]) if named else self.wheel.time, "text": str(message)})
+                warning = {"time": float(named[1]) if named else self.wheel.time, "text": str(message)}
+                self._warnings.append((self.wheel.time, warning))
         self._heard = len(self.wheel.log)
 
     def dataset(self):
@@ -85,7 +89,7 @@ class Recorder:
         `parameters` that differ from the preset, `warnings`; the last three of lists and values as JSON.
         """
         xarray = _library("xarray")
-        self._listen()
+        self.listen()
         time = ("time", np.array(self._times), {"units": "s", "long_name": "Time"})
         data, coordinates, held = {}, {"time": time}, {}
         columns = [np.array([sample[k] for sample in self._samples]) for k in range(len(self._readers))]
@@ -112,7 +116,7 @@ class Recorder:
             coordinates["x"] = ("node", data["profile.x"][1][0], data["profile.x"][2])
         if self._depths is not None:
             coordinates["depth"] = ("depth", self._depths, attributes(self.wheel.fmu.variable(self.wheel.fmu.points("depth")[0])))
-        settings = self._settings | {"inputs": held, "warnings": self._warnings}
+        settings = self._settings | {"inputs": held, "warnings": [warning for _, warning in self._warnings]}
         texts = {name: value if isinstance(value, str) else json.dumps(value) for name, value in settings.items()}
         return xarray.Dataset(data, coordinates, texts | {"title": self.title or f"wheel on rail, {self._settings['preset']}"})
 

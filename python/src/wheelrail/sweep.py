@@ -102,8 +102,15 @@ def fingerprint(scenario, rigid):
     rest = {k: v for k, v in vars(scenario).items() if k not in APART}
     rest["wheel"] = scenario.wheel | scenario.sweep.wheel
     swept = sorted(SHORT.get(key, key) for key in lists(scenario))
-    text = json.dumps([_without(rest, swept), swept, rigid], default=str, sort_keys=True)
+    text = json.dumps([_without(rest, swept), swept, rigid, _contents(scenario, swept)], default=str, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def _contents(scenario, swept):
+    """What the files and classes that are swept contain."""
+    named = [(key, value) for key, values in lists(scenario).items() for value in values if isinstance(value, str)]
+    others = lambda key: [other for other in swept if other != SHORT.get(key, key)]
+    return [[key, value, _without(at(scenario, {key: value}), others(key))] for key, value in named]
 
 
 def _without(value, swept, place=""):
@@ -112,12 +119,14 @@ def _without(value, swept, place=""):
         return value.digest()
     if inspect.isclass(value):
         return f"{value.__module__}:{value.__qualname__}"
+    # Names in plain dictionaries, such as parameters of one's own classes, are free.
+    apart = APART if isinstance(value, SimpleNamespace) else ()
     if isinstance(value, SimpleNamespace):
         value = vars(value)
     if not isinstance(value, dict):
         return value
     return {
-        k: _without(v, swept, f"{place}{k}.") for k, v in value.items() if f"{place}{k}" not in swept and k not in APART
+        k: _without(v, swept, f"{place}{k}.") for k, v in value.items() if f"{place}{k}" not in swept and k not in apart
     }
 
 

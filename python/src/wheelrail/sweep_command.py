@@ -31,13 +31,13 @@ def run(options, scenario):
     from .plots_sweep import draw_sweep
 
     path = directory(options.out, scenario) / "sweep.csv"
+    scenarios_of(scenario, points(scenario))  # wrong values are said before anything is deleted or begins
     if options.force:
         for old in (path, dry_path(path), unfinished(path)):
             old.unlink(missing_ok=True)
     fmu, files = None if options.rigid else options.fmu, Files(scenario, options.rigid, path)
     swept = " × ".join(f"{key} ({len(values)})" for key, values in lists(scenario).items())
     missing, before = files.missing(scenario), len(files.stops.rows)
-    scenarios_of(scenario, [point for _, point in missing])  # wrong values are said before workers begin
     stops = f"{len(points(scenario))} stops and {len(references(scenario))} dry ones, {len(missing)} to compute"
     print(f"{scenario.name}: {swept}: {stops}", flush=True)
     rows, failed = files.stops.rows, []

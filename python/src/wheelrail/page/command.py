@@ -14,9 +14,7 @@ def add_command(commands):
         "run", type=Path, help="NetCDF record, CSV of `wheelrail simulate --out`, or directory of results of `train`"
     )
     command.add_argument("--out", type=Path, help="HTML file; default: beside RUN")
-    command.add_argument(
-        "--fmu", type=Path, default=default_path(), help="says units and meanings for a CSV, default %(default)s"
-    )
+    command.add_argument("--fmu", type=Path, help=f"says units and meanings for a CSV, default {default_path()}")
 
 
 def of_train(path, stops, scenario):

@@ -77,7 +77,7 @@ def of_dataset(dataset):
     series, patch, fields = {}, {}, {}
     at = time
     for name, variable in dataset.data_vars.items():
-        unit, meaning = variable.attrs.get("units", ""), variable.attrs.get("long_name", variable.attrs.get("description", ""))
+        unit, meaning = variable.attrs.get("units", ""), variable.attrs.get("comment", variable.attrs.get("long_name", ""))
         values = _numbers(variable)
         if values is None:
             continue
@@ -98,7 +98,7 @@ def of_dataset(dataset):
 
 
 def _numbers(variable):
-    """Values as floats, of choices and flags too; None of what is no number."""
+    """Values as floats, of flags too; None of texts, which choices are."""
     values = np.asarray(variable.values)
     return values.astype(float) if values.dtype.kind in "fiub" else None
 

@@ -1,4 +1,4 @@
-"""What `wheelrail report` reads: a record as NetCDF, a CSV of `wheelrail simulate --out`, the results of `wheelrail train`."""
+"""What `python -m wheelrail report` reads: a record as NetCDF, a CSV of `wheelrail simulate --out`, the results of `train`."""
 
 import json
 import re
@@ -10,6 +10,7 @@ import numpy as np
 from fmpy import read_model_description
 
 from ..files import BadFile
+from ..fmu import default_path
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_rows
 from .units import READ
@@ -77,9 +78,9 @@ def _vehicle_mass(fmu, about):
     given, name = about.get("parameters") or {}, "vehicle.mass"
     if name in given:
         return float(given[name])
-    if fmu is None or not Path(fmu).is_file():
+    description = _description(fmu)
+    if description is None:
         return None
-    description = read_model_description(str(fmu), validate=False)
     variable = next((v for v in description.modelVariables if v.name == name), None)
     if variable is None or str(about.get("fmu_version")) != str(description.version):
         return None
@@ -142,12 +143,24 @@ def _ascending(path, time):
         raise BadFile(f"{path}: time must grow from row to row: {after}")
 
 
+def _description(fmu):
+    """The model description of the FMU at a path; without a path that of the default one, or None where that is missing."""
+    path = Path(fmu or default_path())
+    if fmu is None and not path.is_file():
+        return None
+    try:
+        return read_model_description(str(path), validate=False)
+    except Exception as error:  # Whatever the libraries below say of what is no FMU.
+        raise BadFile(f"--fmu {path}: is no FMU: {(str(error) or type(error).__name__).splitlines()[0]}") from None
+
+
 def _described(fmu):
     """Name to (unit, description) of the outputs of an FMU, nothing without one."""
-    if fmu is None or not Path(fmu).is_file():
+    description = _description(fmu)
+    if description is None:
         return {}
     unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-    return {v.name: (unit(v), v.description or "") for v in read_model_description(str(fmu), validate=False).modelVariables}
+    return {v.name: (unit(v), v.description or "") for v in description.modelVariables}
 
 
 def guessed(name):
@@ -180,6 +193,6 @@ def _directory(path):
             found[file.stem.removeprefix("train_").replace("_", " ")] = stops.of_columns(table(file)[1])
     if not found:
         raise BadFile(
-            f"{path}: no CSV of a stop in it (columns time, speed, peripheral_1); expected results of `wheelrail train`"
+            f"{path}: no CSV of a stop in it (columns time, speed, peripheral_1); expected results of `python -m wheelrail train`"
         )
     return dict(sorted(found.items(), key=lambda item: item[1].travelled()))

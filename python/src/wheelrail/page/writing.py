@@ -108,7 +108,7 @@ def warnings(run):
     found = []
     for entry in run.about.get("warnings") or []:
         if isinstance(entry, dict):
-            entry = (entry.get("time"), entry.get("message", entry.get("text", "")))
+            entry = (entry.get("time"), MOMENT.sub("", entry.get("text", "")))
         if isinstance(entry, (list, tuple)) and len(entry) == 2:
             found.append(f"at {number(float(entry[0]))} s: {entry[1]}" if entry[0] is not None else str(entry[1]))
         else:
