@@ -44,7 +44,7 @@ class Gentle:
         return ["vent" if v < 0.9 * self.reference else "apply" for v in speeds]
 
 
-@trial.step("a slide protection of one's own (and a class of six lines)", "not reachable from files")
+@trial.step("a slide protection of one's own (and a class of six lines)", "found in the source")
 def protection(out):
     loaded = scenario.load(FILE, SHORT)
     loaded.brake.protection = Gentle
@@ -63,7 +63,7 @@ def sweep(out):
         main(["sweep", str(folder / "mine.json"), "--rigid", "--out", str(out), "--workers", "1", "--force"])
     with open(out / "mine" / "sweep.csv", encoding="utf-8") as rows:
         longer = [float(row["extension over dry"]) for row in csv.DictReader(rows)]
-    assert len(longer) == 2 and all(extension > 0.0 for extension in longer)
+    assert len(longer) == 2 and all(extension > 0.0 for extension in longer) and abs(longer[0] - longer[1]) > 1.0
     return f"extensions over dry {', '.join(f'{extension:.0f}' for extension in longer)} %"
 
 
@@ -71,7 +71,8 @@ def sweep(out):
 def sent(out):
     page.of_stops(out / "stops.html", {"mine": (kept["mine"], kept["rail"])}, "my stop")
     size = (out / "stops.html").stat().st_size
-    assert size > 1e6
+    # A page without stops weighs nearly as much.
+    assert ">mine<" in (out / "stops.html").read_text(encoding="utf-8")
     return f"{size / 1e6:.1f} MB, opens without network"
 
 

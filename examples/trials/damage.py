@@ -26,7 +26,7 @@ def patch(out):
     plt = pyplot()
     run = wheelrail.simulate(START, SLIDE, stop=0.15, profiles=True, depth=True, progress=False)
     wheelrail.celsius(run["profile.temperature_wheel"]).plot(x="time", y="x")
-    plt.savefig(out / "patch.png")
+    plt.savefig(out / "patch.png", bbox_inches="tight")
     kept["run"] = run
     hottest = float(run["profile.temperature_wheel"].max()) - 273.15
     assert hottest > 300.0 and (out / "patch.png").stat().st_size > 5000
@@ -36,9 +36,9 @@ def patch(out):
 @trial.step("temperature over depth and time", "not to be had")
 def depth(out):
     below = kept["run"]["profile.temperature_wheel_below"]
-    deep = float((below.max("time") - below.min("time")).isel(depth=-1))
-    # Heat does not reach the depth within the run.
-    assert below.dims == ("time", "depth") and abs(deep) < 30.0
+    rise = below.max("time") - below.min("time")
+    # Heat enters from above and does not reach the depth within the run.
+    assert below.dims == ("time", "depth") and rise[0] > 300.0 and rise[-1] < 1.0
     return f"{below.sizes['depth']} depths to {1e3 * float(below['depth'][-1]):.1f} mm"
 
 
@@ -54,7 +54,8 @@ def file(out):
 def film(out):
     page.write(out / "slide.html", kept["run"])
     size = (out / "slide.html").stat().st_size
-    assert size > 1e6
+    # A page without a film weighs nearly as much.
+    assert '<section id="patch">' in (out / "slide.html").read_text(encoding="utf-8")
     return f"one page of {size / 1e6:.1f} MB"
 
 
