@@ -17,7 +17,7 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 25] = files![include_str:
+const PAGES: [(&str, &str); 26] = files![include_str:
     "profiles.md",
     "coupling.md",
     "theory/README.md",
@@ -41,6 +41,7 @@ const PAGES: [(&str, &str); 25] = files![include_str:
     "theory/limits-of-steel.md",
     "theory/wear.md",
     "theory/equivalent-width.md",
+    "theory/structural-width.md",
     "validation.md",
     "speed.md",
 ];
