@@ -22,6 +22,7 @@
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
+# make ellipse   one brake application on patches of constant width and on an elliptical one: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
@@ -71,7 +72,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -88,6 +89,7 @@ test-rust:
 
 test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
+	$(PY) -m unittest discover --quiet --pattern test_structural_width.py tools
 
 # Programs that take less than a second each, from every room of the house.
 QUICK := architecture documents model_description fmi_lifecycle contact_two_patches second_contact_solver \
@@ -158,6 +160,9 @@ own-vehicle: $(FMU) $(INSTALLED)
 
 surfaces: $(FMU) $(INSTALLED)
 	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out results
+
+ellipse: $(FMU) $(INSTALLED)
+	$(PY) examples/ex13_ellipse.py --fmu $(FMU) --out results
 
 locked-wheels: $(BUILT)
 	$(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results

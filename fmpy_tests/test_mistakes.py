@@ -85,6 +85,8 @@ STEPPING = {
     "a number for a name": (lambda w: w.get(3), ValueError, "3 is not the name of a variable"),
     "a misspelt output": (lambda w: w.get("wheel.omga"), Refused, "did you mean wheel.omega?"),
     "a misspelt profile": (lambda w: w.profile("presure"), Refused, "it has x, pressure"),
+    "a misspelt quantity of lines": (lambda w: w.line("presure"), Refused, "they have line.position, line.half_length"),
+    "a number for one": (lambda w: w.line(3), Refused, "lines have no 'line.3'"),
     "a text for a force": (lambda w: w.set({"drive.load": "heavy"}), Refused, "drive.load = 'heavy' is not a number [N]"),
     "nothing for a force": (lambda w: w.set({"drive.load": None}), Refused, "drive.load = None is not a number [N]"),
     "an array for a force": (lambda w: w.set({"drive.load": np.ones(99)}), Refused, "drive.load = array("),

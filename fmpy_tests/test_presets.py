@@ -10,6 +10,7 @@ from wheelrail import Refused
 PRESETS = (
     "railway",
     "railway_damage",
+    "railway_ellipse",
     "railway_dry",
     "railway_wet",
     "railway_low_adhesion",
@@ -19,15 +20,50 @@ PRESETS = (
     "paper_d",
 )
 
+ELLIPSE = 2  # of contact.shape
+
 
 def hertz(wheel):
-    """Half width and peak pressure of a cylinder on a plane of the same material."""
+    """Half width and peak pressure of a cylinder on a plane of the same material, or of two bodies with curvatures across, too."""
     names = ("wheel.radius", "material.youngs_modulus", "material.poissons_ratio")
     radius, youngs_modulus, poissons_ratio = wheel.get(*names)
-    line_load = wheel.get("drive.load") / wheel.get("model.contact_width")
     effective_modulus = youngs_modulus / (2.0 * (1.0 - poissons_ratio**2))
+    if wheel.get("contact.shape") == ELLIPSE:
+        curvatures = [1.0 / r for r in wheel.get("contact.wheel_lateral_radius", "contact.rail_lateral_radius") if r]
+        half_axes = ellipse(wheel.get("drive.load"), radius, 1.0 / sum(curvatures), effective_modulus)
+        return half_axes[0], 1.5 * wheel.get("drive.load") / (math.pi * math.prod(half_axes))
+    line_load = wheel.get("drive.load") / wheel.get("model.contact_width")
     half_width = math.sqrt(4.0 * line_load * radius / (math.pi * effective_modulus))
     return half_width, 2.0 * line_load / (math.pi * half_width)
+
+
+def ellipse(load, along, across, effective_modulus):
+    """Half axes along and across the rail by the relative radii of curvature (Johnson, Contact Mechanics, 3.2 and 4.2).
+
+    The curvatures are 1/R = p0 a b/E times integrals over the potential of the ellipse, which the trapezoidal rule has exactly.
+    """
+    angles = [math.pi * (k + 0.5) / 400 for k in range(200)]
+
+    def integral(ratio, power):
+        terms = (math.sin(p) ** 2 / (math.cos(p) ** 2 + (ratio * math.sin(p)) ** 2) ** power for p in angles)
+        return sum(terms) * math.pi / 400
+
+    low, high = 1e-2, 1e2
+    while high / low > 1.0 + 1e-12:
+        ratio = math.sqrt(low * high)
+        wide = integral(ratio, 0.5) / integral(ratio, 1.5) > across / along
+        low, high = (low, ratio) if wide else (ratio, high)
+    half_axis = (3.0 * load * along * integral(ratio, 0.5) / (math.pi * effective_modulus)) ** (1.0 / 3.0)
+    return half_axis, ratio * half_axis
+
+
+def test_the_elliptical_patch_is_as_wide_as_hertz_says(start):
+    wheel = start({"preset": "railway_ellipse"})
+    names = ("drive.load", "wheel.radius", "contact.rail_lateral_radius", "material.youngs_modulus", "material.poissons_ratio")
+    load, radius, rail, youngs_modulus, poissons_ratio = wheel.get(*names)
+    half_axes = ellipse(load, radius, rail, youngs_modulus / (2.0 * (1.0 - poissons_ratio**2)))
+    print(f"half axes {1e3 * half_axes[0]:.4f} and {1e3 * half_axes[1]:.4f} mm, width {1e3 * wheel.get('contact.width'):.4f} mm")
+    assert wheel.get("contact.width") == pytest.approx(2.0 * half_axes[1], rel=1e-6)
 
 
 def test_all_presets_are_tested():

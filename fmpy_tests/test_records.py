@@ -167,10 +167,66 @@ def test_the_page_does_what_it_says(packed, tmp_path, monkeypatch):
     place = {}
     for block in blocks:
         exec(compile(block, str(PAGE), "exec"), place)
-    assert len(blocks) == 6 and len(place["frame"]) == 51
+    assert len(blocks) == 7 and len(place["frame"]) == 51
+    assert place["lines"]["line.pressure_max"].dims == ("time", "line")
     assert place["again"].identical(place["run"]) and Path("results/run.parquet").is_file()
     surface = place["again"]["profile.temperature_wheel"]
     assert surface.dims == ("time", "node") and surface["x"].attrs["units"] == "m"
+
+
+@pytest.fixture(scope="module")
+def braked(fmu):
+    """A wheel on an elliptical patch that brakes: all outputs, those of its lines among them."""
+    parameters = {"preset": "railway_ellipse", "initial.velocity": 27.8}
+    return wheelrail.simulate(parameters, {"brake.torque": 8000.0}, stop=5e-3, fmu=fmu)
+
+
+def test_lines_of_an_elliptical_patch_add_up_to_it_and_are_symmetric_about_its_middle(braked):
+    position, force, load, power, pressure = (
+        braked[f"line.{name}"] for name in ("position", "force_x", "force_y", "friction_power", "pressure_max")
+    )
+    assert force.dims == ("time", "line") and force.sizes["line"] == 7 and force.attrs["units"] == "N"
+    np.testing.assert_array_equal(braked["z"], position[0])
+    assert braked["z"].dims == ("line",) and braked["z"].attrs["units"] == "m"
+    np.testing.assert_allclose(force.sum("line"), braked["contact.force_x"], rtol=1e-9)
+    np.testing.assert_allclose(load.sum("line"), braked["contact.force_y"], rtol=1e-9)
+    assert (power[-1] > 0.0).all()
+    # Positions grow from line to line, and either side of the middle is the mirror of the other.
+    assert (np.diff(position) > 0.0).all() and (2.0 * position[:, -1] < braked["contact.width"]).all()
+    np.testing.assert_array_equal(position, -position[:, ::-1])
+    for values in (force, load, pressure):
+        np.testing.assert_array_equal(values, values[:, ::-1])
+    np.testing.assert_allclose(pressure.max("line"), braked["contact.pressure_max"], rtol=1e-12)
+    assert (pressure.argmax("line") == 3).all() and (np.diff(pressure[:, :4]) > 0.0).all()
+
+
+def test_what_the_wheel_says_of_its_lines_is_what_a_record_holds(start):
+    wheel = start({"preset": "railway_ellipse", "contact.lines": 5, "initial.velocity": 20.0})
+    record = wheel.record("line.pressure_max", "line.stick*")
+    wheel.step(1e-3)
+    run = record.dataset()
+    assert wheel.lines() == run.sizes["line"] == 5
+    named = {"line.position", "line.pressure_max", "line.stick_fraction"}
+    assert {name for name in run.data_vars if name.startswith("line.")} == named
+    np.testing.assert_array_equal(run["line.pressure_max"][-1], wheel.line("pressure_max"))
+    assert "contact.force_x" not in run
+
+
+def test_the_only_line_of_a_patch_of_constant_width_is_recorded_where_it_is_named(fmu):
+    braking = {"initial.velocity": 20.0}, {"brake.torque": 8000.0}
+    run = wheelrail.simulate(*braking, stop=2e-3, outputs=["*.force_x", "line.force_x"], fmu=fmu)
+    assert run["line.force_x"].sizes["line"] == 1 and "line.pressure_max" not in run
+    np.testing.assert_allclose(run["line.force_x"][:, 0], run["contact.force_x"], rtol=1e-12)
+    for outputs in (None, "*force*"):
+        run = wheelrail.simulate(*braking, stop=2e-3, outputs=outputs, fmu=fmu)
+        assert "line" not in run.sizes and "contact.force_x" in run
+
+
+def test_lines_keep_their_place_in_files_and_are_left_out_of_tables(braked, tmp_path):
+    pytest.importorskip("h5py")
+    assert wheelrail.load(wheelrail.save(braked, tmp_path / "run.nc")).identical(braked)
+    frame = wheelrail.table(braked)
+    assert len(frame) == len(braked.time) and "contact.width" in frame and not any("line." in name for name in frame)
 
 
 def test_depth_profiles_begin_with_the_surface(fmu):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from wheelrail import Wheel, page, report, scenario, train
+from wheelrail import Wheel, page, report, scenario, simulate, train
 from wheelrail.__main__ import main
 from wheelrail.page import balance, charts, film, html, sources, stops, units
 from wheelrail.page.run import Profiles, of_dataset, of_table
@@ -198,6 +198,74 @@ def test_a_dataset_as_a_netcdf_file_is_the_run(run, packed, tmp_path):
     assert film.of_run(of_dataset(dataset)) == film.of_run(run)
 
 
+@pytest.fixture(scope="module")
+def elliptical(fmu):
+    """A record of a wheel on an elliptical patch that is braked ever more, with what its lines have and the profiles along it."""
+    pytest.importorskip("xarray", reason="xarray is not installed")
+    parameters = {"preset": "railway_ellipse", "initial.velocity": 20.0}
+    brake = ([0.0, 0.05], [0.0, 9000.0])
+    return simulate(parameters, {"brake.torque": brake}, stop=0.05, profiles=True, fmu=fmu)
+
+
+def test_the_patch_from_above_is_as_long_wide_hot_and_loaded_as_the_fmu_says(elliptical):
+    shown = film.of_run(of_dataset(elliptical))
+    lines = {name: np.array(rows, float) for name, rows in shown["lines"].items() if name not in ("units", "ahead")}
+    assert len(shown["time"]) == len(elliptical.time) == 51 and shown["lines"]["units"] == {"pressure": "MPa"}
+    assert lines["pressure"].max(axis=1) == pytest.approx(1e-6 * elliptical["contact.pressure_max"].values, rel=1e-4)
+    assert lines["z"] == pytest.approx(1e3 * elliptical["line.position"].values, rel=1e-4)
+    # Strips lie side by side, each about its line, and together are as wide as the patch.
+    edges = lines["edges"]
+    assert edges.shape == (51, 8) and np.all(edges[:, :-1] < lines["z"]) and np.all(lines["z"] < edges[:, 1:])
+    assert edges[:, -1] - edges[:, 0] == pytest.approx(1e3 * elliptical["contact.width"].values, rel=1e-4)
+    # What sticks does not reach beyond the line, and gives way from both sides of the patch while the brake grows.
+    length = 2.0 * lines["half_length"]
+    assert np.all(lines["adheres"] <= length * 1.0001) and np.all(np.diff(lines["adheres"][1:, 3]) < 0.0)
+    assert lines["adheres"] == pytest.approx(length * elliptical["line.stick_fraction"].values, rel=1e-4, abs=1e-4)
+    for body in ("wheel", "rail"):
+        hottest = elliptical[f"temperature.{body}_max"].values - 273.15
+        assert lines[f"temperature_{body}"].max(axis=1) == pytest.approx(hottest, rel=1e-4)
+    assert set(shown["lines"]["ahead"]) == {1}
+
+
+def test_a_record_without_profiles_still_shows_the_patch_from_above(elliptical, tmp_path):
+    across = [name for name in elliptical.data_vars if elliptical[name].dims[1:] != ("node",)]
+    run = of_dataset(elliptical[across])
+    shown = film.of_run(run)
+    assert "pressure" not in shown and len(shown["lines"]["z"]) == len(shown["time"]) == 51
+    assert shown["lines"] == film.of_run(of_dataset(elliptical))["lines"]
+    found = shown["lines"]["temperature_wheel"]
+    assert max(found[shown["start"]]) == max(map(max, found))
+    assert film.of_run(of_dataset(elliptical.drop_dims(["line", "node"]))) is None
+    if html.drawable():
+        for dataset, along in ((elliptical, True), (elliptical[across], False)):
+            text = page.write(tmp_path / "run.html", dataset).read_text(encoding="utf-8")
+            assert ('id="film"' in text, 'id="above"' in text, 'id="slider"' in text) == (along, True, True)
+            assert text.count('class="readings"') == 1
+
+
+def test_lines_in_a_csv_and_in_a_file_are_those_of_the_record(elliptical, packed, tmp_path):
+    with open(tmp_path / "run.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        names = [name for name in elliptical.data_vars if name.startswith("line.")]
+        # The FMU has 13 of each; those beyond contact.lines are 0.
+        whole = {name: np.pad(elliptical[name].values, ((0, 0), (0, 6))) for name in names}
+        scalars = ["contact.width", "wheel.velocity", "temperature.wheel_max"]
+        writer.writerow(["time", *scalars, *(f"{name}[{k}]" for name in names for k in range(1, 14))])
+        writer.writerows(np.column_stack([elliptical.time, *(elliptical[n] for n in scalars), *whole.values()]))
+    read = sources.read(tmp_path / "run.csv", packed)
+    assert set(read.series) == set(scalars)
+    assert film.of_run(read)["lines"] == film.of_run(of_dataset(elliptical))["lines"]
+    pytest.importorskip("h5netcdf", reason="h5netcdf is not installed")
+    elliptical.to_netcdf(tmp_path / "run.nc", engine="h5netcdf")
+    assert film.of_run(sources.read(tmp_path / "run.nc", packed)) == film.of_run(of_dataset(elliptical))
+
+
+def test_a_patch_of_constant_width_is_not_drawn_from_above(fmu):
+    pytest.importorskip("xarray", reason="xarray is not installed")
+    run = of_dataset(simulate(stop=2e-3, outputs=["line.*", "wheel.velocity"], fmu=fmu))
+    assert run.lines is None and film.of_run(run) is None
+
+
 WRONG = {
     "empty.csv": ("", "no column `time`"),
     "short.csv": ("time,wheel.velocity\n0,1\n", "1 lines of values"),
@@ -351,6 +419,23 @@ def test_the_page_of_a_run_works_in_a_browser_without_network(run, tmp_path, bro
     assert sorted(buttons) == ["Download plot as a PNG", "Pan", "Reset axes", "Zoom"]
     assert tab.evaluate("document.documentElement.scrollWidth") <= 1200
     assert complaints == [] and asked == [path.as_uri()]
+
+
+@plotly_js
+def test_the_patch_from_above_moves_with_the_slider(elliptical, tmp_path, browser):
+    go = pytest.importorskip("plotly.graph_objects")
+    dataset = elliptical.drop_dims("node")
+    tab, complaints, asked = opened(browser, page.write(tmp_path / "run.html", dataset))
+    for data, layout in tab.evaluate(FIGURES):
+        go.Figure(data=data, layout=layout)
+    largest = "() => Math.max(...document.querySelector('#above').data[0].z.flat())"
+    for k in (0, 50):
+        tab.evaluate("(k) => { const s = document.querySelector('#slider'); s.value = k; s.dispatchEvent(new Event('input')); }", k)
+        z = [*dataset["line.position"].values[k] * 1e3]
+        tab.wait_for_function("(z) => Math.abs(document.querySelector('#above').data[2].y[0] - z) < 1e-4", arg=z[0])
+        expected = 1e-6 * float(dataset["contact.pressure_max"][k])
+        assert 0.99 * expected < tab.evaluate(largest) <= 1.0001 * expected
+    assert complaints == [] and len(asked) == 1
 
 
 @plotly_js

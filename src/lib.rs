@@ -38,6 +38,7 @@
 //! |---|---|---|
 //! | [`config`] | parameters, units and presets: a [`config::table`] of one row each | |
 //! | [`analytic`] | Hertz, Carter and other closed forms: start guesses and tests | |
+//! | [`patch`] | closed forms of the elliptical patch and of the lines that stand for it | [lines] |
 //! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula] |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
@@ -64,6 +65,7 @@
 //! [heat]: ../../../docs/theory/heat.md
 //! [lever-arms]: ../../../docs/theory/lever-arms.md
 //! [material-history]: ../../../docs/theory/material-history.md
+//! [lines]: ../../../docs/theory/lines.md
 //! [patch-contact]: ../../../docs/theory/patch-contact.md
 //! [profiles]: ../../../docs/theory/profiles.md
 //! [rail-ends]: ../../../docs/theory/rail-ends.md
@@ -83,6 +85,7 @@ pub mod linalg;
 pub mod material;
 pub mod mechanics;
 pub mod multistep;
+pub mod patch;
 pub mod piecewise;
 pub mod rolling;
 pub mod simulation;

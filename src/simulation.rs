@@ -48,8 +48,8 @@ pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_v
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{
-    Difference, Drive, Inputs, Origin, OutputRow, Outputs, PROFILE_POINTS, Read, Rotation, State, StepError,
-    Translation, Vertical,
+    Difference, Drive, Inputs, MOST_LINES, Origin, OutputRow, Outputs, PROFILE_POINTS, Read, Rotation, State,
+    StepError, Translation, Vertical,
 };
 
 /// Why a model could not be prepared.

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 /// Each room with the rooms it may import. Rooms that are missing here may not exist.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("lib", &[]),
-    ("config", &["analytic"]),
+    ("config", &["analytic", "patch"]),
+    ("patch", &[]),
     ("analytic", &[]),
     ("material", &["config", "analytic", "piecewise"]),
     ("multistep", &[]),
@@ -26,7 +27,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("mechanics", &["surface", "fem", "linalg", "multistep", "config", "analytic", "material"]),
     ("heat", &["fem", "linalg", "config", "piecewise"]),
     ("surface", &["config", "files", "piecewise"]),
-    ("contact", &["analytic", "surface", "config", "linalg", "multistep", "piecewise"]),
+    ("contact", &["analytic", "patch", "surface", "config", "linalg", "multistep", "piecewise"]),
     ("damage", &["fem", "linalg"]),
     (
         "rolling",

@@ -10,7 +10,7 @@ use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, Response, presets};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
-const PRESETS: [&str; 9] = [
+const PRESETS: [&str; 10] = [
     "railway",
     "paper_a",
     "paper_b",
@@ -19,6 +19,7 @@ const PRESETS: [&str; 9] = [
     "railway_damage",
     "railway_dry",
     "railway_wet",
+    "railway_ellipse",
     "railway_low_adhesion",
 ];
 

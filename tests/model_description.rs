@@ -13,7 +13,7 @@ use wheelrail::fmi::units::UNITS;
 use wheelrail::fmi::v2::description::{Extent, model_description};
 use wheelrail::fmi::v2::variables::{find, variables};
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
-use wheelrail::simulation::{Outputs, PROFILE_POINTS};
+use wheelrail::simulation::{MOST_LINES, Outputs, PROFILE_POINTS};
 
 fn with_causality(causality: Causality) -> impl Iterator<Item = &'static Variable> {
     variables().iter().filter(move |v| v.causality() == causality)
@@ -35,8 +35,9 @@ fn committed_reference_is_the_generated_one() {
 #[test]
 fn a_profile_is_one_row_and_its_points_are_scalars() {
     let arrays: Vec<_> = table().iter().filter(|row| row.dimension.is_some()).collect();
-    assert_eq!(arrays.len(), 11);
-    assert_eq!(variables().len(), table().len() - 11 + 11 * PROFILE_POINTS);
+    let lines = arrays.iter().filter(|row| row.name.starts_with("line.")).count();
+    assert_eq!((arrays.len(), lines), (22, 11));
+    assert_eq!(variables().len(), table().len() - 22 + 11 * (PROFILE_POINTS + MOST_LINES));
     let values: Vec<f64> = (0..PROFILE_POINTS).map(|k| k as f64).collect();
     let outputs = Outputs { profile_shear: values.clone(), ..Outputs::default() };
     let shear = arrays.iter().find(|row| row.name == "profile.shear").unwrap();
@@ -121,7 +122,10 @@ fn every_preset_is_valid() {
     let names = presets::available(Some(&resources));
     let papers = ["paper_a", "paper_b", "paper_c", "paper_d"];
     assert_eq!(names[..4], papers);
-    assert_eq!(names[4..], ["railway", "railway_damage", "railway_dry", "railway_low_adhesion", "railway_wet"]);
+    assert_eq!(
+        names[4..],
+        ["railway", "railway_damage", "railway_dry", "railway_ellipse", "railway_low_adhesion", "railway_wet"]
+    );
     for name in names {
         let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));
         wheelrail::simulation::Inputs::rolling(&config).validate().unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -9,7 +9,7 @@ use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::series::{Fallback, SeriesSolver};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
+    LineKernel, LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -30,6 +30,7 @@ fn modulus() -> f64 {
 /// Two half-planes and nothing else.
 struct HalfPlanes {
     solver: SeriesSolver,
+    kernel: LineKernel,
     none: [DMatrix<f64>; 4],
     still: DVector<f64>,
 }
@@ -45,7 +46,9 @@ impl HalfPlanes {
         let grid = ActiveSetSolver::new(grid);
         let none =
             [DMatrix::zeros(PORTS, PORTS), DMatrix::zeros(PORTS, 3), DMatrix::zeros(3, PORTS), DMatrix::zeros(3, 3)];
-        Self { solver: SeriesSolver::new(grid, half_plane, 0.02, Fallback::Refuse), none, still: DVector::zeros(PORTS) }
+        let kernel = LineKernel::of_half_plane(half_plane, 1.0);
+        let solver = SeriesSolver::new(grid, 0.02, Fallback::Refuse);
+        Self { solver, kernel, none, still: DVector::zeros(PORTS) }
     }
 
     /// Rolling at mean speed `speed` with prescribed creepage, in a step with the time formula `time`.
@@ -62,9 +65,12 @@ impl HalfPlanes {
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(RADIUS));
         let line = LineProblem {
             share: 1.0,
+            kernel: self.kernel,
             bodies: SurfaceResponse {
                 own: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
                 others: None,
+                alone: None,
+                lift: 0.0,
                 free: [&self.still, &self.still],
                 inertial: &self.none[1],
                 momentum: &self.none[2],

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, SingleLine, SolvedFriction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, OneLine, SolvedFriction,
     SolverState, Traction, Yielding,
 };
 use wheelrail::material::Isotropic;
@@ -51,7 +51,7 @@ impl Hertz {
     }
 
     /// Displacements of both surfaces under forces and known motions.
-    fn surfaces(&self, problem: &SingleLine, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
+    fn surfaces(&self, problem: &OneLine, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
         let bodies = &problem.line.bodies;
         let mut wheel = bodies.free[0] + bodies.own.compliance[0] * forces;
         for (k, motion) in problem.rigid.iter().enumerate() {
@@ -61,13 +61,13 @@ impl Hertz {
     }
 
     /// Distance of the surfaces below the wheel centre [m]; zero in a solution.
-    fn gap(&self, problem: &SingleLine, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
+    fn gap(&self, problem: &OneLine, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
         let port = self.x.len() / 2 * 2 + 1;
         height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port]
     }
 
     /// Unbalance of a free axis [N/m, N].
-    fn unbalance(&self, problem: &SingleLine, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
+    fn unbalance(&self, problem: &OneLine, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
         let motion = &problem.rigid[axis];
         let mut sum = motion.momentum + (problem.line.bodies.momentum.row(axis) * forces)[0];
         for (l, other) in problem.rigid.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Hertz {
     }
 
     /// Rigid motions and residuals of the free axes for a load: the equations are linear.
-    fn motion(&self, problem: &SingleLine, load: f64, radius: f64) -> [f64; 3] {
+    fn motion(&self, problem: &OneLine, load: f64, radius: f64) -> [f64; 3] {
         let forces = self.forces(load, radius);
         let mut rigid = problem.rigid.map(|motion| motion.start());
         for _ in 0..4 {

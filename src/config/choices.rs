@@ -97,19 +97,29 @@ choice! {
 }
 
 impl ContactMethod {
-    /// Several contact lines side by side are possible.
-    pub fn takes_lines(self) -> bool {
-        match self {
-            ContactMethod::Grid => true,
-            ContactMethod::Auto | ContactMethod::Patch => false,
-        }
-    }
-
     /// Steps without a single smooth patch fail, instead of being solved on the grid.
     pub fn requires_patch(self) -> bool {
         match self {
             ContactMethod::Auto | ContactMethod::Grid => false,
             ContactMethod::Patch => true,
+        }
+    }
+}
+
+choice! {
+    /// Shape of the patch in which wheel and rail touch.
+    pub enum ContactShape named "ContactShape", "Shape of the contact patch" {
+        Line = "line", "a line of constant width: model.contact_width";
+        Ellipse = "ellipse", "an ellipse from the radii of curvature, on contact.lines lines side by side";
+    }
+}
+
+impl ContactShape {
+    /// The patch is as wide as the bodies, and has one line.
+    pub fn is_line(self) -> bool {
+        match self {
+            ContactShape::Line => true,
+            ContactShape::Ellipse => false,
         }
     }
 }

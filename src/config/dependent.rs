@@ -1,5 +1,6 @@
 //! Ranges of parameters that depend on other parameters.
 
+use super::choices::ContactShape;
 use super::table::{Config, Initial, Material, Rail};
 use super::value::{display_number, display_range};
 use crate::analytic;
@@ -9,6 +10,8 @@ const SMALLEST_HALF_WIDTH: f64 = 1e-6;
 /// Largest half-width relative to the wheel radius and to the length of the rail.
 const WHEEL_SHARE: f64 = 0.095;
 const RAIL_SHARE: f64 = 0.12;
+/// Curvatures of the gap across the direction of rolling over those along it: half axes from 1:20 to 13:1.
+pub const CURVATURES: [f64; 2] = [0.01, 50.0];
 /// Smallest limit of the internal step [s].
 const SHORTEST_LIMIT: f64 = 1e-6;
 /// Largest way of the wheel during the retardation of stiffness-proportional damping [m].
@@ -59,7 +62,10 @@ fn rayleigh_speed(config: &Config) -> f64 {
 fn contact_zone(config: &Config) -> Dependent {
     let (Material { youngs_modulus, poissons_ratio, .. }, radius) = (&config.material, config.wheel.radius);
     let stiffness = analytic::contact_modulus(*youngs_modulus, *poissons_ratio);
-    let load = |half_width| analytic::hertz_load(half_width, radius, stiffness) * config.model.contact_width;
+    let load = |half_width: f64| match config.contact.shape {
+        ContactShape::Line => analytic::hertz_load(half_width, radius, stiffness) * config.model.contact_width,
+        ContactShape::Ellipse => (half_width / config.hertz().under(1.0).a).powi(3),
+    };
     Dependent {
         name: "model.nominal_load",
         value: config.model.nominal_load,
@@ -218,6 +224,24 @@ fn wear_contact(config: &Config) -> Dependent {
     Dependent { name: "damage.wear", value, unit: "", low: 1.0, high, others }
 }
 
+/// Curvatures across the direction of rolling with which wheel and rail touch in an ellipse that is no line.
+fn ellipse(config: &Config) -> Dependent {
+    let (of_line, radius) = (config.contact.shape.is_line(), config.wheel.radius);
+    let [low, high] = if of_line { [f64::NEG_INFINITY, f64::INFINITY] } else { CURVATURES.map(|c| c / radius) };
+    Dependent {
+        name: "1/contact.wheel_lateral_radius + 1/contact.rail_lateral_radius",
+        value: config.lateral_curvature(),
+        unit: "1/m",
+        low,
+        high,
+        others: format!(
+            "contact.shape = ellipse and wheel.radius = {} m (wheel and rail touch in a patch between a line across and a line along \
+             the direction of rolling; raise or lower contact.rail_lateral_radius)",
+            display_number(radius)
+        ),
+    }
+}
+
 /// Every range that depends on other parameters, with the present value in it.
 pub fn ranges(config: &Config) -> Vec<Dependent> {
     let (radius, infinity) = (config.wheel.radius, f64::INFINITY);
@@ -248,6 +272,7 @@ pub fn ranges(config: &Config) -> Vec<Dependent> {
             high: infinity,
             others: with_radius(),
         },
+        ellipse(config),
         start_temperature(config),
         melting_range(config),
         wear_regimes(config),

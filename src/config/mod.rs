@@ -6,6 +6,7 @@
 
 pub mod choices;
 mod dependent;
+mod nominal;
 pub mod presets;
 pub mod retired;
 pub mod row;
@@ -14,12 +15,13 @@ pub mod units;
 pub mod value;
 
 pub use choices::{
-    ConductanceLaw, ContactMethod, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
+    ConductanceLaw, ContactMethod, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
 };
 pub use dependent::ConfigError;
+pub use nominal::NominalPatch;
 pub use table::{
-    BrakeParameters, Config, Damping, Files, Friction, Initial, Material, MeshParameters, ModelParameters, Physics,
-    Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel,
+    BrakeParameters, Config, ContactParameters, Damping, Files, Friction, Initial, Material, MeshParameters,
+    ModelParameters, Physics, Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel,
 };
 pub use value::{display_number, display_outside, display_range};
 
@@ -54,6 +56,11 @@ fn tail_similarity(a: &str, b: &str) -> f64 {
 }
 
 impl Config {
+    /// Width of the bodies of wheel and rail \[m]: forces of the wheel = width × forces of the plane model.
+    pub fn width(&self) -> f64 {
+        if self.contact.shape.is_line() { self.model.contact_width } else { self.model.structural_width }
+    }
+
     /// This configuration with all that may change during a run from another one.
     pub fn tuned_like(&self, other: &Config) -> Config {
         Config { tuning: other.tuning.clone(), files: other.files.clone(), ..self.clone() }

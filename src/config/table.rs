@@ -6,7 +6,7 @@
 //! they come first in the reference. A row that is taken out moves to [`super::retired`].
 
 use super::choices::{
-    ConductanceLaw, ContactMethod, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
+    ConductanceLaw, ContactMethod, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
 };
 use super::row::parameters;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -17,7 +17,11 @@ parameters! {
         /// Map between the two-dimensional model and the whole wheel, and size of the contact zone.
         model: ModelParameters fixed {
             1010 basic contact_width: f64 = 0.014, in "m" as "mm", from 1e-4 to 10.0,
-                "Width of the line contact: forces of the wheel = width x forces of the plane model";
+                "Width of the line contact: forces of the wheel = width x forces of the plane model. It counts with \
+                 contact.shape = line only";
+            1200 expert structural_width: f64 = 0.073, in "m" as "mm", from 1e-3 to 10.0,
+                "Width of the bodies of wheel and rail where the patch has a width of its own (contact.shape = ellipse): forces \
+                 of the wheel = width x forces of the plane bodies";
             1011 basic nominal_load: f64 = 100e3, in "N" as "kN", from 1e-3 to 1e9,
                 "Wheel load for which the mesh is laid out, with a contact that fits wheel and rail; the candidate \
                  contact zone carries at least twice this load";
@@ -66,6 +70,18 @@ parameters! {
             1170 basic tread_share: f64 = 0.0, from 0.0 to 1.0,
                 "Share of brake.power that heats the tread, where thermal.tread_angle and the like put it, besides \
                  drive.tread_heat: 0 for discs, about 0.9 for blocks";
+        }
+        /// Patch in which wheel and rail touch.
+        contact: ContactParameters fixed {
+            1196 basic shape: ContactShape = ContactShape::Line, "Shape of the patch in which wheel and rail touch";
+            1197 basic lines: usize = 7, from 1 to 13,
+                "Lines of the patch across its width; those of a symmetric pair are computed once";
+            1198 expert wheel_lateral_radius: f64 = 0.0, in "m" as "mm", from -100.0 to 100.0,
+                "Radius of curvature of the tread across the direction of rolling, positive where it is convex, negative \
+                 where it is hollow; 0: straight, as a cone is";
+            1199 basic rail_lateral_radius: f64 = 0.3, in "m" as "mm", from -100.0 to 100.0,
+                "Radius of curvature of the rail head across the direction of rolling, positive where it is convex; 0: straight. \
+                 Wheel and rail together must be convex";
         }
         /// Isotropic linear elastic material of both bodies.
         material: Material fixed {

@@ -3,14 +3,17 @@
 //! The bodies enter only through the answer of their surfaces ([`ContactProblem`]), so this room knows neither finite
 //! elements nor how the rolling motion is advanced. What anyone else learns of a solved contact is its [`Traction`];
 //! how it was found is the business of a [`ContactSolver`], today the one on the paired surface nodes of a
-//! [`mod@line`]. Everything is per metre of width. Forces are those on the *wheel*: `F_x > 0` drives it forward,
-//! `F_y > 0` (pressure) lifts it; the rail receives the opposite.
+//! [`mod@line`]. Everything is per metre of width; [`crate::patch`] has the closed forms of a patch of finite width.
+//! Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure) lifts it; the rail receives the
+//! opposite.
 
 pub mod active_set;
 mod brake;
 pub mod error;
 pub mod film;
 pub mod friction;
+mod kernel;
+pub mod layout;
 pub mod limits;
 pub mod line;
 pub mod problem;
@@ -20,9 +23,11 @@ pub mod traction;
 
 pub use error::ContactError;
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
+pub use kernel::{LineKernel, Logarithm};
+pub use layout::{LineLayout, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
-    AxisDrive, ContactProblem, Influence, LineProblem, RetardedSurface, RigidMotion, SingleLine, SurfaceResponse,
+    AxisDrive, ContactProblem, Influence, LineProblem, OneLine, RetardedSurface, RigidMotion, SurfaceResponse,
 };
 pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 pub use traction::{SolvedFriction, Traction, Yielding};

@@ -6,6 +6,7 @@
 
 use super::error::ContactError;
 use super::friction::Friction;
+use super::kernel::LineKernel;
 use super::limits::SteelLimits;
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
@@ -28,6 +29,12 @@ pub struct SurfaceResponse<'a> {
     pub own: Influence<'a>,
     /// Displacements by the forces of other lines, each weighted with its share of the width; `None`: there are none.
     pub others: Option<Influence<'a>>,
+    /// Displacement of one body by forces of the line, as far as only the line itself feels it [m/(N/m)]; `None`: there
+    /// are no other lines.
+    pub alone: Option<&'a DMatrix<f64>>,
+    /// Height by which the wheel would be displaced more under the normal force of all lines if what the bodies lack
+    /// were the same along and normal to the surface [m/(N/m)]: lever arms do not see what has no direction of its own.
+    pub lift: f64,
     /// Displacement of wheel and rail without contact forces and rigid accelerations \[m].
     pub free: [&'a DVector<f64>; 2],
     /// Displacement of the wheel surface per unit rigid acceleration, three columns (x, y, rotation).
@@ -146,8 +153,10 @@ impl RigidMotion {
 /// Gap and slip of one contact line as functions of contact forces and rigid motions, for one step or a stationary
 /// state. Forces are per metre of its own width.
 pub struct LineProblem<'a> {
-    /// Share of the contact's width \[1].
+    /// Its width over that of the bodies \[1].
     pub share: f64,
+    /// Flexibility that it has for itself.
+    pub kernel: LineKernel,
     /// Linear answer of the bodies.
     pub bodies: SurfaceResponse<'a>,
     /// Membrane forces `N(x)` of the hot layers of wheel and rail [N/m]; their gradients pull at the surfaces.
@@ -166,6 +175,13 @@ pub struct LineProblem<'a> {
     pub friction: Friction,
 }
 
+impl SurfaceResponse<'_> {
+    /// Displacements by the mean of the forces of all lines.
+    pub fn shared(&self) -> Influence<'_> {
+        self.others.unwrap_or(self.own)
+    }
+}
+
 impl LineProblem<'_> {
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
@@ -173,9 +189,9 @@ impl LineProblem<'_> {
     }
 }
 
-/// A contact problem of a single line.
+/// One line of a contact problem, with the rigid motions of the wheel.
 #[derive(Clone, Copy)]
-pub struct SingleLine<'a> {
+pub struct OneLine<'a> {
     /// The line.
     pub line: &'a LineProblem<'a>,
     /// Translation V, hub height U, rotation Ω.
@@ -190,9 +206,9 @@ impl ContactProblem<'_> {
     /// # Errors
     ///
     /// [`ContactError::SingleLine`] if there are several.
-    pub fn single(&self) -> Result<SingleLine<'_>, ContactError> {
+    pub fn single(&self) -> Result<OneLine<'_>, ContactError> {
         match self.lines.as_slice() {
-            [line] => Ok(SingleLine { line, rigid: &self.rigid, nominal_load: self.nominal_load }),
+            [line] => Ok(OneLine { line, rigid: &self.rigid, nominal_load: self.nominal_load }),
             lines => Err(ContactError::SingleLine { lines: lines.len() }),
         }
     }
@@ -200,7 +216,7 @@ impl ContactProblem<'_> {
 
 /// Contact lines under a wheel whose rigid motions are sought or prescribed.
 pub struct ContactProblem<'a> {
-    /// The contact lines; their shares of the width add up to one.
+    /// The contact lines.
     pub lines: Vec<LineProblem<'a>>,
     /// Translation V, hub height U, rotation Ω.
     pub rigid: [RigidMotion; 3],

@@ -7,6 +7,19 @@ use super::observation::{Observation, TemperatureField};
 use super::state::HeatState;
 use super::tensor::step::memory::HeatScratch;
 
+/// Step of one of the contact lines side by side, per metre of its own width.
+#[derive(Debug)]
+pub struct HeatLine<'a> {
+    /// State at the beginning.
+    pub state: &'a HeatState,
+    /// State at the end, to be replaced; its memory is reused.
+    pub next: &'a mut HeatState,
+    /// Exchange held over the step.
+    pub exchange: &'a Exchange,
+    /// Mean flows over the step, to be replaced.
+    pub flows: HeatFlows,
+}
+
 /// Model of the temperature of wheel and rail, per metre of the contact's width; immutable, its data are in the state.
 ///
 /// Velocities are that of the wheel's centre [m/s] and the angular one [rad/s], forward rolling positive. Temperatures
@@ -44,6 +57,24 @@ pub trait HeatModel: Send + Sync {
         scratch: &mut HeatScratch,
     ) -> Result<HeatFlows, HeatError>;
 
+    /// A step as [`Self::step`] takes it, for lines side by side that have speeds and step size in common; heat does
+    /// not flow from line to line. Results are those of each line alone, to round-off.
+    ///
+    /// On error all states at the end and flows are meaningless.
+    fn step_lines(
+        &self,
+        lines: &mut [HeatLine],
+        dt: f64,
+        velocity: f64,
+        omega: f64,
+        scratch: &mut HeatScratch,
+    ) -> Result<(), HeatError> {
+        for line in lines {
+            line.flows = self.step(line.state, line.next, dt, velocity, omega, line.exchange, scratch)?;
+        }
+        Ok(())
+    }
+
     /// Test that a state has the dimensions of this model.
     fn fits(&self, state: &HeatState) -> bool;
 
@@ -57,8 +88,8 @@ pub trait HeatModel: Send + Sync {
     /// of [`Self::zone_x`]. Depths from a tenth to four half-widths at the nominal load are told apart.
     fn mean_over_depth(&self, state: &HeatState, depth: f64, out: &mut [Vec<f64>; 2]) -> Result<(), HeatError>;
 
-    /// Data from which [`Self::column`] finds the temperatures of a body (0: wheel, 1: rail) at the given `depths` \[m],
-    /// which end at its far side; computed once, their meaning is the model's.
+    /// Data from which [`Self::column`] finds the temperatures of a body (0: wheel, 1: rail) at the given `depths`
+    /// \[m], which end at its far side; computed once, their meaning is the model's.
     fn depth_weights(&self, body: usize, depths: &[f64]) -> Vec<f64>;
 
     /// Fills `column` with the temperatures of a body (0: wheel, 1: rail) at the distance `s` \[m] along its surface

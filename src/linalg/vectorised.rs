@@ -32,17 +32,20 @@ macro_rules! vectorised {
 }
 pub(crate) use vectorised;
 
-/// Runs `$work::<S, B>($args, at)` for all blocks of registers of rows of `$k` registers; a block has [`BLOCK`]
-/// registers but for the last one.
+/// Runs `$work::<S, B>($args, at)`, or `$work::<S, B, L>`, for all blocks of registers of rows of `$k` registers; a
+/// block has up to [`BLOCK`] registers, and all have about as many.
 macro_rules! by_blocks {
-    ($k:expr, $work:ident::<$S:ident>($($arg:expr),* $(,)?)) => {
-        for at in (0..$k).step_by(BLOCK) {
-            match $k - at {
-                1 => $work::<$S, 1>($($arg),*, at),
-                2 => $work::<$S, 2>($($arg),*, at),
-                3 => $work::<$S, 3>($($arg),*, at),
-                _ => $work::<$S, BLOCK>($($arg),*, at),
+    ($k:expr, $work:ident::<$S:ident $(, $L:ident)?>($($arg:expr),* $(,)?)) => {
+        let (k, mut at): (usize, usize) = ($k, 0);
+        let block = k.div_ceil(k.div_ceil(BLOCK).max(1)).max(1);
+        while at < k {
+            match block.min(k - at) {
+                1 => $work::<$S, 1 $(, $L)?>($($arg),*, at),
+                2 => $work::<$S, 2 $(, $L)?>($($arg),*, at),
+                3 => $work::<$S, 3 $(, $L)?>($($arg),*, at),
+                _ => $work::<$S, BLOCK $(, $L)?>($($arg),*, at),
             }
+            at += block;
         }
     };
 }

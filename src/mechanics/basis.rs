@@ -5,7 +5,7 @@
 
 use super::reduction::ReducedBasis;
 use super::{BodySystem, MechanicsError, check_size, contact_zone, rail_system, wheel_system};
-use crate::config::Config;
+use crate::config::{Config, ContactShape};
 use serde::{Deserialize, Serialize};
 use std::sync::mpsc;
 use std::{panic, thread};
@@ -67,7 +67,11 @@ pub fn key(config: &Config) -> String {
     let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
     let elastic = [material.youngs_modulus, material.poissons_ratio, material.density];
     let zone = [contact_zone(config).reach];
-    let line_load = [model.nominal_load / model.contact_width];
+    let line_load = match config.contact.shape {
+        ContactShape::Line => [model.nominal_load / model.contact_width],
+        // No load is negative.
+        ContactShape::Ellipse => [-config.nominal_patch().half_length],
+    };
     let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
     let streaming = config.damping.rayleigh_stiffness > 0.0;
     let mut bytes = CODE.as_bytes().to_vec();

@@ -1,18 +1,13 @@
 //! Patch, fine zone, cells and masses, as they follow from the parameters without a mesh.
 
-use crate::analytic;
 use crate::config::{Config, MeshParameters, Response};
 use crate::fem::ContactZone;
-use crate::material::Isotropic;
 use crate::surface;
 use std::f64::consts::PI;
 
-/// Half-width `a = √(4 P R / (π E*))` \[m] of the Hertzian line contact of a cylinder on a plane of the same material.
-///
-/// `P` nominal load per metre of width, `1/E* = 2 (1 − ν²)/E`. Source: Johnson, *Contact Mechanics* (1985), eq. 4.43.
+/// Half of the length of the contact under the nominal load along the direction of rolling \[m].
 pub fn nominal_half_width(config: &Config) -> f64 {
-    let load = config.model.nominal_load / config.model.contact_width;
-    analytic::hertz_half_width(load, config.wheel.radius, Isotropic::from(&config.material).contact_modulus())
+    config.nominal_patch().half_length
 }
 
 /// Finite elements per half-width of the nominal contact: full bodies have no other nodes than theirs for the contact.

@@ -12,6 +12,7 @@ mod layout;
 mod meshes;
 mod motion;
 mod pair;
+mod rectangle;
 pub mod reduced;
 pub mod reduction;
 mod refined;

@@ -16,28 +16,35 @@ pub struct ReducedBasis {
     /// `Ω²` [rad²/s²], ascending, `m`.
     pub squared_frequencies: DVector<f64>,
     /// Modes on the surface `Φ_s`, `2n × m` [√(m/kg)].
+    #[serde(deserialize_with = "super::rectangle::deserialize")]
     pub shapes: DMatrix<f64>,
     /// Residual flexibility `F_res`, `2n × 2n`, symmetric: half of it is stored [m/(N/m)].
     #[serde(with = "super::triangle")]
     pub residual: DMatrix<f64>,
     /// `Φᵀ M r_k`, `m × 3`; the rail has no `r_Ω`.
+    #[serde(deserialize_with = "super::rectangle::deserialize")]
     pub rigid: DMatrix<f64>,
     /// Static surface answer of the truncated modes to unit rigid accelerations, `2n × 3`.
+    #[serde(deserialize_with = "super::rectangle::deserialize")]
     pub rigid_residual: DMatrix<f64>,
     /// `Φᵀ M X`, `m`.
     pub centrifugal: DVector<f64>,
     /// Static surface answer of the truncated modes to the centrifugal load per `Ω²`, `2n`.
     pub centrifugal_residual: DVector<f64>,
     /// `Φᵀ C Φ`, `m × m`.
+    #[serde(deserialize_with = "super::rectangle::deserialize")]
     pub gyroscopic: DMatrix<f64>,
     /// `Φᵀ (S − B) Φ`, `m × m`.
+    #[serde(deserialize_with = "super::rectangle::deserialize")]
     pub ale_inertia: DMatrix<f64>,
     /// `Φᵀ D Φ` of dashpots, `m × m` [1/s]; `None`: there are none.
+    #[serde(deserialize_with = "super::rectangle::optional")]
     pub damping: Option<DMatrix<f64>>,
     /// Which ratios damp the modes, and their rate in the stream.
     pub character: ModeCharacter,
     /// Rate that the static answer of the truncated modes to surface forces adds to the modes as the stream carries it,
     /// transposed: `S K⁻¹ Tᵀ Φ` less what the modes hold of it, `2n × m`; `None`: not asked for.
+    #[serde(deserialize_with = "super::rectangle::optional")]
     pub carried: Option<DMatrix<f64>>,
 }
 

@@ -4,12 +4,13 @@ use super::line::Line;
 use super::lines;
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
-use crate::contact::line::kernel::{KernelCorrection, LineKernel};
-use crate::contact::{Influence, Ports};
+use crate::contact::line::kernel::{KernelCorrection, line_compliance};
+use crate::contact::{Influence, LineKernel, LineLayout, Ports};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::mechanics::{MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Number of step sizes whose operators are kept: those of steps that are halved and joined again.
@@ -31,9 +32,9 @@ pub struct Bodies {
     correction: Option<KernelCorrection>,
     /// Positions of the nodes of the narrow and of the wide ports \[m], and their distance in the middle \[m].
     nodes: ([Vec<f64>; 2], f64),
-    /// Compliance that every one of several lines has for itself, of one body at the narrow and at the wide ports
-    /// [m/(N/m)]; `None`: there is a single line.
-    own: Option<[DMatrix<f64>; 2]>,
+    /// Flexibility of one body that belongs to lines, where they have one of their own beside that of the bodies; its
+    /// compliances at the narrow and wide ports [m/(N/m)].
+    apart: Option<(LineKernel, [DMatrix<f64>; 2])>,
     /// True if this correction is part of them, because it is damped as they are.
     hold_correction: bool,
 }
@@ -52,46 +53,58 @@ pub struct Operators {
     pub base: Option<CondensedBase>,
     /// Sum of both surface compliances [m/(N/m)].
     pub relative: DMatrix<f64>,
-    /// Compliances of several lines; `None`: there is a single one.
-    lines: Option<LineOperators>,
+    /// Sums and parts of the compliances that all lines share; `None`: there is a single line.
+    shared: Option<Compliances>,
+    /// See [`crate::contact::SurfaceResponse::lift`].
+    pub lift: f64,
+    /// Nodes of the ports \[m] and their distance in the middle \[m]; none where they are smooth.
+    nodes: Option<(Vec<f64>, f64)>,
 }
 
 /// Compliances of wheel and rail, and their sum [m/(N/m)].
 type Compliances = ([DMatrix<f64>; 2], DMatrix<f64>);
 
-/// Compliances of several lines.
-struct LineOperators {
-    /// By the forces of a line itself, for every line.
-    own: Vec<Compliances>,
-    /// By the forces of other lines.
-    others: Compliances,
+/// Compliances by the forces of one of several lines itself [m/(N/m)].
+pub struct OwnCompliances {
+    /// Flexibility of one body that belongs to the line.
+    alone: DMatrix<f64>,
+    whole: Compliances,
 }
 
-impl LineOperators {
-    /// Those of lines that each have the compliance `own` for themselves, on bodies with the compliances `whole`.
-    fn new(own: &DMatrix<f64>, whole: [&DMatrix<f64>; 2], lines: &[Line]) -> Self {
-        let with_sum = |[wheel, rail]: [DMatrix<f64>; 2]| {
-            let sum = &wheel + &rail;
-            ([wheel, rail], sum)
-        };
-        let shared = whole.map(|whole| whole - own);
-        let of_line = |line: &Line| with_sum(shared.each_ref().map(|shared| own + line.share * shared));
-        Self { own: lines.iter().map(of_line).collect(), others: with_sum(shared) }
+impl OwnCompliances {
+    /// Displacement of one body as far as only the line itself feels it.
+    pub fn alone(&self) -> &DMatrix<f64> {
+        &self.alone
     }
 }
 
+fn with_sum([wheel, rail]: [DMatrix<f64>; 2]) -> Compliances {
+    let sum = &wheel + &rail;
+    ([wheel, rail], sum)
+}
+
 impl Operators {
-    /// Displacements by the forces of line `k` itself.
-    pub fn own(&self, k: usize) -> Influence<'_> {
-        match self.lines.as_ref().and_then(|lines| lines.own.get(k)) {
-            Some(own) => influence(own),
+    /// Compliances by the forces of a line itself; `None` where there is a single one, and at smooth ports, whose
+    /// solver knows the flexibility of lines.
+    pub fn of_line(&self, layout: &LineLayout) -> Option<OwnCompliances> {
+        let (nodes, spacing) = self.nodes.as_ref()?;
+        let ([wheel, rail], _) = self.shared.as_ref()?;
+        let alone = line_compliance(&layout.kernel, nodes, *spacing);
+        let whole = with_sum([wheel, rail].map(|shared| &alone + layout.share * shared));
+        Some(OwnCompliances { alone, whole })
+    }
+
+    /// Displacements by the forces of a line itself, whose compliances are `of_line` where there are several.
+    pub fn own<'a>(&'a self, of_line: Option<&'a OwnCompliances>) -> Influence<'a> {
+        match of_line {
+            Some(own) => influence(&own.whole),
             None => Influence { compliance: [&self.wheel.surface, &self.rail.surface], relative: &self.relative },
         }
     }
 
     /// Displacements by the forces of other lines; `None`: there are none.
     pub fn others(&self) -> Option<Influence<'_>> {
-        self.lines.as_ref().map(|lines| influence(&lines.others))
+        self.shared.as_ref().map(influence)
     }
 }
 
@@ -122,7 +135,7 @@ impl Bodies {
         let narrow = corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len());
         let wide = wide.map(|pair| corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len()));
         let smooth = pair.smooth.map(|pair| [pair.wheel, pair.rail]);
-        Self { narrow, wide, smooth, support, correction, nodes, own: None, hold_correction }
+        Self { narrow, wide, smooth, support, correction, nodes, apart: None, hold_correction }
     }
 
     /// Wheel and rail as the contact of a state sees them.
@@ -141,16 +154,32 @@ impl Bodies {
         [0, 1].map(|body| BodyState::zeros(self.narrow[body].state_len()))
     }
 
-    /// Gives each of several lines a flexibility of its own.
+    /// Takes from each body the flexibility `kernel`, in whose place lines have one of their own.
     pub fn with_lines(mut self, kernel: LineKernel) -> Self {
-        let (nodes, spacing) = &self.nodes;
-        self.own = Some(nodes.each_ref().map(|nodes| kernel.matrix(nodes, *spacing)));
+        let ([narrow, wide], spacing) = &self.nodes;
+        self.apart = Some((kernel, [narrow, wide].map(|nodes| line_compliance(&kernel, nodes, *spacing))));
         self
     }
 
-    /// Compliance that every one of several lines has for itself at given ports.
-    fn own(&self, ports: Ports) -> Option<&DMatrix<f64>> {
-        let [narrow, wide] = self.own.as_ref()?;
+    /// Compliance of the flexibility that belongs to lines, at given ports with `size` components.
+    fn apart(&self, ports: Ports, size: usize) -> Option<Cow<'_, DMatrix<f64>>> {
+        let (kernel, [narrow, wide]) = self.apart.as_ref()?;
+        // Bodies at smooth ports lack `−κ ln|x|` already.
+        let rest = |i: usize, j: usize| match (i % 2, j % 2) {
+            (0, 0) => kernel.tangential.factor * kernel.tangential.reach,
+            (1, 1) => kernel.normal.factor * kernel.normal.reach,
+            _ => 0.0,
+        };
+        Some(match ports {
+            Ports::Narrow => Cow::Borrowed(narrow),
+            Ports::Wide => Cow::Borrowed(wide),
+            Ports::Smooth => Cow::Owned(DMatrix::from_fn(size, size, rest)),
+        })
+    }
+
+    /// Nodes of given ports \[m].
+    fn nodes(&self, ports: Ports) -> Option<&Vec<f64>> {
+        let ([narrow, wide], _) = &self.nodes;
         match ports {
             Ports::Narrow => Some(narrow),
             Ports::Wide => Some(wide),
@@ -166,7 +195,24 @@ impl Bodies {
             (Ports::Narrow | Ports::Wide, Some(correction)) => correction.energy(&forces),
             (Ports::Narrow | Ports::Wide, None) | (Ports::Smooth, _) => state.sum(|line| line.contact.energy),
         };
-        correction + self.own(ports_of(state)).map_or(0.0, |own| energy_apart(own, state))
+        correction + self.energy_of_lines(state)
+    }
+
+    /// Elastic energy of the flexibility of lines that the bodies do not count, less that which they count in its place
+    /// [J/m].
+    fn energy_of_lines(&self, state: &State) -> f64 {
+        let ports = ports_of(state);
+        let Some(apart) = self.apart(ports, self::ports(state)) else { return 0.0 };
+        let quadratic = |matrix: &DMatrix<f64>, forces: &DVector<f64>| 0.5 * forces.dot(&(matrix * forces));
+        let counted: f64 = [0, 1].map(|body| quadratic(&apart, &state.loads(body))).iter().sum();
+        let of_line = |line: &Line| {
+            let own = self.nodes(ports).map_or(0.0, |nodes| {
+                let alone = line_compliance(&line.layout.kernel, nodes, self.nodes.1);
+                line.contact.traction.loads.iter().map(|loads| quadratic(&alone, loads)).sum()
+            });
+            own + line.layout.energy
+        };
+        state.sum(of_line) - counted
     }
 
     /// Operators for `a0` on the ports of `state`, from the cache if they are there.
@@ -193,9 +239,13 @@ impl Bodies {
                 Ports::Narrow | Ports::Wide | Ports::Smooth => {}
             }
             let relative = &wheel.surface + &rail.surface;
-            let own = self.own(ports);
-            let lines = own.map(|own| LineOperators::new(own, [&wheel.surface, &rail.surface], &state.lines));
-            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative, lines }));
+            let apart = self.apart(ports, wheel.surface.nrows());
+            let shared = apart.map(|apart| with_sum([&wheel, &rail].map(|body| &body.surface - &*apart)));
+            let nodes = shared.as_ref().and_then(|_| self.nodes(ports)).map(|nodes| (nodes.clone(), self.nodes.1));
+            let lift = self.apart.as_ref().map_or(0.0, |(LineKernel { tangential, normal, .. }, _)| {
+                normal.factor * normal.reach - tangential.factor * tangential.reach
+            });
+            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative, shared, lift, nodes }));
         }
         Ok(recent[recent.len() - 1].clone())
     }
@@ -274,19 +324,6 @@ impl Bodies {
         let [wheel, rail] = self.of(state);
         fits(&state.wheel, wheel) && fits(&state.rail, rail)
     }
-}
-
-/// Energy of the flexibility `own` that the lines have for themselves [J/m]: the differences of their forces from the
-/// mean deform it.
-fn energy_apart(own: &DMatrix<f64>, state: &State) -> f64 {
-    let of_body = |body: usize| {
-        let mean = state.loads(body);
-        state.sum(|line| {
-            let apart = &line.contact.traction.loads[body] - &*mean;
-            0.5 * apart.dot(&(own * &apart))
-        })
-    };
-    of_body(0) + of_body(1)
 }
 
 /// Adds half of a correction to the surface compliance of each body.

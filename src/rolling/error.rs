@@ -158,7 +158,7 @@ pub enum ModelError {
     /// Contact lines that no model can have.
     #[error(
         "contact lines with the shares {shares:?} of the width and a reach of {length:?} m: shares must be positive and add up \
-         to 1, the reach must be positive, and solver.contact must be grid"
+         to 1, and the reach must be positive"
     )]
     Lines {
         /// Shares of the width \[1].

@@ -1,15 +1,15 @@
 //! One of the contact lines side by side.
 
 use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
-use crate::contact::ContactState;
+use crate::contact::{ContactState, LineLayout};
 use crate::surface::Flattening;
 use serde::{Deserialize, Serialize};
 
 /// One contact line, per metre of its own width.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Line {
-    /// Share of the contact's width \[1]; those of all lines add up to one.
-    pub share: f64,
+    /// Its part of the patch.
+    pub layout: LineLayout,
     /// Contact: result of the last step and start of the next one.
     pub contact: ContactState,
     /// Material that wheel and rail have lost to yield and wear.

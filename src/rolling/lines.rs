@@ -12,7 +12,12 @@ use std::borrow::Cow;
 impl State {
     /// Sum of a quantity per metre of width over all lines, by their shares of the width.
     pub fn sum(&self, of: impl Fn(&Line) -> f64) -> f64 {
-        self.lines.iter().map(|line| line.share * of(line)).sum()
+        sum(&self.lines, of)
+    }
+
+    /// Width of all lines over that of the bodies \[1].
+    pub fn covered(&self) -> f64 {
+        self.sum(|_| 1.0)
     }
 
     /// Largest value of a quantity on any line.
@@ -41,13 +46,27 @@ impl State {
         self.largest(|line| line.contact.traction.half_width())
     }
 
+    /// Mean of a quantity over all lines, by their widths.
+    pub fn mean(&self, of: impl Fn(&Line) -> f64) -> f64 {
+        self.weighted_mean(|_| 1.0, of)
+    }
+
     /// Mean of a quantity over all lines, by the normal forces that they carry; without contact by their widths.
-    fn mean_under_load(&self, of: impl Fn(&Line) -> f64) -> f64 {
-        let [_, load, _] = self.resultant();
+    pub fn mean_under_load(&self, of: impl Fn(&Line) -> f64) -> f64 {
+        self.weighted_mean(|line| line.contact.traction.resultant[1], of)
+    }
+
+    /// Mean of a quantity over all lines, by the area on which they touch; without contact by their widths.
+    pub fn mean_over_area(&self, of: impl Fn(&Line) -> f64) -> f64 {
+        self.weighted_mean(|line| line.contact.traction.touching(), of)
+    }
+
+    fn weighted_mean(&self, weight: impl Fn(&Line) -> f64, of: impl Fn(&Line) -> f64) -> f64 {
+        let weights = self.sum(&weight);
         match self.lines.as_slice() {
             [line] => of(line),
-            _ if load > 0.0 => self.sum(|line| line.contact.traction.resultant[1] * of(line)) / load,
-            _ => self.sum(of),
+            _ if weights > 0.0 => self.sum(|line| weight(line) * of(line)) / weights,
+            _ => self.sum(of) / self.covered(),
         }
     }
 
@@ -85,8 +104,14 @@ impl State {
     /// Positions \[m] along the surfaces of wheel (of that `radius` \[m]) and rail that lie below the wheel centre.
     /// That of the wheel goes by the rim, which torsion turns against the hub.
     pub fn place(&self, radius: f64) -> [f64; 2] {
-        [(self.motion.angle - self.sum(|line| line.contact.rim_angle())) * radius, self.motion.distance]
+        let rim_angle = self.mean_under_load(|line| line.contact.rim_angle());
+        [(self.motion.angle - rim_angle) * radius, self.motion.distance]
     }
+}
+
+/// Sum of a quantity per metre of width over lines, by their shares of the width.
+pub fn sum(lines: &[Line], of: impl Fn(&Line) -> f64) -> f64 {
+    lines.iter().map(|line| line.layout.share * of(line)).sum()
 }
 
 /// Mean of vectors of the lines by their shares of the width; empty without lines.
@@ -95,7 +120,7 @@ pub fn mean<'a>(lines: &'a [Line], of: impl Fn(&'a Line) -> &'a DVector<f64>) ->
         [line] => Cow::Borrowed(of(line)),
         lines => {
             let mut mean = DVector::zeros(lines.first().map_or(0, |line| of(line).len()));
-            lines.iter().for_each(|line| mean.axpy(line.share, of(line), 1.0));
+            lines.iter().for_each(|line| mean.axpy(line.layout.share, of(line), 1.0));
             Cow::Owned(mean)
         }
     }

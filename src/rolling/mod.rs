@@ -7,14 +7,15 @@
 //! | [`state`], [`line`](mod@line), [`thermal_state`] | data of a restart: shared ones, those of a contact line, its temperatures |
 //! | [`lines`] | sums, means and extremes over all lines |
 //! | [`control`], [`error`] | inputs; failures |
-//! | [`support`], [`bodies`], [`rigid`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
+//! | [`support`], [`bodies`], [`rigid`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
-//! | [`flattening`], [`wear`] | changes of the surfaces by yielding and friction in a step |
+//! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
 //! | [`zones`] | how much of the surfaces the contact sees |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
-//! | [`output_rows`], [`outputs`], [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
+//! | [`output_rows`], [`outputs`], `across`, [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
 
+mod across;
 pub mod audit;
 pub mod bodies;
 pub mod brake;
@@ -28,9 +29,11 @@ pub mod lines;
 pub mod model;
 pub mod output_rows;
 pub mod outputs;
+pub mod patch_lines;
 pub mod profile;
 pub mod rigid;
 pub mod sensitivity;
+mod spreading;
 pub mod standing;
 pub mod state;
 pub mod stationary;
@@ -48,6 +51,6 @@ pub use error::{ModelError, StepError};
 pub use line::Line;
 pub use model::{RollingModel, Workspace};
 pub use output_rows::{OutputRow, Outputs, Read};
-pub use profile::PROFILE_POINTS;
+pub use profile::{MOST_LINES, PROFILE_POINTS};
 pub use sensitivity::{Difference, Origin};
 pub use state::State;

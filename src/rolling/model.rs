@@ -4,17 +4,18 @@ use super::bodies::{Bodies, OperatorCache};
 use super::contact_model::ContactModel;
 use super::error::ModelError;
 use super::line::Line;
+use super::patch_lines::{self, PatchLines};
 use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
-use crate::analytic::{self, HalfPlane};
+use crate::analytic;
 use crate::config::{Config, ContactMethod};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
-use crate::contact::line::kernel::{KernelCorrection, LineKernel};
+use crate::contact::line::kernel::KernelCorrection;
 use crate::contact::series::{Fallback, SeriesSolver};
-use crate::contact::{self, ContactSolver};
+use crate::contact::{self, ContactSolver, LineKernel};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
@@ -37,6 +38,8 @@ pub struct RollingModel {
     pub zone: f64,
     /// Half-length of the zone beyond which contact is never looked for \[m].
     pub reach: f64,
+    /// Width of the patch under the nominal load, of which the heat model is \[m].
+    pub patch_width: f64,
     /// Torsion of the wheel on its hub, which falling friction can excite [rad/s].
     pub torsion: f64,
 }
@@ -80,19 +83,19 @@ impl RollingModel {
             solver = solver.with_wider(grid(wide));
         }
         let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies, &surfaces) {
-            Some((half_plane, reach)) => {
+            Some(reach) => {
                 let only = config.solver.contact.requires_patch();
                 let fallback = if only { Fallback::Refuse } else { Fallback::ActiveSet };
-                Box::new(SeriesSolver::new(solver, half_plane, reach, fallback))
+                Box::new(SeriesSolver::new(solver, reach, fallback))
             }
             None => Box::new(solver),
         };
         Self::with_solver(config, bodies, surfaces, solver, Some(correction))
     }
 
-    /// Half-plane that the bodies lack, and the distance up to which they are known \[m], where the series are asked
-    /// for and no parameter rules them out.
-    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<(HalfPlane, f64)> {
+    /// Distance up to which the bodies less half-planes are known \[m], where the series are asked for and no parameter
+    /// rules them out.
+    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<f64> {
         // Reversible heating needs the strains of the surfaces.
         let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
         let sought = match config.solver.contact {
@@ -101,7 +104,7 @@ impl RollingModel {
             ContactMethod::Patch => true,
         };
         let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
-        (!reversible).then_some((smooth.half_plane, smooth.reach))
+        (!reversible).then_some(smooth.reach)
     }
 
     /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports;
@@ -115,16 +118,23 @@ impl RollingModel {
     ) -> Result<Self, ModelError> {
         let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
         let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
-        let shear = Isotropic::from(&config.material).shear_wave_speed();
+        let steel = Isotropic::from(&config.material);
+        let shear = steel.shear_wave_speed();
         let thermal = match config.thermal.enabled {
             true => Some(ThermalModel::new(&config, zone, bodies.spacing, reach)?),
             false => None,
         };
         Ok(Self {
             wheel: RigidWheel::new(&config),
-            bodies: Bodies::new(bodies, TrackSupport::new(&config), correction),
+            bodies: match config.contact.shape.is_line() {
+                true => Bodies::new(bodies, TrackSupport::new(&config), correction),
+                false => {
+                    Bodies::new(bodies, TrackSupport::new(&config), correction).with_lines(patch_lines::apart(&config))
+                }
+            },
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach)),
             reach: zone.max(reach),
+            patch_width: config.nominal_patch().width,
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
             zone,
@@ -138,17 +148,16 @@ impl RollingModel {
     ///
     /// # Errors
     ///
-    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one, or if `solver.contact` is not `grid`:
-    /// the series take a single line.
+    /// [`ModelError::Lines`] if the shares are not positive or do not add up to one.
     pub fn with_lines(mut self, shares: Vec<f64>, length: f64) -> Result<Self, ModelError> {
         let sum: f64 = shares.iter().sum();
         let sound = shares.iter().all(|share| *share > 0.0) && (sum - 1.0).abs() < SHARES_ROUND_OFF && length > 0.0;
-        if !sound || !self.config.solver.contact.takes_lines() {
+        if !sound {
             return Err(ModelError::Lines { shares, length });
         }
-        let half_plane = Isotropic::from(&self.config.material).half_plane().kernel;
-        self.bodies = self.bodies.with_lines(LineKernel { half_plane, length });
-        self.contact.shares = shares;
+        let kernel = LineKernel::of_half_plane(Isotropic::from(&self.config.material).half_plane(), length);
+        self.bodies = self.bodies.with_lines(kernel);
+        self.contact.patch = PatchLines::constant(&shares, kernel);
         Ok(self)
     }
 
@@ -165,6 +174,11 @@ impl RollingModel {
         Ok(self)
     }
 
+    /// Width of the patch under the nominal load over that in a state \[1].
+    pub fn narrowing(&self, state: &State) -> f64 {
+        self.patch_width / (self.wheel.width * state.covered())
+    }
+
     /// Outer radius of the wheel in a state \[m]: the cold one and its growth by the bulk temperature.
     pub fn rolling_radius(&self, state: &State) -> f64 {
         self.wheel.radius + state.growth()
@@ -173,7 +187,7 @@ impl RollingModel {
     /// True if a state has the dimensions of this model and only finite numbers in its contact forces.
     pub fn fits(&self, state: &State) -> bool {
         self.bodies.fits(state)
-            && state.lines.iter().map(|line| line.share).eq(self.contact.shares.iter().copied())
+            && self.contact.patch.fits(&state.lines)
             && state.lines.iter().all(|line| self.fits_line(line))
     }
 

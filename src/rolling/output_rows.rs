@@ -1,6 +1,6 @@
 //! Outputs of the model at a communication point. An output is one row here, and its value in [`super::outputs`].
 
-use super::profile::PROFILE_POINTS;
+use super::profile::{MOST_LINES, PROFILE_POINTS};
 use crate::config::units::Measure;
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub enum Read {
     Count(fn(&Outputs) -> u64),
     /// Yes or no.
     Flag(fn(&Outputs) -> bool),
-    /// All points of a profile across the contact zone, or over the depth.
+    /// All points of a profile across the contact zone or over the depth, or all lines of the patch.
     Profile(fn(&Outputs) -> &[f64]),
     /// All points of a profile that is computed only when it is asked for; empty until then.
     Deferred(fn(&Outputs) -> &[f64]),
@@ -44,7 +44,7 @@ pub struct OutputRow {
     pub points: &'static [(&'static str, &'static str)],
 }
 
-/// Name and meaning of the points of a profile, counted from 1.
+/// Name and meaning of the points of a profile or of the lines of the patch, counted from 1.
 macro_rules! points {
     ($name:literal, $text:literal) => {
         points!(@numbers $name, $text, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30
@@ -53,6 +53,12 @@ macro_rules! points {
     (@numbers $name:literal, $text:literal, $($number:literal)*) => {{
         const POINTS: [(&str, &str); PROFILE_POINTS] =
             [$( (concat!($name, "[", $number, "]"), concat!($text, ", point ", $number)) ),*];
+        &POINTS
+    }};
+    (lines $name:literal, $text:literal) => { points!(@lines $name, $text, 1 2 3 4 5 6 7 8 9 10 11 12 13) };
+    (@lines $name:literal, $text:literal, $($number:literal)*) => {{
+        const POINTS: [(&str, &str); MOST_LINES] =
+            [$( (concat!($name, "[", $number, "]"), concat!($text, ", line ", $number)) ),*];
         &POINTS
     }};
 }
@@ -66,13 +72,16 @@ macro_rules! outputs {
     (@type flag) => { bool };
     (@type profile) => { Vec<f64> };
     (@type deferred) => { Vec<f64> };
+    (@type lines) => { Vec<f64> };
     (@read real $field:ident) => { Read::Real(|outputs| outputs.$field) };
     (@read count $field:ident) => { Read::Count(|outputs| outputs.$field) };
     (@read flag $field:ident) => { Read::Flag(|outputs| outputs.$field) };
     (@read profile $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
     (@read deferred $field:ident) => { Read::Deferred(|outputs| &outputs.$field) };
+    (@read lines $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
     (@points profile $name:literal $text:literal) => { points!($name, $text) };
     (@points deferred $name:literal $text:literal) => { points!($name, $text) };
+    (@points lines $name:literal $text:literal) => { points!(lines $name, $text) };
     (@points $sort:ident $name:literal $text:literal) => { &[] };
     (@measure) => { Measure { unit: "1", display: None } };
     (@measure $unit:literal) => { Measure { unit: $unit, display: None } };
@@ -139,7 +148,10 @@ outputs! {
     308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0,
         "Sticking share of the contact width";
     309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
-        "Half the distance between the outermost contact edges";
+        "Half the distance between the outermost contact edges, on the longest line of the patch";
+    319 contact_width: real "contact.width", in "m" as "mm", from 0.0, nominal 1e-2,
+        "Width of the patch across the direction of rolling: model.contact_width, or with contact.shape = ellipse twice its \
+         lateral half axis under the present load";
     310 contact_pressure_max: real "contact.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
         "Largest contact pressure: the peak between the nodes of the contact where they show one, and nowhere less than at a node";
     311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,
@@ -323,6 +335,26 @@ outputs! {
         "Surface temperature of the wheel";
     15000 profile_temperature_rail: profile "profile.temperature_rail", in "K" as "degC", from 0.0, nominal 300.0,
         "Surface temperature of the rail";
+    22000 line_position: lines "line.position", in "m" as "mm", nominal 5e-3,
+        "Lateral position of a line of the patch, from its middle; 0 for lines beyond contact.lines, as all that follows";
+    22100 line_half_length: lines "line.half_length", in "m" as "mm", from 0.0, nominal 5e-3,
+        "Half the distance between the outermost contact edges of a line";
+    22200 line_force_x: lines "line.force_x", in "N" as "kN", nominal 1e3,
+        "Tangential force of a line on the wheel, positive in x; contact.force_x is their sum";
+    22300 line_force_y: lines "line.force_y", in "N" as "kN", nominal 1e4,
+        "Normal force of a line on the wheel; contact.force_y is their sum";
+    22400 line_pressure_max: lines "line.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
+        "Largest pressure of a line";
+    22500 line_stick: lines "line.stick_fraction", in "1" as "%", from 0.0 to 1.0, "Sticking share of a line";
+    22600 line_friction: lines "line.friction", in "1", from 0.0, nominal 0.3, "Friction coefficient of a line";
+    22700 line_tread_slip: lines "line.tread_slip", in "m/s" as "mm/s", nominal 1e-2,
+        "Pressure-weighted mean slip velocity of a line";
+    22800 line_friction_power: lines "line.friction_power", in "W" as "kW", nominal 1e3,
+        "Power that friction on a line turns into heat at the end of the communication step";
+    22900 line_temperature_wheel: lines "line.temperature_wheel_max", in "K" as "degC", from 0.0, nominal 300.0,
+        "Highest surface temperature of the wheel on a line";
+    23000 line_temperature_rail: lines "line.temperature_rail_max", in "K" as "degC", from 0.0, nominal 300.0,
+        "Highest surface temperature of the rail on a line";
     17000 profile_depth: profile "profile.depth", in "m" as "mm", from 0.0 to 1.0, nominal 5e-3,
         "Depth below the tread";
     18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,

@@ -1,5 +1,6 @@
 //! Observables of a state, for the whole wheel in SI units.
 
+use super::across;
 use super::control::{creepage, per_metre, slide};
 use super::line::Line;
 use super::model::RollingModel;
@@ -17,7 +18,8 @@ use crate::surface::WearLaw;
 /// Observables of a state.
 ///
 /// Forces, energies and heat are those of all lines together, extremes the largest on any line, means those over the
-/// width or, of friction and slip, over the load. Profiles are those of the line with the largest pressure.
+/// area of the contact or, of friction and slip, over the load. Profiles are those of the line with the largest
+/// pressure.
 pub fn observe(model: &RollingModel, state: &State) -> Outputs {
     let width = model.wheel.width;
     let none = Line::default();
@@ -40,8 +42,9 @@ pub fn observe(model: &RollingModel, state: &State) -> Outputs {
         contact_slip_velocity: v - v_c,
         contact_adhesion: ratio(force_x, force_y),
         contact_utilisation: ratio(friction_force.abs() * width, state.friction() * force_y),
-        contact_stick_fraction: state.sum(|line| line.contact.traction.stick_fraction),
+        contact_stick_fraction: state.mean_over_area(|line| line.contact.traction.stick_fraction),
         contact_half_width: state.half_width(),
+        contact_width: width * state.covered(),
         contact_pressure_max: traction.pressure_max,
         contact_approach: state.elevation - state.motion.height.now,
         contact_force_min: state.pressing.lowest * width,
@@ -78,7 +81,7 @@ pub fn observe(model: &RollingModel, state: &State) -> Outputs {
         stored_energy: (state.audit.energy - state.audit.initial_energy) * width,
         friction_energy: state.audit.friction * width,
         plastic_energy: state.audit.plastic * width,
-        yielded: state.sum(|line| line.contact.traction.yielding.share),
+        yielded: state.mean_over_area(|line| line.contact.traction.yielding.share),
         damping_energy: state.audit.damping * width,
         t_gamma,
         surface_fatigue: surface_fatigue(
@@ -97,7 +100,7 @@ pub fn observe(model: &RollingModel, state: &State) -> Outputs {
         profile_shear: sampled(&traction.shear, &points),
         profile_slip: sampled(&traction.slip, &points),
         profile_x: points,
-        ..surface_outputs(model, state, pressed)
+        ..across::outputs(model, state, surface_outputs(model, state, pressed))
     }
 }
 
@@ -108,8 +111,8 @@ pub fn observe_all(model: &RollingModel, state: &State) -> Outputs {
     outputs
 }
 
-/// Fills the observables that [`observe`] leaves empty because few people ask for them: temperatures over the depth under
-/// the line with the largest pressure.
+/// Fills the observables that [`observe`] leaves empty because few people ask for them: temperatures over the depth
+/// under the line with the largest pressure.
 pub fn complete(model: &RollingModel, state: &State, outputs: &mut Outputs) {
     let shown = state.line_of_largest(|line| line.contact.traction.pressure_max);
     let columns = match (&model.thermal, shown.and_then(|line| line.thermal.as_ref())) {
@@ -158,20 +161,22 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs
     };
     let kelvin = heat.reference();
     let of = |of: &dyn Fn(&ThermalState) -> f64, line: &Line| line.thermal.as_ref().map_or(0.0, of);
-    let mean = |value: &dyn Fn(&ThermalState) -> f64| state.sum(|line| of(value, line));
+    let sum = |value: &dyn Fn(&ThermalState) -> f64| state.sum(|line| of(value, line));
+    let mean = |value: &dyn Fn(&ThermalState) -> f64| state.mean(|line| of(value, line));
+    let over_patch = |value: &dyn Fn(&ThermalState) -> f64| state.mean_over_area(|line| of(value, line));
     let most = |value: &dyn Fn(&ThermalState) -> f64| state.largest(|line| of(value, line));
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
     Outputs {
         temperature_wheel_max: kelvin + most(&|thermal| thermal.temperatures.wheel_max),
         temperature_rail_max: kelvin + most(&|thermal| thermal.temperatures.rail_max),
-        temperature_wheel_mean: kelvin + mean(&|thermal| thermal.patch_mean[0]),
-        temperature_rail_mean: kelvin + mean(&|thermal| thermal.patch_mean[1]),
-        temperature_friction: kelvin + mean(&|thermal| thermal.friction_excess()),
+        temperature_wheel_mean: kelvin + over_patch(&|thermal| thermal.patch_mean[0]),
+        temperature_rail_mean: kelvin + over_patch(&|thermal| thermal.patch_mean[1]),
+        temperature_friction: kelvin + state.mean_under_load(|line| of(&|thermal| thermal.friction_excess(), line)),
         temperature_wheel_nominal: kelvin + most(&|thermal| thermal.temperatures.wheel_centre),
         temperature_rail_nominal: kelvin + most(&|thermal| thermal.temperatures.rail_centre),
         temperature_wheel_bulk: kelvin + mean(&|thermal| thermal.temperatures.wheel_mean),
         melted: most(&|thermal| thermal.melted),
-        heat_residual: ratio(mean(&|thermal| thermal.unaccounted), mean(&|thermal| thermal.turned_over)),
+        heat_residual: ratio(sum(&|thermal| thermal.unaccounted), sum(&|thermal| thermal.turned_over)),
         thermal_growth: state.growth(),
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),

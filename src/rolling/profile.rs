@@ -9,6 +9,9 @@ pub fn profile_points(zone: f64) -> Vec<f64> {
     (0..PROFILE_POINTS).map(|k| zone * (2.0 * k as f64 / last - 1.0)).collect()
 }
 
+/// Largest number of lines of a patch.
+pub const MOST_LINES: usize = 13;
+
 /// Largest depth of profiles below the tread [m].
 const DEEPEST: f64 = 0.02;
 

@@ -35,7 +35,7 @@ pub struct RigidWheel {
 impl RigidWheel {
     /// From the parameters.
     pub fn new(config: &Config) -> Self {
-        let width = config.model.contact_width;
+        let width = config.width();
         let mass = mechanics::wheel_mass(config) + config.wheel.hub_mass / width;
         let moment = mechanics::wheel_inertia(config) + config.wheel.hub_inertia / width;
         Self {

@@ -2,6 +2,7 @@
 
 use super::line::Line;
 use super::support::BaseMotion;
+use crate::heat::LateralHistory;
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,8 @@ pub struct State {
     pub base: BaseMotion,
     /// Contact lines side by side.
     pub lines: Vec<Line>,
+    /// How long heat has not spread from line to line.
+    pub spreading: LateralHistory,
     /// Friction coefficient that was available in the last step \[1].
     pub available_friction: f64,
     /// Angle of the wheel at which the point of the tread touches that is looked at \[rad].

@@ -8,8 +8,9 @@ use super::error::StepError;
 use super::flattening;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
+use super::spreading;
 use super::state::{Brake, Motion, State};
-use super::thermal::{self, HeatStep, ThermalScratch};
+use super::thermal::{self, HeatStep, ThermalLine, ThermalScratch};
 use super::wear;
 use super::zones;
 use crate::config::Tuning;
@@ -129,7 +130,7 @@ fn attempt(
     heat(model, state, demand, plan.dt, &mut workspace.heat, next)
 }
 
-/// The heat step of every line.
+/// The heat step of all lines.
 fn heat(
     model: &RollingModel,
     state: &State,
@@ -139,17 +140,23 @@ fn heat(
     next: &mut State,
 ) -> Result<(), StepError> {
     let brake_power = (next.audit.brake - state.audit.brake) / dt;
-    let tread_heat = brake::tread_heat(model, demand.target, brake_power);
+    let tread_heat = model.narrowing(next) * brake::tread_heat(model, demand.target, brake_power);
     let step = HeatStep { dt, tread_heat, criteria: thermal::criteria(demand.tuning) };
     next.tread_point = demand.tuning.tread_point;
-    for (before, line) in state.lines.iter().zip(&mut next.lines) {
-        let temperatures = line.thermal.take();
-        if let (Some(thermal), Some(before)) = (&model.thermal, &before.thermal) {
+    let taken: Vec<_> = next.lines.iter_mut().map(|line| line.thermal.take().unwrap_or_default()).collect();
+    if let Some(thermal) = &model.thermal {
+        let lines = state.lines.iter().zip(&next.lines).zip(taken).filter_map(|((before, line), temperatures)| {
             let contact = thermal.contact(&model.contact, &line.contact, demand.target.temperature);
-            let temperatures = temperatures.unwrap_or_default();
-            line.thermal = Some(thermal.step(before, &next.motion, &contact, step, temperatures, scratch)?);
+            Some(ThermalLine { before: before.thermal.as_ref()?, contact, thermal: temperatures })
+        });
+        let mut lines: Vec<_> = lines.collect();
+        thermal.step(&mut lines, &next.motion, step, scratch)?;
+        let found: Vec<_> = lines.into_iter().map(|line| line.thermal).collect();
+        for (line, found) in next.lines.iter_mut().zip(found) {
+            line.thermal = Some(found);
         }
     }
+    spreading::spread(model, state, dt, next)?;
     thermal::share_growth(&mut next.lines);
     audit::grow(next, state.growth());
     Ok(())

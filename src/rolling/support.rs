@@ -70,7 +70,7 @@ pub struct TrackSupport {
 impl TrackSupport {
     /// From the parameters; `None` if the base is fixed.
     pub fn new(config: &Config) -> Option<Self> {
-        let (rail, width) = (&config.rail, config.model.contact_width);
+        let (rail, width) = (&config.rail, config.width());
         let stiffness = [rail.restraint_stiffness, rail.support_stiffness].map(|k| k / width);
         let damping = [rail.restraint_damping, rail.support_damping].map(|c| c / width);
         let mass = rail.support_mass / width + config.material.density * rail.length * rail.height;

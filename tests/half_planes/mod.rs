@@ -4,13 +4,13 @@
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
-use wheelrail::analytic::{carter_force, carter_full_slip, contact_modulus, hertz_half_width};
+use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::active_set::ActiveSetSolver;
-use wheelrail::contact::line::kernel::LineKernel;
+use wheelrail::contact::line::kernel::line_compliance;
 use wheelrail::contact::line::{ContactGrid, LineState};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
+    LineKernel, LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -37,6 +37,11 @@ pub struct HalfPlanes {
 
 pub fn modulus() -> f64 {
     contact_modulus(200e9, 0.3)
+}
+
+/// Flexibility of half-planes whose displacement ends at a distance [m].
+fn kernel(length: f64) -> LineKernel {
+    LineKernel::of_half_plane(HalfPlane { kernel: 1.0 / (std::f64::consts::PI * modulus()), coupling: 0.0 }, length)
 }
 
 /// A line beside others.
@@ -106,8 +111,7 @@ impl HalfPlanes {
         (length, shared): (f64, &dyn Fn(f64) -> f64),
         (load, creepage): (f64, f64),
     ) -> Result<Vec<ContactState>, ContactError> {
-        let kernel = LineKernel { half_plane: 1.0 / (std::f64::consts::PI * modulus()), length };
-        let own = kernel.matrix(self.grid.nodes(), self.grid.spacing);
+        let own = line_compliance(&kernel(length), self.grid.nodes(), self.grid.spacing);
         let nodes = self.grid.nodes();
         let shared = DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| {
             if i % 2 == j % 2 { shared(nodes[i / 2] - nodes[j / 2]) } else { 0.0 }
@@ -142,9 +146,12 @@ impl HalfPlanes {
         for ((line, own), swelling) in lines.iter().zip(&swollen) {
             problems.push(LineProblem {
                 share: line.share,
+                kernel: kernel(1.0),
                 bodies: SurfaceResponse {
                     own: *own,
                     others,
+                    alone: None,
+                    lift: 0.0,
                     free: [&self.free[0], &self.free[1]],
                     inertial: &self.none[0],
                     momentum: &self.none[1],

@@ -91,11 +91,18 @@ class Fmu:
         points = (name.removeprefix("profile.") for name in self.variables if name.startswith("profile."))
         return list(dict.fromkeys(point.split("[")[0] for point in points))
 
+    def of_lines(self):
+        """Names of the quantities that each line of the patch has, such as `line.pressure_max`."""
+        return list(dict.fromkeys(name.split("[")[0] for name in self.variables if name.startswith("line.")))
+
     def points(self, quantity):
-        """Names of the variables that are the points of a profile."""
-        names = [name for name in self.variables if name.startswith(f"profile.{quantity}[")]
+        """Names of the variables that are the points of a profile, or of a quantity of lines (`line.pressure_max`)."""
+        stem = quantity if quantity in self.of_lines() else f"profile.{quantity}"
+        names = [name for name in self.variables if name.startswith(f"{stem}[")]
         if names:
             return names
+        if str(quantity).startswith("line.") and self.of_lines():
+            raise Refused(f"lines have no {quantity!r}; they have {', '.join(self.of_lines())}")
         known = self.profiles()
         raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(known) or 'none, being built without'}")
 
@@ -195,6 +202,19 @@ class Wheel:
         piece. `Fmu.profiles` lists them.
         """
         return self.get(*self.fmu.points(quantity))
+
+    def lines(self):
+        """Number of lines of the patch across its width: 1 of a patch of constant width, else `contact.lines`."""
+        shape = self.fmu.variables.get("contact.shape")
+        if shape is None or shape.declaredType.items[int(self.get(shape.name)) - 1].name == "line":
+            return 1
+        return int(self.get("contact.lines"))
+
+    def line(self, quantity):
+        """What each line of the patch has as a list in the order of their positions: `line("pressure_max")`."""
+        points = self.fmu.points(f"line.{str(quantity).removeprefix('line.')}")[: self.lines()]
+        values = self.get(*points)
+        return values if len(points) > 1 else [values]
 
     def record(self, *outputs, profiles=False, depth=False, every=1, title=""):
         """A recorder of this wheel, which takes a sample now and after every `every`-th `step`: see `records.Recorder`."""

@@ -23,7 +23,9 @@ class Recorder:
 
     `outputs` are names and patterns (`contact.*`) of variables, by themselves all outputs that are no profiles; `profiles`
     are those across the contact patch, all with `True`, or some by name (`["pressure", "slip"]`), and `depth` the
-    temperatures below the surface in the same way. Inputs are always recorded. `Wheel.record` makes recorders, and
+    temperatures below the surface in the same way. What each line of the patch has (`line.pressure_max`) is among the
+    outputs where the patch has a width of its own; a patch of constant width has one line, recorded if it is named.
+    Inputs are always recorded. `Wheel.record` makes recorders, and
     `Wheel.restore` takes back what came after the state that it returns to.
     """
 
@@ -33,7 +35,7 @@ class Recorder:
         _library("xarray")
         self.wheel, self.every, self.title = wheel, every, title
         fmu = wheel.fmu
-        self.scalars, self.arrays = _chosen(fmu, outputs, profiles, depth)
+        self.scalars, self.arrays = _chosen(wheel, outputs, profiles, depth)
         inputs = [v for v in fmu.variables.values() if v.causality == "input" and v not in self.scalars]
         variables = self.scalars + inputs + [point for points in self.arrays.values() for point in points]
         self._inputs = inputs
@@ -83,7 +85,8 @@ class Recorder:
         self._heard = len(self.wheel.log)
 
     def dataset(self):
-        """The Dataset: data variables by their FMU names, over `time` [s] and, of profiles, `node` or `depth` [m].
+        """The Dataset: data variables by their FMU names, over `time` [s] and, of profiles, `node` or `depth` [m],
+        and of what each line of the patch has, `line`.
 
         Inputs that never changed stand in the attribute `inputs`. Attributes besides: `fmu_version`, `preset`, `title`,
         `parameters` that differ from the preset, `warnings`; the last three of lists and values as JSON.
@@ -108,17 +111,26 @@ class Recorder:
                 data[variable.name] = ("time", values, attributes(variable))
         for name, points in self.arrays.items():
             block, first = column[points[0].valueReference]
-            below = name.removeprefix("profile.") in BELOW
             values = block[:, first : first + len(points)]
-            data[name] = (("time", "depth" if below else "node"), values, attributes(points[0]))
+            data[name] = (("time", _place(name)), values, attributes(points[0]))
         if "profile.x" in data:
             # The zone in which there may be contact does not move, and neither do the points.
             coordinates["x"] = ("node", data["profile.x"][1][0], data["profile.x"][2])
+        if "line.position" in data:
+            # Positions grow with the load; line.position has them at every time.
+            coordinates["z"] = ("line", data["line.position"][1][0], data["line.position"][2])
         if self._depths is not None:
             coordinates["depth"] = ("depth", self._depths, attributes(self.wheel.fmu.variable(self.wheel.fmu.points("depth")[0])))
         settings = self._settings | {"inputs": held, "warnings": [warning for _, warning in self._warnings]}
         texts = {name: value if isinstance(value, str) else json.dumps(value) for name, value in settings.items()}
         return xarray.Dataset(data, coordinates, texts | {"title": self.title or f"wheel on rail, {self._settings['preset']}"})
+
+
+def _place(name):
+    """The dimension besides the time of what is recorded at several points."""
+    if name.startswith("line."):
+        return "line"
+    return "depth" if name.removeprefix("profile.") in BELOW else "node"
 
 
 def attributes(variable):
@@ -219,38 +231,50 @@ def _library(name):
         raise ImportError(f"records need {name}, which is not installed: pip install wheelrail[{extra}]") from failure
 
 
-def _chosen(fmu, outputs, profiles, depth):
-    """Scalar variables, and the points of profiles by name, of which a record is asked for."""
-    arrays = {f"profile.{quantity}": None for quantity in fmu.profiles()}
+def _chosen(wheel, outputs, profiles, depth):
+    """Scalar variables, and the points of profiles and lines by name, of which a record is asked for."""
+    fmu, several = wheel.fmu, wheel.lines() > 1
+    arrays = [f"profile.{quantity}" for quantity in fmu.profiles()] + fmu.of_lines()
     scalars = [v for v in fmu.variables.values() if "[" not in v.name]
     if isinstance(outputs, str):
         outputs = [outputs]
     names = {v.name: v for v in scalars if v.causality == "output"} if outputs is None else {}
-    wanted = _quantities(fmu, profiles, "profiles", lambda name: name not in BELOW)
-    wanted |= _quantities(fmu, depth, "depth", lambda name: name in BELOW)
+    wanted = {f"profile.{q}" for q in _quantities(fmu, profiles, "profiles", lambda name: name not in BELOW)}
+    wanted |= {f"profile.{q}" for q in _quantities(fmu, depth, "depth", lambda name: name in BELOW)}
+    if outputs is None and several:
+        wanted |= set(fmu.of_lines())
     for pattern in outputs or ():
         if not isinstance(pattern, str):
             raise ValueError(f"{short(pattern)} is not the name of a variable or a pattern such as 'contact.*'")
         if not any(letter in pattern for letter in "*?["):
             if pattern in arrays:
-                wanted.add(pattern.removeprefix("profile."))
+                wanted.add(pattern)
             else:
                 names[pattern] = fmu.variable(pattern)
             continue
         found = {v.name: v for v in scalars if v.causality == "output" and fnmatchcase(v.name, pattern)}
-        among = [name for name in arrays if fnmatchcase(name, pattern)]
+        # The only line of a patch of constant width says again what contact.* does.
+        seen = several or pattern.startswith("line.")
+        among = [name for name in arrays if fnmatchcase(name, pattern) and (seen or not name.startswith("line."))]
         if not found and not among:
-            groups = sorted({v.name.split(".")[0] for v in scalars if v.causality == "output"})
+            known = [v.name for v in scalars if v.causality == "output"] + fmu.of_lines()
+            groups = sorted({name.split(".")[0] for name in known})
             raise Refused(f"no output matches {pattern!r}; outputs are {', '.join(f'{group}.*' for group in groups)}")
         names |= found
-        wanted |= {name.removeprefix("profile.") for name in among}
+        wanted.update(among)
     for variable in names.values():
         if kind(variable) == "String":
             raise Refused(f"{variable.name} is a text, which does not change over time and is not recorded")
-    if wanted - set(BELOW):
-        wanted.add("x")
-    wanted.discard("depth")
-    return list(names.values()), {f"profile.{q}": [fmu.variable(p) for p in fmu.points(q)] for q in fmu.profiles() if q in wanted}
+    return list(names.values()), _points(wheel, arrays, wanted)
+
+
+def _points(wheel, arrays, wanted):
+    """The points of what was asked for, with those that say where they are."""
+    places, lines, fmu = {_place(name) for name in wanted}, wheel.lines(), wheel.fmu
+    own = {"node": "profile.x", "line": "line.position"}
+    wanted = (wanted | {own[place] for place in places if place in own}) - {"profile.depth"}
+    variables = lambda name: [fmu.variable(point) for point in fmu.points(name.removeprefix("profile."))]
+    return {name: variables(name)[: lines if _place(name) == "line" else None] for name in arrays if name in wanted}
 
 
 def _quantities(fmu, asked, what, belongs):

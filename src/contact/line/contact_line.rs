@@ -25,6 +25,7 @@ pub struct LineScratch {
     upwind: UpwindRows,
     retarded: Retarded,
     overlap: Vec<f64>,
+    lift: Vec<f64>,
     centred_slip: Vec<f64>,
 }
 
@@ -74,6 +75,8 @@ pub struct ContactLine<'a> {
     pub retarded: &'a mut Retarded,
     /// Depth by which yielding candidates have given way in the step; zero elsewhere \[m].
     pub overlap: &'a mut Vec<f64>,
+    /// See [`super::observe::WheelShape::lift`].
+    pub lift: &'a mut Vec<f64>,
     /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
     /// numerical dissipation.
     pub centred_slip: &'a mut Vec<f64>,
@@ -90,7 +93,8 @@ impl<'a> ContactLine<'a> {
         (state, history, traction): LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineScratch { given, others, rim, upwind, retarded, overlap, centred_slip } = scratch;
+        let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip } = scratch;
+        lift.clear();
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
         }
@@ -113,8 +117,15 @@ impl<'a> ContactLine<'a> {
             upwind,
             retarded,
             overlap,
+            lift,
             centred_slip,
         }
+    }
+
+    /// Normal force of all lines per metre of the bodies' width [N/m].
+    pub fn load_of_all(&self) -> f64 {
+        let normal = |forces: &DVector<f64>| forces.iter().skip(1).step_by(2).sum::<f64>();
+        normal(&self.others.forces) + self.problem.share * normal(&self.traction.port_forces)
     }
 
     /// Nodal normal force at candidate `i` [N/m].

@@ -1,7 +1,7 @@
 //! End of a solution: histories move on, loads and power are taken, the traction is read off.
 
 use super::contact_line::ContactLine;
-use super::observe;
+use super::observe::{self, WheelShape};
 use super::power::Power;
 use super::slopes::Slopes;
 use super::vectors::copy;
@@ -9,7 +9,7 @@ use crate::multistep::History;
 
 /// Moves the histories of a line on and reads off its traction.
 pub fn finish(line: ContactLine) {
-    let rim_velocity = line.rim_velocity();
+    let (rim_velocity, load) = (line.rim_velocity(), line.load_of_all());
     let ContactLine {
         grid,
         problem,
@@ -20,6 +20,7 @@ pub fn finish(line: ContactLine) {
         frame,
         retarded,
         overlap,
+        lift,
         centred_slip: slip,
         ..
     } = line;
@@ -51,7 +52,9 @@ pub fn finish(line: ContactLine) {
     let [friction, work] = power.friction(&problem.time, &mut history.friction);
     let power = traction.friction.dissipate(friction, work, problem.duration);
     let slopes = Slopes { grid, gap: &state.gap, overlap, rail_slope: &given.rail_slope, depth: &given.depth };
-    traction.resultant = observe::resultant(problem.radius(), &frame, slopes, traction);
+    observe::lift(grid, problem, (&traction.port_forces, load), lift);
+    let wheel = WheelShape { radius: problem.radius(), frame: &frame, surface: &traction.surface[0], lift };
+    traction.resultant = observe::resultant(wheel, slopes, traction);
     traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();
     observe::overlap(grid, state, overlap, traction);
     let (moving, limits) = (if problem.time.is_stationary() { 0.0 } else { 1.0 }, &given.strength.limit);

@@ -6,6 +6,7 @@
 //! (see [`super::streamline`]); beyond [`REACH`] nodes both kernels agree.
 
 use crate::analytic::digamma;
+use crate::contact::kernel::{LineKernel, Logarithm};
 use nalgebra::DMatrix;
 
 /// Number of neighbours that are corrected.
@@ -53,28 +54,22 @@ impl KernelCorrection {
     }
 }
 
-/// Flexibility that every one of several lines side by side has for itself: the surface of a half-plane under the
-/// forces of this line alone, `−κ ln(|x|/L)`.
-#[derive(Clone, Copy, Debug)]
-pub struct LineKernel {
-    /// Displacement along a line force at the distance x is `−κ ln|x|` and a constant: κ of one body [m/(N/m)].
-    pub half_plane: f64,
-    /// Distance L at which a force of the line no longer displaces it by more than forces of other lines do \[m].
-    pub length: f64,
-}
-
-impl LineKernel {
-    /// Compliance of the surface of one body at `nodes` whose distance in the middle is `spacing` \[m], per unit nodal
-    /// force, x and y of every node [m/(N/m)]. At neighbouring nodes its differences are those of the discrete kernel
-    /// `1/(n + ½)`: `κ (ln(L/h) − ψ(|x|/h + ½))` with the digamma function ψ.
-    pub fn matrix(&self, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
-        let n = nodes.len();
-        let at = |i: usize, j: usize| {
-            let distance = (nodes[i] - nodes[j]).abs() / spacing;
-            self.half_plane * ((self.length / spacing).ln() - digamma(distance + 0.5))
-        };
-        DMatrix::from_fn(2 * n, 2 * n, |i, j| if i % 2 == j % 2 { at(i / 2, j / 2) } else { 0.0 })
+/// Compliance of the surface of one body at `nodes` by the flexibility that a line has for itself, per unit nodal
+/// force, x and y of every node [m/(N/m)]; `spacing` is the distance of the nodes in the middle \[m]. At neighbouring
+/// nodes its differences are those of the discrete kernel `1/(n + ½)`: `κ (ln(L/h) − ψ(|x|/h + ½))` with the digamma
+/// function ψ.
+pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
+    let n = nodes.len();
+    let own = |along: &Logarithm, i: usize, j: usize| {
+        let distance = (nodes[i] - nodes[j]).abs() / spacing;
+        along.factor * (along.reach - spacing.ln() - digamma(distance + 0.5))
+    };
+    let mut compliance = DMatrix::zeros(2 * n, 2 * n);
+    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+        compliance[(2 * i, 2 * j)] = own(&kernel.tangential, i, j);
+        compliance[(2 * i + 1, 2 * j + 1)] = own(&kernel.normal, i, j);
     }
+    compliance
 }
 
 impl KernelCorrection {
@@ -99,12 +94,13 @@ mod tests {
 
     #[test]
     fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {
-        let kernel = LineKernel { half_plane: 2.0, length: 0.03 };
+        let along = |factor: f64| Logarithm { factor, reach: 0.03_f64.ln() };
+        let kernel = LineKernel { tangential: along(2.0), normal: along(1.0), coupling: 0.0 };
         let h = 1e-4;
         let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
-        let matrix = kernel.matrix(&nodes, h);
-        for component in 0..2 {
-            let at = |n: usize| matrix[(2 * n + component, component)];
+        let matrix = line_compliance(&kernel, &nodes, h);
+        for (component, factor) in [1.0, 2.0].into_iter().enumerate() {
+            let at = |n: usize| factor * matrix[(2 * n + component, component)];
             assert!((at(0) - at(1) - 4.0).abs() < 1e-12 && (at(3) - at(4) - 2.0 / 3.5).abs() < 1e-12);
             assert!((at(150) + 2.0 * (0.015f64 / 0.03).ln()).abs() < 1e-5);
             assert_eq!(matrix[(2 + component, 1 - component)], 0.0);

@@ -1,7 +1,7 @@
 //! Displacements, gaps and slips of a line under given forces and rigid motions.
 
 use super::contact_line::ContactLine;
-use super::observe;
+use super::observe::{self, WheelShape};
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
@@ -48,6 +48,8 @@ impl ContactLine<'_> {
     /// those rigid ones that were not known before, `None` the others.
     pub fn evaluate(&mut self, accelerations: [Option<f64>; 3]) {
         self.displace(accelerations);
+        let load = self.load_of_all();
+        observe::lift(self.grid, self.problem, (&self.traction.port_forces, load), self.lift);
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
@@ -101,7 +103,8 @@ impl ContactLine<'_> {
     /// Lever arms of the forces at candidate `i` about the hub centre \[m], see [`observe::lever_arms`].
     pub fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { rim_angle: self.surface_angle, ..self.frame };
-        let wheel = (self.problem.radius(), &frame, &self.traction.surface[0]);
+        let (radius, surface) = (self.problem.radius(), &self.traction.surface[0]);
+        let wheel = WheelShape { radius, frame: &frame, surface, lift: self.lift };
         observe::lever_arms(wheel, self.slopes(), i)
     }
 }

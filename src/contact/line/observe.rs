@@ -5,6 +5,7 @@ use super::rim::RimFrame;
 use super::slopes::Slopes;
 use super::state::{LineState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
+use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
@@ -17,18 +18,53 @@ const FADING: f64 = 0.2;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
-/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m]; `wheel`: rolling
-/// radius, rim frame and surface displacement.
+/// The deformed wheel as lever arms know it.
+#[derive(Clone, Copy)]
+pub(in crate::contact) struct WheelShape<'a> {
+    /// Rolling radius [m].
+    pub radius: f64,
+    /// Frame of the rim.
+    pub frame: &'a RimFrame<'a>,
+    /// Surface displacement [m].
+    pub surface: &'a DVector<f64>,
+    /// Height at the candidates that the flexibility of the line alone would have if it were the same in both
+    /// directions, less that which it has [m]; empty: it is.
+    pub lift: &'a [f64],
+}
+
+/// Writes [`WheelShape::lift`] under the port forces of a line, and the load of all lines per metre of the bodies'
+/// width [N/m].
+pub(in crate::contact) fn lift(
+    grid: &ContactGrid,
+    problem: &LineProblem,
+    (forces, load): (&DVector<f64>, f64),
+    lift: &mut Vec<f64>,
+) {
+    lift.clear();
+    let kernel = &problem.kernel;
+    let Some(alone) = problem.bodies.alone.filter(|_| kernel.tangential != kernel.normal) else { return };
+    lift.resize(grid.len(), problem.bodies.lift * load);
+    for j in 0..grid.len() {
+        let (port, force) = (grid.port(j), forces[grid.port(j) + 1]);
+        if force == 0.0 {
+            continue;
+        }
+        let [along, normal] = [alone.column(port), alone.column(port + 1)];
+        for (i, lift) in lift.iter_mut().enumerate() {
+            *lift += (along[grid.port(i)] - normal[grid.port(i) + 1]) * force;
+        }
+    }
+}
+
+/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m].
 ///
 /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
 /// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
-pub(in crate::contact) fn lever_arms(
-    (radius, frame, u): (f64, &RimFrame, &DVector<f64>),
-    slopes: Slopes,
-    i: usize,
-) -> [f64; 2] {
+pub(in crate::contact) fn lever_arms(wheel: WheelShape, slopes: Slopes, i: usize) -> [f64; 2] {
+    let WheelShape { radius, frame, surface: u, lift } = wheel;
     let (grid, port) = (slopes.grid, slopes.grid.port(i));
-    [radius - frame.normal(u, i), grid.x[i] + frame.tangential(u, port) + radius * slopes.arm(i)]
+    let lift = lift.get(i).copied().unwrap_or(0.0);
+    [radius - frame.normal(u, i) - lift, grid.x[i] + frame.tangential(u, port) + radius * slopes.arm(i)]
 }
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power`
@@ -101,11 +137,9 @@ pub(in crate::contact) fn springing_work(
     overlap.iter().zip(limit).enumerate().map(of_node).sum()
 }
 
-/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre; `radius` is the
-/// rolling radius [m].
-pub(in crate::contact) fn resultant(radius: f64, frame: &RimFrame, slopes: Slopes, traction: &Traction) -> [f64; 3] {
+/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
+pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction: &Traction) -> [f64; 3] {
     let grid = slopes.grid;
-    let wheel = (radius, frame, &traction.surface[0]);
     let mut sum = [0.0; 3];
     for i in 0..grid.len() {
         let port = grid.port(i);

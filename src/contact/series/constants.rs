@@ -2,7 +2,6 @@
 
 use super::chebyshev::TERMS;
 use super::tables::{SLOPE, Tables};
-use crate::analytic::HalfPlane;
 use crate::linalg::Lagrange;
 use std::f64::consts::PI;
 
@@ -49,8 +48,6 @@ impl Default for LayerTables {
 /// Constants of all problems on a patch.
 #[derive(Clone, Debug)]
 pub struct Constants {
-    /// Half-planes that the bodies lack.
-    pub half_plane: HalfPlane,
     /// Points between which their smooth displacements are polynomials.
     pub points: Lagrange,
     /// Constants of the series.

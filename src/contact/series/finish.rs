@@ -6,6 +6,7 @@ use super::series_line::SeriesLine;
 use super::state::{Past, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
+use crate::contact::kernel::LineKernel;
 use crate::contact::line::LineHistory;
 use crate::contact::traction::{SolvedFriction, Traction};
 use crate::linalg::POINTS;
@@ -13,7 +14,7 @@ use crate::multistep::History;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 
-/// Elastic energy of both half-planes [J/m].
+/// Elastic energy of the line's own flexibility [J/m].
 fn energy(line: &SeriesLine) -> f64 {
     let Tractions { slide, stick, .. } = line.tractions;
     let pressed = total(&line.pressed.force, &line.pressed.logarithm);
@@ -24,12 +25,16 @@ fn energy(line: &SeriesLine) -> f64 {
     let along = line.over_pressure(|layers, _| less(&layers.along[0], &layers.along[1]));
     let along = along * line.resultant()[0] / line.load();
     let lift = line.over_pressure(|layers, x| less(&layers.wheel.lift.at(x), &layers.rail.lift.at(x)));
-    along + lift - line.constants.half_plane.kernel * (pressed * (1.0 + slide * slide) + stuck)
+    let LineKernel { tangential, normal, .. } = line.problem.line.kernel;
+    let pressing = normal.factor * (pressed - normal.reach * line.load().powi(2));
+    let pulling =
+        tangential.factor * (slide * slide * pressed + stuck - tangential.reach * line.friction_force().powi(2));
+    along + lift - (pressing + pulling)
 }
 
 /// Power of pressure on the slope of the rail that slides past it [W/m].
 fn slope_power(line: &SeriesLine) -> f64 {
-    let (coupling, Tractions { pressure, slide, .. }) = (line.constants.half_plane.coupling, &line.tractions);
+    let (coupling, Tractions { pressure, slide, .. }) = (line.problem.line.kernel.coupling, &line.tractions);
     let smooth = line.constants.points.polynomial(&line.surface.rail.normal);
     let [pressed, stuck] = [&line.pressed, &line.stuck].map(|places| pressure.density(&places.x));
     let slopes: AtPlaces = std::array::from_fn(|q| smooth.slope(line.pressed.x[q]) + coupling * slide * pressed[q]);
@@ -44,11 +49,11 @@ fn expansion(line: &SeriesLine) -> f64 {
         return 0.0;
     }
     let (v, rim) = (line.rigid[0], line.rim_velocity());
-    let (points, compliance) = (&line.constants.points, line.problem.line.bodies.own.compliance);
+    let (points, compliance) = (&line.constants.points, line.problem.line.bodies.shared().compliance);
     // What the pulls do to the bodies less the half-planes.
     let [[wheel, wheel_lift], [rail, rail_lift]] = [0, 1].map(|body| {
         [0, 1].map(|component| {
-            let entry = |k: usize, l: usize| compliance[body][(2 * k + component, 2 * l)] * line.pulls[body][l];
+            let entry = |k: usize, l: usize| compliance[body][(2 * k + component, 2 * l)] * line.mean_pulls[body][l];
             points.polynomial(&std::array::from_fn(|k| (0..POINTS).map(|l| entry(k, l)).sum()))
         })
     });
@@ -72,8 +77,8 @@ fn expansion(line: &SeriesLine) -> f64 {
 /// [J/m].
 fn remember(line: &SeriesLine, force: &[f64; POWER], state: &mut SeriesState, history: &mut LineHistory) -> [f64; 2] {
     let time = &line.problem.line.time;
-    state.tractions = line.tractions;
-    let now = Past::Patch(line.tractions, line.relative(&line.surface));
+    (state.tractions, state.kernel) = (line.tractions, line.problem.line.kernel);
+    let now = Past::Patch(line.tractions, line.relative(&line.surface, true));
     match time.is_stationary() {
         true => {
             history.rim_angle = History::constant(line.rim_angle);
@@ -89,8 +94,7 @@ fn remember(line: &SeriesLine, force: &[f64; POWER], state: &mut SeriesState, hi
     history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]])
 }
 
-/// Writes the traction, the history and the memory; returns the elastic energy of the half-planes that the bodies lack
-/// [J/m].
+/// Writes the traction, the history and the memory; returns the elastic energy of the line's own flexibility [J/m].
 pub(super) fn finish(
     line: &SeriesLine,
     state: &mut SeriesState,

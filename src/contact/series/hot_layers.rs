@@ -10,8 +10,8 @@ use super::chebyshev::{Arch, TERMS};
 use super::constants::{Constants, LayerSamples, LayerTables, PARTS};
 use super::surface::AtPoints;
 use super::tables::{QUADRATURE, SLOPE, SMOOTH};
-use crate::analytic::HalfPlane;
-use crate::contact::problem::SingleLine;
+use crate::contact::kernel::Logarithm;
+use crate::contact::problem::OneLine;
 use crate::linalg::POINTS;
 use crate::piecewise::Piecewise;
 use nalgebra::Complex;
@@ -93,8 +93,8 @@ pub struct SeriesLayer {
     pub swelling: LayerProfile,
     /// Normal displacement of the half-plane \[m].
     pub lift: LayerProfile,
-    /// Displacement of a half-plane by a unit force, see [`HalfPlane::kernel`].
-    kernel: f64,
+    /// Displacement of the line along a tangential force.
+    kernel: Logarithm,
     /// Moments of the pull with the polynomials of the points [N/m].
     pub pull: AtPoints,
 }
@@ -107,8 +107,8 @@ impl SeriesLayer {
         let sums = powers(&sines.terms, &base);
         std::array::from_fn(|i| {
             // ½ (z + √(z² − 1)) is ½ over the base of the powers.
-            let ends = sines.half_width.ln() - 0.5 * (4.0 * base[i].norm_sqr()).ln();
-            self.kernel * PI * ((sums[i] * base[i]).re - turn * ends)
+            let ends = sines.half_width.ln() - 0.5 * (4.0 * base[i].norm_sqr()).ln() - self.kernel.reach;
+            self.kernel.factor * PI * ((sums[i] * base[i]).re - turn * ends)
         })
     }
 }
@@ -159,24 +159,24 @@ pub struct SeriesLayers {
 
 impl SeriesLayers {
     /// Layers of a problem that come from contact on `patch`; `None` where nothing is warm.
-    pub fn new(constants: &Constants, problem: &SingleLine, patch: &Arch) -> Option<Self> {
+    pub fn new(constants: &Constants, problem: &OneLine, patch: &Arch) -> Option<Self> {
         let (force, swelling) = (problem.line.membrane, problem.line.placement.swelling);
         if force.iter().chain(&swelling).all(|layer| layer.is_empty()) {
             return None;
         }
-        let Constants { layers: tables, points, half_plane, .. } = constants;
+        let (Constants { layers: tables, points, .. }, line) = (constants, &problem.line.kernel);
         let samples = |layer: &Piecewise| {
             let at = |t: f64| layer.at(patch.centre + patch.half_width * if t.abs() < 1.0 { t } else { BESIDE * t });
             tables.places.map(at)
         };
         let (force, swelling) = (force.map(samples), swelling.map(samples));
         let profile = |samples: &LayerSamples| LayerProfile::new(tables, patch, samples);
-        let lift = |body: usize| lift(half_plane, &force[body], 1.0 - 2.0 * body as f64);
+        let lift = |body: usize| lift(line.coupling, &force[body], 1.0 - 2.0 * body as f64);
         let layer = |body: usize| SeriesLayer {
             force: profile(&force[body]),
             swelling: profile(&swelling[body]),
             lift: profile(&lift(body)),
-            kernel: half_plane.kernel,
+            kernel: line.tangential,
             pull: pull(constants, patch, &force[body]),
         };
         let (wheel, rail, [up, down]) = (layer(0), layer(1), [lift(0), lift(1)]);
@@ -200,7 +200,7 @@ impl SeriesLayers {
         let both = |of_wheel: f64, of_rail: f64| factors[0] * of_wheel + factors[1] * of_rail;
         let rates = std::array::from_fn(|k| both(wheel.rates.terms[k], rail.rates.terms[k]));
         let (turn, (base, root)) = (both(wheel.turn, rail.turn), depth(&wheel.rates, x));
-        let (sums, scale) = (powers(&rates, &base), -self.wheel.kernel * PI / wheel.rates.half_width);
+        let (sums, scale) = (powers(&rates, &base), -self.wheel.kernel.factor * PI / wheel.rates.half_width);
         std::array::from_fn(|i| scale * ((sums[i] * base[i] + turn) / root[i]).re)
     }
 
@@ -224,8 +224,8 @@ pub fn pulls(layers: &Option<SeriesLayers>) -> [AtPoints; 2] {
 }
 
 /// Normal displacement of a half-plane above its surface (`side` 1) or below it (−1) by the pull of a membrane force.
-fn lift(half_plane: &HalfPlane, force: &LayerSamples, side: f64) -> LayerSamples {
-    force.map(|n| 0.5 * side * half_plane.coupling * (force[0] + force[PARTS] - 2.0 * n))
+fn lift(coupling: f64, force: &LayerSamples, side: f64) -> LayerSamples {
+    force.map(|n| 0.5 * side * coupling * (force[0] + force[PARTS] - 2.0 * n))
 }
 
 /// Moments of the pull of a membrane force with the polynomials.
@@ -249,13 +249,13 @@ mod tests {
     /// Layers in which the wheel is chilled and the rail warmed with the root of the way through the patch.
     fn layer() -> SeriesLayer {
         let (points, tables, layers) = (Lagrange::new(0.012), Tables::new(), LayerTables::new());
-        let half_plane = HalfPlane { kernel: 2.8e-12, coupling: 2.5e-12 };
-        let constants = Constants { half_plane, points, tables, layers };
+        let kernel = Logarithm { factor: 2.8e-12, reach: 0.0 };
+        let constants = Constants { points, tables, layers };
         let force = constants.layers.places.map(|t| -4e4 * (1.0 - t).sqrt());
         let [profile, swelling] = [force, force].map(|samples| LayerProfile::new(&constants.layers, &PATCH, &samples));
-        let lift = LayerProfile::new(&constants.layers, &PATCH, &lift(&half_plane, &force, 1.0));
+        let lift = LayerProfile::new(&constants.layers, &PATCH, &lift(2.5e-12, &force, 1.0));
         let pull = pull(&constants, &PATCH, &force);
-        SeriesLayer { force: profile, swelling, lift, kernel: half_plane.kernel, pull }
+        SeriesLayer { force: profile, swelling, lift, kernel, pull }
     }
 
     /// `∫ −N′ f(s) ds` with `N = −4e4 √(1 − t)`, over `r = √(1 − t)`.
@@ -270,9 +270,9 @@ mod tests {
     fn pulls_displace_a_half_plane_as_their_integral_in_the_depth_does() {
         let (layer, depth) = (layer(), DEPTH * PATCH.half_width);
         let x = [-0.9, -0.5, 0.0, 0.4, 0.8, 0.95].map(|t| PATCH.centre + t * PATCH.half_width);
-        let scale = 4e4 * layer.kernel;
+        let scale = 4e4 * layer.kernel.factor;
         for (x, along) in x.into_iter().zip(layer.along(&x)) {
-            let expected = -layer.kernel * pulled(|s| 0.5 * ((x - s).powi(2) + depth * depth).ln());
+            let expected = -layer.kernel.factor * pulled(|s| 0.5 * ((x - s).powi(2) + depth * depth).ln());
             println!("{x:.4}: {along:.5e}, integral {expected:.5e}");
             assert!((along - expected).abs() < 5e-4 * scale);
         }
@@ -285,7 +285,7 @@ mod tests {
             along: [[0.0; QUADRATURE]; 2],
         };
         for (x, stretch) in x.into_iter().zip(layers.stretch(&x, [1.0, 0.0])) {
-            let expected = -layer.kernel * pulled(|s| (x - s) / ((x - s).powi(2) + depth * depth));
+            let expected = -layer.kernel.factor * pulled(|s| (x - s) / ((x - s).powi(2) + depth * depth));
             println!("{x:.4}: {stretch:.5e}, integral {expected:.5e}");
             assert!((stretch - expected).abs() < 5e-3 * scale / PATCH.half_width);
         }

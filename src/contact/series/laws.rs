@@ -2,13 +2,14 @@
 //! slip.
 
 use super::constants::Constants;
+use super::contact::SeriesContact;
 use super::hot_layers::SeriesLayers;
 use super::series_line::{SeriesLine, SeriesStart};
 use super::stick;
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
-use crate::contact::problem::{AxisDrive, SingleLine};
+use crate::contact::problem::{AxisDrive, ContactProblem, OneLine};
 
 /// States of the brakes that are tried: a reversal passes through rest.
 const MOST_STATES: usize = 6;
@@ -19,64 +20,86 @@ pub const UNRESOLVED: f64 = 0.02;
 /// Friction coefficients that are tried.
 const MOST_COEFFICIENTS: usize = 150;
 
-/// Solves the contact of a single patch and hands the solution to `finish`.
+/// Solves the contact of lines with a single patch each and hands the solution to `finish`; `starts` are the results of
+/// the step before, one for each line.
 pub fn solve<R>(
     constants: &Constants,
-    problem: SingleLine,
-    start: &SeriesStart,
-    finish: impl FnOnce(&SeriesLine) -> R,
+    problem: &ContactProblem,
+    starts: &[SeriesStart],
+    finish: impl FnOnce(&SeriesContact) -> R,
 ) -> Result<R, ContactError> {
-    let half_width = start.before.tractions.pressure.half_width;
-    let mut states = brake::founding(problem.rigid);
+    let mut states = brake::founding(&problem.rigid);
     for _ in 0..MOST_STATES {
-        let rigid = brake::driven(problem.rigid, states);
-        let mut line = SeriesLine::new(constants, SingleLine { rigid: &rigid, ..problem }, start);
-        if line.layers.as_ref().is_some_and(|layers| bends(layers, &problem, half_width, UNRESOLVED)) {
-            return Err(ContactError::Unsuited { reason: "the pressure cannot follow a hot layer" });
-        }
-        find(&mut line)?;
-        if line.pressed.force.iter().any(|force| *force < 0.0) {
+        let rigid = brake::driven(&problem.rigid, states);
+        let line =
+            |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid, nominal_load: 0.0 }, start);
+        let mut contact = SeriesContact::new(problem.lines.iter().zip(starts).map(line).collect(), &rigid);
+        check_layers(&contact)?;
+        find(&mut contact)?;
+        let opens = |line: &SeriesLine| line.pressed.force.iter().any(|force| *force < 0.0);
+        if contact.lines.iter().any(opens) {
             return Err(ContactError::Unsuited { reason: "the patch opens within" });
         }
-        let next = next(&line, &problem, states);
+        let next = next(&contact, problem, states);
         if next == states {
-            return Ok(finish(&line));
+            return Ok(finish(&contact));
         }
         states = next;
     }
     Err(ContactError::Unsuited { reason: "a brake neither slips nor holds" })
 }
 
+/// Refuses hot layers that pressures cannot follow.
+fn check_layers(contact: &SeriesContact) -> Result<(), ContactError> {
+    let bends = |line: &SeriesLine| {
+        let half_width = line.before.tractions.pressure.half_width;
+        line.layers.as_ref().is_some_and(|layers| bends(layers, &line.problem, half_width, UNRESOLVED))
+    };
+    match contact.lines.iter().any(bends) {
+        true => Err(ContactError::Unsuited { reason: "the pressure cannot follow a hot layer" }),
+        false => Ok(()),
+    }
+}
+
 /// True if layers bend the gap by more than the pressure can follow: a term of the slope beyond those of the pressure
 /// exceeds the `share` \[1] of the first one, which holds a patch of this half-width \[m] on the round wheel.
-pub fn bends(layers: &SeriesLayers, problem: &SingleLine, half_width: f64, share: f64) -> bool {
+pub fn bends(layers: &SeriesLayers, problem: &OneLine, half_width: f64, share: f64) -> bool {
     layers.unresolved() > share * half_width * half_width / problem.line.surfaces.radius
 }
 
 /// States of the brakes after a solution.
-fn next(line: &SeriesLine, problem: &SingleLine, states: [BrakeState; 3]) -> [BrakeState; 3] {
+fn next(contact: &SeriesContact, problem: &ContactProblem, states: [BrakeState; 3]) -> [BrakeState; 3] {
+    let first = &contact.lines[0];
     std::array::from_fn(|axis| {
         let AxisDrive::Braked { load, limit } = problem.rigid[axis].drive else { return states[axis] };
-        let arm = if axis == 2 { problem.line.radius() } else { 1.0 };
-        let reaction = || line.reaction(axis, line.resultant());
-        brake::next(states[axis], [load, limit], reaction, line.rigid[axis], ROUND_OFF * problem.nominal_load * arm)
+        let arm = if axis == 2 { first.problem.line.radius() } else { 1.0 };
+        let reaction = || contact.reaction(axis, contact.resultant());
+        brake::next(states[axis], [load, limit], reaction, first.rigid[axis], ROUND_OFF * problem.nominal_load * arm)
     })
 }
 
-/// Finds tractions and motions, and the friction coefficient that the law gives to their slip.
-fn find(line: &mut SeriesLine) -> Result<(), ContactError> {
-    stick::solve(line)?;
-    let friction = &line.problem.line.friction;
-    if !friction.varies() {
+/// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.
+fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    stick::solve(contact)?;
+    if !contact.lines.iter().any(|line| line.problem.line.friction.varies()) {
         return Ok(());
     }
-    let mut search = CoefficientSearch::new(friction.bounds());
+    let begun = |line: &SeriesLine| {
+        line.problem.line.friction.varies().then(|| CoefficientSearch::new(line.problem.line.friction.bounds()))
+    };
+    let mut searches: Vec<_> = contact.lines.iter().map(begun).collect();
     for _ in 0..MOST_COEFFICIENTS {
-        match search.next(line.friction, friction.coefficient(line.tread_slip())) {
-            Some(next) => line.friction = next,
-            None => return Ok(()),
+        let mut settled = true;
+        for (line, search) in contact.lines.iter_mut().zip(&mut searches) {
+            let found = line.problem.line.friction.coefficient(line.tread_slip());
+            if let Some(next) = search.as_mut().and_then(|search| search.next(line.friction, found)) {
+                (line.friction, settled) = (next, false);
+            }
         }
-        stick::solve(line)?;
+        if settled {
+            return Ok(());
+        }
+        stick::solve(contact)?;
     }
     Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" })
 }

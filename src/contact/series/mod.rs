@@ -2,13 +2,15 @@
 //!
 //! [`chebyshev`] has the series and their effect on a half-plane, [`tables`] and [`constants`] their constants,
 //! [`surface`] the smooth part of the bodies, [`hot_layers`] the effect of hot layers, [`places`] integrates over
-//! tractions, [`normal`] solves the normal problem, [`slip`] and [`equations`] a given stretch of stick, [`stick`]
-//! finds where slip begins, [`laws`] the states of brakes and the friction coefficient, [`finish`] takes traction and
-//! power, [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
-//! `docs/theory/patch-contact.md`.
+//! tractions, [`series_line`] has one line and [`contact`] what lines share, [`normal`] solves the normal problem,
+//! [`slip`], [`stretch`] and [`together`] given stretches of stick with [`equations`], [`stick`] finds where slip
+//! begins, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and power,
+//! [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
+//! `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
 
 pub mod chebyshev;
 mod constants;
+mod contact;
 mod equations;
 mod finish;
 mod hot_layers;
@@ -20,8 +22,10 @@ mod slip;
 mod solver;
 pub(super) mod state;
 mod stick;
+mod stretch;
 mod surface;
 mod tables;
+mod together;
 mod transfer;
 
 pub use chebyshev::Arch;

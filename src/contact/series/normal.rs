@@ -1,6 +1,7 @@
-//! The normal problem: pressure, edges and height of the hub under the present shear.
+//! The normal problem: pressures, edges and height of the hub under the present shear.
 
 use super::constants::Constants;
+use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::surface::{answer, dot};
 use super::tables::{PRESSURE, SMOOTH};
@@ -11,15 +12,21 @@ use std::f64::consts::PI;
 /// Largest factor by which an iteration changes the load.
 const LARGEST_FACTOR: f64 = 4.0;
 
+/// Gap in the middle of a line, and how it depends on loads.
+struct MiddleGap {
+    /// Gap \[m].
+    gap: f64,
+    /// Change of the gap by the load of the line, by its own flexibility [m/(N/m)].
+    own: f64,
+}
+
 impl SeriesLine<'_> {
-    /// Improves edges, pressure and height of the hub; returns the largest relative change.
+    /// Gives the pressure the form that holds the gap closed; returns the shift of its middle \[m].
     ///
     /// The gap stays closed where its slope vanishes. As a series in `T_n(t)` the slope without pressure gives the
     /// terms of the pressure one by one, `p_k = A_{k+1}/(2πκ)`; `A_0 = 0` is the condition for the middle of the patch.
-    /// Its width belongs to the load, and load and height to each other by the gap in the middle and the balance of the
-    /// hub.
-    pub fn press(&mut self) -> Result<f64, ContactError> {
-        let Constants { tables, points, half_plane, .. } = self.constants;
+    fn shape_pressure(&mut self) -> Result<f64, ContactError> {
+        let Constants { tables, points, .. } = self.constants;
         let radius = self.problem.line.surfaces.radius;
         let gap = points.polynomial(&self.surface.gap());
         let pressure = self.tractions.pressure;
@@ -36,7 +43,7 @@ impl SeriesLine<'_> {
             let sum: f64 = slopes.iter().zip(&tables.closed_terms[n]).map(|(s, t)| s * t).sum();
             sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64 + warm[n] / half_width
         });
-        let kernel = half_plane.kernel;
+        let kernel = self.problem.line.kernel.normal.factor;
         let pressure = &mut self.tractions.pressure;
         pressure.count = PRESSURE;
         for k in 0..PRESSURE {
@@ -46,53 +53,94 @@ impl SeriesLine<'_> {
         if shift.abs() > half_width || pressure.terms[0] <= 0.0 {
             return Err(ContactError::Unsuited { reason: "the patch moves by more than its width" });
         }
-        let factor = self.carry()?;
+        Ok(shift)
+    }
+
+    /// Gap in the middle under the present load.
+    fn middle_gap(&self) -> MiddleGap {
+        let (pressure, kernel) = (&self.tractions.pressure, self.problem.line.kernel.normal);
+        let at = pressure.centre;
+        let values = self.constants.points.values(at);
+        let round = self.problem.line.surfaces.round_gap(at, &self.problem.line.placement)
+            + self.warm(&[at], |layers, x| layers.gap.at(x))[0];
+        let own = -2.0 * kernel.factor * (pressure.logarithm(&[at])[0] - kernel.reach * pressure.total());
+        let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid[1] + own;
+        MiddleGap { gap, own: -2.0 * kernel.factor * ((0.5 * pressure.half_width).ln() - kernel.reach) }
+    }
+
+    /// Moves the patch, and scales it to its load times `factor`; returns the largest relative change.
+    fn resize(&mut self, shift: f64, factor: f64) -> f64 {
         let pressure = &mut self.tractions.pressure;
+        let moved = shift.abs() / pressure.half_width;
         pressure.centre += shift;
         pressure.half_width *= factor.sqrt();
         pressure.terms[..PRESSURE].iter_mut().for_each(|p| *p *= factor.sqrt());
         self.place_pressure();
         self.place_shear();
-        self.displace();
+        (factor - 1.0).abs().max(moved)
+    }
+}
 
-        Ok((factor - 1.0).abs().max(shift.abs() / half_width))
+impl SeriesContact<'_> {
+    /// Improves edges, pressures and height of the hub; returns the largest relative change.
+    ///
+    /// The width of a patch belongs to its load, and loads and height to each other by the gaps in the middle of all
+    /// lines and the balance of the hub.
+    pub fn press(&mut self) -> Result<f64, ContactError> {
+        let mut shifts = [0.0; MOST_LINES];
+        for (shift, line) in shifts.iter_mut().zip(&mut self.lines) {
+            *shift = line.shape_pressure()?;
+        }
+        let mut factors = [1.0; MOST_LINES];
+        self.carry(&mut factors)?;
+        let changes = self.lines.iter_mut().zip(shifts).zip(factors);
+        let change = changes.map(|((line, shift), factor)| line.resize(shift, factor)).fold(0.0, f64::max);
+        self.displace();
+        Ok(change)
     }
 
-    /// Factor by which the load has to change \[1]; sets the height of the hub.
-    fn carry(&mut self) -> Result<f64, ContactError> {
-        let Constants { points, half_plane, .. } = self.constants;
-        let (problem, pressure) = (self.problem, &self.tractions.pressure);
-        let (load, at, motion) = (pressure.total(), pressure.centre, &problem.rigid[1]);
-        let values = points.values(at);
-        let round = problem.line.surfaces.round_gap(at, &problem.line.placement)
-            + self.warm(&[at], |layers, x| layers.gap.at(x))[0];
-        let half_planes = -2.0 * half_plane.kernel * pressure.logarithm(&[at])[0];
-        let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid[1] + half_planes;
-        let compliances = problem.line.bodies.own.compliance;
-        let smooth: f64 = compliances.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
-        let by_load = smooth - 2.0 * half_plane.kernel * (0.5 * pressure.half_width).ln();
-        let lifted: f64 = (0..POINTS).map(|k| values[k] * problem.line.bodies.inertial[(2 * k + 1, 1)]).sum();
+    /// Finds the factors by which the loads of the lines have to change \[1]; sets the height of the hub.
+    fn carry(&mut self, factors: &mut [f64; MOST_LINES]) -> Result<(), ContactError> {
+        let (first, motion) = (&self.lines[0], &self.rigid[1]);
+        let bodies = &first.problem.line.bodies;
+        let values = first.constants.points.values(first.tractions.pressure.centre);
+        let smooth: f64 =
+            bodies.shared().compliance.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
+        let middles: Vec<_> = self.lines.iter().map(SeriesLine::middle_gap).collect();
+        let shares = || self.lines.iter().map(|line| line.problem.line.share).zip(&middles);
+        // The lines side by side are springs in parallel.
+        let stiffness: f64 = shares().map(|(share, middle)| share / middle.own).sum();
+        let gap = shares().map(|(share, middle)| share * middle.gap / middle.own).sum::<f64>() / stiffness;
+        let by_load = 1.0 / stiffness + smooth;
+        let lifted: f64 = (0..POINTS).map(|k| values[k] * bodies.inertial[(2 * k + 1, 1)]).sum();
         let by_height = 1.0 + motion.gain * lifted;
-        let change = if let Some(target) = motion.target() {
-            let rise = target - self.rigid[1];
-            self.rigid[1] = target;
-            -(gap + rise) / by_load
+        let (change, rise) = if let Some(target) = motion.target() {
+            let rise = target - first.rigid[1];
+            (-(gap + rise) / by_load, rise)
         } else {
-            let momentum: f64 = (0..POINTS).map(|k| values[k] * problem.line.bodies.momentum[(1, 2 * k + 1)]).sum();
-            let left = self.unbalance(1, [0.0, load, 0.0]);
-            let (balance_load, inertia) =
-                (momentum - 1.0, motion.inertia + problem.line.bodies.deformation_inertia[(1, 1)]);
+            let momentum: f64 = (0..POINTS).map(|k| values[k] * bodies.momentum[(1, 2 * k + 1)]).sum();
+            let left = self.unbalance(1, [0.0, self.load(), 0.0]);
+            let (balance_load, inertia) = (momentum - 1.0, motion.inertia + bodies.deformation_inertia[(1, 1)]);
             let balance_height = motion.gain * inertia;
             // Two linear equations in the changes of load and height.
             let determinant = by_load * balance_height - by_height * balance_load;
             let change = (by_height * left - gap * balance_height) / determinant;
-            self.rigid[1] -= (gap * -balance_load + left * by_load) / determinant;
-            change
+            (change, -(gap * -balance_load + left * by_load) / determinant)
         };
-        let factor = 1.0 + change / load;
-        if !(factor > 0.0 && factor.is_finite()) {
-            return Err(ContactError::Unsuited { reason: "the patch opens" });
+        let by_height = if motion.target().is_some() { 1.0 } else { by_height };
+        for ((line, middle), factor) in self.lines.iter().zip(&middles).zip(factors) {
+            let own = match self.lines.len() {
+                1 => change / line.problem.line.share,
+                _ => -(middle.gap + smooth * change + by_height * rise) / middle.own,
+            };
+            *factor = 1.0 + own / line.load();
+            if !(*factor > 0.0 && factor.is_finite()) {
+                return Err(ContactError::Unsuited { reason: "the patch opens" });
+            }
+            *factor = factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR);
         }
-        Ok(factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR))
+        let height = motion.target().unwrap_or(first.rigid[1] + rise);
+        self.lines.iter_mut().for_each(|line| line.rigid[1] = height);
+        Ok(())
     }
 }

@@ -1,4 +1,4 @@
-//! One contact problem on its way to the solution on a single patch.
+//! One line on its way to the solution on a single patch.
 
 use super::constants::Constants;
 use super::hot_layers::{self, SeriesLayers};
@@ -7,8 +7,10 @@ use super::state::{SeriesState, Tractions};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{AxisDrive, SingleLine};
+use crate::contact::problem::OneLine;
+use crate::contact::solver::{ContactState, SolverState};
 use crate::contact::traction::Traction;
+use crate::linalg::POINTS;
 
 /// Result of the step before.
 #[derive(Clone, Copy)]
@@ -18,16 +20,27 @@ pub struct SeriesStart<'a> {
     pub traction: &'a Traction,
 }
 
-/// Contact on a single patch in the present iterate.
+impl<'a> SeriesStart<'a> {
+    /// Start of a line that the series have solved before.
+    pub fn of(state: &'a ContactState) -> Option<Self> {
+        match &state.solver {
+            SolverState::Series(before) => Some(Self { before, history: &state.history, traction: &state.traction }),
+            SolverState::Line(_) | SolverState::Stateless => None,
+        }
+    }
+}
+
+/// A line with a single patch in the present iterate.
 pub struct SeriesLine<'a> {
     pub constants: &'a Constants,
-    pub problem: SingleLine<'a>,
+    pub problem: OneLine<'a>,
     pub before: &'a SeriesState,
     pub history: &'a LineHistory,
     /// Hot layers; `None`: the surfaces are cold.
     pub layers: Option<SeriesLayers>,
-    /// Moments of their pulls on wheel and rail.
+    /// Moments of their pulls on wheel and rail, and the mean of those of all lines.
     pub pulls: [AtPoints; 2],
+    pub mean_pulls: [AtPoints; 2],
     pub tractions: Tractions,
     /// V [m/s], U \[m], Ω [rad/s].
     pub rigid: [f64; 3],
@@ -41,16 +54,18 @@ pub struct SeriesLine<'a> {
     pub pressed: Places,
     /// Places of the shear of [`Tractions::stick`].
     pub stuck: Places,
-    /// Moments of all tractions.
+    /// Load of all lines per metre of the bodies' width [N/m].
+    pub mean_load: f64,
+    /// Moments of its tractions.
     pub moments: Moments,
-    /// Smooth displacements under them.
+    /// Smooth displacements under the tractions of all lines.
     pub surface: SmoothSurfaces,
     /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],
 }
 
 impl<'a> SeriesLine<'a> {
-    pub fn new(constants: &'a Constants, problem: SingleLine<'a>, start: &SeriesStart<'a>) -> Self {
+    pub fn new(constants: &'a Constants, problem: OneLine<'a>, start: &SeriesStart<'a>) -> Self {
         let SeriesStart { before, history, traction } = *start;
         let start = |k: usize| problem.rigid[k].start();
         let hub = problem.rigid[1].target().unwrap_or(traction.rigid[1]);
@@ -61,6 +76,7 @@ impl<'a> SeriesLine<'a> {
             before,
             history,
             pulls: hot_layers::pulls(&layers),
+            mean_pulls: Default::default(),
             layers,
             tractions: before.tractions,
             rigid: [start(0), hub, start(2)],
@@ -69,6 +85,7 @@ impl<'a> SeriesLine<'a> {
             friction: problem.line.friction.coefficient(traction.friction.tread_slip),
             pressed: Places::default(),
             stuck: Places::default(),
+            mean_load: 0.0,
             moments: Moments::default(),
             surface: SmoothSurfaces::default(),
             slips: [0.0; POWER],
@@ -120,11 +137,15 @@ impl<'a> SeriesLine<'a> {
         slipping + total(&self.stuck.force, &self.warm(&self.stuck.x, f))
     }
 
-    /// Tangential displacement of the wheel less that of the rail at the points, without half-planes under the contact
-    /// forces.
-    pub fn relative(&self, surface: &SmoothSurfaces) -> AtPoints {
-        let smooth = surface.relative();
-        self.layers.as_ref().map_or(smooth, |layers| std::array::from_fn(|k| smooth[k] + layers.relative[k]))
+    /// Tangential displacement of the wheel less that of the rail at the points, but for `−2κ ∫ q ln|x − s| ds` under
+    /// the pressure's friction `q` and, if `sticks`, the part that sticking takes away from it.
+    pub fn relative(&self, surface: &SmoothSurfaces, sticks: bool) -> AtPoints {
+        let (smooth, kernel) = (surface.relative(), self.problem.line.kernel.tangential);
+        let Tractions { pressure, slide, stick } = &self.tractions;
+        let force = slide * pressure.total() + if sticks { stick.total() } else { 0.0 };
+        let reach = 2.0 * kernel.factor * kernel.reach * force;
+        let warm = self.layers.as_ref().map_or([0.0; POINTS], |layers| layers.relative);
+        std::array::from_fn(|k| smooth[k] + warm[k] + reach)
     }
 
     /// Places and moments of the pressure.
@@ -153,52 +174,45 @@ impl<'a> SeriesLine<'a> {
         self.moments.tangential = plus(&self.moments.tangential, &moments);
     }
 
-    /// Smooth displacements under the present tractions, and the rim angle: the mean of `û_x` over the pressure
+    /// Takes smooth displacements under the present tractions, and the rim angle: the mean of `û_x` over the pressure
     /// vanishes.
-    pub fn displace(&mut self) {
-        self.surface = SmoothSurfaces::new(&self.problem, &self.moments, &self.pulls, self.accelerations());
-        let (kernel, radius) = (self.constants.half_plane.kernel, self.problem.line.surfaces.radius);
+    pub fn displace(&mut self, surface: SmoothSurfaces) {
+        self.surface = surface;
+        let (kernel, radius) = (self.problem.line.kernel.tangential, self.problem.line.surfaces.radius);
         let along = &self.surface.wheel.tangential;
-        let [mut sum, arm] = turns(&self.pressed, along, kernel * self.tractions.slide, radius);
+        let [mut sum, arm] = turns(&self.pressed, along, kernel.factor * self.tractions.slide, radius);
         sum += self.over_pressure(|layers, _| layers.along[0]);
         // Betti: the work of the pressure on the displacements by the shear is that of the shear on those by the
         // pressure.
-        sum -= kernel * total(&self.stuck.force, &self.stuck.logarithm);
+        sum -= kernel.factor * total(&self.stuck.force, &self.stuck.logarithm);
+        sum += kernel.factor * kernel.reach * self.load() * self.friction_force();
         self.rim_angle = sum / arm;
     }
 
-    /// Forces of the contact on the wheel: x, y [N/m], forward moment \[N]. Lever arms are those of the deformed wheel
-    /// about the turned rim; the mean of `û_x` over the pressure vanishes.
-    pub fn resultant(&self) -> [f64; 3] {
-        let kernel = self.constants.half_plane.kernel;
+    /// Tangential force on the wheel [N/m].
+    pub fn friction_force(&self) -> f64 {
         let Tractions { pressure, slide, stick } = &self.tractions;
-        let tangential = slide * pressure.total() + stick.total();
-        let lift = |places| lifts(places, &self.surface.wheel.normal, self.rim_angle, kernel);
-        let lifted = slide * lift(&self.pressed) + lift(&self.stuck);
+        slide * pressure.total() + stick.total()
+    }
+
+    /// Forces of the line on the wheel: x, y [N/m], forward moment \[N].
+    pub fn resultant(&self) -> [f64; 3] {
+        let tangential = self.friction_force();
         let middle = total(&self.pressed.force, &self.pressed.x);
-        [tangential, pressure.total(), lifted - self.problem.line.radius() * tangential - middle]
+        [tangential, self.load(), self.lifted() - self.problem.line.radius() * tangential - middle]
     }
 
-    /// Residual of the balance of a rigid motion under the present tractions [N/m, N].
-    pub fn unbalance(&self, axis: usize, resultant: [f64; 3]) -> f64 {
-        match self.problem.rigid[axis].drive {
-            AxisDrive::Free { load } => self.reaction(axis, resultant) - load,
-            AxisDrive::Prescribed { .. } | AxisDrive::Braked { .. } => 0.0,
-        }
-    }
-
-    /// Force [N/m] or moment \[N] that a rigid motion takes under the present tractions.
-    pub fn reaction(&self, axis: usize, resultant: [f64; 3]) -> f64 {
-        let (bodies, motion) = (&self.problem.line.bodies, &self.problem.rigid[axis]);
-        let mut sum = motion.momentum - resultant[axis];
-        for (k, (t, n)) in self.moments.tangential.iter().zip(&self.moments.normal).enumerate() {
-            sum += bodies.momentum[(axis, 2 * k)] * (t + self.pulls[0][k]) + bodies.momentum[(axis, 2 * k + 1)] * n;
-        }
-        for (l, acceleration) in self.accelerations().into_iter().enumerate() {
-            let own = if l == axis { motion.inertia } else { 0.0 };
-            sum += (bodies.deformation_inertia[(axis, l)] + own) * acceleration;
-        }
-        sum
+    /// Part of the moment that the deformation of the wheel changes \[N]. Lever arms are those of the deformed wheel
+    /// about the turned rim, where the mean of `û_x` over the pressure vanishes. The line's own flexibility does not
+    /// turn with the wheel: of its displacements the tangential one by the shear, which has entered the rim angle, is
+    /// taken back, and the normal one has no part (`docs/theory/lines.md`, section 3).
+    pub fn lifted(&self) -> f64 {
+        let kernel = self.problem.line.kernel.tangential;
+        let lift = |places| lifts(places, &self.surface.wheel.normal, self.rim_angle, kernel.factor);
+        // Places hold the shear to which these displacements belong.
+        let force = self.tractions.slide * self.load() + self.stuck.force.iter().sum::<f64>();
+        let height = kernel.factor * kernel.reach * self.load() + self.problem.line.bodies.lift * self.mean_load;
+        self.tractions.slide * lift(&self.pressed) + lift(&self.stuck) + height * force
     }
 
     /// Ends of the slipping part \[m]; `None` where all sticks.

@@ -2,16 +2,16 @@
 
 use super::chebyshev::Arch;
 use super::constants::{Constants, LayerTables};
+use super::contact::MOST_LINES;
 use super::hot_layers::SeriesLayers;
 use super::series_line::SeriesStart;
 use super::state::{Past, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE, Tables};
 use super::{finish, laws, transfer};
-use crate::analytic::HalfPlane;
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{ContactProblem, SingleLine};
+use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
@@ -43,10 +43,11 @@ pub struct SeriesSolver {
 }
 
 impl SeriesSolver {
-    /// Patches within `reach` \[m] of the contact point on bodies that lack a half-plane each, beside a `grid`.
-    pub fn new(grid: ActiveSetSolver, half_plane: HalfPlane, reach: f64, fallback: Fallback) -> Self {
+    /// Patches within `reach` \[m] of the contact point on bodies that lack the flexibility that lines have for
+    /// themselves, beside a `grid`.
+    pub fn new(grid: ActiveSetSolver, reach: f64, fallback: Fallback) -> Self {
         let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
-        let constants = Constants { half_plane, points, tables, layers };
+        let constants = Constants { points, tables, layers };
         Self { grid, constants, fallback }
     }
 
@@ -59,14 +60,14 @@ impl SeriesSolver {
     }
 
     /// True if the material moves by less than a `way` \[m] in a step.
-    fn hardly_moves(problem: &SingleLine, way: f64) -> bool {
-        let [travel, rim] = [problem.rigid[0].start(), problem.line.radius() * problem.rigid[2].start()];
-        0.5 * (travel.abs() + rim.abs()) < way * problem.line.time.a0
+    fn hardly_moves(rigid: &[RigidMotion; 3], line: &LineProblem, way: f64) -> bool {
+        let [travel, rim] = [rigid[0].start(), line.radius() * rigid[2].start()];
+        0.5 * (travel.abs() + rim.abs()) < way * line.time.a0
     }
 
     /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
-    fn check(problem: &SingleLine) -> Result<(), ContactError> {
-        let (surfaces, placement, limits) = (problem.line.surfaces, &problem.line.placement, &problem.line.limits);
+    fn check(line: &LineProblem) -> Result<(), ContactError> {
+        let (surfaces, placement, limits) = (line.surfaces, &line.placement, &line.limits);
         let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
         if !surfaces.is_smooth() {
             return refuse("the surfaces have profiles");
@@ -77,16 +78,16 @@ impl SeriesSolver {
         if !limits.film.is_empty() {
             return refuse("a surface melts");
         }
-        if problem.line.time.b1 != 0.0 { refuse("the time formula remembers rates") } else { Ok(()) }
+        if line.time.b1 != 0.0 { refuse("the time formula remembers rates") } else { Ok(()) }
     }
 
     /// Counts the steps on the grid down. While the contact does not suit the series the count begins anew; material that
     /// begins to move is handed over at once, as long as both solvers remember the same and agree.
-    fn rest(&self, problem: &SingleLine, found: &mut ContactState) {
+    fn rest(&self, rigid: &[RigidMotion; 3], problem: &LineProblem, found: &mut ContactState) {
         let SolverState::Line(line) = &found.solver else { return };
         let rest = match line.rest.saturating_sub(1) {
-            0 if Self::stands(problem, found) => 1,
-            0 if !self.suits(problem, found) => transfer::REST,
+            0 if Self::stands(rigid, problem, found) => 1,
+            0 if !self.suits(rigid, problem, found) => transfer::REST,
             rest => rest,
         };
         if let SolverState::Line(line) = &mut found.solver {
@@ -95,25 +96,26 @@ impl SeriesSolver {
     }
 
     /// True if some of the material sticks and hardly moves, with a margin.
-    fn stands(problem: &SingleLine, found: &ContactState) -> bool {
+    fn stands(rigid: &[RigidMotion; 3], problem: &LineProblem, found: &ContactState) -> bool {
         let half_width = found.traction.extent().map_or(0.0, |patch| 0.5 * (patch.high - patch.low));
-        found.traction.stick_fraction > 0.0 && Self::hardly_moves(problem, 2.0 * SHORTEST_WAY * half_width)
+        found.traction.stick_fraction > 0.0 && Self::hardly_moves(rigid, problem, 2.0 * SHORTEST_WAY * half_width)
     }
 
-    /// True if a contact that the grid has found could be taken back: hot layers leave a margin.
-    fn suits(&self, problem: &SingleLine, found: &ContactState) -> bool {
+    /// True if a line that the grid has found could be taken back: hot layers leave a margin.
+    fn suits(&self, rigid: &[RigidMotion; 3], problem: &LineProblem, found: &ContactState) -> bool {
         let [edges] = found.traction.edges.as_slice() else { return false };
         let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
         let patch = Arch { centre, half_width, ..Arch::default() };
-        let bends = |layers: &SeriesLayers| laws::bends(layers, problem, half_width, 0.5 * laws::UNRESOLVED);
+        let view = OneLine { line: problem, rigid, nominal_load: 0.0 };
+        let bends = |layers: &SeriesLayers| laws::bends(layers, &view, half_width, 0.5 * laws::UNRESOLVED);
         Self::check(problem).is_ok()
             && Self::check_limits(problem, &found.traction).is_ok()
-            && !SeriesLayers::new(&self.constants, problem, &patch).as_ref().is_some_and(bends)
+            && !SeriesLayers::new(&self.constants, &view, &patch).as_ref().is_some_and(bends)
     }
 
     /// Refuses a solution under which steel yields.
-    fn check_limits(problem: &SingleLine, traction: &Traction) -> Result<(), ContactError> {
-        let limits = &problem.line.limits;
+    fn check_limits(line: &LineProblem, traction: &Traction) -> Result<(), ContactError> {
+        let limits = &line.limits;
         // Where it sticks friction shears the steel less; that is for the grid to find out.
         let borne = limits.borne(traction.friction.coefficient);
         let bears = |x: f64| limits.sheared_at(x, borne);
@@ -126,36 +128,61 @@ impl SeriesSolver {
 }
 
 impl SeriesSolver {
-    /// Solves the contact of a single patch.
-    fn solve_patch(
+    /// Solves the contact of lines with a single patch each, which `starts` from the series.
+    fn solve_patches(
         &self,
-        problem: &SingleLine,
-        (start, before): (&ContactState, &SeriesState),
-        found: &mut ContactState,
+        problem: &ContactProblem,
+        starts: &[&ContactState],
+        found: &mut [&mut ContactState],
     ) -> Result<(), ContactError> {
-        if problem.line.bodies.own.relative.nrows() != 2 * POINTS {
+        let begun: Option<Vec<_>> = starts.iter().map(|start| SeriesStart::of(start)).collect();
+        let fits = |line: &LineProblem| line.bodies.shared().relative.nrows() == 2 * POINTS;
+        let lines = problem.lines.len();
+        let begun = begun.filter(|begun| begun.len() == lines && found.len() == lines && lines <= MOST_LINES);
+        let Some(begun) = begun.filter(|_| problem.lines.iter().all(fits)) else {
             return Err(ContactError::ForeignState);
+        };
+        problem.lines.iter().try_for_each(Self::check)?;
+        for (line, start) in problem.lines.iter().zip(&begun) {
+            Self::check_motion(&problem.rigid, line, &start.before.tractions, start.before)?;
         }
-        Self::check(problem)?;
-        let slow = Self::hardly_moves(problem, SHORTEST_WAY * before.tractions.pressure.half_width);
-        let sticks = |tractions: &Tractions| match slow && !tractions.slides() {
+        for (found, (start, begun)) in found.iter_mut().zip(starts.iter().zip(&begun)) {
+            match &mut found.solver {
+                SolverState::Series(state) => (**state).clone_from(begun.before),
+                SolverState::Line(_) | SolverState::Stateless => {
+                    found.solver = SolverState::Series(Box::new(begun.before.clone()))
+                }
+            }
+            found.history.copy_from(&start.history);
+            found.ports = start.ports;
+        }
+        laws::solve(&self.constants, problem, &begun, |contact| {
+            for (line, found) in contact.lines.iter().zip(&mut *found) {
+                let ContactState { traction, history, energy, solver, .. } = &mut **found;
+                let SolverState::Series(state) = solver else { continue };
+                *energy = finish::finish(line, state, history, traction);
+            }
+        })?;
+        for ((line, found), begun) in problem.lines.iter().zip(&*found).zip(&begun) {
+            let SolverState::Series(state) = &found.solver else { return Err(ContactError::ForeignState) };
+            Self::check_motion(&problem.rigid, line, &state.tractions, begun.before)?;
+            Self::check_limits(line, &found.traction)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses a line that sticks somewhere while the material hardly moves.
+    fn check_motion(
+        rigid: &[RigidMotion; 3],
+        line: &LineProblem,
+        tractions: &Tractions,
+        before: &SeriesState,
+    ) -> Result<(), ContactError> {
+        let slow = Self::hardly_moves(rigid, line, SHORTEST_WAY * before.tractions.pressure.half_width);
+        match slow && !tractions.slides() {
             true => Err(ContactError::Unsuited { reason: "the material hardly moves" }),
             false => Ok(()),
-        };
-        sticks(&before.tractions)?;
-        let begun = SeriesStart { before, history: &start.history, traction: &start.traction };
-        let ContactState { ports, traction, history, energy, solver } = found;
-        match solver {
-            SolverState::Series(state) => (**state).clone_from(before),
-            SolverState::Line(_) | SolverState::Stateless => *solver = SolverState::Series(Box::new(before.clone())),
         }
-        let SolverState::Series(state) = solver else { return Err(ContactError::ForeignState) };
-        history.copy_from(&start.history);
-        *ports = start.ports;
-        *energy =
-            laws::solve(&self.constants, *problem, &begun, |line| finish::finish(line, state, history, traction))?;
-        sticks(&state.tractions)?;
-        Self::check_limits(problem, traction)
     }
 }
 
@@ -171,7 +198,7 @@ impl ContactSolver for SeriesSolver {
         pressure.terms[0] = 1.0;
         let tractions = Tractions { pressure, slide: 1.0, stick: Arch { terms: Default::default(), ..pressure } };
         let past = [(); 2].map(|()| Past::Patch(Tractions::default(), [0.0; POINTS]));
-        let state = SeriesState { tractions, past, slope: 0.0 };
+        let state = SeriesState { tractions, past, ..SeriesState::default() };
         let zeros = || DVector::zeros(2 * POINTS);
         let [loads, surface] = [(); 2].map(|()| [zeros(), zeros()]);
         let traction = Traction { port_forces: zeros(), loads, surface, ..Traction::default() };
@@ -197,22 +224,14 @@ impl ContactSolver for SeriesSolver {
         found: &mut [&mut ContactState],
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let before = match start {
-            [start] => match &start.solver {
-                SolverState::Series(before) => Some((*start, before)),
-                SolverState::Line(_) | SolverState::Stateless => None,
-            },
-            _ => None,
-        };
-        if let Some((start, before)) = before {
-            let [found] = found else { return Err(ContactError::ForeignState) };
-            return self.solve_patch(&problem.single()?, (start, before), found);
+        if start.iter().all(|start| matches!(start.solver, SolverState::Series(_))) {
+            return self.solve_patches(problem, start, found);
         }
         self.grid.solve(problem, start, found, scratch)?;
-        if let ([found], Ok(problem)) = (found, problem.single())
-            && !problem.line.time.is_stationary()
-        {
-            self.rest(&problem, found);
+        for (line, found) in problem.lines.iter().zip(found) {
+            if !line.time.is_stationary() {
+                self.rest(&problem.rigid, line, found);
+            }
         }
         Ok(())
     }
@@ -225,6 +244,7 @@ impl ContactSolver for SeriesSolver {
         state.ports == Ports::Smooth
             && arches.iter().all(|arch| arch.is_sound())
             && series.past.iter().all(Past::is_sound)
+            && series.kernel.is_sound()
             && state.history.friction.fits(POWER)
             && vectors.into_iter().all(|values| values.len() == 2 * POINTS)
             && traction.port_forces.iter().all(|f| f.is_finite())

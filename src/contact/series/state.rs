@@ -1,6 +1,7 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::{Arch, logarithm_of_both};
+use crate::contact::kernel::LineKernel;
 use crate::linalg::{Lagrange, POINTS};
 use serde::{Deserialize, Serialize};
 
@@ -20,8 +21,8 @@ pub struct Tractions {
 /// Tangential displacement of the wheel less that of the rail, as a function of x.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Past {
-    /// Found on a patch: by the half-planes under these tractions, and the smooth rest at the points of the polynomial
-    /// \[m].
+    /// Found on a patch: by the half-planes under these tractions, `−2κ ∫ q ln|x − s| ds`, and the smooth rest at the
+    /// points of the polynomial \[m].
     Patch(Tractions, [f64; POINTS]),
     /// Found on a grid: the first node \[m], the spacing \[m] and the values \[m].
     Grid(f64, f64, Vec<f64>),
@@ -32,6 +33,8 @@ pub enum Past {
 pub struct SeriesState {
     /// Tractions of the last solution.
     pub tractions: Tractions,
+    /// Flexibility that the line has for itself.
+    pub kernel: LineKernel,
     /// Tangential displacement at its end, and one step earlier.
     pub past: [Past; 2],
     /// How the root at the place where slip begins depends on this place: change of its strength over the friction at

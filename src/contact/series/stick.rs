@@ -1,5 +1,6 @@
-//! The search for the place where slip begins.
+//! The search for the places where slip begins.
 
+use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::state::{Past, SeriesState, Tractions};
 use crate::contact::error::ContactError;
@@ -20,6 +21,8 @@ const CHANGES: usize = 4;
 const TELLING: f64 = 0.2;
 /// Share of the root that a step along the slope leaves if the slope is wrong \[1].
 const LEFT: f64 = 0.2;
+/// Root over friction at the peak of the pressure below which all sticks, whatever direction slip would have \[1].
+const NEITHER: f64 = 1e-10;
 /// Smallest step that says something without that \[1]: roots after shorter ones are noise of the other changes.
 const LONG: f64 = 1e-6;
 /// Smallest step over the change of the pressure after which a wrong slope is noticed \[1].
@@ -44,35 +47,113 @@ const CLOSE: f64 = 1e-3;
 const MOST: usize = 30;
 
 /// Finds tractions and motions.
-pub fn solve(line: &mut SeriesLine) -> Result<(), ContactError> {
-    line.place_pressure();
-    line.place_shear();
-    line.displace();
-    let mut normal = line.press()?;
+pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    for line in &mut contact.lines {
+        line.place_pressure();
+        line.place_shear();
+    }
+    contact.displace();
+    let mut normal = contact.press()?;
     for _ in 1..WARM {
         if normal < CLOSE {
             break;
         }
-        normal = line.press()?;
+        normal = contact.press()?;
     }
-    let mut search = StickSearch::new(line);
+    let mut search = Search::new(contact);
     // Normal and tangential problem improve each other by turns: a change falls as that before the last one did.
     let mut last = [f64::INFINITY; 2];
     for _ in 0..MOST {
-        let tangential = search.advance(line, normal)?;
+        let tangential = search.advance(contact, normal)?;
         let change = normal.max(tangential);
         let settled = is_settled(change, last);
         last = [change, last[0]];
         if settled {
-            if search.check(line)? {
-                line.slope = search.slope(line);
+            if search.check(contact)? {
                 return Ok(());
             }
             last = [f64::INFINITY; 2];
         }
-        normal = line.press()?;
+        normal = contact.press()?;
     }
     Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
+}
+
+/// The searches on all lines.
+struct Search {
+    lines: Vec<StickSearch>,
+}
+
+impl Search {
+    fn new(contact: &mut SeriesContact) -> Self {
+        let lines = contact.lines.iter_mut().map(StickSearch::new).collect();
+        Self { lines }
+    }
+
+    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change,
+    /// infinite where a search begins anew: how changes fall is not known then.
+    fn advance(&mut self, contact: &mut SeriesContact, normal: f64) -> Result<f64, ContactError> {
+        let before = Motions::of(contact);
+        let mut halves = [None; MOST_LINES];
+        for ((half, search), line) in halves.iter_mut().zip(&self.lines).zip(&contact.lines) {
+            *half = search.share.map(|share| share * line.tractions.pressure.half_width);
+        }
+        if halves.iter().all(Option::is_none) {
+            contact.glide()?;
+            return Ok(before.moved(contact));
+        }
+        let (mut roots, mut forces) = ([0.0; MOST_LINES], [0.0; MOST_LINES]);
+        forces.iter_mut().zip(&contact.lines).for_each(|(force, line)| *force = line.tractions.stick.total());
+        let count = contact.lines.len();
+        contact.stick(&halves[..count], &mut roots)?;
+        let (moved, mut largest) = (before.moved(contact), 0.0_f64);
+        let lines = contact.lines.iter_mut().zip(&mut self.lines);
+        for ((line, search), (root, force)) in lines.zip(roots.into_iter().zip(forces)) {
+            largest = largest.max(search.improve(line, root, (force, normal, moved))?);
+        }
+        Ok(largest)
+    }
+
+    /// True if the solution obeys friction on every line; `false`: the search has to go on.
+    fn check(&mut self, contact: &mut SeriesContact) -> Result<bool, ContactError> {
+        let mut obeyed = true;
+        for (line, search) in contact.lines.iter_mut().zip(&mut self.lines) {
+            obeyed &= search.check(line)?;
+            line.slope = search.slope(line);
+        }
+        Ok(obeyed)
+    }
+}
+
+/// Motions before an iteration.
+struct Motions {
+    rigid: [f64; 3],
+    rim_angles: [f64; MOST_LINES],
+    /// Slip at which rolling becomes sliding [m/s].
+    scale: f64,
+}
+
+impl Motions {
+    fn of(contact: &SeriesContact) -> Self {
+        let mut rim_angles = [0.0; MOST_LINES];
+        rim_angles.iter_mut().zip(&contact.lines).for_each(|(angle, line)| *angle = line.rim_angle);
+        let scale = |it: &SeriesLine| {
+            it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius
+        };
+        let scale = contact.lines.iter().map(scale).fold(0.0, f64::max);
+        Self { rigid: contact.lines[0].rigid, rim_angles, scale }
+    }
+
+    /// Change of motions and turn relative to the slip at which rolling becomes sliding.
+    fn moved(&self, contact: &SeriesContact) -> f64 {
+        let first = &contact.lines[0];
+        let (radius, a0) = (first.problem.line.radius(), first.problem.line.time.a0);
+        let moved = (first.rigid[0] - self.rigid[0]).abs() + radius * (first.rigid[2] - self.rigid[2]).abs();
+        let turned = contact.lines.iter().zip(self.rim_angles).map(|(line, before)| (line.rim_angle - before).abs());
+        let turned = radius * a0 * turned.fold(0.0, f64::max);
+        // Velocities are rounded.
+        (moved + turned) / self.scale.max(1e-3 * first.speed())
+    }
 }
 
 /// True if the `change` of an iteration after the `last` two is the last one that counts.
@@ -90,8 +171,8 @@ fn step_ratio(time: &TimeDerivative) -> f64 {
     if share > 0.0 { share / (1.0 - share) } else { 0.0 }
 }
 
-/// The search in one contact problem.
-pub(super) struct StickSearch {
+/// The search on one line.
+struct StickSearch {
     /// Half-length of the stretch that sticks over that of the patch; `None`: all slips.
     share: Option<f64>,
     /// Share and root of the evaluation before.
@@ -106,7 +187,7 @@ pub(super) struct StickSearch {
 }
 
 impl StickSearch {
-    pub fn new(it: &mut SeriesLine) -> Self {
+    fn new(it: &mut SeriesLine) -> Self {
         let (tractions, mu) = (&mut it.tractions, it.friction);
         let ratio = mu / tractions.slide.abs();
         if ratio.is_finite() {
@@ -141,24 +222,21 @@ impl StickSearch {
     }
 
     /// The slope over the quasistatic one \[1].
-    pub fn slope(&self, it: &SeriesLine) -> f64 {
+    fn slope(&self, it: &SeriesLine) -> f64 {
         let slope = self.slope / Self::quasistatic(it);
         if slope.is_finite() { slope } else { 0.0 }
     }
 
-    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change,
-    /// infinite where the search begins anew: how changes fall is not known then.
-    pub fn advance(&mut self, it: &mut SeriesLine, normal: f64) -> Result<f64, ContactError> {
-        let scale =
-            it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius;
-        let before = (it.rigid, it.rim_angle);
-        let Some(share) = self.share else {
-            it.glide()?;
-            return Ok(Self::moved(it, before, scale));
-        };
-        let force = it.tractions.stick.total();
-        let upstream = it.upstream();
-        let root = it.stick(share * it.tractions.pressure.half_width, upstream)?;
+    /// Improves the length of stick after a solution with a `root`; returns the largest relative change, infinite where
+    /// the search begins anew. The stretch that sticks had the `force` [N/m] before; pressures have changed by `normal`
+    /// and motions by `moved` \[1].
+    fn improve(
+        &mut self,
+        it: &mut SeriesLine,
+        root: f64,
+        (force, normal, moved): (f64, f64, f64),
+    ) -> Result<f64, ContactError> {
+        let Some(share) = self.share else { return Ok(moved) };
         if let Some([other, there]) = self.last
             && let moved = (share - other).abs()
             && (moved > LONG.max(TELLING * self.moving) || moved > NOTICED * normal && (root / there).abs() > LEFT)
@@ -171,7 +249,7 @@ impl StickSearch {
         self.last = Some([share, root]);
         let peak = it.friction * it.tractions.pressure.terms[0];
         let next = share - root / self.slope;
-        if next >= 1.0 && share >= 1.0 {
+        if next >= 1.0 && share >= 1.0 && root.abs() > NEITHER * peak {
             // Sticking everywhere asks for slip in the other direction; the shear stays as it is.
             let Tractions { pressure, slide, stick } = &mut it.tractions;
             stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
@@ -187,17 +265,8 @@ impl StickSearch {
         self.share = Some(next);
         let change = (root / peak).abs().max((next - share).abs());
         let force = (it.tractions.stick.total() - force).abs() / (it.friction * it.load());
-        self.moving = change.max(force).max(Self::moved(it, before, scale));
+        self.moving = change.max(force).max(moved);
         Ok(self.moving)
-    }
-
-    /// Change of motions and turn relative to the slip at which rolling becomes sliding.
-    fn moved(it: &SeriesLine, (rigid, turn): ([f64; 3], f64), scale: f64) -> f64 {
-        let radius = it.problem.line.radius();
-        let moved = (it.rigid[0] - rigid[0]).abs() + radius * (it.rigid[2] - rigid[2]).abs();
-        let turned = radius * it.problem.line.time.a0 * (it.rim_angle - turn).abs();
-        // Velocities are rounded.
-        (moved + turned) / scale.max(1e-3 * it.speed())
     }
 
     fn turn_over(&mut self, it: &mut SeriesLine, share: Option<f64>) -> Result<(), ContactError> {
@@ -210,7 +279,7 @@ impl StickSearch {
     }
 
     /// True if the solution obeys friction; `false`: the search has to go on.
-    pub fn check(&mut self, it: &mut SeriesLine) -> Result<bool, ContactError> {
+    fn check(&mut self, it: &mut SeriesLine) -> Result<bool, ContactError> {
         it.slips = it.slip(&it.slipping().0, &it.surface, true);
         if it.friction == 0.0 {
             return Ok(true);

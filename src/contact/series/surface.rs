@@ -1,6 +1,6 @@
 //! Smooth part of the surface displacements: by forces, accelerations and the past, half-planes apart.
 
-use crate::contact::problem::SingleLine;
+use crate::contact::problem::SurfaceResponse;
 use crate::linalg::POINTS;
 use crate::linalg::vectorised::vectorised;
 use nalgebra::DMatrix;
@@ -43,6 +43,16 @@ pub fn plus<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
+impl Moments {
+    /// Adds a multiple of others.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        for k in 0..POINTS {
+            self.tangential[k] += factor * other.tangential[k];
+            self.normal[k] += factor * other.normal[k];
+        }
+    }
+}
+
 impl PolynomialValues {
     /// The `free` displacements of all ports and those under forces on them; `compliance` by columns.
     fn under(free: &[f64], compliance: &[f64], forces: &[f64; 2 * POINTS]) -> Self {
@@ -72,8 +82,8 @@ const PORTS: usize = 2 * POINTS;
 impl SmoothSurfaces {
     /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on
     /// wheel and rail; `accelerations` are the rigid ones.
-    pub fn new(problem: &SingleLine, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
-        let bodies = &problem.line.bodies;
+    pub fn new(bodies: &SurfaceResponse, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
+        let shared = bodies.shared();
         let body = |index: usize, sign: f64| {
             let mut forces = [0.0; 2 * POINTS];
             for k in 0..POINTS {
@@ -81,7 +91,7 @@ impl SmoothSurfaces {
                 forces[2 * k + 1] = sign * moments.normal[k];
             }
             let free = bodies.free[index].as_slice();
-            PolynomialValues::under(free, bodies.own.compliance[index].as_slice(), &forces)
+            PolynomialValues::under(free, shared.compliance[index].as_slice(), &forces)
         };
         let (mut wheel, rail) = (body(0, 1.0), body(1, -1.0));
         let answers = bodies.inertial.as_slice().chunks(2 * POINTS);

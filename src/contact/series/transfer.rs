@@ -5,6 +5,7 @@ use super::chebyshev::Arch;
 use super::constants::Constants;
 use super::state::{Past, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE};
+use crate::contact::kernel::LineKernel;
 use crate::contact::line::{ContactGrid, FrictionHistory, LineHistory, LineState, NodeStatus};
 use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
@@ -44,7 +45,7 @@ pub(super) fn to_grid(
         _ => slipping,
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
-    let past = |k: usize, x: f64| patch.past[k].at(&[x], constants.half_plane.kernel, &constants.points)[0];
+    let past = |k: usize, x: f64| patch.past[k].at(&[x], patch.kernel.tangential.factor, &constants.points)[0];
     state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
     state.rest = REST;
     let closed = |i: usize| status(grid.x[i]).is_active();
@@ -65,7 +66,7 @@ pub(super) fn to_grid(
         forces[grid.port(i)] = force(i);
         forces[grid.port(i) + 1] = pressure.density(&[grid.x[i]])[0] * grid.width(i);
     }
-    let surface = [0, 1].map(|body| surface(constants, &patch.tractions, &traction.surface[body], grid, body));
+    let surface = [0, 1].map(|body| surface(constants, patch, &traction.surface[body], grid, body));
     target.traction = Traction { loads: [forces.clone(), -&forces], port_forces: forces, surface, ..traction.clone() };
     target
 }
@@ -73,18 +74,20 @@ pub(super) fn to_grid(
 /// Displacements of a body at all nodes, but for a constant and the small strains under pressure.
 fn surface(
     constants: &Constants,
-    tractions: &Tractions,
+    patch: &SeriesState,
     smooth: &DVector<f64>,
     grid: &ContactGrid,
     body: usize,
 ) -> DVector<f64> {
-    let kernel = if body == 0 { -constants.half_plane.kernel } else { constants.half_plane.kernel };
+    let SeriesState { tractions, kernel, .. } = patch;
+    let side = if body == 0 { -1.0 } else { 1.0 };
+    let [along, normal] = [kernel.tangential.factor, kernel.normal.factor].map(|factor| side * factor);
     let mut all = DVector::zeros(grid.ports());
     for (node, &x) in grid.nodes().iter().enumerate() {
         let values = constants.points.values(x);
         let rest = |component: usize| (0..POINTS).map(|k| values[k] * smooth[2 * k + component]).sum::<f64>();
-        all[2 * node] = rest(0) + kernel * tractions.shear_logarithm(&[x])[0];
-        all[2 * node + 1] = rest(1) + kernel * tractions.pressure.logarithm(&[x])[0];
+        all[2 * node] = rest(0) + along * tractions.shear_logarithm(&[x])[0];
+        all[2 * node + 1] = rest(1) + normal * tractions.pressure.logarithm(&[x])[0];
     }
     all
 }
@@ -146,7 +149,8 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     };
     let tractions = Tractions { pressure, slide, stick };
     let friction = friction_history(constants, &tractions, side, from);
-    let patch = SeriesState { tractions, past: [history(false), history(true)], slope: 0.0 };
+    let patch =
+        SeriesState { tractions, kernel: LineKernel::default(), past: [history(false), history(true)], slope: 0.0 };
     let mut moved = ContactState {
         ports: Ports::Smooth,
         traction: traction.clone(),

@@ -31,7 +31,7 @@ pub use step::memory::HeatScratch;
 use super::error::HeatError;
 use super::exchange::Exchange;
 use super::flows::HeatFlows;
-use super::model::HeatModel;
+use super::model::{HeatLine, HeatModel};
 use super::observation::{Observation, TemperatureField};
 use super::state::HeatState;
 use step::stationary::{after_long_rolling, bounded, stationary};
@@ -76,8 +76,21 @@ impl HeatModel for Heat {
         exchange: &Exchange,
         scratch: &mut HeatScratch,
     ) -> Result<HeatFlows, HeatError> {
-        self.check_state(state)?;
-        step::formula::advance(self, state, next, dt, [velocity, omega], exchange, scratch)
+        let mut line = HeatLine { state, next, exchange, flows: HeatFlows::default() };
+        self.step_lines(std::slice::from_mut(&mut line), dt, velocity, omega, scratch)?;
+        Ok(line.flows)
+    }
+
+    fn step_lines(
+        &self,
+        lines: &mut [HeatLine],
+        dt: f64,
+        velocity: f64,
+        omega: f64,
+        scratch: &mut HeatScratch,
+    ) -> Result<(), HeatError> {
+        lines.iter().try_for_each(|line| self.check_state(line.state))?;
+        step::formula::advance(self, lines, dt, [velocity, omega], scratch)
     }
 
     fn fits(&self, state: &HeatState) -> bool {
@@ -111,6 +124,11 @@ impl HeatModel for Heat {
         column.fill(0.0);
         if self.fits(state) {
             self.fill_column(body, state, s, weights, column);
+            // Sums of modes have the round-off of the hottest place.
+            let [coldest, hottest] = state.data;
+            if coldest < hottest {
+                column.iter_mut().for_each(|t| *t = t.clamp(coldest, hottest));
+            }
         }
     }
 

@@ -7,8 +7,9 @@ use super::mesh::section::Section;
 use super::mesh::streamline::Streamline;
 use super::solve::coefficients::StageCoefficients;
 use super::solve::conductance::conducting;
+use super::solve::line_conduction::{LineConduction, contact_nodes};
+use super::solve::operators::{StageKey, StageOperators};
 use super::solve::response::SurfaceInfluence;
-use super::solve::stage::{Stage, StageKey};
 use super::solve::transport::Transport;
 use super::solve::tridiagonal::TridiagonalFactor;
 use super::step::loads::SurfaceLoads;
@@ -71,7 +72,7 @@ struct AnnulusSystem<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
 
 impl LinearSystem for AnnulusSystem<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
-        STATIONARY.multiply(self.0, self.1, x, out, Update::Replace);
+        STATIONARY.multiply(self.0, self.1, [x], [out], Update::Replace);
         STATIONARY.add_curvature(self.0, x, out, &mut Vec::new());
     }
 
@@ -222,20 +223,19 @@ fn kept_factors_of_a_full_contact_and_its_two_ends_are_the_factors_of_the_contac
             inner + share * (outer - inner)
         };
         let exchange = Exchange { patches: vec![Interval { low: end(-1.0), high: end(1.0) }], ..Exchange::default() };
-        let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
+        let (mut stage, mut line, mut loads) =
+            (StageOperators::default(), LineConduction::default(), SurfaceLoads::default());
         loads.set(&heat.layout, &exchange, 0.0).unwrap();
         let coefficients = StageCoefficients { storage: 1.0, flow: 0.3e-3 };
         let (speeds, inverted) = ([v, 0.98 * v / R], [1.003 * v, 0.978 * v / R]);
-        stage
-            .set(
-                &heat.layout,
-                &loads.conductance,
-                StageKey { speeds, inverted, coefficients, rate: 1.0 / 0.3e-3, curved: false },
-            )
-            .unwrap();
+        // Among the nodes that another, wider line touches.
+        let contact = [0, heat.zone_x().len()];
+        let key = StageKey { speeds, inverted, coefficients, rate: 1.0 / 0.3e-3, curved: false, contact };
+        stage.set(&heat.layout, key).unwrap();
+        line.set(&stage, &heat.layout, &loads.conductance).unwrap();
         let jump: Vec<f64> =
             (0..conducting(&loads.conductance).len() + 1).map(|i| 100.0 + (7.0 * i as f64).sin()).collect();
-        let [kept, direct] = [Some(k_c), None].map(|even| stage.left_of(&heat.layout, even, &jump));
+        let [kept, direct] = [Some(k_c), None].map(|even| line.left_of(&stage, &heat.layout, even, &jump));
         let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let apart: Vec<f64> = kept.iter().zip(&direct).map(|(a, b)| a - b).collect();
         println!("k_c {k_c:e}: {:.1e} of {:.1e} K", largest(&apart), largest(&direct));
@@ -248,12 +248,14 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
     let (a, v, k_c) = (0.761e-3, 50.0 / 3.6, 1e7);
     let heat = both(a, v, k_c);
     let exchange = Exchange { patches: vec![Interval { low: -a, high: a }], ..Exchange::default() };
-    let (mut stage, mut loads) = (Stage::default(), SurfaceLoads::default());
+    let (mut stage, mut line, mut loads) =
+        (StageOperators::default(), LineConduction::default(), SurfaceLoads::default());
     loads.set(&heat.layout, &exchange, 0.0).unwrap();
-    let speeds = [v, v / R];
-    let key = StageKey { speeds, inverted: speeds, coefficients: STATIONARY, rate: 0.0, curved: false };
-    stage.set(&heat.layout, &loads.conductance, key).unwrap();
-    let (nodes, temperatures) = stage.rail_under_uniform_wheel(1.0);
+    let (speeds, contact) = ([v, v / R], contact_nodes(&loads.conductance));
+    let key = StageKey { speeds, inverted: speeds, coefficients: STATIONARY, rate: 0.0, curved: false, contact };
+    stage.set(&heat.layout, key).unwrap();
+    line.set(&stage, &heat.layout, &loads.conductance).unwrap();
+    let (nodes, temperatures) = line.rail_under_uniform_wheel(&stage, 1.0);
     let surface: Vec<[f64; 2]> = heat.zone_x()[nodes].iter().zip(temperatures).map(|(&x, t)| [x, t]).collect();
     let effusivity = (CONDUCTIVITY * HEAT_CAPACITY).sqrt();
     let exact = |x: f64| 1.0 - erfcx(k_c / effusivity * ((a - x) / v).sqrt());
@@ -301,7 +303,7 @@ fn surface_response_equals_solutions_for_unit_loads() {
             let error = trace.iter().enumerate().map(|(i, t)| (t - response.row(i)[k]).abs());
             assert!(error.fold(0.0, f64::max) < 1e-12 * scale);
             let mut product = vec![0.0; body.size()];
-            STATIONARY.multiply(&body, &transport, &field, &mut product, Update::Replace);
+            STATIONARY.multiply(&body, &transport, [&field], [&mut product], Update::Replace);
             let residual = product.iter().zip(&load).fold(0.0_f64, |m, (p, l)| m.max((p - l).abs()));
             assert!(residual < 1e-8 * load.iter().fold(0.0, |m: f64, l| m.max(l.abs())), "residual {residual:.1e}");
         }

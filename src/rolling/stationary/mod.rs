@@ -54,7 +54,8 @@ pub fn start(
             let mut temperatures = match model.config.initial.temperature {
                 StartTemperature::Uniform => thermal.uniform(&contact)?,
                 StartTemperature::Stationary => {
-                    let tread_heat = brake::tread_heat(model, &goal.drive, state.hub.brake.power);
+                    let blocks = brake::tread_heat(model, &goal.drive, state.hub.brake.power);
+                    let tread_heat = model.narrowing(&state) * blocks;
                     thermal.stationary(&state.motion, &contact, tread_heat)?
                 }
             };

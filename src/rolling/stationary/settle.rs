@@ -13,7 +13,7 @@ use super::super::thermal_state::ThermalState;
 use super::super::zones;
 use super::goal::{Goal, Trial};
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating};
+use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating, LineLayout};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
@@ -93,14 +93,15 @@ pub(super) fn settle(
 /// Lines that touch and stick under about the `load` [N/m], with given temperatures.
 fn lines(model: &RollingModel, load: f64, at_rest: bool, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
     let mut temperatures = thermal.into_iter();
-    let line = |share: &f64| Line {
-        share: *share,
+    let line = |_| Line {
+        layout: LineLayout::default(),
         contact: model.contact.hertzian_guess(load, at_rest),
         flattening: flattening::none(model),
         worn: 0.0,
         thermal: temperatures.next().flatten(),
     };
-    let mut lines: Vec<_> = model.contact.shares.iter().map(line).collect();
+    let mut lines: Vec<_> = (0..model.contact.patch.count()).map(line).collect();
+    model.contact.patch.lay_out(load * model.wheel.width, &mut lines);
     thermal::share_growth(&mut lines);
     lines
 }

@@ -43,8 +43,9 @@ pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
         resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.hub.driving[k]),
         damper: model.wheel.damper_force(state),
         slip: state.tread_slip(),
-        temperatures: [0, 1]
-            .map(|body| state.sum(|line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.loaded_mean[body]))),
+        temperatures: [0, 1].map(|body| {
+            state.mean_under_load(|line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.loaded_mean[body]))
+        }),
         velocity: state.motion.velocity.now,
         omega: state.motion.omega.now,
     }

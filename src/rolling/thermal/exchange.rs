@@ -26,7 +26,7 @@ impl BrakeBlocks {
             angle: thermal.tread_angle,
             arc: thermal.tread_width,
             sides: if thermal.tread_blocks == 2 { &[1.0, -1.0] } else { &[1.0] },
-            width: config.model.contact_width,
+            width: config.nominal_patch().width,
         }
     }
 
@@ -91,7 +91,7 @@ pub fn heat_config(config: &Config, half_width: f64, zone: f64, reach: f64) -> H
         rail: config.rail.clone(),
         material: config.material.clone(),
         thermal: config.thermal.clone(),
-        contact_width: config.model.contact_width,
+        contact_width: config.nominal_patch().width,
         elements_per_half_width: config.mesh.elements_per_half_width,
         half_width,
         zone,

@@ -21,7 +21,7 @@ use crate::config::Config;
 use crate::contact::{ContactState, Heating};
 use crate::damage::{ConductionScratch, Criteria};
 use crate::heat::{
-    Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatModel, HeatScratch, Observation, TemperatureField,
+    Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatLine, HeatModel, HeatScratch, Observation, TemperatureField,
 };
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
@@ -86,9 +86,20 @@ pub struct HeatStep {
 #[derive(Default)]
 pub struct ThermalScratch {
     heat: HeatScratch,
-    exchange: Exchange,
+    /// Exchange of each line.
+    exchanges: Vec<Exchange>,
     view: ThermalView,
     history: ConductionScratch,
+}
+
+/// A line in a heat step.
+pub struct ThermalLine<'a> {
+    /// Temperatures at the beginning.
+    pub before: &'a ThermalState,
+    /// Contact at the end.
+    pub contact: ThermalContact<'a>,
+    /// Temperatures at the end, to be replaced; their memory is reused.
+    pub thermal: ThermalState,
 }
 
 /// Observation of a state, and the smoothing of its swelling.
@@ -204,24 +215,46 @@ impl ThermalModel {
         Ok(thermal)
     }
 
-    /// The heat step of a line that belongs to a mechanical step: from the temperatures `before` with the `contact` and
-    /// the `motion` at its end; `thermal` gives its memory for the result.
+    /// The heat step of all lines that belongs to a mechanical step with the `motion` at its end.
     pub fn step(
         &self,
-        before: &ThermalState,
+        lines: &mut [ThermalLine],
         motion: &Motion,
-        contact: &ThermalContact,
         step: HeatStep,
-        mut thermal: ThermalState,
         scratch: &mut ThermalScratch,
-    ) -> Result<ThermalState, StepError> {
-        let HeatStep { dt, tread_heat, criteria } = step;
-        let ThermalScratch { heat, exchange, view, history } = scratch;
+    ) -> Result<(), StepError> {
+        let HeatStep { dt, tread_heat, .. } = step;
+        let ThermalScratch { heat, exchanges, .. } = scratch;
+        exchanges.resize_with(lines.len().max(exchanges.len()), Exchange::default);
+        for (line, exchange) in lines.iter().zip(&mut *exchanges) {
+            line.contact.fill(&self.blocks, tread_heat, &line.before.weakening.film, exchange);
+        }
+        let fields = lines.iter_mut().zip(&*exchanges).map(|(ThermalLine { before, thermal, .. }, exchange)| {
+            HeatLine { state: &before.fields, next: &mut thermal.fields, exchange, flows: HeatFlows::default() }
+        });
+        let mut fields: Vec<_> = fields.collect();
+        self.heat.step_lines(&mut fields, dt, motion.velocity.now, motion.omega.now, heat)?;
+        let flows: Vec<_> = fields.into_iter().map(|field| field.flows).collect();
+        for (line, flows) in lines.iter_mut().zip(flows) {
+            line.thermal.flows = flows;
+            self.follow(line, motion, step, scratch)?;
+        }
+        Ok(())
+    }
+
+    /// Fills all that follows from the temperature fields of a line after a step.
+    fn follow(
+        &self,
+        line: &mut ThermalLine,
+        motion: &Motion,
+        step: HeatStep,
+        scratch: &mut ThermalScratch,
+    ) -> Result<(), StepError> {
+        let HeatStep { dt, criteria, .. } = step;
+        let ThermalScratch { view, history, .. } = scratch;
+        let ThermalLine { before, contact, thermal } = line;
         thermal.weakening.film.clone_from(&before.weakening.film);
-        contact.fill(&self.blocks, tread_heat, &before.weakening.film, exchange);
-        let (v, omega) = (motion.velocity.now, motion.omega.now);
-        thermal.flows = self.heat.step(&before.fields, &mut thermal.fields, dt, v, omega, exchange, heat)?;
-        self.observe(contact, dt, &mut thermal, view)?;
+        self.observe(contact, dt, thermal, view)?;
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
@@ -239,7 +272,7 @@ impl ThermalModel {
         let [sum, amount] = balance(&thermal.flows);
         thermal.unaccounted = before.unaccounted + dt * sum;
         thermal.turned_over = before.turned_over + dt * amount;
-        Ok(thermal)
+        Ok(())
     }
 
     /// Fills all that follows from the temperature fields after a step of `dt` \[s].
@@ -340,7 +373,8 @@ pub fn share_growth(lines: &mut [Line]) {
     if lines.len() < 2 {
         return;
     }
-    let growth = lines.iter().map(|line| line.share * line.deformation().radius_growth).sum();
+    let sum = |of: &dyn Fn(&Line) -> f64| -> f64 { lines.iter().map(|line| line.layout.share * of(line)).sum() };
+    let growth = sum(&|line| line.deformation().radius_growth) / sum(&|_| 1.0);
     for thermal in lines.iter_mut().filter_map(|line| line.thermal.as_mut()) {
         thermal.deformation.radius_growth = growth;
     }

@@ -57,6 +57,86 @@ function depthMap(field, time) {
   return { data, layout: layout(look) };
 }
 
+// The patch from above: pressure over x and z, its outline, where it sticks; beside it the hottest place of each line.
+function patchFromAbove(lines, frame, fit) {
+  const CELLS = 80,
+    row = (key) => lines[key][frame],
+    z = row("z"),
+    a = row("half_length"),
+    p = row("pressure"),
+    edges = row("edges"),
+    unit = lines.units.pressure,
+    side = lines.ahead[frame];
+  const most = (table) => Math.max(...table.flat()),
+    reach = 1.06 * (fit ? Math.max(...a) : most(lines.half_length)) || 1,
+    across = 1.06 * (fit ? Math.max(...edges) : most(lines.edges)) || 1;
+  const places = Array.from({ length: CELLS }, (_, k) => reach * ((2 * k + 1) / CELLS - 1));
+  const pressure = z.map((_, k) => places.map((x) => (Math.abs(x) < a[k] ? p[k] * Math.sqrt(1 - (x / a[k]) ** 2) : null)));
+  const touching = z.map((_, k) => k).filter((k) => a[k] > 0),
+    ends = (wanted) => [wanted(edges[0]), ...touching.map((k) => [a[k], z[k]]), wanted(edges[edges.length - 1])],
+    front = ends((edge) => [0, edge]),
+    outline = [...front, ...front.map(([x, y]) => [-x, y]).reverse()];
+  const data = [
+    {
+      type: "heatmap",
+      x: places,
+      y: edges,
+      z: pressure,
+      colorscale: "Viridis",
+      zmin: 0,
+      zmax: fit ? Math.max(...p) : most(lines.pressure),
+      colorbar: { title: { text: unit }, thickness: 12, x: lines.temperature_wheel || lines.temperature_rail ? 0.6 : 1.02 },
+      hovertemplate: `x %{x:.3~g} mm, z %{y:.3~g} mm: %{z:.4~g} ${unit}<extra></extra>`,
+    },
+    {
+      type: "scatter",
+      mode: "lines",
+      name: "outline",
+      x: outline.map(([x]) => x),
+      y: outline.map(([, y]) => y),
+      hoverinfo: "skip",
+      line: { color: colour("--soft"), width: 1.5, shape: "spline" },
+    },
+  ];
+  if (lines.adheres)
+    data.push({
+      type: "scatter",
+      mode: "lines+markers",
+      name: "end of stick, from the leading edge",
+      x: touching.map((k) => side * (a[k] - row("adheres")[k])),
+      y: touching.map((k) => z[k]),
+      hovertemplate: "x %{x:.3~g} mm, z %{y:.3~g} mm<extra></extra>",
+      line: { color: colour("--slip"), width: 3 },
+    });
+  const bodies = [
+    ["temperature_wheel", "hottest place of the wheel", "--c1", "solid"],
+    ["temperature_rail", "hottest place of the rail", "--c0", "dash"],
+  ].filter(([key]) => lines[key]);
+  for (const [key, name, c, dash] of bodies)
+    data.push({
+      type: "scatter",
+      mode: "lines+markers",
+      name,
+      x: row(key),
+      y: z,
+      xaxis: "x2",
+      hovertemplate: "z %{y:.3~g} mm: %{x:.4~g} °C<extra></extra>",
+      line: { color: colour(c), width: 2, dash },
+    });
+  const heat = bodies.length
+    ? { xaxis2: axis("[°C]", { domain: [0.72, 1], ...(fit ? {} : { range: extent(...bodies.map(([key]) => lines[key])) }) }) }
+    : {};
+  return {
+    data,
+    layout: layout({
+      hovermode: "closest",
+      xaxis: axis("x [mm], travel to the right →", { domain: [0, bodies.length ? 0.58 : 1], range: [-reach, reach] }),
+      yaxis: axis("z [mm], across the rail", { range: [-across, across] }),
+      ...heat,
+    }),
+  };
+}
+
 class Film {
   constructor(film) {
     this.film = film;
@@ -73,7 +153,7 @@ class Film {
       slip: extent(film.slip),
       temperature: extent(film.temperature_wheel, film.temperature_rail),
     };
-    this.grid = film.x[0];
+    this.grid = film.x ? film.x[0] : null;
   }
 
   time() {
@@ -230,14 +310,8 @@ class Film {
     const f = this.film,
       slider = $("#slider");
     slider.max = f.time.length - 1;
-    for (const [key, title] of Object.entries(TITLES))
-      if (f[key] && !(key === "state" && f.state.some((row) => row.includes(3)))) $("#quantity").add(new Option(title, key));
-    this.filmed = await draw($("#film"), () => this.figure(), false);
-    this.mapped = await draw($("#map"), () => this.map(), true);
-    $("#quantity").addEventListener("change", () => {
-      const { data, layout: look } = this.map();
-      Plotly.react($("#map"), data, look, CONFIG);
-    });
+    if (f.pressure) await this.drawAlong();
+    if (f.lines) await draw($("#above"), () => this.above(), false);
     slider.addEventListener("input", () => {
       this.stop();
       this.show(Number(slider.value));
@@ -245,6 +319,22 @@ class Film {
     $("#play").addEventListener("click", () => (this.playing ? this.stop() : this.play()));
     $("#follow").addEventListener("change", () => this.show(this.frame));
     this.tell();
+  }
+
+  above() {
+    return patchFromAbove(this.film.lines, this.frame, $("#follow").checked);
+  }
+
+  async drawAlong() {
+    const f = this.film;
+    for (const [key, title] of Object.entries(TITLES))
+      if (f[key] && !(key === "state" && f.state.some((row) => row.includes(3)))) $("#quantity").add(new Option(title, key));
+    await draw($("#film"), () => this.figure(), false);
+    await draw($("#map"), () => this.map(), true);
+    $("#quantity").addEventListener("change", () => {
+      const { data, layout: look } = this.map();
+      Plotly.react($("#map"), data, look, CONFIG);
+    });
   }
 
   // A click on a curve or on the map moves the film there.
@@ -295,13 +385,19 @@ class Film {
     while (shown !== this.frame || all === this.playing) {
       shown = this.frame;
       all = !this.playing;
-      const { data, layout: look } = this.figure(),
-        time = this.time(),
+      const time = this.time(),
         seen = ({ div }) => {
           const box = div.getBoundingClientRect();
           return box.bottom > 0 && box.top < innerHeight;
         };
-      await Plotly.react($("#film"), data, look, CONFIG);
+      for (const [place, figure] of [
+        ["#film", this.film.pressure && (() => this.figure())],
+        ["#above", this.film.lines && (() => this.above())],
+      ])
+        if (figure) {
+          const { data, layout: look } = figure();
+          await Plotly.react($(place), data, look, CONFIG);
+        }
       const moved = drawn.filter((f) => f.linked && (all || seen(f)));
       await Promise.all(moved.map(({ div }) => Plotly.relayout(div, { "shapes[0].x0": time, "shapes[0].x1": time })));
       await new Promise(requestAnimationFrame);

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from . import above
 from .charts import rounded
 from .units import CELSIUS, KELVIN, KMH, PERCENT, shown
 
@@ -27,7 +28,22 @@ def chosen(time, values, most=FRAMES):
 
 
 def of_run(run):
-    """Frames of a run in units that are shown, None without profiles of pressure over x."""
+    """Frames of a run in units that are shown: of profiles of pressure over x, of the lines of a patch as its `lines`, or of
+    both; None without any."""
+    film = _along(run)
+    if run.lines is None:
+        return film
+    if film is None:
+        shown_most = [run.lines.values[name] for name in ("pressure_max", "temperature_wheel_max") if name in run.lines.values]
+        kept = chosen(run.lines.time, shown_most)
+        time = run.lines.time[kept]
+        film = {"time": rounded(time, 7), "of": len(run.lines.time), "window": None, "readings": _readings(run, time)}
+        film["start"] = int(np.argmax(np.nanmax(shown_most[-1][kept], axis=1)))
+    return film | {"lines": above.of_run(run, np.array(film["time"], float))}
+
+
+def _along(run):
+    """Frames of the profiles along the patch, None without profiles of pressure over x."""
     if run.patch is None or not {"x", "pressure"} <= set(run.patch.values):
         return None
     known = {name: run.patch.values[name] for name in SHAPES if name in run.patch.values}

@@ -93,6 +93,8 @@ MAP = """<div class="map">
 <label>shown <select id="quantity"></select></label>
 <div id="map" class="plot tall"></div>
 </div>"""
+READINGS = '<div class="readings" aria-live="off"></div>'
+ABOVE = '<div id="above" class="plot"></div>'
 BAR = """<div id="bar" role="group" aria-label="time of the film">
 <button id="play" type="button" aria-pressed="false">▶ play</button>
 <input id="slider" type="range" min="0" value="0" step="1" aria-label="time of the film">

@@ -36,7 +36,8 @@ class Field:
 @dataclass
 class Run:
     """A wheel over time. `series` are the FMU's variables by name; `about` may hold fmu_version, preset, parameters (those
-    that differ from the preset), inputs (the constant ones), warnings (texts, or pairs of time [s] and text)."""
+    that differ from the preset), inputs (the constant ones), warnings (texts, or pairs of time [s] and text). `lines` has what each
+    line of a patch with a width of its own has, by names without `line.`, over time and line."""
 
     title: str
     time: np.ndarray
@@ -44,6 +45,7 @@ class Run:
     patch: Profiles | None = None
     fields: dict = field(default_factory=dict)
     about: dict = field(default_factory=dict)
+    lines: Profiles | None = None
 
     def __post_init__(self):
         # A run without heat has temperatures of 0 K.
@@ -74,7 +76,7 @@ def of_table(title, fmu, names, table, patch=None, about=None):
 def of_dataset(dataset):
     """The run of an xarray Dataset as `wheelrail.records` makes them."""
     time = np.asarray(dataset["time"].values, float)
-    series, patch, fields = {}, {}, {}
+    series, patch, fields, lines = {}, {}, {}, {}
     at = time
     for name, variable in dataset.data_vars.items():
         unit, meaning = variable.attrs.get("units", ""), variable.attrs.get("comment", variable.attrs.get("long_name", ""))
@@ -89,12 +91,14 @@ def of_dataset(dataset):
             fields[name.removeprefix("profile.")] = Field(
                 _axis(dataset, variable.dims[0], time)[seen], at_depth, values[seen], meaning
             )
+        elif values.ndim == 2 and variable.dims[1] == "line":
+            lines[name.removeprefix("line.")] = values
         elif values.ndim == 2 and name.startswith("profile."):
             patch[name.removeprefix("profile.")] = values
             at = _axis(dataset, variable.dims[0], time)
     about = {name: _loaded(value) for name, value in dataset.attrs.items()}
     title = str(about.pop("title", "") or "Run")
-    return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about)
+    return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about, seen_lines(time, lines))
 
 
 def _numbers(variable):
@@ -127,3 +131,15 @@ def seen_rows(profiles):
     whole = lambda v: np.broadcast_to(v, (len(profiles.time), len(v))) if np.ndim(v) == 1 else np.asarray(v, float)
     values = {name: whole(v)[rows] for name, v in profiles.values.items()}
     return Profiles(np.asarray(profiles.time, float)[rows], values) if rows.any() else None
+
+
+def seen_lines(time, values):
+    """What several lines of a patch have, without lines that are not there; None if that is no patch with a width."""
+    if not {"position", "half_length", "pressure_max"} <= set(values):
+        return None
+    there = np.isfinite(values["position"]).all(axis=1)
+    # Those beyond contact.lines are 0 all the time.
+    used = np.any(values["half_length"][there] > 0.0, axis=0) if there.any() else np.zeros(0, bool)
+    if used.sum() < 2:
+        return None
+    return Profiles(time[there], {name: v[there][:, used] for name, v in values.items()})

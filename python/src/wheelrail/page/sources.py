@@ -12,13 +12,13 @@ from fmpy import read_model_description
 from ..files import BadFile
 from ..fmu import default_path
 from . import stops
-from .run import Profiles, Run, Series, of_dataset, seen_rows
+from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
 from .units import READ
 
 HDF, CLASSIC = b"\x89HDF", b"CDF"
 FLAGS = {"true": 1.0, "false": 0.0}
 HEADER = re.compile(r"^(?P<name>.*?)(?:\s+\[(?P<unit>[^\]]*)\])?$")
-POINT = re.compile(r"^profile\.(?P<name>\w+)\[(?P<point>\d+)\]$")
+POINT = re.compile(r"^(?P<of>profile|line)\.(?P<name>\w+)\[(?P<point>\d+)\]$")
 # Units of the FMU's variables by name, for a CSV beside which there is no FMU.
 GUESSES = (
     (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
@@ -170,17 +170,19 @@ def guessed(name):
 
 def _of_csv(path, columns, described):
     """The run of a CSV of `wheelrail simulate --out`."""
-    time, series, points = columns.pop("time")[1], {}, {}
+    time, series, points = columns.pop("time")[1], {}, {"profile": {}, "line": {}}
     for name, (unit, values) in columns.items():
         point = POINT.match(name)
         if point:
-            points.setdefault(point["name"], {})[int(point["point"])] = values
+            points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = values
             continue
         known, meaning = described.get(name, (guessed(name), ""))
         series[name] = Series(values, unit or known, meaning)
-    patch = {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points.items()}
+    patch, lines = (
+        {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points[of].items()} for of in points
+    )
     about = {} if described else {"note": "Units are guessed from the names: there is no FMU here that says them."}
-    return Run(path.stem, time, series, seen_rows(Profiles(time, patch)), about=about)
+    return Run(path.stem, time, series, seen_rows(Profiles(time, patch)), about=about, lines=seen_lines(time, lines))
 
 
 def _directory(path):

@@ -19,10 +19,14 @@ def run_page(run, when):
     told = warnings(run)
     if told:
         parts.append(html.section("warnings", "Warnings", html.notice(told)))
-    if patch:
+    along, across = bool(patch and "pressure" in patch), bool(patch and "lines" in patch)
+    if along:
         parts.append(
             html.section("patch", "The contact patch", f'<div class="pair">{html.FILM}{html.MAP}</div>', _film_note(run, patch))
         )
+    if across:
+        readings = "" if along else html.READINGS
+        parts.append(html.section("lines", "The contact patch from above", readings + html.ABOVE, _above_note(patch, along)))
     if depth:
         parts.append(html.section("depth", "Temperature below the surface", html.charts("fields"), "Over depth and time."))
     curves, others = charts.of_run(run)
@@ -132,6 +136,18 @@ def _film_note(run, patch):
     if patch["window"]:
         note += " The map begins with the hot part of the run; a double click shows all of it."
     return note + " A click on the map or on a curve shows the patch at that time."
+
+
+def _above_note(patch, along):
+    note = (
+        "Each line of the patch with its largest pressure, which is drawn as half an ellipse along the rail about the middle of the"
+        " line; travel is to the right."
+    )
+    if "adheres" in patch["lines"]:
+        note += " What sticks is drawn in one piece from the leading edge: the share of the line that sticks, not where it does."
+    if not along and patch["of"] > len(patch["time"]):
+        note += f" {len(patch['time'])} of {patch['of']} recorded instants, extremes kept."
+    return note
 
 
 def _curves_note(run, patch):

@@ -16,6 +16,7 @@ use super::latent::{ColumnSearch, LatentHeat};
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
+use crate::heat::tensor::solve::line_conduction::LineConduction;
 use crate::heat::tensor::solve::solver::StageSolver;
 use crate::linalg::anderson::Anderson;
 
@@ -89,11 +90,11 @@ impl MeltingIteration {
         solver: &mut StageSolver,
         coefficients: StageCoefficients,
         before: &[f64],
-        rate: &mut Vec<f64>,
+        (line, rate): (&mut LineConduction, &mut Vec<f64>),
     ) -> Result<usize, HeatError> {
         let Self { latent, image, content, base, search, mixing, .. } = self;
         base.clone_from(rate);
-        solver.stage.set_still(layout);
+        solver.stage.operators.set_still(layout);
         let mut change = f64::INFINITY;
         // Where columns are too coarse for a front, the molten part may jump between both searches.
         for (by_nodes, most) in [false, true].into_iter().zip(ITERATIONS) {
@@ -102,8 +103,8 @@ impl MeltingIteration {
             for iteration in 1..=most {
                 rate.clone_from(base);
                 let conduction = StageCoefficients { storage: 0.0, flow: 1.0 };
-                solver.stage.multiply_still(layout, conduction, latent, rate);
-                solver.solve(layout, coefficients, rate)?;
+                solver.stage.multiply_still(layout, conduction, latent, (&mut *line, &mut rate[..]));
+                solver.solve(layout, coefficients, [(&mut *line, &mut rate[..])])?;
                 content.clear();
                 content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
                 law.find(layout, content, image, search);

@@ -12,9 +12,13 @@ vectorised! {
     fn add<'a, S>(simd, factor: f64, y: &'a [f64], x: &'a mut [f64]) {
         let ((y, y_rest), (x, x_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(x));
         let many = simd.splat_f64s(factor);
-        for (x, &y) in x.iter_mut().zip(y) {
-            *x = simd.mul_add_e_f64s(many, y, *x);
+        let ((x, x_few), (y, y_few)) = (x.as_chunks_mut::<BLOCK>(), y.as_chunks::<BLOCK>());
+        for (x, y) in x.iter_mut().zip(y) {
+            for q in 0..BLOCK {
+                x[q] = simd.mul_add_e_f64s(many, y[q], x[q]);
+            }
         }
+        x_few.iter_mut().zip(y_few).for_each(|(x, &y)| *x = simd.mul_add_e_f64s(many, y, *x));
         x_rest.iter_mut().zip(y_rest).for_each(|(x, y)| *x += factor * y);
     }
 }
@@ -25,7 +29,14 @@ vectorised! {
         let (x, x_rest) = S::as_simd_f64s(x);
         let ((y, y_rest), (out, out_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(out));
         let many = simd.splat_f64s(factor);
-        for ((out, &x), &y) in out.iter_mut().zip(x).zip(y) {
+        let ((x, x_few), (y, y_few)) = (x.as_chunks::<BLOCK>(), y.as_chunks::<BLOCK>());
+        let (out, out_few) = out.as_chunks_mut::<BLOCK>();
+        for ((out, x), y) in out.iter_mut().zip(x).zip(y) {
+            for q in 0..BLOCK {
+                out[q] = simd.mul_add_e_f64s(many, y[q], x[q]);
+            }
+        }
+        for ((out, &x), &y) in out_few.iter_mut().zip(x_few).zip(y_few) {
             *out = simd.mul_add_e_f64s(many, y, x);
         }
         out_rest.iter_mut().zip(x_rest.iter().zip(y_rest)).for_each(|(out, (x, y))| *out = x + factor * y);
@@ -50,8 +61,8 @@ fn add_weighted_block<S: Simd, const B: usize>(
     at: usize,
 ) {
     let mut parts: [_; B] = load(sums, at);
-    for (first, &weight) in (at..x.len()).step_by(sums.len()).zip(weights) {
-        let (x, weight): ([_; B], _) = (load(x, first), simd.splat_f64s(weight));
+    for (x, &weight) in x.chunks_exact(sums.len()).zip(weights) {
+        let (x, weight) = (&x[at..at + B], simd.splat_f64s(weight));
         for q in 0..B {
             parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
         }

@@ -88,6 +88,18 @@ impl HeatLayout {
         field.split_at(self.wheel.size()).into()
     }
 
+    /// Field of a body (0: wheel, 1: rail).
+    pub fn part<'a>(&self, body: usize, field: &'a [f64]) -> &'a [f64] {
+        let [wheel, rail] = self.split(field);
+        if body == 0 { wheel } else { rail }
+    }
+
+    /// Field of a body (0: wheel, 1: rail), to be changed.
+    pub fn part_mut<'a>(&self, body: usize, field: &'a mut [f64]) -> &'a mut [f64] {
+        let [wheel, rail] = self.split_mut(field);
+        if body == 0 { wheel } else { rail }
+    }
+
     /// Fields of wheel and rail, to be changed.
     pub fn split_mut<'a>(&self, field: &'a mut [f64]) -> [&'a mut [f64]; 2] {
         field.split_at_mut(self.wheel.size()).into()

@@ -29,13 +29,24 @@ impl StageCoefficients {
         [self.storage * body.heat_capacity, self.flow * body.conductivity]
     }
 
-    /// `out ← S x` with the operator of the modal solver, or `out ← out + S x`.
-    pub fn multiply(&self, body: &HeatBody, transport: &Transport, x: &[f64], out: &mut [f64], update: Update) {
+    /// `out ← S x` with the operator of the modal solver, or `out ← out + S x`, for all fields x.
+    pub fn multiply<const L: usize>(
+        &self,
+        body: &HeatBody,
+        transport: &Transport,
+        fields: [&[f64]; L],
+        mut out: [&mut [f64]; L],
+        update: Update,
+    ) {
         let [storage, flow] = self.mass_weight(body);
-        rows::tridiagonal_product(transport, &body.modes.values, [storage, flow, self.flow], x, out, update);
+        let weights = [storage, flow, self.flow];
+        let products = out.each_mut().map(|out| &mut **out);
+        rows::tridiagonal_product(transport, &body.modes.values, weights, fields, products, update);
         if let Some((node, entry)) = transport.entry {
             let row = node * body.modes.len()..(node + 1) * body.modes.len();
-            kernels::add(self.flow * entry, &x[row.clone()], &mut out[row]);
+            for (x, out) in fields.iter().zip(out) {
+                kernels::add(self.flow * entry, &x[row.clone()], &mut out[row.clone()]);
+            }
         }
     }
 

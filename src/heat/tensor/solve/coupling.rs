@@ -27,9 +27,21 @@ pub struct Conduction<'a> {
     pub flow: f64,
     /// Inverses of wheel and rail, and the matrices of the conductance that go with them.
     pub sides: [(&'a Inverse, &'a ContactBands); 2],
+    /// First node of the contact, counted from the first one whose surface response the inverses know.
+    pub first: usize,
 }
 
 impl Conduction<'_> {
+    /// Surface temperatures at the nodes of the contact under unit loads there, at the node `i` of it.
+    fn response<'b>(&self, inverse: &'b Inverse, i: usize) -> &'b [f64] {
+        &inverse.response.row(self.first + i)[self.first..][..self.moments.len() + 1]
+    }
+
+    /// Upwinding on the elements of the contact.
+    fn upwind<'b>(&self, inverse: &'b Inverse) -> &'b [f64] {
+        &inverse.upwind[self.first..][..self.moments.len()]
+    }
+
     /// Moments on an element that is in contact all over.
     fn full(&self, value: f64, element: usize) -> [f64; 3] {
         let whole = value * self.lengths[element];
@@ -54,7 +66,7 @@ impl Conduction<'_> {
             let (row, _) = system.row(i);
             row[i] = 1.0;
             for ((inverse, _), bands) in self.sides.iter().zip(bands) {
-                bands.add_coupling(self.flow, inverse.response.row(i), row);
+                bands.add_coupling(self.flow, self.response(inverse, i), row);
             }
         }
         if system.factorise() { Ok(()) } else { Err(HeatError::Singular { unknowns: n }) }
@@ -80,7 +92,7 @@ impl Full {
         let moments: Vec<_> = (0..conduction.lengths.len()).map(|e| conduction.full(value, e)).collect();
         let bands = conduction.sides.map(|(inverse, _)| {
             let mut bands = ContactBands::default();
-            bands.set(&moments, &inverse.upwind);
+            bands.set(&moments, conduction.upwind(inverse));
             bands
         });
         conduction.factorise([&bands[0], &bands[1]], &mut self.system)?;
@@ -88,7 +100,7 @@ impl Full {
         for ((inverse, _), ends) in conduction.sides.iter().zip(&mut self.ends) {
             ends.clear();
             for node in ends_of(n) {
-                ends.extend((0..n).map(|i| inverse.response.row(i)[node]));
+                ends.extend((0..n).map(|i| conduction.response(inverse, i)[node]));
             }
             for column in ends.chunks_exact_mut(n) {
                 self.system.solve_with(column);
@@ -121,7 +133,7 @@ impl Change {
         self.columns.resize(4 * n, 0.0);
         for ((inverse, _), solved) in conduction.sides.iter().zip(&full.ends) {
             for (end, element) in [0, last].into_iter().enumerate() {
-                let of = |moments| of_element(moments, upwind_within(inverse.upwind[element], moments));
+                let of = |moments| of_element(moments, upwind_within(conduction.upwind(inverse)[element], moments));
                 let (now, all) = (of(conduction.moments[element]), of(conduction.full(value, element)));
                 for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let factor = conduction.flow * (now[row][column] - all[row][column]);
@@ -149,8 +161,8 @@ impl Change {
 /// Factors of `A`.
 #[derive(Default)]
 pub struct Coupling {
-    /// Those of `A₀`, by the inverses of the bodies.
-    full: Lru<[InverseKey; 2], Full>,
+    /// Those of `A₀`, by the inverses of the bodies and the first and the number of the elements of the contact.
+    full: Lru<([InverseKey; 2], [usize; 2]), Full>,
     change: Change,
     /// True where these two hold; else `direct` does.
     kept: bool,
@@ -163,7 +175,8 @@ impl Coupling {
     pub fn set(&mut self, keys: [InverseKey; 2], conduction: &Conduction) -> Result<(), HeatError> {
         self.kept = false;
         if let Some(value) = conduction.even_within() {
-            self.full.select(keys, |full| full.set(conduction, value))?;
+            let place = [conduction.first, conduction.moments.len()];
+            self.full.select((keys, place), |full| full.set(conduction, value))?;
             self.kept = self.change.set(self.full.present(), conduction, value);
         }
         if self.kept {

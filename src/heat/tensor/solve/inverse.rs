@@ -75,10 +75,4 @@ impl Inverses {
     pub fn factor(&mut self) -> &mut TridiagonalFactor {
         &mut self.kept.present_mut().factor
     }
-
-    /// Key of the present inverse.
-    #[cfg(test)]
-    pub fn key(&self) -> &InverseKey {
-        self.kept.key().unwrap()
-    }
 }

@@ -51,10 +51,4 @@ impl<K: PartialEq, V: Default> Lru<K, V> {
     pub fn present_mut(&mut self) -> &mut V {
         &mut self.kept[0].1
     }
-
-    /// Key of the present value.
-    #[cfg(test)]
-    pub fn key(&self) -> Option<&K> {
-        self.kept.first()?.0.as_ref()
-    }
 }

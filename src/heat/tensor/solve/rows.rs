@@ -7,56 +7,140 @@ use crate::linalg::Update;
 use crate::linalg::vectorised::{BLOCK, by_blocks, load, vectorised};
 use pulp::Simd;
 
+/// A field and the sum of [`eliminate`].
+type Summed<'a, V> = (&'a mut [V], &'a mut [V]);
+/// A field and the known rows of [`substitute`].
+type Followed<'a, V> = (&'a mut [V], [&'a [V]; 2]);
+
 vectorised! {
-    /// `xᵢ ← xᵢ − lᵢ xᵢ₋₁` from the second row of `x` on, to which the first row of `links` belongs; rows have `width`
-    /// numbers.
-    fn eliminate<'a, S>(simd, links: &'a [f64], x: &'a mut [f64], width: usize) {
-        let (links, x, k) = (S::as_simd_f64s(links).0, S::as_mut_simd_f64s(x).0, width / S::F64_LANES);
-        by_blocks!(k, eliminate_block::<S>(simd, links, x, k));
+    /// `xᵢ ← xᵢ − lᵢ xᵢ₋₁` in all `fields`, from the second row on, to which the first row of `links` belongs, and
+    /// `sum ← sum − Σ fᵢ xᵢ` over the rows of `fill`, which begin with the first one; with every field comes its sum.
+    /// Rows have `width` numbers.
+    fn eliminate<'a, S, const L: usize>(
+        simd,
+        links: &'a [f64],
+        fill: &'a [f64],
+        fields: [(&'a mut [f64], &'a mut [f64]); L],
+        width: usize,
+    ) {
+        let ([links, fill], k) = ([links, fill].map(|factor| S::as_simd_f64s(factor).0), width / S::F64_LANES);
+        let mut fields = fields.map(|(x, sum)| (S::as_mut_simd_f64s(x).0, S::as_mut_simd_f64s(sum).0));
+        if fields[0].0.is_empty() {
+            return;
+        }
+        by_blocks!(k, eliminate_block::<S, L>(simd, [links, fill], &mut fields, k));
     }
 }
 
 /// The registers from `at` on of [`eliminate`].
 #[inline(always)]
-fn eliminate_block<S: Simd, const B: usize>(simd: S, links: &[S::f64s], x: &mut [S::f64s], k: usize, at: usize) {
-    if links.is_empty() {
-        return;
+fn eliminate_block<S: Simd, const B: usize, const L: usize>(
+    simd: S,
+    [links, fill]: [&[S::f64s]; 2],
+    fields: &mut [Summed<S::f64s>; L],
+    k: usize,
+    at: usize,
+) {
+    let [mut moving, mut sums] = [[[simd.splat_f64s(0.0); B]; L]; 2];
+    for l in 0..L {
+        moving[l] = load(fields[l].0, at);
     }
-    let mut moving: [_; B] = load(x, at);
-    for first in (at..links.len()).step_by(k) {
-        let (link, now): ([_; B], [_; B]) = (load(links, first), load(x, first + k));
-        for q in 0..B {
-            moving[q] = less(simd, now[q], link[q], moving[q]);
+    let (top, fill) = fill.split_at(k.min(fill.len()));
+    let mut first = at + k;
+    let (filled, rest) = links.split_at(fill.len());
+    if !top.is_empty() {
+        let top: [_; B] = load(top, at);
+        for l in 0..L {
+            sums[l] = load(fields[l].1, at);
+            for q in 0..B {
+                sums[l][q] = less(simd, sums[l][q], top[q], moving[l][q]);
+            }
         }
-        x[first + k..first + k + B].copy_from_slice(&moving);
+        for (link, fill) in filled.chunks_exact(k).zip(fill.chunks_exact(k)) {
+            let (link, fill) = (&link[at..at + B], &fill[at..at + B]);
+            for l in 0..L {
+                let x = &mut fields[l].0[first..first + B];
+                for q in 0..B {
+                    moving[l][q] = less(simd, x[q], link[q], moving[l][q]);
+                    sums[l][q] = less(simd, sums[l][q], fill[q], moving[l][q]);
+                    x[q] = moving[l][q];
+                }
+            }
+            first += k;
+        }
+        for l in 0..L {
+            fields[l].1[at..at + B].copy_from_slice(&sums[l]);
+        }
+    }
+    for link in rest.chunks_exact(k) {
+        let link = &link[at..at + B];
+        for l in 0..L {
+            let x = &mut fields[l].0[first..first + B];
+            for q in 0..B {
+                moving[l][q] = less(simd, x[q], link[q], moving[l][q]);
+                x[q] = moving[l][q];
+            }
+        }
+        first += k;
     }
 }
 
 vectorised! {
-    /// `xᵢ ← dᵢ xᵢ − lᵢ xᵢ₊₁` from the last row, which the row `next` follows, to the first.
-    fn substitute<'a, S>(simd, d: &'a [f64], links: &'a [f64], x: &'a mut [f64], next: &'a [f64]) {
-        let (d, links) = (S::as_simd_f64s(d).0, S::as_simd_f64s(links).0);
-        let (x, next) = (S::as_mut_simd_f64s(x).0, S::as_simd_f64s(next).0);
-        by_blocks!(next.len(), substitute_block::<S>(simd, [d, links], x, next));
+    /// `xᵢ ← dᵢ (xᵢ − cᵢ y) − lᵢ xᵢ₊₁` in all `fields` from the last row to the first, with the rows c of `column` for
+    /// the first rows, as many as it has. With every field come the row that follows the last one, and y. Rows have
+    /// `width` numbers.
+    fn substitute<'a, S, const L: usize>(
+        simd,
+        factors: [&'a [f64]; 3],
+        fields: [(&'a mut [f64], [&'a [f64]; 2]); L],
+        width: usize,
+    ) {
+        let (factors, k) = (factors.map(|factor| S::as_simd_f64s(factor).0), width / S::F64_LANES);
+        let mut fields =
+            fields.map(|(x, known)| (S::as_mut_simd_f64s(x).0, known.map(|row| S::as_simd_f64s(row).0)));
+        by_blocks!(k, substitute_block::<S, L>(simd, factors, &mut fields, k));
     }
 }
 
 /// The registers from `at` on of [`substitute`].
 #[inline(always)]
-fn substitute_block<S: Simd, const B: usize>(
+fn substitute_block<S: Simd, const B: usize, const L: usize>(
     simd: S,
-    [d, links]: [&[S::f64s]; 2],
-    x: &mut [S::f64s],
-    next: &[S::f64s],
+    [d, links, column]: [&[S::f64s]; 3],
+    fields: &mut [Followed<S::f64s>; L],
+    k: usize,
     at: usize,
 ) {
-    let mut moving: [_; B] = load(next, at);
-    for first in (at..x.len()).step_by(next.len()).rev() {
-        let (now, d, link): ([_; B], [_; B], [_; B]) = (load(x, first), load(d, first), load(links, first));
-        for q in 0..B {
-            moving[q] = less(simd, simd.mul_f64s(now[q], d[q]), link[q], moving[q]);
+    let [mut moving, mut last] = [[[simd.splat_f64s(0.0); B]; L]; 2];
+    for l in 0..L {
+        (moving[l], last[l]) = (load(fields[l].1[0], at), load(fields[l].1[1], at));
+    }
+    let (filled, size) = (column.len(), fields[0].0.len());
+    let [(d_filled, d), (links_filled, links)] = [d, links].map(|factor| (&factor[..filled], &factor[filled..size]));
+    let mut end = size + at;
+    for (d, link) in d.chunks_exact(k).zip(links.chunks_exact(k)).rev() {
+        end -= k;
+        let (d, link) = (&d[at..at + B], &link[at..at + B]);
+        for l in 0..L {
+            let x = &mut fields[l].0[end..end + B];
+            for q in 0..B {
+                moving[l][q] = less(simd, simd.mul_f64s(x[q], d[q]), link[q], moving[l][q]);
+                x[q] = moving[l][q];
+            }
         }
-        x[first..first + B].copy_from_slice(&moving);
+    }
+    let rows = d_filled.chunks_exact(k).zip(links_filled.chunks_exact(k)).zip(column.chunks_exact(k));
+    for ((d, link), c) in rows.rev() {
+        end -= k;
+        let (d, link, c) = (&d[at..at + B], &link[at..at + B], &c[at..at + B]);
+        for l in 0..L {
+            let x = &mut fields[l].0[end..end + B];
+            for q in 0..B {
+                let rest = simd.mul_f64s(less(simd, x[q], c[q], last[l][q]), d[q]);
+                moving[l][q] = less(simd, rest, link[q], moving[l][q]);
+                x[q] = moving[l][q];
+            }
+        }
     }
 }
 
@@ -153,30 +237,6 @@ fn add_eliminated_block<S: Simd, const B: usize>(
 }
 
 vectorised! {
-    /// `sum ← sum − Σ yᵢ xᵢ` over all rows of `y`, entry by entry.
-    fn subtract_products<'a, S>(simd, y: &'a [f64], x: &'a [f64], sum: &'a mut [f64]) {
-        let (y, x, sum) = (S::as_simd_f64s(y).0, S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sum).0);
-        for (y, x) in y.chunks_exact(sum.len()).zip(x.chunks_exact(sum.len())) {
-            for ((sum, &y), &x) in sum.iter_mut().zip(y).zip(x) {
-                *sum = less(simd, *sum, y, x);
-            }
-        }
-    }
-}
-
-vectorised! {
-    /// `xᵢ ← xᵢ − yᵢ factor` in every row, entry by entry.
-    fn subtract<'a, S>(simd, y: &'a [f64], factor: &'a [f64], x: &'a mut [f64]) {
-        let (y, factor, x) = (S::as_simd_f64s(y).0, S::as_simd_f64s(factor).0, S::as_mut_simd_f64s(x).0);
-        for (x, y) in x.chunks_exact_mut(factor.len()).zip(y.chunks_exact(factor.len())) {
-            for ((x, &y), &factor) in x.iter_mut().zip(y).zip(factor) {
-                *x = less(simd, *x, y, factor);
-            }
-        }
-    }
-}
-
-vectorised! {
     /// Adds `factor` times the product of a row vector `g` with the matrix of three bands (lower, diagonal, upper) to
     /// `row`.
     fn add_banded<'a, S>(simd, factor: f64, g: &'a [f64], bands: [&'a [f64]; 3], row: &'a mut [f64]) {
@@ -196,38 +256,55 @@ vectorised! {
 }
 
 vectorised! {
-    /// `(α M̃ + β F) x` for the rows of a body, with `α = a + b λ` of the modes' `values` λ, but for the entry of the
-    /// stream; it replaces `out` or is added to it. Ends of an open streamline have no outer neighbour; the entries
-    /// there are zero.
-    fn tridiagonal_product<'a, S>(
+    /// `(α M̃ + β F) x` for the rows of all `fields` x of a body, with `α = a + b λ` of the modes' `values` λ, but for
+    /// the entry of the stream; it replaces that of `out` or is added to it. Neighbours enter by their differences from
+    /// the row, so that an even field is not moved by round-off. Ends of an open streamline have no outer neighbour;
+    /// the entries there are zero.
+    fn tridiagonal_product<'a, S, const L: usize>(
         simd,
         line: &'a Transport,
         values: &'a [f64],
         weights: [f64; 3],
-        x: &'a [f64],
-        out: &'a mut [f64],
+        fields: [&'a [f64]; L],
+        out: [&'a mut [f64]; L],
         update: Update,
     ) {
-        let (values, x, out) = (S::as_simd_f64s(values).0, S::as_simd_f64s(x).0, S::as_mut_simd_f64s(out).0);
-        let ([storage, conduction, flow], n, k) = (weights, line.mass.len(), values.len());
+        let fields = fields.map(|x| S::as_simd_f64s(x).0);
+        let mut out = out.map(|out| S::as_mut_simd_f64s(out).0);
+        let values = S::as_simd_f64s(values).0;
+        let ([storage, conduction, flow], k) = (weights, values.len());
         let [storage, conduction] = [storage, conduction].map(|weight| simd.splat_f64s(weight));
-        let row = |i: usize| &x[i * k..(i + 1) * k];
-        for (i, out) in out.chunks_exact_mut(k).enumerate() {
-            let (before, after) = (if i == 0 { n - 1 } else { i - 1 }, if i + 1 == n { 0 } else { i + 1 });
-            let mass = [line.mass_lower[i], line.mass[i], line.mass_upper[i]].map(|m| simd.splat_f64s(m));
-            let carried = [line.flow_lower[i], line.flow_upper[i]].map(|f| simd.splat_f64s(flow * f));
-            let neighbours = row(before).iter().zip(row(i)).zip(row(after));
-            for ((out, &value), ((&a, &b), &c)) in out.iter_mut().zip(values).zip(neighbours) {
+        // Rows before, here and after.
+        let mut rows = [[values; 3]; L];
+        for l in 0..L {
+            let (first, last) = (&fields[l][..k], &fields[l][fields[l].len() - k..]);
+            rows[l] = [last, last, first];
+        }
+        let n = line.rows.len();
+        for (i, &[below, sum, above, from, to]) in line.rows.iter().enumerate() {
+            let [below, sum, above] = [below, sum, above].map(|mass| simd.splat_f64s(mass));
+            let [from, to] = [from, to].map(|carried| simd.splat_f64s(-flow * carried));
+            let next = if i + 1 == n { 0 } else { (i + 1) * k };
+            let mut targets: [&mut [S::f64s]; L] = std::array::from_fn(|_| Default::default());
+            for (target, out) in targets.iter_mut().zip(out.iter_mut()) {
+                *target = &mut out[i * k..][..k];
+            }
+            for l in 0..L {
+                rows[l] = [rows[l][1], rows[l][2], &fields[l][next..][..k]];
+            }
+            for (q, &value) in values.iter().enumerate() {
                 let alpha = simd.mul_add_e_f64s(conduction, value, storage);
-                let held = simd.mul_add_e_f64s(mass[0], a, simd.mul_f64s(mass[1], b));
-                let held = simd.mul_add_e_f64s(mass[2], c, held);
-                let from = simd.mul_f64s(carried[0], simd.sub_f64s(a, b));
-                let moved = simd.mul_add_e_f64s(carried[1], simd.sub_f64s(c, b), from);
-                let product = simd.mul_add_e_f64s(alpha, held, moved);
-                *out = match update {
-                    Update::Add => simd.add_f64s(*out, product),
-                    Update::Replace => product,
-                };
+                let whole = simd.mul_f64s(alpha, sum);
+                let (below, above) = (less(simd, from, alpha, below), less(simd, to, alpha, above));
+                for l in 0..L {
+                    let [before, here, after] = [rows[l][0][q], rows[l][1][q], rows[l][2][q]];
+                    let held = simd.mul_add_e_f64s(below, simd.sub_f64s(here, before), simd.mul_f64s(whole, here));
+                    let product = simd.mul_add_e_f64s(above, simd.sub_f64s(here, after), held);
+                    targets[l][q] = match update {
+                        Update::Add => simd.add_f64s(targets[l][q], product),
+                        Update::Replace => product,
+                    };
+                }
             }
         }
     }

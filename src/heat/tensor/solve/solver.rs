@@ -1,7 +1,8 @@
 //! Solution of the equations of an implicit stage.
 
 use super::coefficients::StageCoefficients;
-use super::stage::Stage;
+use super::line_conduction::LineConduction;
+use super::stage::{LineField, Stage};
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::linalg::gmres::{Gmres, LinearSystem};
@@ -34,26 +35,31 @@ pub struct StageSolver {
 }
 
 impl StageSolver {
-    /// `x ← S⁻¹ x` with the exact operator where it matters; the number of iterations of its correction.
-    pub fn solve(
+    /// `x ← S⁻¹ x` for the fields x of some lines, with the exact operator where it matters; the numbers of iterations
+    /// of its correction.
+    pub fn solve<const L: usize>(
         &mut self,
         layout: &HeatLayout,
         coefficients: StageCoefficients,
-        x: &mut [f64],
-    ) -> Result<usize, HeatError> {
+        lines: [LineField; L],
+    ) -> Result<[usize; L], HeatError> {
         let Self { stage, gmres } = self;
-        if !stage.is_curved() {
-            stage.invert(layout, x);
-            return Ok(0);
+        let mut iterations = [0; L];
+        if !stage.operators.is_curved() {
+            stage.invert(layout, lines);
+            return Ok(iterations);
         }
         let tolerance = if coefficients.storage > 0.0 { STEP_TOLERANCE } else { STATIONARY_TOLERANCE };
-        gmres.solve(&mut ExactOperator { stage, layout, coefficients }, x, tolerance, ACCEPTED).map_err(|stopped| {
-            HeatError::NotConverged {
+        for ((line, x), iterations) in lines.into_iter().zip(&mut iterations) {
+            let mut system = ExactOperator { stage, layout, coefficients, line };
+            let solved = gmres.solve(&mut system, x, tolerance, ACCEPTED);
+            *iterations = solved.map_err(|stopped| HeatError::NotConverged {
                 residual: stopped.residual,
                 iterations: stopped.iterations,
                 direct_below: CURVED_STEP,
-            }
-        })
+            })?;
+        }
+        Ok(iterations)
     }
 }
 
@@ -62,14 +68,15 @@ struct ExactOperator<'a> {
     stage: &'a mut Stage,
     layout: &'a HeatLayout,
     coefficients: StageCoefficients,
+    line: &'a mut LineConduction,
 }
 
 impl LinearSystem for ExactOperator<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
-        self.stage.multiply(self.layout, self.coefficients, x, out);
+        self.stage.multiply(self.layout, self.coefficients, [x], [(&mut *self.line, out)]);
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        self.stage.invert(self.layout, x);
+        self.stage.invert(self.layout, [(&mut *self.line, x)]);
     }
 }

@@ -21,6 +21,8 @@ pub struct Transport {
     pub exit: Option<(usize, f64)>,
     /// `τ v / h` per element [1].
     pub upwind: Vec<f64>,
+    /// Row by row the lower band of `M̃`, the sum of its row and its upper band; the lower and the upper band of `F`.
+    pub rows: Vec<[f64; 5]>,
 }
 
 impl Transport {
@@ -51,6 +53,19 @@ impl Transport {
         let open = line.closed == 0.0 && speed != 0.0;
         self.entry = open.then_some((ends.0, advection.abs()));
         self.exit = open.then_some((ends.1, advection.abs()));
+        self.set_rows();
+    }
+
+    /// Fills [`Self::rows`].
+    fn set_rows(&mut self) {
+        let Self { mass_lower, mass, mass_upper, flow_lower, flow_upper, rows, .. } = self;
+        let masses = mass_lower.iter().zip(&*mass).zip(&*mass_upper);
+        rows.clear();
+        rows.extend(
+            masses
+                .zip(flow_lower.iter().zip(&*flow_upper))
+                .map(|(((&below, middle), &above), (&from, &to))| [below, below + middle + above, above, from, to]),
+        );
     }
 
     /// Replaces the matrices by those of conduction alone: the tilted mass of `moving`, and `F = k K` without a stream.
@@ -67,6 +82,7 @@ impl Transport {
             self.flow_lower[line.after(e)] -= conductivity / h;
         }
         (self.entry, self.exit) = (None, None);
+        self.set_rows();
     }
 
     /// Row sum of `F`: heat that enters with the stream.

@@ -89,60 +89,82 @@ impl TridiagonalFactor {
     /// `x ← S⁻¹ x`.
     #[cfg(test)]
     pub fn solve(&self, body: &HeatBody, x: &mut [f64]) {
-        self.eliminate(body, x);
-        self.substitute(body, x);
+        self.eliminate(body, [&mut *x]);
+        self.substitute(body, [x]);
     }
 
-    /// The first half of a solution: `x ← (1 + w + row)⁻¹ x`.
-    pub fn eliminate(&self, body: &HeatBody, x: &mut [f64]) {
+    /// The first half of a solution in all `fields` x: `x ← (1 + w + row)⁻¹ x`.
+    pub fn eliminate<const L: usize>(&self, body: &HeatBody, fields: [&mut [f64]; L]) {
         let nm = body.modes.len();
-        let (before, after) = x.split_at_mut((self.last + 1) * nm);
-        let first = before.len();
-        if !after.is_empty() {
-            rows::eliminate(&self.w[first + nm..], after, nm);
-            let around = &after[after.len() - nm..];
-            (0..nm).for_each(|m| before[m] -= self.w[m] * around[m]);
+        let (end, first) = (self.last * nm, (self.last + 1) * nm);
+        let mut parts = fields.map(|x| split(x, end, nm));
+        let (row, rest) = self.row.split_at(self.row.len().min(self.w.len() - first));
+        if first < self.w.len() {
+            let after = parts.each_mut().map(|[_, last, after]| (&mut **after, &mut **last));
+            rows::eliminate(&self.w[first + nm..], row, after, nm);
+            for [before, last, after] in &mut parts {
+                let (around, next) = (&after[after.len() - nm..], if end > 0 { before } else { last });
+                (0..nm).for_each(|m| next[m] -= self.w[m] * around[m]);
+            }
         }
-        rows::eliminate(&self.w[nm..first], before, nm);
-        let (before, last) = before.split_at_mut(self.last * nm);
-        let (row, rest) = self.row.split_at(self.row.len().min(after.len()));
-        rows::subtract_products(row, after, last);
-        rows::subtract_products(rest, before, last);
-    }
-
-    /// The second half of a solution.
-    pub fn substitute(&self, body: &HeatBody, x: &mut [f64]) {
-        let nm = body.modes.len();
-        let (before, after) = x.split_at_mut((self.last + 1) * nm);
-        let (before, last) = before.split_at_mut(self.last * nm);
-        last.iter_mut().zip(&self.inverse[before.len()..]).for_each(|(x, d)| *x *= d);
-        let (column, rest) = self.column.split_at(self.column.len().min(after.len()));
-        rows::subtract(column, last, after);
-        rows::subtract(rest, last, before);
-        rows::substitute(&self.inverse, &self.r, before, last);
-        if !after.is_empty() {
-            let (first, next) = (before.len() + nm, if before.is_empty() { &*last } else { &before[..nm] });
-            rows::substitute(&self.inverse[first..], &self.r[first..], after, next);
+        if end > 0 {
+            let before = parts.each_mut().map(|[before, last, _]| (&mut **before, &mut **last));
+            rows::eliminate(&self.w[nm..end], rest, before, nm);
+            for [before, last, _] in &mut parts {
+                let moving = &before[end - nm..];
+                (0..nm).for_each(|m| last[m] -= self.w[end + m] * moving[m]);
+            }
         }
     }
 
-    /// Surface values of the solution at the nodes `contact`, after [`Self::eliminate`].
+    /// The second half of a solution in all `fields`.
+    pub fn substitute<const L: usize>(&self, body: &HeatBody, fields: [&mut [f64]; L]) {
+        let nm = body.modes.len();
+        let (end, first) = (self.last * nm, (self.last + 1) * nm);
+        let mut parts = fields.map(|x| split(x, end, nm));
+        for [_, last, _] in &mut parts {
+            last.iter_mut().zip(&self.inverse[end..]).for_each(|(x, d)| *x *= d);
+        }
+        let (column, rest) = self.column.split_at(self.column.len().min(self.w.len() - first));
+        let before = parts.each_mut().map(|[before, last, _]| (&mut **before, [&**last; 2]));
+        rows::substitute([&self.inverse, &self.r, rest], before, nm);
+        if first < self.inverse.len() {
+            let after = parts.each_mut().map(|[before, last, after]| {
+                let next = if end > 0 { &before[..nm] } else { &**last };
+                (&mut **after, [next, &**last])
+            });
+            rows::substitute([&self.inverse[first..], &self.r[first..], column], after, nm);
+        }
+    }
+
+    /// Surface values of the solution at the nodes `contact`, after [`Self::eliminate`]; they end with the node that
+    /// was eliminated last, or before it.
     pub fn trace(&mut self, body: &HeatBody, contact: &Range<usize>, x: &[f64], out: &mut Vec<f64>) {
         let nm = body.modes.len();
-        let rows = contact.start * nm..contact.end * nm;
+        let rows = contact.start * nm..(self.last + 1) * nm;
         let column = reaching(&self.column, self.inverse.len() - rows.len());
         let factors = [&self.inverse[rows.clone()], &self.r[rows.clone()], column];
-        out.resize(contact.len(), 0.0);
+        out.resize(rows.len() / nm, 0.0);
         rows::substituted_surface(factors, &x[rows], &mut self.moving, &body.modes.surface, out);
+        out.truncate(contact.len());
     }
 
-    /// Adds a load on the surface at the nodes `contact` after [`Self::eliminate`].
-    pub fn add_eliminated(&self, body: &HeatBody, contact: &Range<usize>, load: &[f64], x: &mut [f64]) {
+    /// Adds a load on the surface at the nodes from `first` on after [`Self::eliminate`]; where it ends before the node
+    /// that was eliminated last, it is filled up with zeros.
+    pub fn add_eliminated(&self, body: &HeatBody, first: usize, load: &mut Vec<f64>, x: &mut [f64]) {
         let nm = body.modes.len();
-        let rows = contact.start * nm..contact.end * nm;
+        let rows = first * nm..(self.last + 1) * nm;
+        load.resize(rows.len() / nm, 0.0);
         let factors = [&self.w[rows.clone()], reaching(&self.row, self.inverse.len() - rows.len())];
         rows::add_eliminated(factors, load, &body.modes.surface, &mut x[rows]);
     }
+}
+
+/// Parts of a field with `nm` modes before the node that begins at `end`, at it, and after it.
+fn split(x: &mut [f64], end: usize, nm: usize) -> [&mut [f64]; 3] {
+    let (before, rest) = x.split_at_mut(end);
+    let (last, after) = rest.split_at_mut(nm);
+    [before, last, after]
 }
 
 /// Part of a filled column or row from the place `first` on; nothing if it has faded before.

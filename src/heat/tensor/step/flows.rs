@@ -6,37 +6,38 @@ use crate::heat::state::HeatState;
 use crate::heat::tensor::mesh::body::HeatBody;
 use crate::heat::tensor::mesh::kernels::dot;
 use crate::heat::tensor::mesh::layout::HeatLayout;
-use crate::heat::tensor::solve::stage::{BodyOperator, Stage};
+use crate::heat::tensor::solve::line_conduction::LineConduction;
+use crate::heat::tensor::solve::operators::{BodyOperator, StageOperators};
 
-impl Stage {
+impl LineConduction {
     /// Sums the field of `state` along the streamlines, unless its sums are known.
     pub fn take_sums(&mut self, layout: &HeatLayout, state: &HeatState) {
         if state.sums.iter().any(Vec::is_empty) {
             return self.set_sums(layout, &state.values);
         }
-        for (operator, sums) in [&mut self.wheel, &mut self.rail].into_iter().zip(&state.sums) {
-            operator.sums[0].clone_from(sums);
+        for (side, sums) in self.sides.iter_mut().zip(&state.sums) {
+            side.sums[0].clone_from(sums);
         }
     }
 
     /// Leaves the sums of the field at the end of a step to its state.
     pub fn leave_sums(&self, state: &mut HeatState) {
-        for (sums, operator) in state.sums.iter_mut().zip([&self.wheel, &self.rail]) {
-            sums.clone_from(&operator.sums[0]);
+        for (sums, side) in state.sums.iter_mut().zip(&self.sides) {
+            sums.clone_from(&side.sums[0]);
         }
     }
 
     /// Sums the field from which a stage starts along the streamlines.
     pub fn set_sums(&mut self, layout: &HeatLayout, field: &[f64]) {
-        let [wheel, rail] = layout.split(field);
-        layout.wheel.integrate(wheel, &mut self.wheel.sums[0]);
-        layout.rail.integrate(rail, &mut self.rail.sums[0]);
+        for ((body, field), side) in layout.bodies().into_iter().zip(layout.split(field)).zip(&mut self.sides) {
+            body.integrate(field, &mut side.sums[0]);
+        }
     }
 
     /// Takes these sums on by `dt` seconds, at the rates of the last stage.
     pub fn advance_sums(&mut self, dt: f64) {
-        for operator in [&mut self.wheel, &mut self.rail] {
-            let [now, change] = &mut operator.sums;
+        for side in &mut self.sides {
+            let [now, change] = &mut side.sums;
             now.iter_mut().zip(change).for_each(|(now, change)| *now += dt * *change);
         }
     }
@@ -44,6 +45,7 @@ impl Stage {
     /// Adds `weight` times the heat flows of a stage to their mean; the sums are those of `ends.temperature`.
     pub fn add_flows(
         &mut self,
+        stage: &StageOperators,
         layout: &HeatLayout,
         loads: &SurfaceLoads,
         ends: &StageEnd,
@@ -54,7 +56,7 @@ impl Stage {
         flows.friction += weight * loads.friction_heat();
         flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
         if self.coupled() {
-            self.set_jump_ahead(layout, temperature, rate, ahead);
+            self.set_jump_ahead(stage, layout, temperature, rate, ahead);
             let moments = &loads.conductance[self.elements.clone()];
             let through = moments.iter().zip(self.jump.windows(2)).map(|(c, d)| (c[0] - c[1]) * d[0] + c[1] * d[1]);
             let reversible = loads.reversible.iter().map(|q| q[0]);
@@ -64,14 +66,17 @@ impl Stage {
         flows.to_wheel = share * flows.friction - flows.conduction;
         flows.to_rail = (1.0 - share) * flows.friction + flows.conduction;
         let (held, change) = (layout.split(content), rate.map(|rate| layout.split(rate)));
-        let wheel = self.wheel.flows(&layout.wheel, held[0], change.map(|rate| rate[0]), ahead);
+        let [of_wheel, of_rail] = &mut self.sides;
+        let sums = &mut of_wheel.sums;
+        let wheel = stage.wheel.flows(&layout.wheel, sums, held[0], change.map(|rate| rate[0]), ahead);
         flows.stored_wheel += weight * wheel.stored;
         flows.wheel_to_air += weight * (wheel.air + loads.radiation[0].heat);
         flows.to_hub += if layout.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
-        let rail = self.rail.flows(&layout.rail, held[1], change.map(|rate| rate[1]), ahead);
+        let sums = &mut of_rail.sums;
+        let rail = stage.rail.flows(&layout.rail, sums, held[1], change.map(|rate| rate[1]), ahead);
         flows.stored_rail += weight * rail.stored;
         flows.rail_to_air += weight * (rail.air + loads.radiation[1].heat);
-        let entered = self.rail.transport.entry.map_or(0.0, |(_, stream)| stream * loads.arriving);
+        let entered = stage.rail.transport.entry.map_or(0.0, |(_, stream)| stream * loads.arriving);
         flows.outflow += weight * (rail.out - entered * layout.rail.modes.section);
     }
 }
@@ -101,11 +106,18 @@ struct BodyFlows {
 }
 
 impl BodyOperator {
-    /// Flows at the temperatures whose sums are known and heat contents `content`, `ahead` seconds on at the rates
+    /// Flows at the temperatures whose `sums` are known and heat contents `content`, `ahead` seconds on at the rates
     /// `rate`.
-    fn flows(&mut self, body: &HeatBody, content: &[f64], rate: Option<&[f64]>, ahead: f64) -> BodyFlows {
+    fn flows(
+        &self,
+        body: &HeatBody,
+        sums: &mut [Vec<f64>; 2],
+        content: &[f64],
+        rate: Option<&[f64]>,
+        ahead: f64,
+    ) -> BodyFlows {
         let modes = &body.modes;
-        let [now, change] = &mut self.sums;
+        let [now, change] = sums;
         match rate {
             Some(rate) => body.integrate(rate, change),
             None => {

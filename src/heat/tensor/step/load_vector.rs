@@ -2,18 +2,19 @@
 
 use super::loads::SurfaceLoads;
 use crate::heat::tensor::mesh::layout::HeatLayout;
-use crate::heat::tensor::solve::stage::{BodyOperator, Stage};
+use crate::heat::tensor::solve::operators::StageOperators;
+use crate::heat::tensor::solve::stage::LineField;
 
-/// Adds everything that does not depend on the temperature to `out`.
-pub fn add_loads(stage: &mut Stage, layout: &HeatLayout, loads: &SurfaceLoads, out: &mut [f64]) {
+/// Adds everything that does not depend on the temperature of a line to `out`.
+pub fn add_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoads, (line, out): LineField) {
     let [wheel, rail] = layout.split_mut(out);
+    let [of_wheel, of_rail] = &mut line.sides;
     let share = layout.config.thermal.wheel_share;
     let bodies = [
-        (&layout.wheel, &mut stage.wheel, share, -1.0, wheel),
-        (&layout.rail, &mut stage.rail, 1.0 - share, 1.0, rail),
+        (&layout.wheel, &stage.wheel.transport, &mut of_wheel.load, share, -1.0, wheel),
+        (&layout.rail, &stage.rail.transport, &mut of_rail.load, 1.0 - share, 1.0, rail),
     ];
-    for ((body, operator, share, sign, out), radiation) in bodies.into_iter().zip(&loads.radiation) {
-        let BodyOperator { transport, load: surface, .. } = operator;
+    for ((body, transport, surface, share, sign, out), radiation) in bodies.into_iter().zip(&loads.radiation) {
         surface.clear();
         surface.resize(body.line.len(), 0.0);
         let first = body.line.zone;

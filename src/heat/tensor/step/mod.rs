@@ -9,5 +9,6 @@ pub mod limiter;
 pub mod load_vector;
 pub mod loads;
 pub mod memory;
+mod plan;
 pub mod radiation;
 pub mod stationary;

@@ -14,8 +14,9 @@ use crate::heat::tensor::heat::Heat;
 use crate::heat::tensor::mesh::kernels::dot;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
+use crate::heat::tensor::solve::line_conduction::{LineConduction, contact_nodes};
+use crate::heat::tensor::solve::operators::StageKey;
 use crate::heat::tensor::solve::solver::StageSolver;
-use crate::heat::tensor::solve::stage::StageKey;
 use std::f64::consts::PI;
 
 /// Storage that keeps the preconditioner of the stationary state regular, relative to `κ/r_o²` [1].
@@ -28,16 +29,17 @@ const AT_REST: f64 = 1e-3;
 pub fn stationary(heat: &Heat, speeds: [f64; 2], exchange: &Exchange) -> Result<(HeatState, HeatFlows), HeatError> {
     let layout = &heat.layout;
     let mut loads = SurfaceLoads::default();
-    let (mut solver, mut field, _) = prepared(heat, speeds, exchange, &mut loads, true)?;
-    let solved = solver.solve(layout, StageCoefficients { storage: 0.0, flow: 1.0 }, &mut field);
-    let iterations = solved.map_err(|error| match error {
+    let (mut solver, mut line, mut field, _) = prepared(heat, speeds, exchange, &mut loads, true)?;
+    let exact = StageCoefficients { storage: 0.0, flow: 1.0 };
+    let solved = solver.solve(layout, exact, [(&mut line, &mut field[..])]);
+    let [iterations] = solved.map_err(|error| match error {
         HeatError::NotConverged { residual, iterations, .. } => HeatError::NoStationaryState { residual, iterations },
         other => other,
     })?;
     let mut flows = HeatFlows { iterations, ..HeatFlows::default() };
-    solver.stage.set_sums(layout, &field);
+    line.set_sums(layout, &field);
     let ends = StageEnd { temperature: &field, content: &field, rate: None, ahead: 0.0 };
-    solver.stage.add_flows(layout, &loads, &ends, 1.0, &mut flows);
+    line.add_flows(&solver.stage.operators, layout, &loads, &ends, 1.0, &mut flows);
     if !flows.is_finite() {
         return Err(not_finite(speeds));
     }
@@ -88,8 +90,9 @@ fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Re
         tread: vec![TreadHeat { angle: 0.0, width: 2.0 * PI, heat: 1.0 }],
         ..Exchange::default()
     };
-    let (mut solver, mut field, coefficients) = prepared(heat, speeds, &even, &mut SurfaceLoads::default(), false)?;
-    solver.solve(layout, coefficients, &mut field)?;
+    let mut loads = SurfaceLoads::default();
+    let (mut solver, mut line, mut field, coefficients) = prepared(heat, speeds, &even, &mut loads, false)?;
+    solver.solve(layout, coefficients, [(&mut line, &mut field[..])])?;
     let (body, mut mean) = (&layout.wheel, Vec::new());
     let [wheel, _] = layout.split_mut(&mut field);
     body.integrate(wheel, &mut mean);
@@ -114,17 +117,19 @@ fn prepared(
     exchange: &Exchange,
     loads: &mut SurfaceLoads,
     curved: bool,
-) -> Result<(StageSolver, Vec<f64>, StageCoefficients), HeatError> {
+) -> Result<(StageSolver, LineConduction, Vec<f64>, StageCoefficients), HeatError> {
     check_speeds(speeds)?;
-    let (layout, mut solver) = (&heat.layout, StageSolver::default());
+    let (layout, mut solver, mut line) = (&heat.layout, StageSolver::default(), LineConduction::default());
     loads.set(layout, exchange, heat.content(exchange.arriving))?;
     let storage = REGULARISATION * layout.config.diffusivity() / layout.config.wheel.radius.powi(2);
     let coefficients = StageCoefficients { storage, flow: 1.0 };
-    let key = StageKey { speeds, inverted: speeds, coefficients, rate: 0.0, curved };
-    solver.stage.set(layout, &loads.conductance, key)?;
+    let contact = contact_nodes(&loads.conductance);
+    let key = StageKey { speeds, inverted: speeds, coefficients, rate: 0.0, curved, contact };
+    solver.stage.operators.set(layout, key)?;
+    line.set(&solver.stage.operators, layout, &loads.conductance)?;
     let mut field = vec![0.0; layout.size()];
-    add_loads(&mut solver.stage, layout, loads, &mut field);
-    Ok((solver, field, coefficients))
+    add_loads(&solver.stage.operators, layout, loads, (&mut line, &mut field[..]));
+    Ok((solver, line, field, coefficients))
 }
 
 fn not_finite([velocity, omega]: [f64; 2]) -> HeatError {

@@ -1,0 +1,56 @@
+"""An elliptical patch beside patches of constant width (`examples/ex13_ellipse.py`): what its lines have, and between which it lies."""
+
+import ex13_ellipse as example
+import numpy as np
+import pytest
+
+BRIEF = 0.4  # s
+
+
+@pytest.fixture(scope="module")
+def found(fmu):
+    """Every preset of the example under the first part of the brake application."""
+    return {preset: example.braked(fmu, preset, BRIEF) for preset in example.PRESETS}
+
+
+def test_all_presets_carry_the_same_load_and_the_same_brake(found):
+    """But for what the wheels' inertia takes."""
+    forces = [figures["contact.force_x"] for _, figures, _ in found.values()]
+    print(forces)
+    expected = -example.TORQUE * BRIEF / example.RAMP / 0.46
+    assert forces == pytest.approx([expected] * 3, rel=0.03)
+
+
+def test_the_ellipse_lies_between_the_width_for_forces_and_that_for_pressures(found):
+    wide, narrow, ellipse = (figures for _, figures, _ in found.values())
+    for name in ("contact.creepage", "contact.half_width", "temperature.wheel_max", "heat.friction_power"):
+        assert wide[name] < ellipse[name] < narrow[name], name
+    # The narrow patch is made for this pressure.
+    assert ellipse["contact.pressure_max"] == pytest.approx(narrow["contact.pressure_max"], rel=0.02)
+
+
+def test_lines_are_longer_hotter_and_more_loaded_towards_the_middle_where_they_stick_most(found):
+    _, figures, lines = found["railway_ellipse"]
+    assert all(len(values) == 7 for values in lines.values())
+    assert sum(lines["force_x"]) == pytest.approx(figures["contact.force_x"], rel=1e-9)
+    for name in ("half_length", "pressure_max", "temperature_wheel_max", "stick_fraction"):
+        inwards = np.diff(lines[name][:4])
+        assert np.all(inwards > 0.0) or (name == "stick_fraction" and np.all(inwards >= 0.0)), name
+    # Half an ellipse over the width: both lengths and pressures are those of the middle times sqrt(1 - (2 z/width)^2).
+    shape = np.sqrt(1.0 - (2.0 * np.array(lines["position"]) / figures["contact.width"]) ** 2)
+    assert np.array(lines["pressure_max"]) == pytest.approx(shape * lines["pressure_max"][3], rel=0.01)
+    assert np.array(lines["half_length"]) == pytest.approx(shape * lines["half_length"][3], rel=0.01)
+
+
+def test_a_line_of_constant_width_is_the_whole_patch(found):
+    for preset in ("railway", "railway_damage"):
+        _, figures, lines = found[preset]
+        assert lines["pressure_max"] == [figures["contact.pressure_max"]] and lines["position"] == [0.0]
+
+
+def test_the_example_prints_its_table_and_draws_its_picture(found, tmp_path, capsys):
+    example.report(found)
+    text = capsys.readouterr().out
+    assert all(word in text for word in (*example.PRESETS, "largest pressure [MPa]", "lines of the ellipse"))
+    example.plot(tmp_path / "ellipse.png", found)
+    assert (tmp_path / "ellipse.png").read_bytes().startswith(b"\x89PNG")

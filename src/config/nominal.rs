@@ -1,0 +1,50 @@
+//! Size of the patch under the nominal load.
+
+use super::choices::ContactShape;
+use super::dependent::CURVATURES;
+use super::table::Config;
+use crate::analytic::{contact_modulus, hertz_half_width};
+use crate::patch::{Ellipse, Hertz};
+
+/// Patch under the nominal load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NominalPatch {
+    /// Half of its length along the direction of rolling \[m].
+    pub half_length: f64,
+    /// Width across it \[m].
+    pub width: f64,
+}
+
+impl Config {
+    /// Hertz's contact of bodies with the radii of curvature of wheel and rail, within the range of their ratio.
+    pub fn hertz(&self) -> Hertz {
+        let material = &self.material;
+        let [low, high] = CURVATURES.map(|ratio| ratio / self.wheel.radius);
+        let modulus = contact_modulus(material.youngs_modulus, material.poissons_ratio);
+        Hertz::new(self.wheel.radius, 1.0 / self.lateral_curvature().clamp(low, high), modulus)
+    }
+
+    /// Curvature of the gap across the direction of rolling [1/m].
+    pub(super) fn lateral_curvature(&self) -> f64 {
+        let of = |radius: f64| if radius == 0.0 { 0.0 } else { 1.0 / radius };
+        of(self.contact.wheel_lateral_radius) + of(self.contact.rail_lateral_radius)
+    }
+
+    /// Patch under the nominal load. A line has the half-width `a = √(4 P R / (π E*))` of the Hertzian line contact of
+    /// a cylinder on a plane of the same material (Johnson, *Contact Mechanics* (1985), eq. 4.43).
+    pub fn nominal_patch(&self) -> NominalPatch {
+        let (model, material) = (&self.model, &self.material);
+        match self.contact.shape {
+            ContactShape::Line => {
+                let modulus = contact_modulus(material.youngs_modulus, material.poissons_ratio);
+                let load = model.nominal_load / model.contact_width;
+                let half_length = hertz_half_width(load, self.wheel.radius, modulus);
+                NominalPatch { half_length, width: model.contact_width }
+            }
+            ContactShape::Ellipse => {
+                let Ellipse { a, b, .. } = self.hertz().under(model.nominal_load);
+                NominalPatch { half_length: a, width: 2.0 * b }
+            }
+        }
+    }
+}

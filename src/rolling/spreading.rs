@@ -1,0 +1,36 @@
+//! Heat that spreads from line to line of a patch.
+//!
+//! Within a passage lines do not exchange heat: it goes 0.1 mm while a line is millimetres wide. Within a second it
+//! evens out over the patch, so that what has gone deep is the same under all lines. Into the bodies beside the patch
+//! it spreads as that of a contact of this width does, by the sections of the heat model.
+
+use super::error::StepError;
+use super::line::Line;
+use super::model::RollingModel;
+use super::state::State;
+use crate::heat::{HeatState, LateralCells};
+use crate::material::Isotropic;
+
+/// Lets the heat of a step of `dt` seconds from `state` to `next` spread between the lines.
+pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) -> Result<(), StepError> {
+    next.spreading.clone_from(&state.spreading);
+    if !model.contact.patch.is_symmetric() || next.lines.len() < 2 || model.thermal.is_none() {
+        return Ok(());
+    }
+    // Fields belong to z/b: cells are those of the nominal patch, and a wider patch evens out more slowly.
+    let (nominal, covered) = (model.patch_width, next.covered());
+    let half = |(k, line): (usize, &Line)| {
+        let pair = if k == 0 && line.layout.ordinate == 0.0 { 1.0 } else { 0.5 };
+        pair * nominal * line.layout.share / covered
+    };
+    let widths: Vec<f64> = next.lines.iter().enumerate().map(half).collect();
+    let cells = match next.lines[0].layout.ordinate == 0.0 {
+        true => LateralCells::half(&widths, &[])?,
+        false => LateralCells::side_by_side(&widths)?,
+    };
+    let diffusivity = model.narrowing(next).powi(2) * Isotropic::from(&model.config.material).diffusivity();
+    let Some(mixing) = next.spreading.advance(dt, &cells, diffusivity) else { return Ok(()) };
+    let mut fields: Vec<&mut HeatState> =
+        next.lines.iter_mut().filter_map(|line| line.thermal.as_mut()).map(|thermal| &mut thermal.fields).collect();
+    Ok(mixing.apply(&mut fields)?)
+}

@@ -1,0 +1,164 @@
+//! A wheel on its rail that touches in an ellipse: energy, convergence and limits of the whole model.
+
+mod common;
+use common::*;
+use std::sync::Arc;
+use wheelrail::config::{Config, ContactMethod, StartTemperature};
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
+
+/// The preset with a number of lines and of elements per half axis.
+fn ellipse(lines: usize, elements: usize, heat: bool) -> Config {
+    let mut config = preset("railway_ellipse", elements);
+    config.contact.lines = lines;
+    config.thermal.enabled = heat;
+    config
+}
+
+/// Runs with inputs that are changed before every step; outputs at the start and after every step.
+fn run(
+    model: &Arc<Model>,
+    mut inputs: Inputs,
+    (step, count): (f64, usize),
+    change: impl Fn(&mut Inputs, f64),
+) -> Vec<Outputs> {
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut seen = vec![simulation.outputs().clone()];
+    for k in 1..=count {
+        change(&mut inputs, k as f64 * step);
+        simulation.advance(&inputs, step).unwrap_or_else(|error| panic!("step {k} of {step} s: {error}"));
+        seen.push(simulation.outputs().clone());
+    }
+    seen
+}
+
+fn vary(inputs: &mut Inputs, t: f64) {
+    inputs.drive.moment = -4000.0 - 2000.0 * (300.0 * t).sin();
+    inputs.drive.load = 1e5 * (1.0 + 0.1 * (400.0 * t).sin());
+    inputs.drive.friction = 0.3 + 0.03 * (200.0 * t).sin();
+    inputs.drive.temperature = 293.0 + 1e3 * t;
+}
+
+#[test]
+fn pressure_half_axis_and_approach_of_the_wheel_are_those_of_hertz_under_any_load() {
+    let model = model(ellipse(7, 10, false));
+    let hertz = model.config().hertz();
+    for share in [0.1, 0.5, 1.0, 1.9] {
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.drive.load = share * 1e5;
+        let simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let (outputs, exact) = (simulation.outputs(), hertz.under(share * 1e5));
+        let pressure = outputs.contact_pressure_max / exact.peak - 1.0;
+        let half_axis = outputs.contact_half_width / exact.a - 1.0;
+        let more = outputs.contact_approach - exact.approach;
+        println!(
+            "{share}: pressure {pressure:+.1e}, half axis {half_axis:+.1e}, bodies yield {:.3e} m/N",
+            more / (share * 1e5)
+        );
+        assert!(pressure.abs() < 5e-3 && half_axis.abs() < 5e-3);
+        assert!(more > 0.0 && (outputs.contact_force_y / (share * 1e5) - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn braking_with_varying_load_friction_and_rail_balances_energy_and_agrees_on_series_and_grid() {
+    let results: Vec<_> = [ContactMethod::Auto, ContactMethod::Grid]
+        .into_iter()
+        .map(|method| {
+            let mut config = ellipse(5, 10, true);
+            config.mesh.grid_elements_per_half_width = 20;
+            config.solver.contact = method;
+            (config.tuning.tolerance, config.tuning.max_step) = (0.0, 2.5e-4);
+            let model = model(config);
+            let mut inputs = Inputs::rolling(model.config());
+            inputs.drive.moment = -4000.0;
+            run(&model, inputs, (1e-3, 60), vary)
+        })
+        .collect();
+    let mut worst = [0.0_f64; 4];
+    for (a, b) in results[0].iter().zip(&results[1]) {
+        worst[0] = worst[0].max((a.contact_force_x - b.contact_force_x).abs() / 3e4);
+        worst[1] = worst[1].max((a.contact_force_y / b.contact_force_y - 1.0).abs());
+        worst[2] = worst[2].max((a.contact_pressure_max / b.contact_pressure_max - 1.0).abs());
+        worst[3] = worst[3].max((a.temperature_wheel_max - b.temperature_wheel_max).abs());
+    }
+    let residuals = [&results[0], &results[1]].map(|seen| seen[60].energy_residual);
+    println!("series and grid differ by {worst:?}; residuals {residuals:?}");
+    assert!(residuals.iter().all(|residual| residual.abs() < 5e-3));
+    assert!(worst[0] < 5e-3 && worst[1] < 2e-3 && worst[2] < 1e-2 && worst[3] < 2.0);
+}
+
+#[test]
+fn a_wheel_that_locks_slides_with_friction_and_stays_within_its_sources() {
+    for step in [1e-3, 2e-4] {
+        let mut config = ellipse(5, 8, true);
+        config.initial.velocity = 60.0 * KMH;
+        let model = model(config);
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.rotation = Rotation::Velocity;
+        let start = inputs.drive.omega;
+        let count = (0.06 / step) as usize;
+        let seen =
+            run(&model, inputs, (step, count), |inputs, t| inputs.drive.omega = start * (1.0 - t / 0.03).max(0.0));
+        let last = &seen[count];
+        println!(
+            "{step}: force {:.1} N, friction {:.3}, {:.1} K, heat residual {:.1e}, energy {:.1e}",
+            last.contact_force_x, last.friction, last.temperature_wheel_max, last.heat_residual, last.energy_residual
+        );
+        for outputs in &seen {
+            let limit = outputs.friction * outputs.contact_force_y;
+            assert!(outputs.contact_force_x.abs() <= 1.01 * limit, "{}", outputs.contact_force_x / limit);
+        }
+        assert!(last.contact_force_x < 0.0 && last.heat_residual.abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_wheel_at_rest_starts_and_stops() {
+    let mut config = ellipse(5, 8, true);
+    config.initial.velocity = 0.0;
+    config.initial.temperature = StartTemperature::Uniform;
+    let model = model(config);
+    let inputs = Inputs::rolling(model.config());
+    let seen = run(&model, inputs, (1e-2, 60), |inputs, t| {
+        inputs.drive.moment = if t < 0.3 { 4000.0 * (t / 0.05).min(1.0) } else { 0.0 };
+    });
+    let last = &seen[60];
+    println!("{:.3} m/s, residual {:.1e}", last.wheel_velocity, last.energy_residual);
+    assert!(last.wheel_velocity > 0.1);
+}
+
+/// A wheel whose patch is that of the reference: a circle of 6 mm under 100 kN.
+fn circle(lines: usize) -> Config {
+    let mut config = ellipse(lines, 20, true);
+    (config.wheel.radius, config.contact.rail_lateral_radius) = (0.332308, 0.332308);
+    config.wheel.hub_radius = 0.067;
+    (config.tuning.softening, config.initial.velocity) = (0.0, 20.0);
+    config
+}
+
+/// Flash temperatures of the wheel before its tread comes round again against Jaeger's integral over the tractions of
+/// CONTACT, half of the heat in each body.
+#[test]
+fn flash_temperatures_are_those_of_the_tractions_of_contact() {
+    let reference: serde_json::Value = serde_json::from_str(include_str!("contact_reference/ellipse.json")).unwrap();
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let model = model(circle(7));
+    for case in reference["flash"].as_array().unwrap() {
+        if number(&case["aspect"]) != 1.0 {
+            continue;
+        }
+        let (xi, speed) = (number(&case["xi"]), number(&case["speed"]));
+        let seen = run(&model, prescribed(&model, speed, xi), (1e-3, 20), |_, _| {});
+        let last = &seen[20];
+        let (hottest, expected) = (last.temperature_wheel_max - 293.0, number(&case["hottest"]));
+        println!("xi {xi}: {hottest:.2} K for {expected:.2} K, {:+.3}", hottest / expected - 1.0);
+        assert!((hottest / expected - 1.0).abs() < 0.035);
+        let rows = |key: &str| -> Vec<f64> { case[key].as_array().unwrap().iter().map(number).collect() };
+        let (y, rows) = (rows("y_mm"), rows("hottest_of_row"));
+        for (position, temperature) in last.line_position.iter().zip(&last.line_temperature_wheel).take(7) {
+            let of_row = wheelrail::piecewise::interpolate(&y, &rows, 1e3 * position);
+            println!("  {:.2} mm: {:.2} K for {of_row:.2} K", 1e3 * position, temperature - 293.0);
+            assert!((temperature - 293.0 - of_row).abs() < 0.05 * expected);
+        }
+    }
+}

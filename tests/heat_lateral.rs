@@ -1,0 +1,198 @@
+//! Heat that spreads sideways between lines, against closed forms in three dimensions.
+
+mod heat_common;
+use heat_common::*;
+use std::f64::consts::PI;
+use wheelrail::config::CrossSection;
+use wheelrail::heat::*;
+use wheelrail::piecewise::Piecewise;
+
+/// Gauss–Legendre weights of seven points, from the middle outwards.
+const WEIGHT: [f64; 4] =
+    [0.417_959_183_673_469_4, 0.381_830_050_505_118_9, 0.279_705_391_489_276_6, 0.129_484_966_168_869_7];
+
+/// Half-width of the patch along and across the rail \[m].
+const A: f64 = 5e-3;
+const B: f64 = 5e-3;
+
+/// `erf(x) = 2/√π ∫₀ˣ e^{−t²} dt` by Simpson's rule.
+fn erf(x: f64) -> f64 {
+    let end = x.clamp(-7.0, 7.0);
+    let (n, h) = (400, end / 400.0);
+    let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    2.0 / PI.sqrt() * h / 3.0 * (0..=n).map(|i| weight(i) * (-(f64::from(i) * h).powi(2)).exp()).sum::<f64>()
+}
+
+/// Widths of the four lines of seven that are computed under a symmetric patch.
+fn lines() -> [f64; 4] {
+    WEIGHT.map(|weight| weight * B)
+}
+
+fn thick(rail: bool) -> HeatConfig {
+    with(config(1e5, 20.0), |c| {
+        (c.half_width, c.zone, c.reach) = (A, 1.5 * A, 1.5 * A);
+        c.elements_per_half_width = 10;
+        (c.thermal.heat_ratio, c.thermal.cross_section) = (1.0, CrossSection::Contact);
+        c.thermal.wheel_share = if rail { 0.0 } else { 1.0 };
+    })
+}
+
+fn content(heat: &Heat, cells: &LateralCells, states: &[HeatState]) -> f64 {
+    let of = |state: &HeatState| heat.heat_content(state).unwrap().iter().sum::<f64>();
+    states.iter().enumerate().map(|(i, state)| cells.width(i) * of(state)).sum()
+}
+
+fn mix(mixing: &LateralMixing, states: &mut [HeatState]) {
+    mixing.apply(&mut states.iter_mut().collect::<Vec<_>>()).unwrap();
+}
+
+/// A band that is hot at the start, `½[erf((b−y)/√4αt) + erf((b+y)/√4αt)]`, as means over the cells.
+#[test]
+fn a_hot_band_spreads_as_the_error_function_and_keeps_its_heat() {
+    let heat = heat(&thick(false));
+    let alpha = heat.config().diffusivity();
+    let mut errors = Vec::new();
+    for count in [5, 10, 20] {
+        let widths: Vec<f64> = vec![B / f64::from(count); 4 * count as usize];
+        let cells = LateralCells::side_by_side(&widths).unwrap();
+        let start = |i: usize| heat.initial(if i < count as usize { 100.0 } else { 0.0 }, 0.0);
+        let mut states: Vec<HeatState> = (0..cells.len()).map(start).collect();
+        let (before, mut time, mut worst) = (content(&heat, &cells, &states), 0.0, 0.0_f64);
+        for _ in 0..20 {
+            mix(&cells.conduction(alpha, 0.02), &mut states);
+            time += 0.02;
+        }
+        let s = (4.0 * alpha * time).sqrt();
+        let mut seen = Observation::default();
+        for (i, state) in states.iter().enumerate() {
+            heat.observe(state, &mut seen).unwrap();
+            let y = (i as f64 + 0.5) * widths[i];
+            let exact = 50.0 * (erf((B - y) / s) + erf((B + y) / s));
+            let found = seen.temperatures.wheel_centre;
+            assert!((0.0..=100.0).contains(&found), "{found}");
+            worst = worst.max((found - exact).abs() / 100.0);
+        }
+        let lost = content(&heat, &cells, &states) / before - 1.0;
+        println!("{count} cells in the half-width after {time:.2} s: largest error {worst:.1e}, heat {lost:+.1e}");
+        assert!(lost.abs() < 1e-12);
+        errors.push(worst);
+    }
+    let order = (errors[1] / errors[2]).log2();
+    println!("order {order:.2}");
+    assert!(order > 1.8 && errors[2] < 1e-3);
+}
+
+/// Mean of a unit box of the half-length `l` over itself after conduction for `t` seconds.
+fn box_mean(l: f64, alpha: f64, t: f64) -> f64 {
+    let u = l / (alpha * t).sqrt();
+    erf(u) - (1.0 - (-u * u).exp()) / (PI.sqrt() * u)
+}
+
+/// Mean temperature under unit flux on a patch of a half-space since `time`: `√(α/π)/k ∫ M(a) M(b) dt/√t`; with `b`
+/// infinite that of the plane.
+fn patch_mean(b: f64, alpha: f64, conductivity: f64, time: f64) -> f64 {
+    let n = 2000;
+    let h = time.sqrt() / f64::from(n);
+    // In r = √t the integrand is smooth.
+    let f = |i: i32| {
+        let t = (h * (f64::from(i) + 0.5)).powi(2);
+        2.0 * box_mean(A, alpha, t) * if b.is_finite() { box_mean(b, alpha, t) } else { 1.0 }
+    };
+    (alpha / PI).sqrt() / conductivity * h * (0..n).map(f).sum::<f64>()
+}
+
+/// Mean temperature of the patch at 0.1, 1 and 10 s under unit flux on a standing wheel, by lines and the cells `rest`.
+fn standing(rest: &[f64], share: f64) -> [f64; 3] {
+    let heat = heat(&thick(false));
+    let alpha = heat.config().diffusivity();
+    let cells = LateralCells::half(&lines(), rest).unwrap();
+    let heated = Exchange { friction_power: Piecewise::sampled(-A, A, 41, |_| 1e6), ..Exchange::default() };
+    let idle = Exchange::default();
+    let mut states = vec![heat.initial(0.0, 0.0); cells.len()];
+    let (mut scratch, mut seen, mut mean) = (HeatScratch::default(), Observation::default(), [0.0; 3]);
+    let (mut time, mut waited, mut entered) = (0.0, 0.0, 0.0);
+    for (k, end) in [0.1, 1.0, 10.0].into_iter().enumerate() {
+        let steps = if k == 0 { 50 } else { 90 };
+        let dt = (end - time) / f64::from(steps);
+        for _ in 0..steps {
+            let mut next = vec![HeatState::default(); cells.len()];
+            let fields = states.iter().zip(&mut next).enumerate().map(|(i, (state, next))| HeatLine {
+                state,
+                next,
+                exchange: if i < 4 { &heated } else { &idle },
+                flows: HeatFlows::default(),
+            });
+            let mut fields: Vec<_> = fields.collect();
+            heat.step_lines(&mut fields, dt, 0.0, 0.0, &mut scratch).unwrap();
+            entered += dt * fields.iter().enumerate().map(|(i, f)| cells.width(i) * f.flows.to_wheel).sum::<f64>();
+            states = next;
+            waited += dt;
+            if !rest.is_empty() && waited >= cells.spreading_time(alpha, share) {
+                mix(&cells.conduction(alpha, waited), &mut states);
+                waited = 0.0;
+            }
+        }
+        time = end;
+        for (i, state) in states[..4].iter().enumerate() {
+            heat.observe(state, &mut seen).unwrap();
+            let width = cells.width(i) / B;
+            let found = wheelrail::piecewise::mean(heat.zone_x(), &seen.surface[0], -A, A);
+            mean[k] += width * found / 1e6;
+        }
+    }
+    let lost = content(&heat, &cells, &states) / entered - 1.0;
+    println!("heat {lost:+.1e}");
+    assert!(lost.abs() < 1e-9, "{lost:e}");
+    mean
+}
+
+#[test]
+fn a_standing_patch_warms_as_the_three_dimensional_half_space() {
+    let c = thick(false);
+    let (alpha, k) = (c.diffusivity(), c.material.conductivity);
+    let times = [0.1, 1.0, 10.0];
+    let exact = times.map(|t| patch_mean(B, alpha, k, t));
+    let plane = times.map(|t| patch_mean(f64::INFINITY, alpha, k, t));
+    let off = |found: [f64; 3]| [0, 1, 2].map(|i| 100.0 * (found[i] / exact[i] - 1.0));
+    println!("plane, closed form: {:+.2?} % of the temperature", off(plane));
+    println!("lines alone: {:+.2?} %", off(standing(&[], 1.0)));
+    let half = 36.5e-3 - B;
+    let [often, three] = [0.05, MIXED_AT].map(|share| off(standing(&[0.3 * B, 0.9 * B, half - 1.2 * B], share)));
+    println!("three cells beside: {three:+.2?} %, mixed at 0.05 d²/α: {often:+.2?} %");
+    assert!(often.iter().all(|off| off.abs() < 2.5), "{often:?}");
+    // Heat of up to one interval has not spread yet.
+    assert!(three.iter().all(|off| off.abs() < 3.5), "{three:?}");
+}
+
+/// Wide and narrow patches in turn: the heat stays, and no temperature leaves its bounds.
+#[test]
+fn lines_that_move_with_the_width_of_the_patch_keep_the_heat() {
+    let heat = heat(&thick(false));
+    let alpha = heat.config().diffusivity();
+    let cells = |factor: f64| {
+        let lines = lines().map(|width| factor * width);
+        let used: f64 = lines.iter().sum::<f64>() - 0.5 * lines[0];
+        LateralCells::half(&lines, &[5e-3, 36.5e-3 - 5e-3 - used]).unwrap()
+    };
+    let mut states: Vec<HeatState> = (0..6).map(|i| heat.initial(if i < 4 { 100.0 } else { 0.0 }, 0.0)).collect();
+    let mut history = LateralHistory { waited: 0.0, cells: cells(1.0) };
+    let (before, mut mixed) = (content(&heat, &cells(1.0), &states), 0);
+    let mut last = cells(1.0);
+    for k in 0..400 {
+        let now = cells(1.0 + 0.07 * (0.3 * f64::from(k)).sin());
+        if let Some(mixing) = history.advance(1e-3, &now, alpha) {
+            mix(&mixing, &mut states);
+            mixed += 1;
+            last = now;
+        }
+    }
+    let lost = content(&heat, &last, &states) / before - 1.0;
+    println!("{mixed} mixings, heat {lost:+.1e}");
+    assert!(lost.abs() < 1e-12);
+    let mut seen = Observation::default();
+    for state in &states {
+        heat.observe(state, &mut seen).unwrap();
+        let found = seen.temperatures.wheel_centre;
+        assert!((0.0..=100.0).contains(&found), "{found}");
+    }
+}
