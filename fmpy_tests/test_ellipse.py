@@ -1,8 +1,12 @@
 """An elliptical patch beside patches of constant width (`examples/ex13_ellipse.py`): what its lines have, and between which it lies."""
 
+from types import SimpleNamespace
+
 import ex13_ellipse as example
 import numpy as np
 import pytest
+from wheelrail.fmu import Refused
+from wheelrail.wheelset import whole_wheelset
 
 BRIEF = 0.4  # s
 
@@ -54,3 +58,11 @@ def test_the_example_prints_its_table_and_draws_its_picture(found, tmp_path, cap
     assert all(word in text for word in (*example.PRESETS, "largest pressure [MPa]", "lines of the ellipse"))
     example.plot(tmp_path / "ellipse.png", found)
     assert (tmp_path / "ellipse.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_wheelset_of_two_wheels_in_one_fmu_refuses_an_ellipse(fmu):
+    """Twice the width and the load of an ellipse are not two ellipses."""
+    wheelset = SimpleNamespace(mass=1800.0, inertia=112.0, radius=0.46)
+    assert whole_wheelset(fmu, wheelset, {})["model.contact_width"] == pytest.approx(0.028)
+    with pytest.raises(Refused, match="contact.shape = ellipse is the patch of one wheel"):
+        whole_wheelset(fmu, wheelset, {"preset": "railway_ellipse"})

@@ -4,7 +4,7 @@ mod common;
 use common::*;
 use std::sync::Arc;
 use wheelrail::config::{Config, ContactMethod, StartTemperature};
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// The preset with a number of lines and of elements per half axis.
 fn ellipse(lines: usize, elements: usize, heat: bool) -> Config {
@@ -161,4 +161,22 @@ fn flash_temperatures_are_those_of_the_tractions_of_contact() {
             assert!((temperature - 293.0 - of_row).abs() < 0.05 * expected);
         }
     }
+}
+
+/// Each line alone would be heated by its own friction, the outermost of seven to less than a third of the middle one: heat
+/// spreads between them by its diffusion length, 7 mm in a second.
+#[test]
+fn heat_of_a_locked_wheel_spreads_from_line_to_line_within_a_second() {
+    let mut config = ellipse(7, 8, true);
+    (config.friction.coefficient, config.tuning.softening, config.initial.velocity) = (2e-3, 0.0, 5.0);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.rotation, inputs.translation, inputs.drive.omega) = (Rotation::Velocity, Translation::Velocity, 0.0);
+    let seen = run(&model, inputs, (1e-2, 100), |_, _| {});
+    let ratio = |k: usize| {
+        let rise = |line: usize| seen[k].line_temperature_wheel[line] - 293.0;
+        rise(6) / rise(3)
+    };
+    println!("outermost over middle line: {:.3} after 10 ms, {:.3} after 1 s", ratio(1), ratio(100));
+    assert!(ratio(1) < 0.33 && ratio(100) > 1.5 * ratio(1));
 }

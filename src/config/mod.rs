@@ -1,7 +1,7 @@
 //! Parameters of a run: the [`table`] of all of them, their check and the presets.
 //!
 //! Everything is SI. Masses, inertias and forces are those of the *whole wheel*; the two-dimensional model works per
-//! metre of width and [`ModelParameters::contact_width`] maps one to the other. `Config::default()` is the preset
+//! metre of width and [`Config::width`] maps one to the other. `Config::default()` is the preset
 //! `railway`; other presets say in what they differ from it, see [`presets`].
 
 pub mod choices;

@@ -205,10 +205,12 @@ class Wheel:
 
     def lines(self):
         """Number of lines of the patch across its width: 1 of a patch of constant width, else `contact.lines`."""
+        return 1 if self.has_constant_width() else int(self.get("contact.lines"))
+
+    def has_constant_width(self):
+        """Whether the patch is a line of constant width: `contact.shape` = line."""
         shape = self.fmu.variables.get("contact.shape")
-        if shape is None or shape.declaredType.items[int(self.get(shape.name)) - 1].name == "line":
-            return 1
-        return int(self.get("contact.lines"))
+        return shape is None or shape.declaredType.items[int(self.get(shape.name)) - 1].name == "line"
 
     def line(self, quantity):
         """What each line of the patch has as a list in the order of their positions: `line("pressure_max")`."""

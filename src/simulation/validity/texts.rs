@@ -76,7 +76,7 @@ fn yielding(value: f64, bound: f64) -> String {
     format!(
         "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
          stay elastic, and patch, forces and temperatures are not those of steel that flows; set \
-         physics.yielding, or check drive.load and model.contact_width",
+         physics.yielding, or check drive.load and the size of the patch (model.contact_width, or contact.rail_lateral_radius)",
         value * 1e-6,
         bound * 1e-6
     )
