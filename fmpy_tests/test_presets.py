@@ -1,5 +1,6 @@
 """Presets initialise to the stationary state; explicit parameters override them."""
 
+import itertools
 import math
 
 import pytest
@@ -7,7 +8,8 @@ import pytest
 from conftest import ROOT
 from wheelrail import Refused
 
-PRESETS = (
+REAL = ("railway_s1002_0mm", "railway_s1002_3mm")
+HERTZIAN = (
     "railway",
     "railway_damage",
     "railway_ellipse",
@@ -67,10 +69,30 @@ def test_the_elliptical_patch_is_as_wide_as_hertz_says(start):
 
 
 def test_all_presets_are_tested():
-    assert {path.stem for path in (ROOT / "resources").glob("*.json")} == set(PRESETS)
+    assert {path.stem for path in (ROOT / "resources").glob("*.json")} == {*HERTZIAN, *REAL}
 
 
-@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("preset", REAL)
+def test_real_patches_have_width_load_and_peak_of_the_rows_of_their_table(start, preset):
+    wheel = start({"preset": preset})
+    table = (ROOT / "resources" / wheel.get("contact.rows")).read_text().splitlines()
+    position, half_length, share = zip(*(map(float, line.split(",")) for line in table[1:]), strict=True)
+    gaps = [b - a for a, b in itertools.pairwise(position)]
+    width = [0.5 * (left + right) for left, right in zip([gaps[0], *gaps], [*gaps, gaps[-1]], strict=True)]
+    load = wheel.get("drive.load")
+    pressure = [2.0 * load * s / sum(share) / (math.pi * a * w) for s, a, w in zip(share, half_length, width, strict=True)]
+    print(f"{wheel.get('contact.pressure_max') / max(pressure) - 1.0:+.4f} of {1e-6 * max(pressure):.0f} MPa")
+    assert wheel.get("contact.width") == pytest.approx(sum(width), rel=1e-6)
+    assert wheel.get("contact.pressure_max") == pytest.approx(max(pressure), rel=0.012)
+    lines = range(1, wheel.get("contact.lines") + 1)
+    assert sum(wheel.get(f"line.force_y[{k}]") for k in lines) == pytest.approx(load, rel=1e-6)
+    positions = [wheel.get(f"line.position[{k}]") for k in lines]
+    assert positions == sorted(positions) and position[0] <= positions[0] and positions[-1] <= position[-1]
+    with pytest.raises(Refused, match=r"contact\.rows: file .*missing\.csv cannot be read"):
+        start({"preset": preset, "contact.rows": "missing.csv"})
+
+
+@pytest.mark.parametrize("preset", HERTZIAN)
 def test_preset_starts_in_equilibrium_with_the_hertzian_patch(start, preset):
     wheel = start({"preset": preset})
     half_width, pressure = hertz(wheel)
@@ -105,4 +127,4 @@ def test_outputs_follow_the_inputs_in_initialization_mode(fmu, start):
 def test_unknown_preset_is_refused_with_the_known_ones(start):
     with pytest.raises(Refused) as refused:
         start({"preset": "tram"})
-    assert all(word in str(refused.value) for word in ("preset", "tram", *PRESETS))
+    assert all(word in str(refused.value) for word in ("preset", "tram", *HERTZIAN, *REAL))

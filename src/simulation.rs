@@ -23,6 +23,7 @@ pub mod advice;
 mod foreign_state;
 mod lock;
 pub mod mistaken_units;
+mod patch_file;
 mod shared;
 mod start;
 mod store;
@@ -33,7 +34,7 @@ pub mod validity;
 
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 
-use crate::config::{Config, ConfigError, Tuning};
+use crate::config::{Config, ConfigError, RowsError, Tuning};
 use crate::heat::HeatError;
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, ModelError, fields, outputs, sensitivity, stationary, substeps};
@@ -58,6 +59,9 @@ pub enum PrepareError {
     /// Parameters out of range or against each other.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// A file of rows of a patch.
+    #[error(transparent)]
+    Rows(#[from] RowsError),
     /// Meshes, matrices or modes.
     #[error("finite-element model: {0}")]
     Mechanics(#[from] MechanicsError),
@@ -75,6 +79,8 @@ pub enum PrepareError {
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
     rolling: rolling::RollingModel,
+    /// The parameter `contact.rows` as it was given, before its file was read.
+    rows: String,
     basis: Option<Arc<(String, Vec<u8>)>>,
     not_kept: Option<String>,
     /// The stationary start computed last, with its inputs: equal instances of a process mostly start alike.
@@ -108,6 +114,8 @@ impl Model {
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
         config.validate()?;
+        let (rows, config) = (config.contact.rows.clone(), patch_file::read(config, store.resources())?);
+        config.validate()?;
         rolling::RollingModel::check_size(&config)?;
         let surfaces = Surfaces::from_config(&config, store.resources()).map_err(ModelError::from)?;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
@@ -125,13 +133,17 @@ impl Model {
         }
         let bodies = mechanics::bodies(&config, basis, progress)?;
         let rolling = rolling::RollingModel::new(config, bodies, surfaces)?;
-        Ok(Arc::new(Self { rolling, basis: file, not_kept, start: Mutex::default(), shelf: Shelf::default() }))
+        Ok(Arc::new(Self { rolling, rows, basis: file, not_kept, start: Mutex::default(), shelf: Shelf::default() }))
     }
 
     /// True if the model serves a configuration: all but the tunable parameters are equal.
     pub fn serves(&self, config: &Config) -> bool {
         let ours = self.config();
-        *ours == config.tuned_like(ours)
+        let mut theirs = config.tuned_like(ours);
+        if theirs.contact.rows == self.rows {
+            theirs.contact.rows.clone_from(&ours.contact.rows);
+        }
+        theirs == *ours
     }
 
     /// Parameters of the model.

@@ -10,7 +10,7 @@ use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, Response, presets};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
-const PRESETS: [&str; 10] = [
+const PRESETS: [&str; 12] = [
     "railway",
     "paper_a",
     "paper_b",
@@ -20,6 +20,8 @@ const PRESETS: [&str; 10] = [
     "railway_dry",
     "railway_wet",
     "railway_ellipse",
+    "railway_s1002_0mm",
+    "railway_s1002_3mm",
     "railway_low_adhesion",
 ];
 

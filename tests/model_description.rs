@@ -124,7 +124,16 @@ fn every_preset_is_valid() {
     assert_eq!(names[..4], papers);
     assert_eq!(
         names[4..],
-        ["railway", "railway_damage", "railway_dry", "railway_ellipse", "railway_low_adhesion", "railway_wet"]
+        [
+            "railway",
+            "railway_damage",
+            "railway_dry",
+            "railway_ellipse",
+            "railway_low_adhesion",
+            "railway_s1002_0mm",
+            "railway_s1002_3mm",
+            "railway_wet"
+        ]
     );
     for name in names {
         let config = presets::load(Some(&resources), &name).unwrap_or_else(|error| panic!("{error}"));

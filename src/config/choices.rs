@@ -111,6 +111,7 @@ choice! {
     pub enum ContactShape named "ContactShape", "Shape of the contact patch" {
         Line = "line", "a line of constant width: model.contact_width";
         Ellipse = "ellipse", "an ellipse from the radii of curvature, on contact.lines lines side by side";
+        Rows = "rows", "any patch: contact.rows, on at most contact.lines lines side by side";
     }
 }
 
@@ -119,7 +120,7 @@ impl ContactShape {
     pub fn is_line(self) -> bool {
         match self {
             ContactShape::Line => true,
-            ContactShape::Ellipse => false,
+            ContactShape::Ellipse | ContactShape::Rows => false,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Ranges of parameters that depend on other parameters.
 
 use super::choices::ContactShape;
+use super::patch_rows::RowsError;
 use super::table::{Config, Initial, Material, Rail};
 use super::value::{display_number, display_range};
 use crate::analytic;
@@ -12,21 +13,39 @@ const WHEEL_SHARE: f64 = 0.095;
 const RAIL_SHARE: f64 = 0.12;
 /// Curvatures of the gap across the direction of rolling over those along it: half axes from 1:20 to 13:1.
 pub const CURVATURES: [f64; 2] = [0.01, 50.0];
+/// Ratios of half axes of an ellipse that these curvatures allow.
+const ASPECTS: [f64; 2] = [0.05, 13.0];
 /// Smallest limit of the internal step [s].
 const SHORTEST_LIMIT: f64 = 1e-6;
 /// Largest way of the wheel during the retardation of stiffness-proportional damping [m].
 const LARGEST_RETARDATION: f64 = 0.01;
 
-/// A parameter outside its range.
+/// A parameter without meaning.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} = {} is outside its range: {range}", display_number(*value))]
-pub struct ConfigError {
+pub enum ConfigError {
+    /// A number outside its range.
+    #[error("{name} = {} is outside its range: {range}", display_number(*value))]
+    Range {
+        /// Name of the parameter, or what follows from parameters.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Allowed range in words, and the other parameters that it depends on.
+        range: String,
+    },
+    /// Rows that are no patch.
+    #[error(transparent)]
+    Rows(#[from] RowsError),
+}
+
+impl ConfigError {
     /// Name of the parameter, or what follows from parameters.
-    pub name: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Allowed range in words, and the other parameters that it depends on.
-    pub range: String,
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Range { name, .. } => name,
+            Self::Rows(_) => "contact.rows",
+        }
+    }
 }
 
 /// A check of one parameter against others: its name, value and unit, the range, and the others with their values.
@@ -47,7 +66,7 @@ impl Dependent {
             return Ok(());
         }
         let range = display_range([low, high], unit);
-        Err(ConfigError { name, value, range: format!("{range} with {others}") })
+        Err(ConfigError::Range { name, value, range: format!("{range} with {others}") })
     }
 }
 
@@ -62,16 +81,21 @@ fn rayleigh_speed(config: &Config) -> f64 {
 fn contact_zone(config: &Config) -> Dependent {
     let (Material { youngs_modulus, poissons_ratio, .. }, radius) = (&config.material, config.wheel.radius);
     let stiffness = analytic::contact_modulus(*youngs_modulus, *poissons_ratio);
-    let load = |half_width: f64| match config.contact.shape {
-        ContactShape::Line => analytic::hertz_load(half_width, radius, stiffness) * config.model.contact_width,
-        ContactShape::Ellipse => (half_width / config.hertz().under(1.0).a).powi(3),
+    let half_widths = [SMALLEST_HALF_WIDTH, longest_half_width(config)];
+    let [low, high] = match config.contact.shape {
+        ContactShape::Line => {
+            half_widths.map(|a| analytic::hertz_load(a, radius, stiffness) * config.model.contact_width)
+        }
+        ContactShape::Ellipse => half_widths.map(|a| (a / config.hertz().under(1.0).a).powi(3)),
+        // They are as long as they are under any nominal load.
+        ContactShape::Rows => return longest_row(config),
     };
     Dependent {
         name: "model.nominal_load",
         value: config.model.nominal_load,
         unit: "N",
-        low: load(SMALLEST_HALF_WIDTH),
-        high: load((WHEEL_SHARE * radius).min(RAIL_SHARE * config.rail.length)),
+        low,
+        high,
         others: format!(
             "model.contact_width = {} m, wheel.radius = {} m, rail.length = {} m and material.youngs_modulus = {} Pa \
              (the contact zone fits wheel and rail)",
@@ -81,6 +105,44 @@ fn contact_zone(config: &Config) -> Dependent {
             display_number(*youngs_modulus)
         ),
     }
+}
+
+/// Largest half-width of a contact for which wheel and rail have room \[m].
+fn longest_half_width(config: &Config) -> f64 {
+    (WHEEL_SHARE * config.wheel.radius).min(RAIL_SHARE * config.rail.length)
+}
+
+/// Rows of a patch for which wheel and rail have room.
+fn longest_row(config: &Config) -> Dependent {
+    let (radius, length) = (display_number(config.wheel.radius), display_number(config.rail.length));
+    Dependent {
+        name: "largest half_length of contact.rows",
+        value: config.nominal_patch().half_length,
+        unit: "m",
+        low: SMALLEST_HALF_WIDTH,
+        high: longest_half_width(config),
+        others: format!(
+            "wheel.radius = {radius} m and rail.length = {length} m (the contact zone fits wheel and rail)"
+        ),
+    }
+}
+
+/// Rows of a patch that is neither a line across nor one along the direction of rolling.
+fn aspect_of_rows(config: &Config) -> Option<Dependent> {
+    let shape = config.patch_rows().ok()??.shape;
+    Some(Dependent {
+        name: "half axes' ratio a/b of contact.rows",
+        value: shape.a / shape.b,
+        unit: "1",
+        low: ASPECTS[0],
+        high: ASPECTS[1],
+        others: format!(
+            "the ellipse a = {} m along and b = {} m across the direction of rolling that has the second moments of area \
+             of the rows",
+            display_number(shape.a),
+            display_number(shape.b)
+        ),
+    })
 }
 
 /// Initial motions slower than the surface waves: |V| < c and |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the
@@ -226,8 +288,11 @@ fn wear_contact(config: &Config) -> Dependent {
 
 /// Curvatures across the direction of rolling with which wheel and rail touch in an ellipse that is no line.
 fn ellipse(config: &Config) -> Dependent {
-    let (of_line, radius) = (config.contact.shape.is_line(), config.wheel.radius);
-    let [low, high] = if of_line { [f64::NEG_INFINITY, f64::INFINITY] } else { CURVATURES.map(|c| c / radius) };
+    let radius = config.wheel.radius;
+    let [low, high] = match config.contact.shape {
+        ContactShape::Line | ContactShape::Rows => [f64::NEG_INFINITY, f64::INFINITY],
+        ContactShape::Ellipse => CURVATURES.map(|c| c / radius),
+    };
     Dependent {
         name: "1/contact.wheel_lateral_radius + 1/contact.rail_lateral_radius",
         value: config.lateral_curvature(),
@@ -284,6 +349,7 @@ pub fn ranges(config: &Config) -> Vec<Dependent> {
         retardation(config),
     ];
     all.extend(track(config));
+    all.extend(aspect_of_rows(config));
     all
 }
 

@@ -7,6 +7,7 @@
 pub mod choices;
 mod dependent;
 mod nominal;
+pub mod patch_rows;
 pub mod presets;
 pub mod retired;
 pub mod row;
@@ -19,6 +20,7 @@ pub use choices::{
 };
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;
+pub use patch_rows::{PatchRows, RowsError};
 pub use table::{
     BrakeParameters, Config, ContactParameters, Damping, Files, Friction, Initial, Material, MeshParameters,
     ModelParameters, Physics, Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel,
@@ -76,9 +78,13 @@ impl Config {
                 _ => continue,
             };
             if row.kind.check(row.name, &(row.read)(self)).is_err() {
-                return Err(ConfigError { name: row.name, value, range: row.kind.range() });
+                return Err(ConfigError::Range { name: row.name, value, range: row.kind.range() });
             }
         }
-        dependent::ranges(self).into_iter().try_for_each(Dependent::check)
+        match self.patch_rows() {
+            // A file is read when the model is prepared.
+            Ok(_) | Err(RowsError::Unread(_)) => dependent::ranges(self).into_iter().try_for_each(Dependent::check),
+            Err(error) => Err(error.into()),
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::choices::ContactShape;
 use super::dependent::CURVATURES;
+use super::patch_rows::{self, PatchRows, RowsError};
 use super::table::Config;
 use crate::analytic::{contact_modulus, hertz_half_width};
 use crate::patch::{Ellipse, Hertz};
@@ -30,10 +31,26 @@ impl Config {
         of(self.contact.wheel_lateral_radius) + of(self.contact.rail_lateral_radius)
     }
 
-    /// Patch under the nominal load. A line has the half-width `a = √(4 P R / (π E*))` of the Hertzian line contact of
+    /// Rows of the patch under the nominal load; none where it has another shape.
+    ///
+    /// # Errors
+    /// Rows without meaning, and a file that has not been read.
+    pub fn patch_rows(&self) -> Result<Option<PatchRows>, RowsError> {
+        let text = &self.contact.rows;
+        match self.contact.shape {
+            ContactShape::Line | ContactShape::Ellipse => Ok(None),
+            ContactShape::Rows if patch_rows::is_file(text) => Err(RowsError::Unread(text.clone())),
+            ContactShape::Rows => PatchRows::parse(text, self.model.nominal_load).map(Some),
+        }
+    }
+
+    /// Patch under the nominal load, for rows in a file that has not been read that of an ellipse. A line has the half-width `a = √(4 P R / (π E*))` of the Hertzian line contact of
     /// a cylinder on a plane of the same material (Johnson, *Contact Mechanics* (1985), eq. 4.43).
     pub fn nominal_patch(&self) -> NominalPatch {
         let (model, material) = (&self.model, &self.material);
+        if let Ok(Some(rows)) = self.patch_rows() {
+            return NominalPatch { half_length: rows.half_length(), width: rows.width() };
+        }
         match self.contact.shape {
             ContactShape::Line => {
                 let modulus = contact_modulus(material.youngs_modulus, material.poissons_ratio);
@@ -41,7 +58,7 @@ impl Config {
                 let half_length = hertz_half_width(load, self.wheel.radius, modulus);
                 NominalPatch { half_length, width: model.contact_width }
             }
-            ContactShape::Ellipse => {
+            ContactShape::Ellipse | ContactShape::Rows => {
                 let Ellipse { a, b, .. } = self.hertz().under(model.nominal_load);
                 NominalPatch { half_length: a, width: 2.0 * b }
             }

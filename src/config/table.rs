@@ -20,7 +20,7 @@ parameters! {
                 "Width of the line contact: forces of the wheel = width x forces of the plane model. It counts with \
                  contact.shape = line only";
             1200 expert structural_width: f64 = 0.073, in "m" as "mm", from 1e-3 to 10.0,
-                "Width of the bodies of wheel and rail where the patch has a width of its own (contact.shape = ellipse): forces \
+                "Width of the bodies of wheel and rail where the patch has a width of its own (contact.shape = ellipse or rows): forces \
                  of the wheel = width x forces of the plane bodies";
             1011 basic nominal_load: f64 = 100e3, in "N" as "kN", from 1e-3 to 1e9,
                 "Wheel load for which the mesh is laid out, with a contact that fits wheel and rail; the candidate \
@@ -79,6 +79,9 @@ parameters! {
             1198 expert wheel_lateral_radius: f64 = 0.0, in "m" as "mm", from -100.0 to 100.0,
                 "Radius of curvature of the tread across the direction of rolling, positive where it is convex, negative \
                  where it is hollow; 0: straight, as a cone is";
+            1201 basic rows: String = String::new(),
+                "Patch under model.nominal_load with contact.shape = rows: the name of a .csv file, or its content with ; between \
+                 the lines, with the columns position,half_length,load_share, see docs/patches.md";
             1199 basic rail_lateral_radius: f64 = 0.3, in "m" as "mm", from -100.0 to 100.0,
                 "Radius of curvature of the rail head across the direction of rolling, positive where it is convex; 0: straight. \
                  Wheel and rail together must be convex";

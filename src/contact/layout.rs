@@ -4,8 +4,8 @@ use super::kernel::{LineKernel, Logarithm};
 use crate::analytic::HalfPlane;
 use crate::patch::gauss::{self, GaussLine};
 use crate::patch::k11::k11;
-use crate::patch::rows::{self, PatchRow};
-use crate::patch::{Ellipse, Hertz, mindlin};
+use crate::patch::rows::{self, EquivalentEllipse, PatchRow};
+use crate::patch::{Ellipse, Hertz, hertz, mindlin};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ const LEAST: f64 = 0.1;
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LineLayout {
-    /// Lateral position in the patch over its lateral half axis \[1].
+    /// Lateral position, about the centre of load, over half the width of the patch \[1].
     pub ordinate: f64,
     /// Width of the line over that of the bodies \[1].
     pub share: f64,
@@ -44,16 +44,21 @@ pub struct PatchMaterial {
 /// Every line is a plane contact of the radius R of the wheel with a flexibility of its own. Of the normal one the
 /// factor κ is that with which the half-length belongs to the load of the line, `a² = 4κRP`. Its reach L is that with
 /// which a line answers to a small change of the approach δ as it has to, `dP/dδ = 3P/2δ`, and the height of the wheel
-/// over it that at which it carries P. So the patch has the pressures, the approach and the stiffness of Hertz's
-/// ellipse. Derivation: `docs/theory/lines.md`.
+/// over it that at which it carries P. So an ellipse has the pressures, the approach and the stiffness of Hertz's, and
+/// any other patch its own pressures, and approach and stiffness of the ellipse with its second moments of area.
+/// Derivation: `docs/theory/lines.md`.
 #[derive(Clone, Debug)]
 pub struct PatchLayout {
-    /// Lines under the load `load`: both of a symmetric pair stand for one of twice the width.
+    /// Lines under the load `load`, at positions about the centre of load; on a symmetric patch, both of a pair stand for
+    /// one of twice the width.
     rows: Vec<PatchRow>,
+    symmetric: bool,
+    /// Lateral position of the centre of load \[m].
+    centre: f64,
     /// Load of the description \[N], and the approach that belongs to it \[m].
     load: f64,
     approach: f64,
-    /// Lateral half axis under it \[m].
+    /// Half of the width under it \[m].
     lateral: f64,
     /// Radius of the wheel \[m].
     radius: f64,
@@ -72,30 +77,64 @@ impl PatchLayout {
         material: PatchMaterial,
         (lines, width, load): (usize, f64, f64),
     ) -> Self {
-        let PatchMaterial { half_plane, shear_modulus, poissons_ratio } = material;
-        let Ellipse { a, b, peak, approach } = hertz.under(load);
-        let gauss = gauss::half(lines);
+        let Ellipse { a, b, peak, .. } = hertz.under(load);
         let row = |line: &GaussLine| {
             let share = (1.0 - line.ordinate.powi(2)).sqrt();
             let half_length = a * share;
             let line_load = 0.5 * PI * half_length * peak * share;
             PatchRow { position: b * line.ordinate, width: b * line.weight, half_length, line_load }
         };
-        let rows: Vec<_> = gauss.iter().map(row).collect();
+        let rows: Vec<_> = gauss::half(lines).iter().map(row).collect();
         // A single line, which is no rule for this pressure, carries the load on a smaller width.
         let scale = load / rows::load(&rows);
-        let reach = mindlin::kernel_length(hertz.aspect(), poissons_ratio, &gauss) * (a * b).sqrt();
-        let factor = (1.0 - poissons_ratio) / (PI * shear_modulus) / k11(hertz.aspect());
+        let rows = rows.into_iter().map(|row| PatchRow { width: scale * row.width, ..row }).collect();
+        let layout = Self::of(rows, [a, b], material, [radius, width]);
+        Self { symmetric: true, lateral: b, ..layout }
+    }
+
+    /// A patch of rows, of which neighbours that differ least share a line where there are more than `lines`. `shape` is
+    /// the ellipse with its second moments of area; `radius` and `width` \[m] are those of wheel and bodies.
+    pub fn rows(
+        (rows, shape): (Vec<PatchRow>, &EquivalentEllipse),
+        material: PatchMaterial,
+        (lines, radius, width): (usize, f64, f64),
+    ) -> Self {
+        let rows = rows::merged(rows, lines);
+        let centre = rows::centre_of_load(&rows);
+        let about = |row: PatchRow| PatchRow { position: row.position - centre, ..row };
+        let layout = Self::of(rows.into_iter().map(about).collect(), [shape.a, shape.b], material, [radius, width]);
+        Self { centre, ..layout }
+    }
+
+    /// Lines at positions about the centre of load, in a patch as large as the ellipse with the half axes `a` and `b`.
+    fn of(rows: Vec<PatchRow>, [a, b]: [f64; 2], material: PatchMaterial, [radius, width]: [f64; 2]) -> Self {
+        let PatchMaterial { half_plane, shear_modulus, poissons_ratio } = material;
+        let (load, modulus) = (rows::load(&rows), 1.0 / (PI * half_plane.kernel));
+        let lines = rows.iter().map(|row| [row.width, row.half_length]);
+        let reach = mindlin::kernel_length([a, b], poissons_ratio, lines).ln();
+        let factor = (1.0 - poissons_ratio) / (PI * shear_modulus) / k11(a / b);
         Self {
-            rows: rows.into_iter().map(|row| PatchRow { width: scale * row.width, ..row }).collect(),
+            symmetric: false,
+            centre: 0.0,
             load,
-            approach,
-            lateral: b,
+            approach: hertz::approach([a, b], load, modulus),
+            lateral: 0.5 * rows.iter().map(|row| row.width).sum::<f64>(),
             radius,
             width,
-            tangential: Logarithm { factor, reach: reach.ln() },
+            tangential: Logarithm { factor, reach },
             coupling: half_plane.coupling * b / (a + b),
+            rows,
         }
+    }
+
+    /// True if lines beside the middle stand for a symmetric pair.
+    pub fn is_symmetric(&self) -> bool {
+        self.symmetric
+    }
+
+    /// Lateral position of the centre of load, which is the same under all loads \[m].
+    pub fn centre(&self) -> f64 {
+        self.centre
     }
 
     /// Number of lines.

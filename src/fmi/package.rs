@@ -22,7 +22,7 @@ pub struct Contents {
     pub extent: Extent,
     /// Shared libraries, one for each platform.
     pub binaries: Vec<Binary>,
-    /// Directory with the presets (`*.json`).
+    /// Directory with the presets (`*.json`) and their patches (`*.csv`).
     pub resources: PathBuf,
     /// Directory with a run to compare with: inputs, results and their settings (`wheelrail_in.csv`, `_ref.csv`,
     /// `_ref.opt`).
@@ -209,7 +209,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     entries.extend(FIXED.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     entries.extend(pages().map(|page| (format!("documentation/{}", page.file()), page.html().into_bytes())));
     entries.extend(PICTURES.map(|(path, bytes)| (format!("documentation/{path}"), bytes.to_vec())));
-    for (name, path) in files(&contents.resources, |name| name.ends_with(".json"))? {
+    for (name, path) in files(&contents.resources, |name| [".json", ".csv"].iter().any(|end| name.ends_with(end)))? {
         entries.push((format!("resources/{name}"), read(&path)?));
     }
     for (name, path) in files(&contents.reference, |name| name.starts_with(MODEL_IDENTIFIER))? {

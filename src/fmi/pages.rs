@@ -17,8 +17,9 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 26] = files![include_str:
+const PAGES: [(&str, &str); 27] = files![include_str:
     "profiles.md",
+    "patches.md",
     "coupling.md",
     "theory/README.md",
     "theory/ale-balance.md",

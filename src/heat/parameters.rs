@@ -53,7 +53,7 @@ impl HeatConfig {
             if value >= low && value <= high {
                 Ok(())
             } else {
-                Err(ConfigError { name, value, range: display_range([low, high], "1") })
+                Err(ConfigError::Range { name, value, range: display_range([low, high], "1") })
             }
         };
         let material = &c.material;

@@ -70,7 +70,7 @@ pub fn key(config: &Config) -> String {
     let line_load = match config.contact.shape {
         ContactShape::Line => [model.nominal_load / model.contact_width],
         // No load is negative.
-        ContactShape::Ellipse => [-config.nominal_patch().half_length],
+        ContactShape::Ellipse | ContactShape::Rows => [-config.nominal_patch().half_length],
     };
     let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
     let streaming = config.damping.rayleigh_stiffness > 0.0;

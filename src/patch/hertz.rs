@@ -87,6 +87,12 @@ impl Hertz {
     }
 }
 
+/// Approach \[m] of two half-spaces with the modulus `contact_modulus` `E*` \[Pa] that touch under a load \[N] in an ellipse
+/// with the half axes `a` along and `b` across the direction of rolling \[m].
+pub fn approach([a, b]: [f64; 2], load: f64, contact_modulus: f64) -> f64 {
+    1.5 * load * elliptic::first_kind((a / b).powi(2)) / (PI * b * contact_modulus)
+}
+
 /// Ratio `a/b` of the ellipse whose relative radii of curvature have the ratio `R/R_z = κ² D̂/B̂`.
 ///
 /// Newton's method in logarithms with the slope of the last step, kept within [`SLOPES`], so that every step shortens
@@ -155,6 +161,7 @@ mod tests {
             close(found.peak, peaks[i], 1e-13);
             close(found.approach, approaches[i], 1e-13);
             close(hertz.load_at(found.approach), load, 1e-14);
+            close(super::approach([a, b], load, steel()), approaches[i], 1e-13);
         }
     }
 

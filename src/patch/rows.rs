@@ -63,19 +63,45 @@ pub fn equivalent_ellipse(rows: &[PatchRow]) -> Option<EquivalentEllipse> {
     Some(EquivalentEllipse { a: (product * aspect).sqrt(), b: (product / aspect).sqrt(), centre })
 }
 
-/// Rows under another load \[N], if the shape of the patch stays: lengths grow with its cube root, as for Hertz's
-/// contact, and pressures too, so that loads per width grow with the power 2/3.
-///
-/// Lateral positions spread about the centre of the load. No rows without a load, before or after.
-pub fn under(rows: &[PatchRow], new_load: f64) -> Vec<PatchRow> {
-    let old_load = load(rows);
-    if !(old_load > 0.0 && new_load > 0.0) {
-        return Vec::new();
+/// Lateral position \[m] of the resultant load of rows of which at least one carries something.
+pub fn centre_of_load(rows: &[PatchRow]) -> f64 {
+    rows.iter().map(|row| row.width * row.line_load * row.position).sum::<f64>() / load(rows)
+}
+
+/// At most `count` rows with the widths, areas and loads of all given ones, which lie in ascending order: neighbours
+/// become one, each time those two whose mean pressures `p` differ least, in the measure `(p₁ − p₂)² g₁g₂/(g₁ + g₂)` of
+/// Ward with the weights `g = F p³`, `F` the load of a row. With these weights peaks of pressure keep lines of their own:
+/// on seven lines, two real patches keep their largest pressure to 0.7 %, with the weights `F` to 3.6 %.
+pub fn merged(mut rows: Vec<PatchRow>, count: usize) -> Vec<PatchRow> {
+    while rows.len() > count.max(1) {
+        let differences = rows.windows(2).map(|pair| difference(pair[0], pair[1])).enumerate();
+        let Some((first, _)) = differences.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        let second = rows.remove(first + 1);
+        rows[first] = together(rows[first], second);
     }
-    let centre = rows.iter().map(|row| row.width * row.line_load * row.position).sum::<f64>() / old_load;
-    let moved = |row: PatchRow| PatchRow { position: row.position + centre, ..row };
-    let about: Vec<_> = rows.iter().map(|row| PatchRow { position: row.position - centre, ..*row }).collect();
-    scaled(&about, (new_load / old_load).cbrt()).map(moved).collect()
+    rows
+}
+
+/// Difference of two rows in the measure of [`merged`].
+fn difference(first: PatchRow, second: PatchRow) -> f64 {
+    let pressure = |row: PatchRow| row.line_load / row.half_length;
+    let weight = |row: PatchRow| row.width * row.line_load * pressure(row).powi(3);
+    let [g, h] = [first, second].map(weight);
+    (pressure(first) - pressure(second)).powi(2) * g * h / (g + h)
+}
+
+/// One row in the place of two neighbours.
+fn together(first: PatchRow, second: PatchRow) -> PatchRow {
+    let mean = |of: &dyn Fn(&PatchRow) -> f64| {
+        (first.width * of(&first) + second.width * of(&second)) / (first.width + second.width)
+    };
+    let line_load = mean(&|row| row.line_load);
+    PatchRow {
+        position: mean(&|row| row.line_load * row.position) / line_load,
+        width: first.width + second.width,
+        half_length: mean(&|row| row.half_length),
+        line_load,
+    }
 }
 
 /// Rows of a patch whose lengths are `scale` times those of the given ones, whose positions are those about the centre
@@ -126,16 +152,39 @@ mod tests {
     #[test]
     fn rows_under_another_load_are_those_of_the_other_ellipse() {
         let hertz = Hertz::new(0.46, 0.3, 115e9);
-        let scaled = under(&ellipse_rows(&hertz, 1e5, 7, 2e-3), 6e4);
-        for (found, exact) in scaled.iter().zip(ellipse_rows(&hertz, 6e4, 7, 2e-3)) {
+        let rows = ellipse_rows(&hertz, 1e5, 7, 0.0);
+        for (found, exact) in scaled(&rows, 0.6_f64.cbrt()).zip(ellipse_rows(&hertz, 6e4, 7, 0.0)) {
             assert!((found.position - exact.position).abs() < 1e-17);
             assert!((found.width / exact.width - 1.0).abs() < 1e-14);
             assert!((found.half_length / exact.half_length - 1.0).abs() < 1e-14);
             assert!((found.line_load / exact.line_load - 1.0).abs() < 1e-14);
         }
-        assert!(under(&scaled, 0.0).is_empty() && under(&[], 1e5).is_empty());
-        assert_eq!(equivalent_ellipse(&scaled[..1]), None);
+        assert_eq!(equivalent_ellipse(&rows[..1]), None);
         assert_eq!(equivalent_ellipse(&[]), None);
+    }
+
+    #[test]
+    fn merged_rows_keep_load_area_centre_and_peaks() {
+        let row = |(i, line_load): (u8, f64)| PatchRow {
+            position: 1e-3 * f64::from(i),
+            width: 1e-3,
+            half_length: 5e-3,
+            line_load: 1e6 * line_load,
+        };
+        let rows: Vec<_> = (0..).zip([3.0, 3.1, 9.0, 3.2, 3.3, 6.0, 6.2]).map(row).collect();
+        let merged_rows = merged(rows.clone(), 4);
+        let widths: Vec<f64> = merged_rows.iter().map(|row| (1e3 * row.width).round()).collect();
+        assert_eq!(widths, [2.0, 1.0, 2.0, 2.0]);
+        assert_eq!(merged_rows[1], rows[2]);
+        for count in 1..=8 {
+            let found = merged(rows.clone(), count);
+            assert_eq!(found.len(), count.min(7));
+            let area = |rows: &[PatchRow]| rows.iter().map(|row| row.width * row.half_length).sum::<f64>();
+            assert!((load(&found) / load(&rows) - 1.0).abs() < 1e-14);
+            assert!((area(&found) / area(&rows) - 1.0).abs() < 1e-14);
+            assert!((centre_of_load(&found) / centre_of_load(&rows) - 1.0).abs() < 1e-14);
+        }
+        assert!(merged(Vec::new(), 3).is_empty());
     }
 
     /// Wheel S1002 on rail UIC60, wheelset 3 mm towards the flange, 100.41 kN: 25 rows of a computation with

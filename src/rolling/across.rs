@@ -27,9 +27,10 @@ impl Seen<'_> {
 /// All lines of a patch: those that stand for a symmetric pair twice.
 fn seen<'a>(model: &RollingModel, state: &'a State) -> Vec<Seen<'a>> {
     let (width, lateral) = (model.wheel.width, 0.5 * model.wheel.width * state.covered());
+    let centre = model.contact.patch.centre();
     let of = |(line, part, side): (&'a Line, f64, f64)| Seen {
         line,
-        position: side * lateral * line.layout.ordinate,
+        position: centre + side * lateral * line.layout.ordinate,
         width: part * width * line.layout.share,
     };
     let lines = state.lines.iter();

@@ -8,7 +8,7 @@ use super::patch_lines::PatchLines;
 use super::standing;
 use super::state::State;
 use super::thermal_state::ThermalDeformation;
-use crate::config::Config;
+use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineLayout,
@@ -69,9 +69,17 @@ pub struct ContactStep<'a> {
 
 impl ContactModel {
     /// Contact of surfaces that may touch up to `reach` \[m] from the contact point.
-    pub fn new(config: &Config, surfaces: Surfaces, solver: Box<dyn ContactSolver>, reach: f64) -> Self {
-        Self {
-            patch: PatchLines::new(config, surfaces.is_smooth()),
+    ///
+    /// # Errors
+    /// Rows of a patch without meaning.
+    pub fn new(
+        config: &Config,
+        surfaces: Surfaces,
+        solver: Box<dyn ContactSolver>,
+        reach: f64,
+    ) -> Result<Self, RowsError> {
+        Ok(Self {
+            patch: PatchLines::new(config, surfaces.is_smooth())?,
             surfaces,
             solver,
             nominal_load: config.model.nominal_load,
@@ -83,7 +91,7 @@ impl ContactModel {
             },
             shear_yield: YIELD_IN_SHEAR * config.material.yield_strength,
             reach,
-        }
+        })
     }
 
     /// How far the material of one of the bodies stands under the patch of a `traction` while the hub moves with the

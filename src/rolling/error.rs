@@ -1,6 +1,7 @@
 //! Why the rolling model has no answer.
 
 use super::control::InputError;
+use crate::config::RowsError;
 use crate::contact::ContactError;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
@@ -155,6 +156,9 @@ pub enum ModelError {
     /// A profile without meaning.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// Rows of a patch without meaning.
+    #[error(transparent)]
+    Rows(#[from] RowsError),
     /// Contact lines that no model can have.
     #[error(
         "contact lines with the shares {shares:?} of the width and a reach of {length:?} m: shares must be positive and add up \

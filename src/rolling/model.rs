@@ -132,7 +132,7 @@ impl RollingModel {
                     Bodies::new(bodies, TrackSupport::new(&config), correction).with_lines(patch_lines::apart(&config))
                 }
             },
-            contact: ContactModel::new(&config, surfaces, solver, zone.max(reach)),
+            contact: ContactModel::new(&config, surfaces, solver, zone.max(reach))?,
             reach: zone.max(reach),
             patch_width: config.nominal_patch().width,
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,

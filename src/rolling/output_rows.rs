@@ -150,8 +150,8 @@ outputs! {
     309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
         "Half the distance between the outermost contact edges, on the longest line of the patch";
     319 contact_width: real "contact.width", in "m" as "mm", from 0.0, nominal 1e-2,
-        "Width of the patch across the direction of rolling: model.contact_width, or with contact.shape = ellipse twice its \
-         lateral half axis under the present load";
+        "Width of the patch across the direction of rolling: model.contact_width, or with contact.shape = ellipse or \
+         rows that under the present load";
     310 contact_pressure_max: real "contact.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
         "Largest contact pressure: the peak between the nodes of the contact where they show one, and nowhere less than at a node";
     311 contact_approach: real "contact.approach", in "m" as "mm", nominal 1e-4,

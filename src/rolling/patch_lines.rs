@@ -1,7 +1,7 @@
 //! Lines of the patch in which wheel and rail touch.
 
 use super::line::Line;
-use crate::config::{Config, ContactShape};
+use crate::config::{Config, ContactShape, PatchRows, RowsError};
 use crate::contact::{LineKernel, LineLayout, Logarithm, PatchLayout, PatchMaterial};
 use crate::material::Isotropic;
 
@@ -27,6 +27,8 @@ pub enum PatchLines {
         lines: Vec<LineLayout>,
         /// True if lines beside the middle stand for a pair.
         symmetric: bool,
+        /// Lateral position of the centre of load \[m].
+        centre: f64,
     },
     /// Lines of a patch whose size follows from its load.
     Sized(PatchLayout),
@@ -35,32 +37,39 @@ pub enum PatchLines {
 impl PatchLines {
     /// Those of a configuration. On surfaces that are not `smooth`, whose patch is as long as their profile makes it, lines
     /// keep the layout of the nominal load: what the contact stores is then a function of its state.
-    pub fn new(config: &Config, smooth: bool) -> Self {
+    ///
+    /// # Errors
+    /// Rows without meaning, and a file of rows that has not been read.
+    pub fn new(config: &Config, smooth: bool) -> Result<Self, RowsError> {
         let steel = Isotropic::from(&config.material);
-        match config.contact.shape {
-            ContactShape::Line => Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0)),
-            ContactShape::Ellipse => {
-                let material = PatchMaterial {
-                    half_plane: steel.half_plane(),
-                    shear_modulus: steel.shear_modulus(),
-                    poissons_ratio: config.material.poissons_ratio,
-                };
-                let size = (config.contact.lines, config.width(), config.model.nominal_load);
-                let patch = PatchLayout::ellipse((&config.hertz(), config.wheel.radius), material, size);
-                match smooth {
-                    true => Self::Sized(patch),
-                    false => {
-                        Self::Constant { lines: patch.lay_out(config.model.nominal_load).collect(), symmetric: true }
-                    }
-                }
+        let material = PatchMaterial {
+            half_plane: steel.half_plane(),
+            shear_modulus: steel.shear_modulus(),
+            poissons_ratio: config.material.poissons_ratio,
+        };
+        let (lines, radius, width, load) =
+            (config.contact.lines, config.wheel.radius, config.width(), config.model.nominal_load);
+        let patch = match (config.contact.shape, config.patch_rows()?) {
+            (ContactShape::Line, _) => {
+                return Ok(Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0)));
             }
-        }
+            (_, Some(PatchRows { rows, shape })) => PatchLayout::rows((rows, &shape), material, (lines, radius, width)),
+            (_, None) => PatchLayout::ellipse((&config.hertz(), radius), material, (lines, width, load)),
+        };
+        Ok(match smooth {
+            true => Self::Sized(patch),
+            false => Self::Constant {
+                lines: patch.lay_out(load).collect(),
+                symmetric: patch.is_symmetric(),
+                centre: patch.centre(),
+            },
+        })
     }
 
     /// Lines with given shares of the width and one flexibility.
     pub fn constant(shares: &[f64], kernel: LineKernel) -> Self {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
-        Self::Constant { lines: shares.iter().map(layout).collect(), symmetric: false }
+        Self::Constant { lines: shares.iter().map(layout).collect(), symmetric: false, centre: 0.0 }
     }
 
     /// Number of lines.
@@ -75,7 +84,15 @@ impl PatchLines {
     pub fn is_symmetric(&self) -> bool {
         match self {
             Self::Constant { symmetric, .. } => *symmetric,
-            Self::Sized(_) => true,
+            Self::Sized(patch) => patch.is_symmetric(),
+        }
+    }
+
+    /// Lateral position of the centre of load, about which the patch grows and shrinks \[m].
+    pub fn centre(&self) -> f64 {
+        match self {
+            Self::Constant { centre, .. } => *centre,
+            Self::Sized(patch) => patch.centre(),
         }
     }
 

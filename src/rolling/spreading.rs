@@ -14,17 +14,18 @@ use crate::material::Isotropic;
 /// Lets the heat of a step of `dt` seconds from `state` to `next` spread between the lines.
 pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) -> Result<(), StepError> {
     next.spreading.clone_from(&state.spreading);
-    if !model.contact.patch.is_symmetric() || next.lines.len() < 2 || model.thermal.is_none() {
+    if next.lines.len() < 2 || model.thermal.is_none() {
         return Ok(());
     }
     // Fields belong to z/b: cells are those of the nominal patch, and a wider patch evens out more slowly.
-    let (nominal, covered) = (model.patch_width, next.covered());
-    let half = |(k, line): (usize, &Line)| {
-        let pair = if k == 0 && line.layout.ordinate == 0.0 { 1.0 } else { 0.5 };
-        pair * nominal * line.layout.share / covered
+    let (nominal, covered, symmetric) = (model.patch_width, next.covered(), model.contact.patch.is_symmetric());
+    let in_the_middle = |k: usize, line: &Line| k == 0 && symmetric && line.layout.ordinate == 0.0;
+    let width = |(k, line): (usize, &Line)| {
+        let of_pair = if symmetric && !in_the_middle(k, line) { 0.5 } else { 1.0 };
+        of_pair * nominal * line.layout.share / covered
     };
-    let widths: Vec<f64> = next.lines.iter().enumerate().map(half).collect();
-    let cells = match next.lines[0].layout.ordinate == 0.0 {
+    let widths: Vec<f64> = next.lines.iter().enumerate().map(width).collect();
+    let cells = match in_the_middle(0, &next.lines[0]) {
         true => LateralCells::half(&widths, &[])?,
         false => LateralCells::side_by_side(&widths)?,
     };

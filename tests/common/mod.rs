@@ -32,9 +32,10 @@ pub fn model(config: Config) -> Arc<Model> {
     Model::shared(config, &store(), &mut |_, _| {}).unwrap()
 }
 
-/// Where the tests keep reduced bases.
+/// Where the tests keep reduced bases, with the shipped resources.
 pub fn store() -> BasisStore {
-    BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"))
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    BasisStore::within(&root.join("target")).with_packed(Some(&root.join("resources")))
 }
 
 /// Inputs that prescribe velocity and creepage under the nominal load.

@@ -6,4 +6,4 @@ from .runs import simulate
 from .team import Team
 
 __all__ = ["Fmu", "Refused", "Team", "Wheel", "celsius", "load", "save", "simulate", "table"]
-__version__ = "0.5.0"
+__version__ = "0.6.0"

@@ -100,7 +100,7 @@ impl WheelSlave {
     fn check_settings(&self, life: &Life) -> Outcome {
         self.config.validate().map_err(|error| {
             let set = self.settings.parameters.keys().filter_map(|reference| find(*reference));
-            let names: Vec<_> = set.filter(|row| row.name != error.name).map(|row| row.name).collect();
+            let names: Vec<_> = set.filter(|row| row.name != error.name()).map(|row| row.name).collect();
             let own = match names.as_slice() {
                 [] => String::new(),
                 names => {

@@ -1,0 +1,247 @@
+//! Patches that are no ellipse: rows side by side from a table.
+
+mod common;
+use common::*;
+use std::sync::Arc;
+use wheelrail::config::{Config, ContactMethod, ContactShape};
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
+
+/// Rows of the ellipse of a configuration, `count` equally wide ones, as a table.
+fn rows_of_ellipse(config: &Config, count: usize) -> String {
+    let ellipse = config.hertz().under(config.model.nominal_load);
+    let row = |i: usize| {
+        let ordinate = (2 * i + 1) as f64 / count as f64 - 1.0;
+        let square = 1.0 - ordinate * ordinate;
+        format!("{:e},{:e},{square}", ellipse.b * ordinate, ellipse.a * square.sqrt())
+    };
+    let rows: Vec<_> = (0..count).map(row).collect();
+    format!("position,half_length,load_share\n{}\n", rows.join("\n"))
+}
+
+fn rows(table: String, lines: usize, heat: bool) -> Config {
+    let mut config = preset("railway_ellipse", 10);
+    config.contact.shape = ContactShape::Rows;
+    (config.contact.rows, config.contact.lines, config.thermal.enabled) = (table, lines, heat);
+    config
+}
+
+fn ellipse(lines: usize, heat: bool) -> Config {
+    let mut config = preset("railway_ellipse", 10);
+    (config.contact.lines, config.thermal.enabled) = (lines, heat);
+    config
+}
+
+/// Outputs at the start and after every step of inputs that change.
+fn run(
+    model: &Arc<Model>,
+    mut inputs: Inputs,
+    (step, count): (f64, usize),
+    change: impl Fn(&mut Inputs, f64),
+) -> Vec<Outputs> {
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut seen = vec![simulation.outputs().clone()];
+    for k in 1..=count {
+        change(&mut inputs, k as f64 * step);
+        simulation.advance(&inputs, step).unwrap_or_else(|error| panic!("step {k} of {step} s: {error}"));
+        seen.push(simulation.outputs().clone());
+    }
+    seen
+}
+
+fn vary(inputs: &mut Inputs, t: f64) {
+    inputs.drive.moment = -4000.0 - 2000.0 * (300.0 * t).sin();
+    inputs.drive.load = 1e5 * (1.0 + 0.1 * (400.0 * t).sin());
+    inputs.drive.friction = 0.3 + 0.03 * (200.0 * t).sin();
+    inputs.drive.temperature = 293.0 + 1e3 * t;
+}
+
+/// Steady rolling at 20 m/s before the tread comes round again.
+fn rolling(model: &Arc<Model>, creepage: f64) -> Outputs {
+    run(model, prescribed(model, 20.0, creepage), (2.5e-3, 20), |_, _| {}).pop().unwrap()
+}
+
+/// Wheel S1002 on rail UIC60, inclined 1:40, 100 kN, friction 0.3, by CONTACT (open version r2707, module 1, elements of
+/// 0.4 mm in rolling, 0.2 mm for the pressure): creepage, creep force over friction times load, share that sticks. The
+/// wheel there has conicity, so that the contact spins, which ours does not. Its largest pressures are those of the
+/// given rows.
+const REAL_PATCHES: [(&str, f64, [[f64; 3]; 3]); 2] = [
+    ("railway_s1002_0mm", 989.3e6, [[4.774e-4, 0.2717, 0.805], [1.976e-3, 0.8426, 0.349], [4.965e-3, 0.9985, 0.0]]),
+    ("railway_s1002_3mm", 1548.7e6, [[2.106e-3, 0.6970, 0.492], [3.604e-3, 0.9162, 0.195], [6.593e-3, 0.9926, 0.0]]),
+];
+
+#[test]
+fn creep_forces_and_pressures_of_real_profiles_are_those_of_contact() {
+    for (name, pressure, cases) in REAL_PATCHES {
+        let mut config = preset(name, 10);
+        (config.thermal.enabled, config.tuning.softening) = (false, 0.0);
+        for lines in [7, 13] {
+            config.contact.lines = lines;
+            let model = model(config.clone());
+            for [xi, expected, stick] in cases {
+                let last = rolling(&model, -xi);
+                let found = last.contact_force_x / (0.3 * last.contact_force_y);
+                let of_pressure = last.contact_pressure_max / pressure - 1.0;
+                println!(
+                    "{name}, {lines} lines, {xi}: force {:+.4}, stick {:+.3}, pressure {of_pressure:+.4}",
+                    found - expected,
+                    last.contact_stick_fraction - stick
+                );
+                assert!((found - expected).abs() < 0.02, "{found} for {expected}");
+                assert!((last.contact_stick_fraction - stick).abs() < 0.05);
+                assert!(of_pressure.abs() < 0.012);
+            }
+        }
+    }
+}
+
+#[test]
+fn rows_of_an_ellipse_are_that_ellipse() {
+    let ellipse = model(ellipse(13, true));
+    let rows = model(rows(rows_of_ellipse(ellipse.config(), 61), 13, true));
+    let braking = |model: &Arc<Model>| {
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.drive.moment = -4000.0;
+        run(model, inputs, (1e-3, 40), vary)
+    };
+    let [of_ellipse, of_rows] = [&ellipse, &rows].map(braking);
+    let mut worst = [0.0_f64; 5];
+    for (a, b) in of_ellipse.iter().zip(&of_rows) {
+        let differences = [
+            (a.contact_force_x - b.contact_force_x) / 3e4,
+            a.contact_force_y / b.contact_force_y - 1.0,
+            a.contact_pressure_max / b.contact_pressure_max - 1.0,
+            a.contact_approach / b.contact_approach - 1.0,
+            a.contact_width / b.contact_width - 1.0,
+        ];
+        worst.iter_mut().zip(differences).for_each(|(worst, d)| *worst = worst.max(d.abs()));
+    }
+    println!("forces along x and y, pressure, approach, width: {worst:?}");
+    assert!(worst[0] < 5e-3 && worst[1] < 1e-3 && worst[2] < 0.015 && worst[3] < 2e-3 && worst[4] < 2e-3);
+    let residuals = [&of_ellipse, &of_rows].map(|seen| seen[40].energy_residual);
+    println!("energy residuals {residuals:?}");
+    assert!(residuals.iter().all(|residual| residual.abs() < 5e-3));
+}
+
+#[test]
+fn a_patch_seen_from_the_other_side_rolls_the_same() {
+    let config = shipped("railway_s1002_3mm");
+    let table = std::fs::read_to_string(format!("{}/resources/{}", env!("CARGO_MANIFEST_DIR"), config.contact.rows));
+    let table = table.unwrap();
+    let (head, lines) = table.split_once('\n').unwrap();
+    let turned: Vec<String> = lines
+        .lines()
+        .rev()
+        .map(|line| {
+            format!(
+                "{:e}{}",
+                {
+                    let (position, _) = line.split_once(',').unwrap();
+                    -position.parse::<f64>().unwrap()
+                },
+                &line[line.find(',').unwrap()..]
+            )
+        })
+        .collect();
+    let [right, left] = [table.clone(), format!("{head}; {}", turned.join("; "))].map(|table| {
+        let model = model(rows(table, 7, true));
+        let inputs = Inputs::rolling(model.config());
+        run(&model, inputs, (1e-3, 20), vary).pop().unwrap()
+    });
+    let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-7 * a.abs().max(1e-3), "{a} is not {b}");
+    same(right.contact_force_x, left.contact_force_x);
+    same(right.contact_pressure_max, left.contact_pressure_max);
+    same(right.temperature_wheel_max, left.temperature_wheel_max);
+    for k in 0..7 {
+        same(right.line_position[k], -left.line_position[6 - k]);
+        same(right.line_temperature_wheel[k] - 293.0, left.line_temperature_wheel[6 - k] - 293.0);
+    }
+}
+
+/// Lengths grow with the third root of the load about the centre of load, and so does the pressure.
+#[test]
+fn a_real_patch_grows_with_its_load_as_hertz_s_does() {
+    let mut config = preset("railway_s1002_3mm", 10);
+    (config.thermal.enabled, config.physics.yielding) = (false, false);
+    let model = model(config);
+    let at = |share: f64| {
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.drive.load = share * 1e5;
+        Simulation::new(model.clone(), &inputs).unwrap().outputs().clone()
+    };
+    let nominal = at(1.0);
+    for share in [0.1, 0.5, 1.9] {
+        let (found, scale) = (at(share), f64::cbrt(share));
+        println!("{share}: {:+.1e}", found.contact_pressure_max / nominal.contact_pressure_max / scale - 1.0);
+        assert!((found.contact_pressure_max / nominal.contact_pressure_max / scale - 1.0).abs() < 2e-3);
+        assert!((found.contact_half_width / nominal.contact_half_width / scale - 1.0).abs() < 2e-3);
+        assert!((found.contact_width / nominal.contact_width / scale - 1.0).abs() < 2e-3);
+    }
+}
+
+#[test]
+fn a_real_patch_with_everything_varying_balances_energy_and_agrees_on_series_and_grid() {
+    let results = [ContactMethod::Auto, ContactMethod::Grid].map(|method| {
+        let mut config = preset("railway_s1002_0mm", 10);
+        config.mesh.grid_elements_per_half_width = 20;
+        (config.solver.contact, config.contact.lines) = (method, 5);
+        (config.tuning.tolerance, config.tuning.max_step) = (0.0, 2.5e-4);
+        let model = model(config);
+        let mut inputs = Inputs::rolling(model.config());
+        inputs.drive.moment = -4000.0;
+        run(&model, inputs, (2.5e-4, 80), vary)
+    });
+    let mut worst = [0.0_f64; 3];
+    for (a, b) in results[0].iter().zip(&results[1]) {
+        worst[0] = worst[0].max((a.contact_force_x - b.contact_force_x).abs() / 3e4);
+        worst[1] = worst[1].max((a.contact_force_y / b.contact_force_y - 1.0).abs());
+        worst[2] = worst[2].max((a.contact_pressure_max / b.contact_pressure_max - 1.0).abs());
+    }
+    let residuals = [&results[0], &results[1]].map(|seen| seen[80].energy_residual);
+    println!("series and grid differ by {worst:?}; residuals {residuals:?}");
+    assert!(residuals.iter().all(|residual| residual.abs() < 5e-3));
+    assert!(worst[0] < 5e-3 && worst[1] < 2e-3 && worst[2] < 1e-2);
+}
+
+#[test]
+fn a_real_patch_locked_and_reversed_keeps_within_friction_and_heat_balances() {
+    for speed in [10.0, -10.0] {
+        let mut config = preset("railway_s1002_3mm", 8);
+        (config.contact.lines, config.initial.velocity) = (5, speed);
+        let model = model(config);
+        let mut inputs = Inputs::rolling(model.config());
+        (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+        let start = inputs.drive.omega;
+        let seen = run(&model, inputs, (1e-3, 60), |inputs, t| inputs.drive.omega = start * (1.0 - t / 0.03).max(0.0));
+        for outputs in &seen {
+            assert!(outputs.contact_force_x.abs() <= 1.01 * outputs.friction * outputs.contact_force_y);
+        }
+        let last = &seen[60];
+        println!(
+            "{speed}: {:.0} N, {:.0} K, heat {:.1e}",
+            last.contact_force_x, last.temperature_wheel_max, last.heat_residual
+        );
+        assert!(last.contact_force_x * speed < 0.0 && last.heat_residual.abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_file_of_rows_is_read_beside_the_presets_and_a_missing_one_is_named() {
+    let config = shipped("railway_s1002_3mm");
+    let shared = model(config.clone());
+    assert!(shared.serves(&config) && Arc::ptr_eq(&shared, &model(config.clone())));
+    assert!(shared.config().contact.rows.starts_with("position,half_length,load_share\n"));
+    let mut missing = config;
+    missing.contact.rows = "missing.csv".to_owned();
+    assert!(!shared.serves(&missing));
+    let error = Model::shared(missing, &store(), &mut |_, _| {}).err().unwrap().to_string();
+    assert!(
+        ["contact.rows", "missing.csv", "cannot be read", "resources"].iter().all(|word| error.contains(word)),
+        "{error}"
+    );
+    let mut senseless = rows("position,half_length,load_share; 0,9e-3,1; 1e-5,9e-3,1".to_owned(), 7, false);
+    let error = senseless.validate().unwrap_err().to_string();
+    assert!(error.contains("half axes' ratio a/b of contact.rows") && error.contains("0.05 to 13"), "{error}");
+    senseless.contact.rows = String::new();
+    let error = senseless.validate().unwrap_err().to_string();
+    assert!(error.contains("contact.rows has 0 rows"), "{error}");
+}
