@@ -34,7 +34,7 @@ pub mod validity;
 
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 
-use crate::config::{Config, ConfigError, RowsError, Tuning};
+use crate::config::{Config, ConfigError, Tuning};
 use crate::heat::HeatError;
 use crate::mechanics::{self, Basis, BasisError, MechanicsError};
 use crate::rolling::{self, ModelError, fields, outputs, sensitivity, stationary, substeps};
@@ -59,9 +59,6 @@ pub enum PrepareError {
     /// Parameters out of range or against each other.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// A file of rows of a patch.
-    #[error(transparent)]
-    Rows(#[from] RowsError),
     /// Meshes, matrices or modes.
     #[error("finite-element model: {0}")]
     Mechanics(#[from] MechanicsError),

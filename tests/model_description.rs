@@ -224,7 +224,7 @@ fn values_outside_declared_ranges_of_parameters_are_refused_by_the_model() {
             let mut config = Config::default();
             variable.set_parameter(&mut config, &value);
             let error = config.validate().expect_err(variable.name);
-            assert_eq!(error.name, variable.name);
+            assert_eq!(error.name(), variable.name);
             assert!(variable.check(&value).is_err());
         }
     }

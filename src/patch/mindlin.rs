@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn the_length_depends_little_on_the_number_of_lines() {
         for (aspect, exact) in [(0.05, 10.4211), (0.5, 4.2425), (1.0, 3.9433), (4.0 / 3.0, 3.9461), (2.0, 4.0944)] {
-            let axes = [aspect.sqrt(), 1.0 / aspect.sqrt()];
+            let axes = [f64::sqrt(aspect), 1.0 / f64::sqrt(aspect)];
             for (count, tolerance) in [(401, 2e-5), (5, 0.012), (9, 0.004)] {
                 close(of_ellipse(axes, &gauss::rule(count)), exact, tolerance);
             }
