@@ -1,84 +1,170 @@
-//! Shift, rolling under a held force and falling friction of the elliptical patch on lines side by side between two
+//! Shift, rolling under held forces and falling friction of the elliptical patch on lines side by side between two
 //! half-spaces, against CONTACT.
 
 mod half_spaces;
 
 use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, number, numbers, reference, run_of_reference};
-use wheelrail::contact::{AxisDrive, Friction, FrictionLaw, Heating, RigidMotion, SlipDependence};
+use serde_json::Value as Json;
+use wheelrail::contact::{Friction, FrictionLaw, Heating, RigidMotion, SlipDependence};
 use wheelrail::multistep::TimeDerivative;
 
-fn shifted(spaces: &HalfSpaces, until: f64, steps: usize) -> (Lines, Vec<[f64; 2]>) {
-    let mut state = spaces.solve((LOAD, LOAD), spaces.held(0.0).map(|_| RigidMotion::held(0.0, 0.0)), (formula(1.0, true), Friction::constant(FRICTION)), &spaces.start_at_rest()).unwrap();
-    let mut shift = 0.0;
-    let mut all = Vec::new();
+/// Nodes of the grid per half axis, as in the product.
+const NODES: u32 = 20;
+/// Distance over the half axis after which the beginning is forgotten [1].
+const SETTLED: f64 = 1.7;
+
+fn dry(time: TimeDerivative) -> (TimeDerivative, Friction) {
+    (time, Friction::constant(FRICTION))
+}
+
+/// Shifts a wheel that does not turn by a driving force that grows to the share `end` of friction in equal steps;
+/// returns the shift after each of them [m].
+fn shifted(spaces: &HalfSpaces, end: f64, steps: usize) -> (Lines, Vec<f64>) {
+    // A shift has no time: the rigid motion is that of a step of one second, and first order is exact.
+    let (time, still) = (formula(1.0, true), RigidMotion::held(0.0, 0.0));
+    let mut state = spaces.solve(LOAD, [still; 2], dry(time), &spaces.start_at_rest()).unwrap();
+    let (mut shift, mut all) = (0.0, Vec::new());
     for k in 1..=steps {
-        let share = until * k as f64 / steps as f64;
-        let [mut v, _] = spaces.driven(share, 0.0);
-        v.guess = -1e-6;
-        state = spaces.solve((LOAD, LOAD), [v, RigidMotion::held(0.0, 0.0)], (formula(1.0, true), Friction::constant(FRICTION)), &state).unwrap();
+        let [translation, _] = spaces.driven(end * k as f64 / steps as f64, 0.0);
+        state = spaces.solve(LOAD, [translation, still], dry(time), &state).unwrap();
         shift += state[0].traction.rigid[0];
-        all.push([spaces.utilisation(LOAD, &state), 1e3 * shift]);
+        all.push(shift);
     }
+    assert!((spaces.utilisation(LOAD, &state) - end).abs() < 1e-6);
     (state, all)
 }
 
+/// Lines that do not see each other shift too far where most of them slip: with ever more lines errors at nine tenths
+/// of friction tend to 6 and 7.4 %.
 #[test]
-fn cattaneo() {
-    for (name, aspect) in [("cattaneo_r1", 1.0), ("cattaneo_r2", 2.0)] {
-        let run = run_of_reference(name);
-        let expected = numbers(&run["shift_mm"]);
-        for (lines, nodes, steps) in [(7, 20, 9), (7, 20, 90), (7, 40, 9), (5, 20, 9), (9, 20, 9), (13, 40, 9)] {
-            let spaces = HalfSpaces::with_grid(aspect, lines, nodes);
-            let (_, all) = shifted(&spaces, 0.9, steps);
-            let each = steps / 9;
-            let errors: Vec<String> = (0..9).map(|k| { let [f, s] = all[(k + 1) * each - 1]; assert!((f - 0.1 * (k as f64 + 1.0)).abs() < 1e-6); format!("{:+.4}", s / expected[k] - 1.0) }).collect();
-            println!("{name} lines {lines} nodes {nodes} steps {steps}: {errors:?}");
-        }
-    }
-}
-
-#[test]
-fn held() {
-    let run = run_of_reference("held50");
-    let xi = numbers(&run["xi"]);
-    let s = numbers(&run["s_over_a"]);
-    for (lines, nodes, per, series) in [(5, 20, 1, false), (7, 20, 1, false), (9, 20, 1, false), (13, 20, 1, false), (7, 40, 1, false), (7,20,2,false), (7, 20, 1, true), (13, 20, 1, true)] {
-        let spaces = HalfSpaces::with_grid(1.0, lines, nodes);
-        let (mut state, _) = shifted(&spaces, 0.5, 10);
-        let dt = 1e-3 * number(&run["ds_mm"]) / SPEED / per as f64;
-        let (mut worst, mut at, mut square, mut handed) = (0.0_f64, 0.0, 0.0, None);
-        let mut rel = Vec::new();
-        for k in 1..xi.len() {
-            let mut creep = 0.0;
-            for sub in 0..per {
-                if series && handed.is_none() && let Some(other) = spaces.as_series(&state) { state = other; handed = Some(s[k]); }
-                state = spaces.solve((LOAD, LOAD), spaces.driven(0.5, SPEED), (formula(dt, k == 1 && sub == 0), Friction::constant(FRICTION)), &state).unwrap();
-                let v = state[0].traction.rigid[0];
-                creep += (v - SPEED) / (0.5 * (v + SPEED)) / per as f64;
+fn a_wheel_is_shifted_without_rolling_as_by_contact() {
+    for (name, aspect, tolerance) in [("cattaneo_r1", 1.0, 0.07), ("cattaneo_r2", 2.0, 0.085)] {
+        let expected = numbers(&run_of_reference(name)["shift_mm"]);
+        let until = numbers(&run_of_reference(name)["Fx"])[8];
+        for lines in [5, 7, 13] {
+            let spaces = HalfSpaces::with_grid(aspect, lines, NODES);
+            let shift = shifted(&spaces, until, 9).1;
+            let errors: Vec<_> = shift.iter().zip(&expected).map(|(found, mm)| 1e3 * found / mm - 1.0).collect();
+            println!("{name} {lines}: {errors:+.4?}");
+            assert!(errors.iter().all(|error| error.abs() < tolerance));
+            if lines == 7 {
+                let finer = shifted(&spaces, until, 27).1;
+                let apart = (0..9).map(|k| (finer[3 * k + 2] / shift[k] - 1.0).abs()).fold(0.0, f64::max);
+                println!("  steps of a third: {apart:.1e}");
+                assert!(apart < 1e-4);
             }
-            let error = creep / xi[k] - 1.0;
-            rel.push(error);
-            square += error * error;
-            if error.abs() > worst { worst = error.abs(); at = s[k]; }
         }
-        println!("held lines {lines} nodes {nodes} per {per} series {handed:?}: worst {worst:.4} at {at:.2}, rms {:.4}", (square / (xi.len() - 1) as f64).sqrt());
-        if std::env::var("SHOW").is_ok() { println!("{:?}", rel.iter().map(|e| (e * 1e3).round()).collect::<Vec<_>>()); }
     }
 }
 
+/// Errors of the creepage of a wheel that rolls on under the force by which it has been shifted, relative to itself.
+struct Held {
+    worst: f64,
+    rms: f64,
+    /// Largest one of the distance crept so far.
+    crept: f64,
+    /// Largest one after the beginning.
+    settled: f64,
+    /// Distance over the half axis at which the series have taken over from the grid.
+    series: Option<f64>,
+}
+
+fn held(case: &Json, lines: usize, series: bool) -> Held {
+    let spaces = HalfSpaces::with_grid(1.0, lines, NODES);
+    let (xi, way, force) = (numbers(&case["xi"]), numbers(&case["s_over_a"]), numbers(&case["Fx"])[0]);
+    let dt = 1e-3 * number(&case["ds_mm"]) / SPEED;
+    let mut state = shifted(&spaces, force, 5).0;
+    let mut held = Held { worst: 0.0, rms: 0.0, crept: 0.0, settled: 0.0, series: None };
+    let mut sums = [0.0; 2];
+    for step in 1..xi.len() {
+        if series && let Some(taken) = spaces.as_series(&state) {
+            (state, held.series) = (taken, Some(way[step]));
+        }
+        state = spaces.solve(LOAD, spaces.driven(force, SPEED), dry(formula(dt, step == 1)), &state).unwrap();
+        let found = HalfSpaces::creepage(&state);
+        sums = [sums[0] + found - xi[step], sums[1] + xi[step]];
+        let error = (found / xi[step] - 1.0).abs();
+        held.worst = held.worst.max(error);
+        held.rms += error * error / (xi.len() - 1) as f64;
+        held.crept = held.crept.max((sums[0] / sums[1]).abs());
+        if way[step] > SETTLED {
+            held.settled = held.settled.max(error);
+        }
+    }
+    Held { rms: held.rms.sqrt(), ..held }
+}
+
+/// From Cattaneo's shift to Carter's rolling: on each line slip at the trailing edge breaks through to what the shift
+/// has left at the leading edge when the wheel has rolled by about the length of the line. With few lines that is felt
+/// one line after the other.
 #[test]
-fn falling() {
+fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() {
+    let case = run_of_reference("held50");
+    for (lines, series, tolerances) in [
+        (5, true, [0.11, 0.03]),
+        (7, false, [0.11, 0.026]),
+        (7, true, [0.11, 0.026]),
+        (9, true, [0.11, 0.02]),
+        (13, true, [0.055, 0.015]),
+    ] {
+        let held = held(&case, lines, series);
+        let Held { worst, rms, crept, settled, .. } = held;
+        println!(
+            "{lines} lines, series from {:?}: worst {worst:.4}, rms {rms:.4}, distance crept {crept:.4}, beyond {SETTLED} half axes \
+             {settled:.4}",
+            held.series
+        );
+        assert!(worst < tolerances[0] && rms < tolerances[1] && held.series.is_some() == series);
+        assert!(lines < 7 || settled < 0.006 && crept < 0.065);
+    }
+}
+
+/// Force that grows from a twentieth to half of friction while the wheel rolls by a half axis: lines begin to slip one
+/// after the other.
+#[test]
+fn creepage_under_a_growing_force_is_that_of_more_lines() {
+    let run = |lines: usize| -> Vec<f64> {
+        let spaces = HalfSpaces::with_grid(1.0, lines, NODES);
+        let driven = |share: f64| spaces.driven(share, SPEED);
+        let dt = spaces.hertz.under(LOAD).a / f64::from(NODES) / SPEED;
+        let stationary = TimeDerivative::default();
+        let rolling = spaces.roll(LOAD, -1e-3, stationary, &spaces.start_at_rest());
+        let mut state = spaces.solve(LOAD, driven(0.05), dry(stationary), &rolling).unwrap();
+        let mut step = |k: u32| {
+            let share = 0.05 + 0.45 * f64::from(k.min(NODES)) / f64::from(NODES);
+            state = spaces.solve(LOAD, driven(share), dry(formula(dt, k == 1)), &state).unwrap();
+            HalfSpaces::creepage(&state)
+        };
+        (1..=3 * NODES).map(&mut step).collect()
+    };
+    let fine = run(13);
+    let largest = fine.iter().fold(0.0_f64, |largest, xi| largest.max(xi.abs()));
+    for (lines, tolerance) in [(5, 0.08), (7, 0.04)] {
+        let apart = run(lines).iter().zip(&fine).map(|(found, xi)| (found - xi).abs()).fold(0.0, f64::max);
+        println!("{lines} lines: {:.4} of the largest creepage {largest:.2e}", apart / largest);
+        assert!(apart < tolerance * largest);
+    }
+}
+
+/// Every line has the coefficient of its own mean slip, every element of CONTACT that of its own.
+#[test]
+fn creep_forces_with_falling_friction_are_those_of_contact() {
     let reference = reference();
     let case = &reference["falling"];
-    let (cold, kinetic) = (number(&case["mu_kin"]) + number(&case["mu_1"]), number(&case["mu_kin"]));
-    let law = FrictionLaw { slip: SlipDependence::Exponential { remaining: kinetic / cold, decay: 2f64.ln() / number(&case["s_half"]) }, memory_length: 0.0, ..FrictionLaw::CONSTANT };
+    let [kinetic, rest, half] = ["mu_kin", "mu_1", "s_half"].map(|name| number(&case[name]));
+    let remaining = kinetic / (kinetic + rest);
+    let slip = SlipDependence::Exponential { remaining, decay: std::f64::consts::LN_2 / half };
+    let law = FrictionLaw { slip, ..FrictionLaw::CONSTANT };
+    let friction = Friction::local(law, kinetic + rest, Heating::default(), 0.0);
     for lines in [5, 7, 9, 13] {
         let spaces = HalfSpaces::new(1.0, lines);
-        let mut errors = Vec::new();
+        let mut worst = 0.0_f64;
         for (xi, force) in numbers(&case["xi"]).into_iter().zip(numbers(&case["Fx"])) {
-            let found = spaces.solve((LOAD, LOAD), spaces.held(xi), (TimeDerivative::default(), Friction::local(law, cold, Heating::default(), 0.0)), &spaces.start()).unwrap();
-            errors.push(spaces.utilisation(LOAD, &found) - force);
+            let laws = (TimeDerivative::default(), friction);
+            let found = spaces.solve(LOAD, spaces.held(xi), laws, &spaces.start()).unwrap();
+            worst = worst.max((spaces.utilisation(LOAD, &found) - force).abs());
         }
-        println!("falling {lines}: {errors:.4?}");
+        println!("{lines} lines: {worst:.4}");
+        assert!(worst < 0.018);
     }
 }

@@ -1,7 +1,10 @@
 //! Two half-spaces that touch in an ellipse, on contact lines side by side, and references for them by CONTACT.
 #![allow(dead_code)]
 
-use nalgebra::{DMatrix, DVector};
+#[path = "../rigid_bodies/mod.rs"]
+mod rigid_bodies;
+
+use rigid_bodies::{Own, RigidBodies, SMOOTH, Step};
 use serde_json::Value as Json;
 use std::f64::consts::PI;
 use wheelrail::analytic::{HalfPlane, contact_modulus};
@@ -10,15 +13,15 @@ use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::line::kernel::line_compliance;
 use wheelrail::contact::series::{Fallback, SeriesSolver};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineLayout, LineProblem, PatchLayout, PatchMaterial, Ports, RigidMotion, SteelLimits, SurfaceResponse,
+    AxisDrive, ContactError, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
+    RigidMotion,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;
-use wheelrail::piecewise::Piecewise;
-use wheelrail::surface::{Flattening, Placement, Surfaces};
 
+/// Friction coefficient [1].
 pub const FRICTION: f64 = 0.3;
+/// Load [N].
 pub const LOAD: f64 = 1e5;
 /// Speed of rolling [m/s].
 pub const SPEED: f64 = 20.0;
@@ -28,9 +31,7 @@ const YOUNG: f64 = 2.1e11;
 const MEAN_AXIS: f64 = 6e-3;
 /// Width of the bodies, which are rigid here but for their half-spaces [m].
 const WIDTH: f64 = 0.05;
-/// Displacement components at the points of the smooth bodies, which do nothing here.
-const SMOOTH: usize = 10;
-/// Nodes of the grid on each side of the patch, over those per half axis [1].
+/// Half of the length of the grid over that of the patch [1].
 const ROOM: f64 = 1.2;
 
 fn modulus() -> f64 {
@@ -62,58 +63,32 @@ pub fn formula(dt: f64, first: bool) -> TimeDerivative {
     TimeDerivative { a0: weights[0] / dt, a1: weights[1] / dt, a2: weights[2] / dt, b1: 0.0 }
 }
 
-/// Answer of bodies that do not move, at a number of displacement components.
-struct RigidBodies {
-    none: [DMatrix<f64>; 4],
-    still: DVector<f64>,
-}
-
-impl RigidBodies {
-    fn new(ports: usize) -> Self {
-        let of = |rows, columns| DMatrix::zeros(rows, columns);
-        Self { none: [of(ports, ports), of(ports, 3), of(3, ports), of(3, 3)], still: DVector::zeros(ports) }
-    }
-
-    /// With displacements by forces of a line that are its own.
-    fn response<'a>(&'a self, own: Option<&'a [DMatrix<f64>; 2]>) -> SurfaceResponse<'a> {
-        let nothing = Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] };
-        let of_line = |[body, both]: &'a [DMatrix<f64>; 2]| Influence { compliance: [body, body], relative: both };
-        SurfaceResponse {
-            own: own.map_or(nothing, of_line),
-            others: own.map(|_| nothing),
-            alone: None,
-            lift: 0.0,
-            free: [&self.still, &self.still],
-            inertial: &self.none[1],
-            momentum: &self.none[2],
-            deformation_inertia: &self.none[3],
-            retarded: [None; 2],
-        }
-    }
-}
+/// Contact of all lines.
+pub type Lines = Vec<ContactState>;
 
 /// Two half-spaces that touch in an ellipse.
 pub struct HalfSpaces {
-    pub solver: SeriesSolver,
+    solver: SeriesSolver,
     pub hertz: Hertz,
     pub radius: f64,
     patch: PatchLayout,
     grid: ContactGrid,
-    smooth: RigidBodies,
-    nodes: RigidBodies,
+    /// Bodies beneath the series, and beneath the grid.
+    bodies: [RigidBodies; 2],
 }
 
-/// Contact of all lines.
-pub type Lines = Vec<ContactState>;
-
 impl HalfSpaces {
-    /// With the ratio `aspect` of the half axes along and across the direction of rolling.
+    /// With the ratio `aspect` of the half axes along and across the direction of rolling; on series alone.
     pub fn new(aspect: f64, lines: usize) -> Self {
-        Self::with_grid(aspect, lines, 6)
+        Self::build(aspect, lines, (4, Fallback::Refuse))
     }
 
-    /// With a grid of a number of nodes per half axis along the direction of rolling.
-    pub fn with_grid(aspect: f64, lines: usize, nodes: usize) -> Self {
+    /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
+    pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
+        Self::build(aspect, lines, (nodes, Fallback::ActiveSet))
+    }
+
+    fn build(aspect: f64, lines: usize, (nodes, fallback): (u32, Fallback)) -> Self {
         // The radii of curvature of a unit contact of this aspect, scaled to the mean axis.
         let lateral = |ratio: f64| Hertz::new(1.0, ratio, modulus());
         let (mut low, mut high) = (1e-4_f64, 1e4_f64);
@@ -128,21 +103,19 @@ impl HalfSpaces {
         let shear_modulus = 0.5 * YOUNG / (1.0 + NU);
         let half_plane = HalfPlane { kernel: 1.0 / (PI * modulus()), coupling: (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG };
         let material = PatchMaterial { half_plane, shear_modulus, poissons_ratio: NU };
-        let (spacing, side) = (hertz.under(LOAD).a / nodes as f64, (ROOM * nodes as f64).ceil() as i32);
+        let (spacing, side) = (hertz.under(LOAD).a / f64::from(nodes), (ROOM * f64::from(nodes)).ceil() as i32);
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
-        let fallback = if nodes > 6 { Fallback::ActiveSet } else { Fallback::Refuse };
         Self {
             solver: SeriesSolver::new(ActiveSetSolver::new(grid.clone()), 0.03, fallback),
             patch: PatchLayout::ellipse((&hertz, radius), material, (lines, WIDTH, LOAD)),
             hertz,
             radius,
-            smooth: RigidBodies::new(SMOOTH),
-            nodes: RigidBodies::new(grid.ports()),
+            bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),
             grid,
         }
     }
 
-    /// Lines that touch, for the series.
+    /// Lines that touch, as series.
     pub fn start(&self) -> Lines {
         (0..self.patch.len()).map(|_| self.solver.touching(self.hertz.under(LOAD).a)).collect()
     }
@@ -152,7 +125,7 @@ impl HalfSpaces {
         (0..self.patch.len()).map(|_| self.solver.touching_at_rest(0.0)).collect()
     }
 
-    /// The state of the grid as that of the series, where all lines have one.
+    /// Lines of the grid as series, if the solver takes all of them back.
     pub fn as_series(&self, lines: &Lines) -> Option<Lines> {
         lines.iter().map(|line| self.solver.narrowed(line, LOAD / WIDTH)).collect()
     }
@@ -161,8 +134,7 @@ impl HalfSpaces {
         self.patch.lay_out(load).collect()
     }
 
-    /// Displacements of every line by its own forces on the nodes of the grid: of each body, and of both.
-    fn own(&self, layout: &[LineLayout]) -> Vec<[DMatrix<f64>; 2]> {
+    fn own(&self, layout: &[LineLayout]) -> Vec<Own> {
         let of = |line: &LineLayout| {
             let body = line_compliance(&line.kernel, self.grid.nodes(), self.grid.spacing);
             let both = 2.0 * &body;
@@ -171,68 +143,46 @@ impl HalfSpaces {
         layout.iter().map(of).collect()
     }
 
-    /// Rolling under a `load`, with lines that are laid out for `laid_out`; `motion` are those of translation and
-    /// rotation.
+    /// Contact under a `load`; `motion` are those of translation and rotation.
     pub fn solve(
         &self,
-        (load, laid_out): (f64, f64),
+        load: f64,
         motion: [RigidMotion; 2],
-        (time, friction): (TimeDerivative, Friction),
+        laws: (TimeDerivative, Friction),
         start: &Lines,
     ) -> Result<Lines, ContactError> {
-        let hub = RigidMotion { drive: AxisDrive::Free { load: -load / WIDTH }, ..RigidMotion::held(0.0, 0.0) };
-        let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(self.radius));
-        let layout = self.layout(laid_out);
-        let series = start.iter().all(|line| line.ports == Ports::Smooth);
-        let own = if series { Vec::new() } else { self.own(&layout) };
-        let bodies = if series { &self.smooth } else { &self.nodes };
-        let line = |(k, layout): (usize, &LineLayout)| LineProblem {
-            share: layout.share,
-            kernel: layout.kernel,
-            bodies: bodies.response(own.get(k)),
-            membrane: [&flat, &flat],
-            time,
-            duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
-            surfaces: &surfaces,
-            placement: Placement {
-                elevation: -layout.gap,
-                distance: 0.0,
-                angle: 0.0,
-                growth: 0.0,
-                swelling: [&flat, &flat],
-                flattening: [&sound, &sound],
-            },
-            limits: SteelLimits::none(&flat),
-            friction,
+        let layout = self.layout(load);
+        let [smooth, nodes] = &self.bodies;
+        let (bodies, own) = match start.iter().all(|line| line.ports == Ports::Smooth) {
+            true => (smooth, Vec::new()),
+            false => (nodes, self.own(&layout)),
         };
-        let problem = ContactProblem {
-            lines: layout.iter().enumerate().map(line).collect(),
-            rigid: [motion[0], hub, motion[1]],
-            nominal_load: LOAD / WIDTH,
-            edge_tolerance: 1e-5,
-        };
-        let mut found = start.clone();
-        let before: Vec<_> = start.iter().collect();
-        let mut after: Vec<_> = found.iter_mut().collect();
-        self.solver.solve(&problem, &before, &mut after, &mut ContactScratch::default())?;
-        Ok(found)
+        let load = [load / WIDTH, LOAD / WIDTH];
+        let step = Step { radius: self.radius, lines: (&layout, &own), load, motion, laws };
+        bodies.solve(&self.solver, &step, start)
     }
 
-    /// Prescribed creepage at a mean speed.
+    /// Motions with a prescribed creepage.
     pub fn held(&self, creepage: f64) -> [RigidMotion; 2] {
         let omega = SPEED * (1.0 - 0.5 * creepage) / self.radius;
         [RigidMotion::held(SPEED * (1.0 + 0.5 * creepage), 0.0), RigidMotion::held(omega, 0.0)]
     }
 
-    /// A wheel that turns with the tread at the `speed` [m/s] and drives with a share of the friction limit: its
+    /// Motions of a wheel whose tread moves with a `speed` [m/s] and drives with a `share` of the friction limit: the
     /// translation follows.
     pub fn driven(&self, share: f64, speed: f64) -> [RigidMotion; 2] {
         let drive = AxisDrive::Free { load: -share * FRICTION * LOAD / WIDTH };
         [RigidMotion { drive, ..RigidMotion::held(speed, 0.0) }, RigidMotion::held(speed / self.radius, 0.0)]
     }
 
+    /// Creepage of a wheel that is [`Self::driven`] at the speed of rolling.
+    pub fn creepage(lines: &Lines) -> f64 {
+        let translation = lines[0].traction.rigid[0];
+        (translation - SPEED) / (0.5 * (translation + SPEED))
+    }
+
     pub fn roll(&self, load: f64, creepage: f64, time: TimeDerivative, start: &Lines) -> Lines {
-        self.solve((load, load), self.held(creepage), (time, Friction::constant(FRICTION)), start).unwrap()
+        self.solve(load, self.held(creepage), (time, Friction::constant(FRICTION)), start).unwrap()
     }
 
     pub fn steady(&self, creepage: f64) -> Lines {
