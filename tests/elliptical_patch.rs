@@ -67,8 +67,8 @@ fn transient(case: &Json, lines: usize) -> f64 {
     worst
 }
 
-/// Forces of the reference are too large by .002 to .005 on the way to the steady state. Halving the steps changes ours by
-/// less than 1e-4.
+/// Forces of the reference are too large by .002 to .005 on the way to the steady state. Halving the steps changes ours
+/// by less than 1e-4.
 #[test]
 fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact() {
     let reference = reference();

@@ -110,8 +110,8 @@ fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() 
         let held = held(&case, lines, series);
         let Held { worst, rms, crept, settled, .. } = held;
         println!(
-            "{lines} lines, series from {:?}: worst {worst:.4}, rms {rms:.4}, distance crept {crept:.4}, beyond {SETTLED} half axes \
-             {settled:.4}",
+            "{lines} lines, series from {:?}: worst {worst:.4}, rms {rms:.4}, distance crept {crept:.4}, beyond {SETTLED} \
+             half axes {settled:.4}",
             held.series
         );
         assert!(worst < tolerances[0] && rms < tolerances[1] && held.series.is_some() == series);

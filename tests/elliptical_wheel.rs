@@ -164,8 +164,8 @@ fn flash_temperatures_are_those_of_the_tractions_of_contact() {
     }
 }
 
-/// Each line alone would be heated by its own friction, the outermost of seven to less than a third of the middle one: heat
-/// spreads between them by its diffusion length, 7 mm in a second.
+/// Each line alone would be heated by its own friction, the outermost of seven to less than a third of the middle one:
+/// heat spreads between them by its diffusion length, 7 mm in a second.
 #[test]
 fn heat_of_a_locked_wheel_spreads_from_line_to_line_within_a_second() {
     let mut config = ellipse(7, 8, true);
@@ -185,8 +185,8 @@ fn heat_of_a_locked_wheel_spreads_from_line_to_line_within_a_second() {
 /// Load per metre of width on the middle line of patches of any breadth, and on a plane contact [N/m].
 const PER_WIDTH: f64 = 1e6;
 
-/// A patch with curvatures across the direction of rolling over those along it; bodies as wide as one with this load per
-/// width everywhere.
+/// A patch with a ratio of the curvatures across and along the direction of rolling; bodies as wide as a line with this
+/// load per width everywhere.
 fn of_curvature(curvature: f64) -> Config {
     let mut config = ellipse(7, 10, false);
     config.contact.rail_lateral_radius = config.wheel.radius / curvature;
@@ -197,8 +197,8 @@ fn of_curvature(curvature: f64) -> Config {
     config
 }
 
-/// Force over friction, stick, largest pressure and half length of the middle line of a wheel that rolls with a creepage,
-/// and the force of all lines over friction.
+/// Force over friction, stick, largest pressure and half length of the middle line of a wheel that rolls with a
+/// creepage, and the force of all lines over friction.
 fn middle_line(model: &Arc<Model>, creepage: f64) -> ([f64; 4], f64) {
     let simulation = Simulation::new(model.clone(), &prescribed(model, 20.0, creepage)).unwrap();
     let (seen, friction) = (simulation.outputs(), model.config().friction.coefficient);
@@ -210,8 +210,8 @@ fn middle_line(model: &Arc<Model>, creepage: f64) -> ([f64; 4], f64) {
     ([force, seen.line_stick[3], seen.line_pressure_max[3], seen.line_half_length[3]], all)
 }
 
-/// Force over friction of plane contacts side by side over an ellipse whose middle one sticks on all but a `share` of its
-/// length.
+/// Force over friction of plane contacts side by side over an ellipse whose middle one sticks on all but a `share` of
+/// its length.
 fn of_strips(share: f64) -> f64 {
     let count = 10_000;
     let strip = |k: i32| {
@@ -237,8 +237,8 @@ fn a_patch_that_grows_across_the_rail_becomes_the_plane_contact_of_its_load_per_
         let mut worst = [0.0_f64; 5];
         for share in [0.3, 0.7] {
             let (line, (found, all)) = (middle_line(&plane, -share * full).0, middle_line(&patch, -share * full));
-            // The creepage over that of full slip at which Carter has the force of the plane contact: beside the half-planes the
-            // bodies creep by thousandths themselves.
+            // Bodies of finite size creep by a trifle when they roll freely: what counts is the share of full slip at
+            // which Carter has the force of the plane contact.
             let strips = all / of_strips(1.0 - (1.0 - line[0]).sqrt()) - 1.0;
             let errors: [f64; 5] = std::array::from_fn(|k| if k < 4 { found[k] / line[k] - 1.0 } else { strips });
             println!("{curvature}, {share} of full slip: {errors:+.4?}");
