@@ -104,14 +104,14 @@ fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() 
         (5, true, [0.11, 0.03]),
         (7, false, [0.11, 0.026]),
         (7, true, [0.11, 0.026]),
-        (9, true, [0.11, 0.02]),
+        (10, true, [0.06, 0.015]),
         (13, true, [0.055, 0.015]),
     ] {
         let held = held(&case, lines, series);
         let Held { worst, rms, crept, settled, .. } = held;
         println!(
-            "{lines} lines, series from {:?}: worst {worst:.4}, rms {rms:.4}, distance crept {crept:.4}, beyond {SETTLED} \
-             half axes {settled:.4}",
+            "{lines} lines, series from {:?}: worst {worst:.4}, rms {rms:.4}, distance crept {crept:.4}, later \
+             {settled:.4}",
             held.series
         );
         assert!(worst < tolerances[0] && rms < tolerances[1] && held.series.is_some() == series);
