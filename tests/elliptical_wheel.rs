@@ -3,7 +3,8 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod, StartTemperature};
+use wheelrail::analytic::{carter_full_slip, contact_modulus, hertz_half_width};
+use wheelrail::config::{Config, ContactMethod, ContactShape, StartTemperature};
 use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// The preset with a number of lines and of elements per half axis.
@@ -163,8 +164,8 @@ fn flash_temperatures_are_those_of_the_tractions_of_contact() {
     }
 }
 
-/// Each line alone would be heated by its own friction, the outermost of seven to less than a third of the middle one: heat
-/// spreads between them by its diffusion length, 7 mm in a second.
+/// Each line alone would be heated by its own friction, the outermost of seven to less than a third of the middle one:
+/// heat spreads between them by its diffusion length, 7 mm in a second.
 #[test]
 fn heat_of_a_locked_wheel_spreads_from_line_to_line_within_a_second() {
     let mut config = ellipse(7, 8, true);
@@ -179,4 +180,73 @@ fn heat_of_a_locked_wheel_spreads_from_line_to_line_within_a_second() {
     };
     println!("outermost over middle line: {:.3} after 10 ms, {:.3} after 1 s", ratio(1), ratio(100));
     assert!(ratio(1) < 0.33 && ratio(100) > 1.5 * ratio(1));
+}
+
+/// Load per metre of width on the middle line of patches of any breadth, and on a plane contact [N/m].
+const PER_WIDTH: f64 = 1e6;
+
+/// A patch with a ratio of the curvatures across and along the direction of rolling; bodies as wide as a line with this
+/// load per width everywhere.
+fn of_curvature(curvature: f64) -> Config {
+    let mut config = ellipse(7, 10, false);
+    config.contact.rail_lateral_radius = config.wheel.radius / curvature;
+    // The load per width, 3N/4b, goes with N^⅔.
+    let middle = 0.75 * 1e5 / config.hertz().under(1e5).b;
+    config.model.nominal_load = 1e5 * (PER_WIDTH / middle).powf(1.5);
+    config.model.structural_width = config.model.nominal_load / PER_WIDTH;
+    config
+}
+
+/// Force over friction, stick, largest pressure and half length of the middle line of a wheel that rolls with a
+/// creepage, and the force of all lines over friction.
+fn middle_line(model: &Arc<Model>, creepage: f64) -> ([f64; 4], f64) {
+    let simulation = Simulation::new(model.clone(), &prescribed(model, 20.0, creepage)).unwrap();
+    let (seen, friction) = (simulation.outputs(), model.config().friction.coefficient);
+    let all = seen.contact_force_x / (friction * seen.contact_force_y);
+    if model.config().contact.shape.is_line() {
+        return ([all, seen.contact_stick_fraction, seen.contact_pressure_max, seen.contact_half_width], all);
+    }
+    let force = seen.line_force_x[3] / (friction * seen.line_force_y[3]);
+    ([force, seen.line_stick[3], seen.line_pressure_max[3], seen.line_half_length[3]], all)
+}
+
+/// Force over friction of plane contacts side by side over an ellipse whose middle one sticks on all but a `share` of
+/// its length.
+fn of_strips(share: f64) -> f64 {
+    let count = 10_000;
+    let strip = |k: i32| {
+        let root = (1.0 - ((f64::from(k) + 0.5) / f64::from(count)).powi(2)).sqrt();
+        root * root * (1.0 - (1.0 - share / root).max(0.0).powi(2))
+    };
+    1.5 * (0..count).map(strip).sum::<f64>() / f64::from(count)
+}
+
+/// Half axes of 1:4.5, 1:9.5 and, at the limit of the curvatures, 1:18.
+#[test]
+fn a_patch_that_grows_across_the_rail_becomes_the_plane_contact_of_its_load_per_width() {
+    let mut plane = ellipse(7, 10, false);
+    plane.contact.shape = ContactShape::Line;
+    (plane.model.contact_width, plane.model.nominal_load) = (0.1, 0.1 * PER_WIDTH);
+    let modulus = contact_modulus(plane.material.youngs_modulus, plane.material.poissons_ratio);
+    let half_width = hertz_half_width(PER_WIDTH, plane.wheel.radius, modulus);
+    let full = carter_full_slip(plane.friction.coefficient, half_width, plane.wheel.radius);
+    let plane = model(plane);
+    let mut before = [f64::INFINITY; 5];
+    for curvature in [0.1, 0.03, 0.01] {
+        let patch = model(of_curvature(curvature));
+        let mut worst = [0.0_f64; 5];
+        for share in [0.3, 0.7] {
+            let (line, (found, all)) = (middle_line(&plane, -share * full).0, middle_line(&patch, -share * full));
+            // Bodies of finite size creep by a trifle when they roll freely: what counts is the share of full slip at
+            // which Carter has the force of the plane contact.
+            let strips = all / of_strips(1.0 - (1.0 - line[0]).sqrt()) - 1.0;
+            let errors: [f64; 5] = std::array::from_fn(|k| if k < 4 { found[k] / line[k] - 1.0 } else { strips });
+            println!("{curvature}, {share} of full slip: {errors:+.4?}");
+            worst.iter_mut().zip(errors).for_each(|(worst, error)| *worst = worst.max(error.abs()));
+        }
+        let third = curvature < 0.1;
+        assert!(worst.iter().zip(before).all(|(now, before)| *now < if third { 0.5 * before } else { 0.05 }));
+        before = worst;
+    }
+    assert!(before.into_iter().all(|error| error < 6e-3));
 }

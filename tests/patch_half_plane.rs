@@ -1,6 +1,8 @@
 //! The contact on a single patch between two elastic half-planes, where Hertz and Carter have closed forms.
 
-use nalgebra::{DMatrix, DVector};
+mod rigid_bodies;
+
+use rigid_bodies::{RigidBodies, SMOOTH, Step};
 use wheelrail::analytic::{
     HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure,
 };
@@ -8,20 +10,15 @@ use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::series::{Fallback, SeriesSolver};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineKernel, LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
+    ContactError, ContactSolver, ContactState, Friction, LineKernel, LineLayout, RigidMotion, SolverState,
 };
 use wheelrail::multistep::TimeDerivative;
-use wheelrail::piecewise::Piecewise;
-use wheelrail::surface::{Flattening, Placement, Surfaces};
 
 const RADIUS: f64 = 0.5;
 const FRICTION: f64 = 0.3;
 const LOAD: f64 = 4e6;
 const NU: f64 = 0.3;
 const YOUNG: f64 = 2.1e11;
-/// Displacement components at the points of the smooth bodies, which do nothing here.
-const PORTS: usize = 10;
 
 fn modulus() -> f64 {
     contact_modulus(YOUNG, NU)
@@ -30,9 +27,8 @@ fn modulus() -> f64 {
 /// Two half-planes and nothing else.
 struct HalfPlanes {
     solver: SeriesSolver,
-    kernel: LineKernel,
-    none: [DMatrix<f64>; 4],
-    still: DVector<f64>,
+    line: LineLayout,
+    bodies: RigidBodies,
 }
 
 impl HalfPlanes {
@@ -43,12 +39,10 @@ impl HalfPlanes {
             coupling: if coupling { (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG } else { 0.0 },
         };
         let grid = ContactGrid::uniform((-9..=9).map(|i| f64::from(i) * 1e-3).collect(), 1e-3, 3);
-        let grid = ActiveSetSolver::new(grid);
-        let none =
-            [DMatrix::zeros(PORTS, PORTS), DMatrix::zeros(PORTS, 3), DMatrix::zeros(3, PORTS), DMatrix::zeros(3, 3)];
-        let kernel = LineKernel::of_half_plane(half_plane, 1.0);
-        let solver = SeriesSolver::new(grid, 0.02, Fallback::Refuse);
-        Self { solver, kernel, none, still: DVector::zeros(PORTS) }
+        let line =
+            LineLayout { share: 1.0, kernel: LineKernel::of_half_plane(half_plane, 1.0), ..LineLayout::default() };
+        let solver = SeriesSolver::new(ActiveSetSolver::new(grid), 0.02, Fallback::Refuse);
+        Self { solver, line, bodies: RigidBodies::new(SMOOTH) }
     }
 
     /// Rolling at mean speed `speed` with prescribed creepage, in a step with the time formula `time`.
@@ -59,47 +53,16 @@ impl HalfPlanes {
         time: TimeDerivative,
         start: &ContactState,
     ) -> Result<ContactState, ContactError> {
-        let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
-        let v = speed * (1.0 + 0.5 * creepage);
         let omega = speed * (1.0 - 0.5 * creepage) / RADIUS;
-        let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(RADIUS));
-        let line = LineProblem {
-            share: 1.0,
-            kernel: self.kernel,
-            bodies: SurfaceResponse {
-                own: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
-                others: None,
-                alone: None,
-                lift: 0.0,
-                free: [&self.still, &self.still],
-                inertial: &self.none[1],
-                momentum: &self.none[2],
-                deformation_inertia: &self.none[3],
-                retarded: [None; 2],
-            },
-            membrane: [&flat, &flat],
-            time,
-            duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
-            surfaces: &surfaces,
-            placement: Placement {
-                elevation: 0.0,
-                distance: 0.0,
-                angle: 0.0,
-                growth: 0.0,
-                swelling: [&flat, &flat],
-                flattening: [&sound, &sound],
-            },
-            limits: SteelLimits::none(&flat),
-            friction: Friction::constant(friction),
+        let motion = [speed * (1.0 + 0.5 * creepage), omega].map(|value| RigidMotion::held(value, 0.0));
+        let step = Step {
+            radius: RADIUS,
+            lines: (&[self.line], &[]),
+            load: [load, LOAD],
+            motion,
+            laws: (time, Friction::constant(friction)),
         };
-        let problem = ContactProblem {
-            lines: vec![line],
-            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
-            nominal_load: LOAD,
-            edge_tolerance: 1e-5,
-        };
-        let mut found = ContactState::default();
-        self.solver.solve(&problem, &[start], &mut [&mut found], &mut ContactScratch::default()).map(|()| found)
+        self.bodies.solve(&self.solver, &step, std::slice::from_ref(start)).map(|mut lines| lines.remove(0))
     }
 
     fn steady(&self, load: f64, share: f64) -> ContactState {

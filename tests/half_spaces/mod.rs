@@ -1,0 +1,207 @@
+//! Two half-spaces that touch in an ellipse, on contact lines side by side, and references for them by CONTACT.
+#![allow(dead_code)]
+
+#[path = "../rigid_bodies/mod.rs"]
+mod rigid_bodies;
+
+use rigid_bodies::{Own, RigidBodies, SMOOTH, Step};
+use serde_json::Value as Json;
+use std::f64::consts::PI;
+use wheelrail::analytic::{HalfPlane, contact_modulus};
+use wheelrail::contact::active_set::ActiveSetSolver;
+use wheelrail::contact::line::ContactGrid;
+use wheelrail::contact::line::kernel::line_compliance;
+use wheelrail::contact::series::{Fallback, SeriesSolver};
+use wheelrail::contact::{
+    AxisDrive, ContactError, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
+    RigidMotion,
+};
+use wheelrail::multistep::TimeDerivative;
+use wheelrail::patch::Hertz;
+
+/// Friction coefficient [1].
+pub const FRICTION: f64 = 0.3;
+/// Load [N].
+pub const LOAD: f64 = 1e5;
+/// Speed of rolling [m/s].
+pub const SPEED: f64 = 20.0;
+const NU: f64 = 0.3;
+const YOUNG: f64 = 2.1e11;
+/// Geometric mean of the half axes of all patches of the reference [m].
+const MEAN_AXIS: f64 = 6e-3;
+/// Width of the bodies, which are rigid here but for their half-spaces [m].
+const WIDTH: f64 = 0.05;
+/// Half of the length of the grid over that of the patch [1].
+const ROOM: f64 = 1.2;
+
+fn modulus() -> f64 {
+    contact_modulus(YOUNG, NU)
+}
+
+pub fn reference() -> Json {
+    serde_json::from_str(include_str!("../contact_reference/ellipse.json")).unwrap()
+}
+
+pub fn number(value: &Json) -> f64 {
+    value.as_f64().unwrap()
+}
+
+pub fn numbers(value: &Json) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(number).collect()
+}
+
+/// Run of the reference with this name.
+pub fn run_of_reference(name: &str) -> Json {
+    let reference = reference();
+    let runs = reference["transient"].as_array().unwrap();
+    runs.iter().find(|run| run["name"] == name).unwrap().clone()
+}
+
+/// Formula of second order for `d_t` in steps of `dt` seconds, of first order in the first one.
+pub fn formula(dt: f64, first: bool) -> TimeDerivative {
+    let weights = if first { [1.0, -1.0, 0.0] } else { [1.5, -2.0, 0.5] };
+    TimeDerivative { a0: weights[0] / dt, a1: weights[1] / dt, a2: weights[2] / dt, b1: 0.0 }
+}
+
+/// Contact of all lines.
+pub type Lines = Vec<ContactState>;
+
+/// Two half-spaces that touch in an ellipse.
+pub struct HalfSpaces {
+    solver: SeriesSolver,
+    pub hertz: Hertz,
+    pub radius: f64,
+    patch: PatchLayout,
+    grid: ContactGrid,
+    /// Bodies beneath the series, and beneath the grid.
+    bodies: [RigidBodies; 2],
+}
+
+impl HalfSpaces {
+    /// With the ratio `aspect` of the half axes along and across the direction of rolling; on series alone.
+    pub fn new(aspect: f64, lines: usize) -> Self {
+        Self::build(aspect, lines, (4, Fallback::Refuse))
+    }
+
+    /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
+    pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
+        Self::build(aspect, lines, (nodes, Fallback::ActiveSet))
+    }
+
+    fn build(aspect: f64, lines: usize, (nodes, fallback): (u32, Fallback)) -> Self {
+        // The radii of curvature of a unit contact of this aspect, scaled to the mean axis.
+        let lateral = |ratio: f64| Hertz::new(1.0, ratio, modulus());
+        let (mut low, mut high) = (1e-4_f64, 1e4_f64);
+        for _ in 0..200 {
+            let middle = (low * high).sqrt();
+            if lateral(middle).aspect() > aspect { low = middle } else { high = middle }
+        }
+        let ratio = (low * high).sqrt();
+        let unit = lateral(ratio).under(LOAD);
+        let radius = (MEAN_AXIS * MEAN_AXIS / (unit.a * unit.b)).powf(1.5);
+        let hertz = Hertz::new(radius, radius * ratio, modulus());
+        let shear_modulus = 0.5 * YOUNG / (1.0 + NU);
+        let half_plane = HalfPlane { kernel: 1.0 / (PI * modulus()), coupling: (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG };
+        let material = PatchMaterial { half_plane, shear_modulus, poissons_ratio: NU };
+        let (spacing, side) = (hertz.under(LOAD).a / f64::from(nodes), (ROOM * f64::from(nodes)).ceil() as i32);
+        let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
+        Self {
+            solver: SeriesSolver::new(ActiveSetSolver::new(grid.clone()), 0.03, fallback),
+            patch: PatchLayout::ellipse((&hertz, radius), material, (lines, WIDTH, LOAD)),
+            hertz,
+            radius,
+            bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),
+            grid,
+        }
+    }
+
+    /// Lines that touch, as series.
+    pub fn start(&self) -> Lines {
+        (0..self.patch.len()).map(|_| self.solver.touching(self.hertz.under(LOAD).a)).collect()
+    }
+
+    /// Lines that touch and rest, on the grid.
+    pub fn start_at_rest(&self) -> Lines {
+        (0..self.patch.len()).map(|_| self.solver.touching_at_rest(0.0)).collect()
+    }
+
+    /// Lines of the grid as series, if the solver takes all of them back.
+    pub fn as_series(&self, lines: &Lines) -> Option<Lines> {
+        lines.iter().map(|line| self.solver.narrowed(line, LOAD / WIDTH)).collect()
+    }
+
+    pub fn layout(&self, load: f64) -> Vec<LineLayout> {
+        self.patch.lay_out(load).collect()
+    }
+
+    fn own(&self, layout: &[LineLayout]) -> Vec<Own> {
+        let of = |line: &LineLayout| {
+            let body = line_compliance(&line.kernel, self.grid.nodes(), self.grid.spacing);
+            let both = 2.0 * &body;
+            [body, both]
+        };
+        layout.iter().map(of).collect()
+    }
+
+    /// Contact under a `load`; `motion` are those of translation and rotation.
+    pub fn solve(
+        &self,
+        load: f64,
+        motion: [RigidMotion; 2],
+        laws: (TimeDerivative, Friction),
+        start: &Lines,
+    ) -> Result<Lines, ContactError> {
+        let layout = self.layout(load);
+        let [smooth, nodes] = &self.bodies;
+        let (bodies, own) = match start.iter().all(|line| line.ports == Ports::Smooth) {
+            true => (smooth, Vec::new()),
+            false => (nodes, self.own(&layout)),
+        };
+        let load = [load / WIDTH, LOAD / WIDTH];
+        let step = Step { radius: self.radius, lines: (&layout, &own), load, motion, laws };
+        bodies.solve(&self.solver, &step, start)
+    }
+
+    /// Motions with a prescribed creepage.
+    pub fn held(&self, creepage: f64) -> [RigidMotion; 2] {
+        let omega = SPEED * (1.0 - 0.5 * creepage) / self.radius;
+        [RigidMotion::held(SPEED * (1.0 + 0.5 * creepage), 0.0), RigidMotion::held(omega, 0.0)]
+    }
+
+    /// Motions of a wheel whose tread moves with a `speed` [m/s] and drives with a `share` of the friction limit: the
+    /// translation follows.
+    pub fn driven(&self, share: f64, speed: f64) -> [RigidMotion; 2] {
+        let drive = AxisDrive::Free { load: -share * FRICTION * LOAD / WIDTH };
+        [RigidMotion { drive, ..RigidMotion::held(speed, 0.0) }, RigidMotion::held(speed / self.radius, 0.0)]
+    }
+
+    /// Creepage of a wheel that is [`Self::driven`] at the speed of rolling.
+    pub fn creepage(lines: &Lines) -> f64 {
+        let translation = lines[0].traction.rigid[0];
+        (translation - SPEED) / (0.5 * (translation + SPEED))
+    }
+
+    pub fn roll(&self, load: f64, creepage: f64, time: TimeDerivative, start: &Lines) -> Lines {
+        self.solve(load, self.held(creepage), (time, Friction::constant(FRICTION)), start).unwrap()
+    }
+
+    pub fn steady(&self, creepage: f64) -> Lines {
+        self.roll(LOAD, creepage, TimeDerivative::default(), &self.start())
+    }
+
+    /// Sum over the lines, times their widths under a load.
+    pub fn sum(&self, load: f64, lines: &Lines, of: impl Fn(&ContactState) -> f64) -> f64 {
+        self.layout(load).iter().zip(lines).map(|(layout, line)| WIDTH * layout.share * of(line)).sum()
+    }
+
+    /// Driving force over friction times the nominal load.
+    pub fn utilisation(&self, load: f64, lines: &Lines) -> f64 {
+        self.sum(load, lines, |line| line.traction.resultant[0]) / (FRICTION * LOAD)
+    }
+
+    /// Share of the area that sticks.
+    pub fn stick(&self, lines: &Lines) -> f64 {
+        let area = |line: &ContactState| line.traction.half_width();
+        self.sum(LOAD, lines, |line| area(line) * line.traction.stick_fraction) / self.sum(LOAD, lines, area)
+    }
+}

@@ -1,0 +1,103 @@
+//! Contact lines on bodies that are rigid but for the flexibility that the lines have for themselves.
+#![allow(dead_code)]
+
+use nalgebra::{DMatrix, DVector};
+use wheelrail::contact::{
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
+    LineLayout, LineProblem, RigidMotion, SteelLimits, SurfaceResponse,
+};
+use wheelrail::multistep::TimeDerivative;
+use wheelrail::piecewise::Piecewise;
+use wheelrail::surface::{Flattening, Placement, Surfaces};
+
+/// Displacement components at the points of smooth bodies.
+pub const SMOOTH: usize = 10;
+
+/// Displacements by the forces of a line itself: those of each body, and of both together.
+pub type Own = [DMatrix<f64>; 2];
+
+/// Bodies that do not yield.
+pub struct RigidBodies {
+    none: [DMatrix<f64>; 4],
+    still: DVector<f64>,
+}
+
+/// Lines under a wheel in one step, or in a stationary state.
+pub struct Step<'a> {
+    /// Radius of the wheel [m].
+    pub radius: f64,
+    /// The lines, and their displacements on the nodes of a grid; none on smooth bodies, where the solver knows them.
+    pub lines: (&'a [LineLayout], &'a [Own]),
+    /// Load per metre of the bodies' width, and that which scales tolerances [N/m].
+    pub load: [f64; 2],
+    /// Translation and rotation.
+    pub motion: [RigidMotion; 2],
+    /// Time formula, and friction of all lines.
+    pub laws: (TimeDerivative, Friction),
+}
+
+impl RigidBodies {
+    /// Bodies with a number of displacement components at their surfaces.
+    pub fn new(ports: usize) -> Self {
+        let of = |rows, columns| DMatrix::zeros(rows, columns);
+        Self { none: [of(ports, ports), of(ports, 3), of(3, ports), of(3, 3)], still: DVector::zeros(ports) }
+    }
+
+    fn response<'a>(&'a self, own: Option<&'a Own>) -> SurfaceResponse<'a> {
+        let nothing = Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] };
+        let of_line = |[body, both]: &'a Own| Influence { compliance: [body, body], relative: both };
+        SurfaceResponse {
+            own: own.map_or(nothing, of_line),
+            others: own.map(|_| nothing),
+            alone: None,
+            lift: 0.0,
+            free: [&self.still, &self.still],
+            inertial: &self.none[1],
+            momentum: &self.none[2],
+            deformation_inertia: &self.none[3],
+            retarded: [None; 2],
+        }
+    }
+
+    /// Contact of all lines after a step from `start`.
+    pub fn solve(
+        &self,
+        solver: &dyn ContactSolver,
+        step: &Step,
+        start: &[ContactState],
+    ) -> Result<Vec<ContactState>, ContactError> {
+        let Step { radius, lines: (layout, own), load: [load, nominal_load], motion, laws: (time, friction) } = *step;
+        let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
+        let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
+        let line = |(k, layout): (usize, &LineLayout)| LineProblem {
+            share: layout.share,
+            kernel: layout.kernel,
+            bodies: self.response(own.get(k)),
+            membrane: [&flat, &flat],
+            time,
+            duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
+            surfaces: &surfaces,
+            placement: Placement {
+                elevation: -layout.gap,
+                distance: 0.0,
+                angle: 0.0,
+                growth: 0.0,
+                swelling: [&flat, &flat],
+                flattening: [&sound, &sound],
+            },
+            limits: SteelLimits::none(&flat),
+            friction,
+        };
+        let problem = ContactProblem {
+            lines: layout.iter().enumerate().map(line).collect(),
+            rigid: [motion[0], hub, motion[1]],
+            nominal_load,
+            edge_tolerance: 1e-5,
+        };
+        let mut found = start.to_vec();
+        let before: Vec<_> = start.iter().collect();
+        let mut after: Vec<_> = found.iter_mut().collect();
+        solver.solve(&problem, &before, &mut after, &mut ContactScratch::default())?;
+        Ok(found)
+    }
+}
