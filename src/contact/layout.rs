@@ -157,25 +157,40 @@ impl PatchLayout {
         self.rows.first().map_or(0.0, |row| self.load * (share * self.width / row.width).powi(3))
     }
 
-    /// Lines under a load \[N].
-    pub fn lay_out(&self, load: f64) -> impl Iterator<Item = LineLayout> {
+    /// Lines under a load \[N] that move with the patch: under a small change of the load they keep their places in it.
+    pub fn moving(&self, load: f64) -> impl Iterator<Item = LineLayout> {
         let scale = (self.load_of(load) / self.load).cbrt();
         let approach = scale * scale * self.approach;
-        rows::scaled(&self.rows, scale).map(move |row| {
-            let PatchRow { position, width, half_length, line_load } = row;
-            let factor = half_length * half_length / (4.0 * self.radius * line_load);
-            let pressing = factor * line_load;
-            LineLayout {
-                ordinate: position / (scale * self.lateral),
-                share: width / self.width,
-                gap: approach / 3.0 - pressing,
-                kernel: LineKernel {
-                    tangential: Logarithm { reach: self.tangential.reach + scale.ln(), ..self.tangential },
-                    normal: Logarithm { factor, reach: (0.5 * half_length).ln() + approach / (3.0 * pressing) },
-                    coupling: self.coupling,
-                },
-                energy: line_load * (approach / 15.0 - 0.25 * pressing),
-            }
-        })
+        rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * row.line_load / approach))
+    }
+
+    /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
+    /// punch, and the outer ones lift off first. Waves of the surfaces act on them as on the patch.
+    pub fn staying(&self, load: f64) -> impl Iterator<Item = LineLayout> {
+        let scale = (self.load_of(load) / self.load).cbrt();
+        let approach = scale * scale * self.approach;
+        let mean = scale * scale * self.load / self.rows.iter().map(|row| row.width).sum::<f64>();
+        rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * mean / approach))
+    }
+
+    /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load
+    /// per width with the approach [N/m²].
+    fn line(&self, row: &PatchRow, scale: f64, stiffness: f64) -> LineLayout {
+        let PatchRow { position, width, half_length, line_load } = *row;
+        let approach = scale * scale * self.approach;
+        let factor = half_length * half_length / (4.0 * self.radius * line_load);
+        // `dδ/dP = 2κ ln(2L/a)`, `δ = κP (2 ln(2L/a) + 1)`.
+        let (pressing, logarithm) = (factor * line_load, 0.5 / (factor * stiffness));
+        LineLayout {
+            ordinate: position / (scale * self.lateral),
+            share: width / self.width,
+            gap: approach - pressing * (2.0 * logarithm + 1.0),
+            kernel: LineKernel {
+                tangential: Logarithm { reach: self.tangential.reach + scale.ln(), ..self.tangential },
+                normal: Logarithm { factor, reach: (0.5 * half_length).ln() + logarithm },
+                coupling: self.coupling,
+            },
+            energy: line_load * (0.4 * approach - pressing * (logarithm + 0.25)),
+        }
     }
 }

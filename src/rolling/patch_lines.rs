@@ -59,7 +59,7 @@ impl PatchLines {
         Ok(match smooth {
             true => Self::Sized(patch),
             false => Self::Constant {
-                lines: patch.lay_out(load).collect(),
+                lines: patch.staying(load).collect(),
                 symmetric: patch.is_symmetric(),
                 centre: patch.centre(),
             },
@@ -119,7 +119,7 @@ impl PatchLines {
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = *layout);
             }
             Self::Sized(patch) => {
-                lines.iter_mut().zip(patch.lay_out(load)).for_each(|(line, layout)| line.layout = layout);
+                lines.iter_mut().zip(patch.moving(load)).for_each(|(line, layout)| line.layout = layout);
             }
         }
     }

@@ -131,7 +131,7 @@ impl HalfSpaces {
     }
 
     pub fn layout(&self, load: f64) -> Vec<LineLayout> {
-        self.patch.lay_out(load).collect()
+        self.patch.moving(load).collect()
     }
 
     fn own(&self, layout: &[LineLayout]) -> Vec<Own> {
