@@ -164,6 +164,8 @@ outputs! {
         "Impulse of contact.force_y over the last communication step";
     317 contact_lost_time: real "contact.lost_time", in "s" as "ms", from 0.0, nominal 1e-3, start zero,
         "Time without contact since the start";
+    320 contact_line_count: count "contact.line_count",
+        "Number of lines on which the patch is computed, seen across its width: those of line.*";
     318 contact_patches: count "contact.patches",
         "Number of contact patches; contact.half_width reaches from the first to the last";
     257 rail_profile_height: real "rail.profile_height", in "m" as "mm", nominal 1e-5,

@@ -204,8 +204,8 @@ class Wheel:
         return self.get(*self.fmu.points(quantity))
 
     def lines(self):
-        """Number of lines of the patch across its width: 1 of a patch of constant width, else `contact.lines`."""
-        return 1 if self.has_constant_width() else int(self.get("contact.lines"))
+        """Number of lines of the patch across its width: `contact.line_count`, at most `contact.lines`."""
+        return int(self.get("contact.line_count"))
 
     def has_constant_width(self):
         """Whether the patch is a line of constant width: `contact.shape` = line."""
