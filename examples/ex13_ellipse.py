@@ -1,10 +1,11 @@
-"""Example 13: one brake application on a patch of constant width and on an elliptical one: pressure, temperature, creepage.
+"""Example 13: one brake application on patches of constant width, of an ellipse and of real profiles: pressure, heat, creepage.
 
     make ellipse
 
 From 100 km/h the brake torque grows to 11 kN m within a second, four fifths of what friction can take. `railway` and
 `railway_damage` have one line, as wide as creep forces or peak pressures need it; `railway_ellipse` has the ellipse of Hertz on
-seven lines, whose size follows from the load and the curvatures. Its wheel is that of a wheelset of 1300 kg, twice as heavy as
+seven lines, whose size follows from the load and the curvatures; `railway_s1002_*` have the patches of a wheel S1002 on a rail
+UIC60, centred and 3 mm towards the flange. The wheel of these is that of a wheelset of 1300 kg, twice as heavy as
 theirs: a hundredth of the braking force is what that takes more.
 """
 
@@ -18,7 +19,7 @@ from wheelrail import Fmu, Refused, Wheel
 from wheelrail.plots import COLOURS, pyplot, save
 
 SPEED, TORQUE, RAMP, STEP = 100.0 / 3.6, 11e3, 1.0, 1e-3  # m/s, N m, s, s
-PRESETS = ("railway", "railway_damage", "railway_ellipse")
+PRESETS = ("railway", "railway_damage", "railway_ellipse", "railway_s1002_0mm", "railway_s1002_3mm")
 KELVIN = 273.15
 SEEN = ("contact.force_x", "contact.creepage", "temperature.wheel_max")  # over time
 FIGURES = (  # of the last instant: name, text, factor, offset
@@ -44,15 +45,17 @@ def braked(fmu, preset, duration=RAMP):
 
 
 def report(found):
-    """Prints the last instant, and the lines of the ellipse."""
-    print(f"{'':28}" + "".join(f"{preset:>18}" for preset in found))
+    """Prints the last instant, and the lines of the patches that have several."""
+    print(f"{'':28}" + "".join(f"{preset:>19}" for preset in found))
     for name, text, factor, offset in FIGURES:
-        print(f"{text:28}" + "".join(f"{factor * figures[name] + offset:18.4g}" for _, figures, _ in found.values()))
-    lines = found["railway_ellipse"][2]
-    print("\nlines of the ellipse: z [mm], half length [mm], pressure [MPa], sticks [%], force [kN], wheel [°C]")
-    for z, length, pressure, stick, force, hottest in zip(*lines.values()):
-        values = (1e3 * z, 1e3 * length, 1e-6 * pressure, 100.0 * stick, 1e-3 * force, hottest - KELVIN)
-        print("".join(f"{value:11.4g}" for value in values))
+        print(f"{text:28}" + "".join(f"{factor * figures[name] + offset:19.4g}" for _, figures, _ in found.values()))
+    for preset, (_, _, lines) in found.items():
+        if len(lines["position"]) == 1:
+            continue
+        print(f"\nlines of {preset}: z [mm], half length [mm], pressure [MPa], sticks [%], force [kN], wheel [°C]")
+        for z, length, pressure, stick, force, hottest in zip(*lines.values()):
+            values = (1e3 * z, 1e3 * length, 1e-6 * pressure, 100.0 * stick, 1e-3 * force, hottest - KELVIN)
+            print("".join(f"{value:11.4g}" for value in values))
 
 
 def across(axis, found, quantity, shown):

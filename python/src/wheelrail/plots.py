@@ -5,7 +5,7 @@ import numpy as np
 from .brake import Valve
 from .report import CELSIUS, axles_of, column, slide
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
 GREY = "#777777"
 
 

@@ -91,7 +91,7 @@ def whole_wheelset(fmu, wheelset, parameters):
     with Wheel(fmu, parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}) as one:
         if not one.has_constant_width():
             raise Refused(
-                "contact.shape = ellipse is the patch of one wheel, but a wheelset is one FMU here: set contact.shape = line, or "
+                "contact.shape = ellipse or rows is the patch of one wheel, but a wheelset is one FMU here: set contact.shape = line, or "
                 "give each wheel an FMU of its own (example 12)"
             )
         mass, inertia = (WHEELS * value for value in one.get("wheel.mass", "wheel.inertia"))
