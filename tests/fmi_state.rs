@@ -112,6 +112,32 @@ fn a_serialized_state_continues_in_another_instance() {
     assert_eq!(other.serialize(copy), bytes);
 }
 
+/// Four lines that stand for the seven of an ellipse, with heat.
+#[test]
+fn the_state_of_an_elliptical_patch_is_restored_and_continues_in_another_instance() {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    assert_eq!(slave.set_integer("contact.shape", 2), fmi2OK);
+    for (name, value) in [("wheel.hub_radius", 0.067), ("wheel.hub_mass", 277.0), ("wheel.hub_inertia", 4.7)] {
+        assert_eq!(slave.set_real(name, value), fmi2OK);
+    }
+    slave.initialize();
+    slave.brake(0);
+    let (mut state, at_state, width) = (ptr::null_mut(), slave.outputs(), slave.real("contact.width"));
+    assert!((9e-3..12e-3).contains(&width), "{width} m is no ellipse");
+    assert_eq!(slave.save(&mut state), fmi2OK);
+    let (bytes, expected) = (slave.serialize(state), slave.brake(10));
+    assert_eq!(slave.restore(state), fmi2OK);
+    assert_eq!((slave.outputs(), slave.brake(10)), (at_state.clone(), expected.clone()));
+
+    let other = Slave::new(&dll);
+    let mut copy = ptr::null_mut();
+    assert_eq!(other.deserialize(&bytes, &mut copy), fmi2OK);
+    assert_eq!(other.restore(copy), fmi2OK, "{:?}", other.messages());
+    assert_eq!((other.outputs(), other.brake(10)), (at_state, expected));
+    assert_eq!(other.serialize(copy), bytes);
+}
+
 #[test]
 fn damaged_states_are_refused() {
     let dll = load();

@@ -114,7 +114,7 @@ pub fn sum(lines: &[Line], of: impl Fn(&Line) -> f64) -> f64 {
     lines.iter().map(|line| line.layout.share * of(line)).sum()
 }
 
-/// Mean of vectors of the lines by their shares of the width; empty without lines.
+/// Sum of vectors of the lines by their shares of the width; empty without lines.
 pub fn mean<'a>(lines: &'a [Line], of: impl Fn(&'a Line) -> &'a DVector<f64>) -> Cow<'a, DVector<f64>> {
     match lines {
         [line] if line.layout.share == 1.0 => Cow::Borrowed(of(line)),

@@ -56,18 +56,26 @@ impl KernelCorrection {
 
 /// Compliance of the surface of one body at `nodes` by the flexibility that a line has for itself, per unit nodal
 /// force, x and y of every node [m/(N/m)]; `spacing` is the distance of the nodes in the middle \[m]. At neighbouring
-/// nodes its differences are those of the discrete kernel `1/(n + ½)`: `κ (ln(L/h) − ψ(|x|/h + ½))` with the digamma
-/// function ψ.
+/// nodes its differences are those of the discrete kernel `1/(n + ½)`: `κ (ln(L/h) − ψ(n + ½))` with the digamma
+/// function ψ, the number n of cells between two nodes and their mean length h. Beyond the middle, where cells grow, h is
+/// that of the nodes at hand: with the spacing of the middle a node would give way by its own force the more, the longer
+/// its cells are.
 pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
     let n = nodes.len();
-    let own = |along: &Logarithm, i: usize, j: usize| {
-        let distance = (nodes[i] - nodes[j]).abs() / spacing;
-        along.factor * (along.reach - spacing.ln() - digamma(distance + 0.5))
+    let cells: Vec<f64> = nodes.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let width = |i: usize| {
+        let beside = [i.checked_sub(1), Some(i)].map(|at| at.and_then(|at| cells.get(at)).copied());
+        0.5 * (beside[0].or(beside[1]).unwrap_or(spacing) + beside[1].or(beside[0]).unwrap_or(spacing))
     };
+    // `ψ(n + ½) − ln n`, and `ψ(½)`.
+    let discrete = |apart: usize| digamma(apart as f64 + 0.5) - (apart.max(1) as f64).ln();
+    let discrete: Vec<f64> = (0..n).map(discrete).collect();
     let mut compliance = DMatrix::zeros(2 * n, 2 * n);
     for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
-        compliance[(2 * i, 2 * j)] = own(&kernel.tangential, i, j);
-        compliance[(2 * i + 1, 2 * j + 1)] = own(&kernel.normal, i, j);
+        let distance = if i == j { width(i) } else { (nodes[i] - nodes[j]).abs() };
+        let shape = distance.ln() + discrete[i.abs_diff(j)];
+        compliance[(2 * i, 2 * j)] = kernel.tangential.factor * (kernel.tangential.reach - shape);
+        compliance[(2 * i + 1, 2 * j + 1)] = kernel.normal.factor * (kernel.normal.reach - shape);
     }
     compliance
 }
@@ -105,5 +113,32 @@ mod tests {
             assert!((at(150) + 2.0 * (0.015f64 / 0.03).ln()).abs() < 1e-5);
             assert_eq!(matrix[(2 + component, 1 - component)], 0.0);
         }
+    }
+
+    /// A constant pressure on nodes that are five times as far apart at the ends as in the middle, against its integral
+    /// `∫ ln(L/|x − s|) ds`: to 0.3 % of the smallest displacement, as with equal cells of the largest size.
+    #[test]
+    fn nodes_of_growing_distance_are_displaced_as_the_half_plane_under_a_pressure() {
+        let (h, reach) = (1e-4, 0.03_f64);
+        let along = Logarithm { factor: 1.0, reach: reach.ln() };
+        let kernel = LineKernel { tangential: along, normal: along, coupling: 0.0 };
+        let mut half = vec![0.0];
+        for k in 0..90 {
+            let last = half[half.len() - 1];
+            half.push(last + h * (1.0 + 0.1 * f64::from((k - 40).max(0))).min(5.0));
+        }
+        let nodes: Vec<f64> = half[1..].iter().rev().map(|x| -x).chain(half.iter().copied()).collect();
+        let matrix = line_compliance(&kernel, &nodes, h);
+        let inner = 1..nodes.len() - 1;
+        let [low, high] = [0, nodes.len() - 2].map(|i| 0.5 * (nodes[i] + nodes[i + 1]));
+        let part = |s: f64| if s == 0.0 { 0.0 } else { s * (1.0 - (s.abs() / reach).ln()) };
+        let mut worst = 0.0_f64;
+        for i in inner.clone() {
+            let by = |j: usize| 0.5 * (nodes[j + 1] - nodes[j - 1]) * matrix[(2 * i, 2 * j)];
+            let (found, expected) = (inner.clone().map(by).sum::<f64>(), part(high - nodes[i]) - part(low - nodes[i]));
+            worst = worst.max((found / expected - 1.0).abs());
+        }
+        assert!(worst < 3e-3, "{worst}");
+        assert_eq!(matrix, matrix.transpose());
     }
 }
