@@ -111,8 +111,7 @@ impl HalfSpaces {
             share: layout.share,
             kernel: layout.kernel,
             bodies: SurfaceResponse {
-                own: nothing,
-                others: None,
+                shared: nothing,
                 alone: None,
                 lift: 0.0,
                 free: [&self.still, &self.still],

@@ -67,8 +67,7 @@ impl HalfPlanes {
             share: 1.0,
             kernel: self.kernel,
             bodies: SurfaceResponse {
-                own: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
-                others: None,
+                shared: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
                 alone: None,
                 lift: 0.0,
                 free: [&self.still, &self.still],

@@ -7,7 +7,8 @@
 
 use crate::analytic::digamma;
 use crate::contact::kernel::{LineKernel, Logarithm};
-use nalgebra::DMatrix;
+use crate::linalg::vectorised::quadratic_form;
+use nalgebra::{DMatrix, DVector};
 
 /// Number of neighbours that are corrected.
 pub const REACH: usize = 8;
@@ -54,27 +55,37 @@ impl KernelCorrection {
     }
 }
 
-/// Compliance of the surface of one body at `nodes` by the flexibility that a line has for itself, per unit nodal
-/// force, x and y of every node [m/(N/m)]; `spacing` is the distance of the nodes in the middle \[m]. At neighbouring
-/// nodes its differences are those of the discrete kernel `1/(n + ½)`: `κ (ln(L/h) − ψ(|x|/h + ½))` with the digamma
-/// function ψ.
-pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
-    let n = nodes.len();
-    let own = |along: &Logarithm, i: usize, j: usize| {
-        let distance = (nodes[i] - nodes[j]).abs() / spacing;
-        along.factor * (along.reach - spacing.ln() - digamma(distance + 0.5))
+/// Logarithms of the distances of `nodes` over 1 m, with their signs reversed \[1]; `spacing` is the distance of the
+/// nodes in the middle \[m]. At neighbouring nodes their differences are those of the discrete kernel `1/(n + ½)`:
+/// `−ln h − ψ(|x|/h + ½)` with the digamma function ψ.
+pub fn logarithms(nodes: &[f64], spacing: f64) -> DMatrix<f64> {
+    let of_pair = |i: usize, j: usize| -spacing.ln() - digamma((nodes[i] - nodes[j]).abs() / spacing + 0.5);
+    DMatrix::from_fn(nodes.len(), nodes.len(), of_pair)
+}
+
+/// Compliance of the surface of one body by the flexibility that a line has for itself, per unit nodal force, x and y
+/// of every node [m/(N/m)], from the [`logarithms`] of their distances.
+pub fn line_compliance(kernel: &LineKernel, logarithms: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = logarithms.nrows();
+    DMatrix::from_fn(2 * n, 2 * n, |i, j| match i % 2 == j % 2 {
+        true => kernel.along(i % 2).displacement(logarithms[(i / 2, j / 2)]),
+        false => 0.0,
+    })
+}
+
+/// Elastic energy of the flexibility that a line has for itself, in one body, under forces at all ports [J/m].
+pub fn line_energy(kernel: &LineKernel, logarithms: &DMatrix<f64>, forces: &DVector<f64>) -> f64 {
+    let of_component = |component: usize| {
+        let forces: Vec<f64> = forces.iter().skip(component).step_by(2).copied().collect();
+        let (Logarithm { factor, reach }, sum) = (kernel.along(component), forces.iter().sum::<f64>());
+        0.5 * factor * (reach * sum * sum + quadratic_form(logarithms.as_slice(), &forces))
     };
-    let mut compliance = DMatrix::zeros(2 * n, 2 * n);
-    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
-        compliance[(2 * i, 2 * j)] = own(&kernel.tangential, i, j);
-        compliance[(2 * i + 1, 2 * j + 1)] = own(&kernel.normal, i, j);
-    }
-    compliance
+    of_component(0) + of_component(1)
 }
 
 impl KernelCorrection {
     /// Elastic energy of the correction under nodal forces [J/m].
-    pub fn energy(&self, forces: &nalgebra::DVector<f64>) -> f64 {
+    pub fn energy(&self, forces: &DVector<f64>) -> f64 {
         let forces = forces.as_slice();
         let mut energy = 0.0;
         for k in 0..REACH.min(forces.len() / 2) {
@@ -98,7 +109,7 @@ mod tests {
         let kernel = LineKernel { tangential: along(2.0), normal: along(1.0), coupling: 0.0 };
         let h = 1e-4;
         let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
-        let matrix = line_compliance(&kernel, &nodes, h);
+        let matrix = line_compliance(&kernel, &logarithms(&nodes, h));
         for (component, factor) in [1.0, 2.0].into_iter().enumerate() {
             let at = |n: usize| factor * matrix[(2 * n + component, component)];
             assert!((at(0) - at(1) - 4.0).abs() < 1e-12 && (at(3) - at(4) - 2.0 / 3.5).abs() < 1e-12);

@@ -124,7 +124,7 @@ fn gap(lines: &[ContactLine], axes: &Axes, (k, i): (usize, usize), rows: &mut [V
         let window = 0..row.len();
         match j == k {
             true => own = Some(line.gap_row(i, window, row)),
-            false => line.gap_by_other(i, lines[j].problem.share, window, row),
+            false => line.gap_by_shared(i, lines[j].problem.share, window, row),
         }
     }
     axes.equation(own.unwrap_or_default())
