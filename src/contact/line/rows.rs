@@ -21,8 +21,14 @@ impl ContactLine<'_> {
     /// `g` at a closed candidate, `g + c (λ_n − Λ)` at one that yields above the force `Λ` \[m]. Writes the force
     /// coefficients of the ports `window` to `forces`.
     pub fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
-        let port = self.grid.port(i) + 1;
         self.gap_by_shared(i, self.problem.share, window.clone(), forces);
+        self.add_gap(i, window, forces)
+    }
+
+    /// Adds to the coefficients of the line's own forces in the gap those by which the bodies are not displaced; returns
+    /// the rest of the gap.
+    pub fn add_gap(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        let port = self.grid.port(i) + 1;
         self.add_alone((1, -self.grid.x[i]), [(port, 2.0)], window, forces);
         let mut row = self.gap_terms(i);
         if self.state.yielded[i] {
@@ -101,6 +107,13 @@ impl ContactLine<'_> {
     /// Slip at a candidate [m/s], linearised in V, Ω and the rim angle about the present iterate. Writes the force
     /// coefficients of the ports `window` to `forces`.
     pub fn slip_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        self.slip_by_shared(i, self.problem.share, window.clone(), forces);
+        self.add_slip(i, window, forces)
+    }
+
+    /// Adds to the coefficients of the line's own forces in the slip those by which the bodies are not displaced; returns
+    /// the rest of the slip.
+    pub fn add_slip(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
         let to_right = self.upstream_right();
@@ -118,7 +131,6 @@ impl ContactLine<'_> {
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
-        self.slip_by_shared(i, problem.share, window.clone(), forces);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
         self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window, forces);
         let rim = &self.rim;

@@ -7,9 +7,11 @@
 mod alternating;
 mod guess_of_lines;
 mod initial_guess;
+mod line_by_line;
 mod patch_inverse;
 mod pressure_shear;
 
+use self::line_by_line::Known;
 use super::axes::Axes;
 use super::states::Comparison;
 use super::unknowns::{LineUnknowns, Unknowns};
@@ -23,6 +25,7 @@ pub(super) struct Shortcuts {
     alternating: pressure_shear::PressureShear,
     guess: initial_guess::InitialGuess,
     guess_of_lines: guess_of_lines::GuessOfLines,
+    line_by_line: line_by_line::LineByLine,
 }
 
 impl Shortcuts {
@@ -35,7 +38,9 @@ impl Shortcuts {
         comparison: Comparison,
         (unknowns, rows, before): (&mut Unknowns, &mut [Vec<f64>], &mut Vec<NodeStatus>),
     ) {
-        let [line] = lines else { return self.guess_of_lines.find(lines, axes, comparison, rows) };
+        let [line] = lines else {
+            return self.guess_of_lines.find(lines, axes, comparison, (rows, &mut self.line_by_line));
+        };
         unknowns.lines.resize_with(1, LineUnknowns::default);
         self.guess.find(line, axes, comparison, (&mut unknowns.lines[0], rows, before, &mut self.inverses));
     }
@@ -49,6 +54,9 @@ impl Shortcuts {
         unknowns: &Unknowns,
         rows: &mut [Vec<f64>],
     ) -> bool {
-        lines.len() == 1 && alternating::solve(lines, axes, unknowns, rows, (&mut self.inverses, &mut self.alternating))
+        match lines.len() {
+            1 => alternating::solve(lines, axes, unknowns, rows, (&mut self.inverses, &mut self.alternating)),
+            _ => line_by_line::solve(lines, axes, (unknowns, &Known::default()), rows, &mut self.line_by_line),
+        }
     }
 }
