@@ -25,8 +25,8 @@ impl ContactLine<'_> {
         self.add_gap(i, window, forces)
     }
 
-    /// Adds to the coefficients of the line's own forces in the gap those by which the bodies are not displaced; returns
-    /// the rest of the gap.
+    /// Adds to the coefficients of the line's own forces in the gap what only the line feels of them; returns the rest
+    /// of the gap.
     pub fn add_gap(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let port = self.grid.port(i) + 1;
         self.add_alone((1, -self.grid.x[i]), [(port, 2.0)], window, forces);
@@ -111,8 +111,8 @@ impl ContactLine<'_> {
         self.add_slip(i, window, forces)
     }
 
-    /// Adds to the coefficients of the line's own forces in the slip those by which the bodies are not displaced; returns
-    /// the rest of the slip.
+    /// Adds to the coefficients of the line's own forces in the slip what only the line feels of them; returns the rest
+    /// of the slip.
     pub fn add_slip(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;

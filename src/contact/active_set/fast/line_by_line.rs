@@ -31,7 +31,7 @@ pub struct Known {
 #[derive(Default)]
 pub struct LineByLine {
     lines: Vec<LineEquations>,
-    motions: Motions,
+    motions: MotionBalances,
     /// Ports from the first to the last closed node of all lines.
     window: Range<usize>,
     /// Forces of all lines at these ports, by their shares of the width [N/m].
@@ -65,7 +65,7 @@ struct LineEquations {
 
 /// Balances of the motions that are sought.
 #[derive(Default)]
-struct Motions {
+struct MotionBalances {
     count: usize,
     /// Coefficients of the motions once the forces are eliminated.
     system: DenseSystem,
@@ -166,7 +166,7 @@ impl LineByLine {
             let [most, size] = [norm(&change), norm(&forces).max(norm(&change))];
             let mut gmres = std::mem::take(&mut self.gmres);
             let [tolerance, accepted] = PRECISION.map(|precision| precision * size / most);
-            let mut system = Coupling { equations: self, grid, unknowns };
+            let mut system = BetweenLines { equations: self, grid, unknowns };
             solved = most <= PRECISION[0] * size || gmres.solve(&mut system, &mut change, tolerance, accepted).is_ok();
             self.gmres = gmres;
             forces.iter_mut().zip(&change).for_each(|(force, change)| *force += change);
@@ -291,13 +291,13 @@ impl LineEquations {
 }
 
 /// Change of the forces by those of the other lines.
-struct Coupling<'a> {
+struct BetweenLines<'a> {
     equations: &'a mut LineByLine,
     grid: &'a ContactGrid,
     unknowns: &'a Unknowns,
 }
 
-impl LinearSystem for Coupling<'_> {
+impl LinearSystem for BetweenLines<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
         // What is not finite ends the iteration.
         self.equations.answer(self.grid, self.unknowns, (x, false), out);

@@ -2,7 +2,7 @@
 //! surfaces, for the tolerance of the edges: without the guess, forces on a rough rail change by 1.4e-5.
 //!
 //! This file alone names them. [`guess_of_lines`] and [`initial_guess`] can be deleted by themselves, [`alternating`]
-//! with its equations [`pressure_shear`], and [`patch_inverse`], which both use, after them.
+//! with its equations [`pressure_shear`], and [`line_by_line`] and [`patch_inverse`], which they use, after them.
 
 mod alternating;
 mod guess_of_lines;
@@ -45,8 +45,8 @@ impl Shortcuts {
         self.guess.find(line, axes, comparison, (&mut unknowns.lines[0], rows, before, &mut self.inverses));
     }
 
-    /// Solves the linear problem of the present states of a single line and gives the line its forces and motions;
-    /// `false`: it takes all equations together.
+    /// Solves the linear problem of the present states and gives the lines their forces and motions; `false`: it takes
+    /// all equations together.
     pub fn solve(
         &mut self,
         lines: &mut [ContactLine],
