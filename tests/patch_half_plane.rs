@@ -57,7 +57,7 @@ impl HalfPlanes {
         let motion = [speed * (1.0 + 0.5 * creepage), omega].map(|value| RigidMotion::held(value, 0.0));
         let step = Step {
             radius: RADIUS,
-            lines: (&[self.line], &[]),
+            lines: (&[self.line], None),
             load: [load, LOAD],
             motion,
             laws: (time, Friction::constant(friction)),

@@ -53,11 +53,11 @@ impl Hertz {
     /// Displacements of both surfaces under forces and known motions.
     fn surfaces(&self, problem: &OneLine, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
         let bodies = &problem.line.bodies;
-        let mut wheel = bodies.free[0] + bodies.own.compliance[0] * forces;
+        let mut wheel = bodies.free[0] + bodies.shared.compliance[0] * forces;
         for (k, motion) in problem.rigid.iter().enumerate() {
             wheel.axpy(motion.acceleration(rigid[k]), &bodies.inertial.column(k), 1.0);
         }
-        [wheel, bodies.free[1] - bodies.own.compliance[1] * forces]
+        [wheel, bodies.free[1] - bodies.shared.compliance[1] * forces]
     }
 
     /// Distance of the surfaces below the wheel centre [m]; zero in a solution.

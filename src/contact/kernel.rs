@@ -24,7 +24,20 @@ pub struct LineKernel {
     pub coupling: f64,
 }
 
+impl Logarithm {
+    /// Displacement along a unit nodal force [m/(N/m)], given the logarithm of the distance with its sign reversed
+    /// ([`crate::contact::line::kernel::logarithms`]).
+    pub fn displacement(&self, logarithm: f64) -> f64 {
+        self.factor * (self.reach + logarithm)
+    }
+}
+
 impl LineKernel {
+    /// Flexibility along tangential (0) or normal forces (1).
+    pub fn along(&self, component: usize) -> Logarithm {
+        if component == 0 { self.tangential } else { self.normal }
+    }
+
     /// That of a half-plane whose displacement ends at the distance `length` \[m].
     pub fn of_half_plane(half_plane: HalfPlane, length: f64) -> Self {
         let along = Logarithm { factor: half_plane.kernel, reach: length.ln() };

@@ -1,8 +1,8 @@
 //! Condensed contact problem of one step: bodies, wheel and surfaces as the contact knows them.
 //!
 //! The contact is a list of *lines* side by side, each with a share of the width. They share the wheel's rigid motions
-//! and feel each other through the bodies: a line is displaced by its own forces ([`SurfaceResponse`]) and by the
-//! forces of the others ([`Influence`]). Derivation: `docs/theory/lines.md`.
+//! and feel each other through the bodies: a line is displaced by the forces of all ([`Influence`]), and by its own as
+//! its [`LineKernel`] says. Derivation: `docs/theory/lines.md`.
 
 use super::error::ContactError;
 use super::friction::Friction;
@@ -25,12 +25,10 @@ pub struct Influence<'a> {
 /// Linear answer of both bodies at their surfaces; the ports are the surface displacements x, y of every node.
 #[derive(Clone, Copy)]
 pub struct SurfaceResponse<'a> {
-    /// Displacements by forces of the line itself, corrected by the solver.
-    pub own: Influence<'a>,
-    /// Displacements by the forces of other lines, each weighted with its share of the width; `None`: there are none.
-    pub others: Option<Influence<'a>>,
-    /// Displacement of one body by forces of the line, as far as only the line itself feels it [m/(N/m)]; `None`: there
-    /// are no other lines.
+    /// Displacements by the forces of all lines, each weighted with its share of the width.
+    pub shared: Influence<'a>,
+    /// Logarithms of the distances of all nodes ([`crate::contact::line::kernel::logarithms`]), where a line has a
+    /// flexibility for itself besides; `None`: it has none, or its solver knows it.
     pub alone: Option<&'a DMatrix<f64>>,
     /// Height by which the wheel would be displaced more under the normal force of all lines if what the bodies lack
     /// were the same along and normal to the surface [m/(N/m)]: lever arms do not see what has no direction of its own.
@@ -175,14 +173,19 @@ pub struct LineProblem<'a> {
     pub friction: Friction,
 }
 
-impl SurfaceResponse<'_> {
-    /// Displacements by the mean of the forces of all lines.
-    pub fn shared(&self) -> Influence<'_> {
-        self.others.unwrap_or(self.own)
-    }
-}
-
 impl LineProblem<'_> {
+    /// Displacement of both surfaces at the port `at` per unit nodal force of the line itself at the port `by`
+    /// [m/(N/m)].
+    pub fn compliance(&self, at: usize, by: usize) -> f64 {
+        let shared = self.share * self.bodies.shared.relative[(at, by)];
+        match self.bodies.alone {
+            Some(logarithms) if at % 2 == by % 2 => {
+                shared + 2.0 * self.kernel.along(at % 2).displacement(logarithms[(at / 2, by / 2)])
+            }
+            _ => shared,
+        }
+    }
+
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth

@@ -4,13 +4,12 @@ use super::line::Line;
 use super::lines;
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
-use crate::contact::line::kernel::{KernelCorrection, line_compliance};
-use crate::contact::{Influence, LineKernel, LineLayout, Ports};
+use crate::contact::line::kernel::{KernelCorrection, line_compliance, line_energy, logarithms};
+use crate::contact::{Influence, LineKernel, Ports};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::mechanics::{MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
-use nalgebra::{DMatrix, DVector};
-use std::borrow::Cow;
+use nalgebra::DMatrix;
 use std::sync::Arc;
 
 /// Number of step sizes whose operators are kept: those of steps that are halved and joined again.
@@ -32,9 +31,9 @@ pub struct Bodies {
     correction: Option<KernelCorrection>,
     /// Positions of the nodes of the narrow and of the wide ports \[m], and their distance in the middle \[m].
     nodes: ([Vec<f64>; 2], f64),
-    /// Flexibility of one body that belongs to lines, where they have one of their own beside that of the bodies; its
-    /// compliances at the narrow and wide ports [m/(N/m)].
-    apart: Option<(LineKernel, [DMatrix<f64>; 2])>,
+    /// Flexibility of one body that belongs to lines, where they have one of their own beside that of the bodies, and
+    /// the logarithms of the distances of the nodes of the narrow and of the wide ports \[1].
+    apart: Option<(LineKernel, [Arc<DMatrix<f64>>; 2])>,
     /// True if this correction is part of them, because it is damped as they are.
     hold_correction: bool,
 }
@@ -57,54 +56,26 @@ pub struct Operators {
     shared: Option<Compliances>,
     /// See [`crate::contact::SurfaceResponse::lift`].
     pub lift: f64,
-    /// Nodes of the ports \[m] and their distance in the middle \[m]; none where they are smooth.
-    nodes: Option<(Vec<f64>, f64)>,
+    /// Logarithms of the distances of the nodes \[1]; `None`: lines have no flexibility of their own, or the ports are
+    /// smooth, and their solver knows it.
+    logarithms: Option<Arc<DMatrix<f64>>>,
 }
 
 /// Compliances of wheel and rail, and their sum [m/(N/m)].
 type Compliances = ([DMatrix<f64>; 2], DMatrix<f64>);
 
-/// Compliances by the forces of one of several lines itself [m/(N/m)].
-pub struct OwnCompliances {
-    /// Flexibility of one body that belongs to the line.
-    alone: DMatrix<f64>,
-    whole: Compliances,
-}
-
-impl OwnCompliances {
-    /// Displacement of one body as far as only the line itself feels it.
-    pub fn alone(&self) -> &DMatrix<f64> {
-        &self.alone
-    }
-}
-
-fn with_sum([wheel, rail]: [DMatrix<f64>; 2]) -> Compliances {
-    let sum = &wheel + &rail;
-    ([wheel, rail], sum)
-}
-
 impl Operators {
-    /// Compliances by the forces of a line itself; `None` where there is a single one, and at smooth ports, whose
-    /// solver knows the flexibility of lines.
-    pub fn of_line(&self, layout: &LineLayout) -> Option<OwnCompliances> {
-        let (nodes, spacing) = self.nodes.as_ref()?;
-        let ([wheel, rail], _) = self.shared.as_ref()?;
-        let alone = line_compliance(&layout.kernel, nodes, *spacing);
-        let whole = with_sum([wheel, rail].map(|shared| &alone + layout.share * shared));
-        Some(OwnCompliances { alone, whole })
-    }
-
-    /// Displacements by the forces of a line itself, whose compliances are `of_line` where there are several.
-    pub fn own<'a>(&'a self, of_line: Option<&'a OwnCompliances>) -> Influence<'a> {
-        match of_line {
-            Some(own) => influence(&own.whole),
+    /// Displacements by the forces of all lines.
+    pub fn shared(&self) -> Influence<'_> {
+        match &self.shared {
+            Some(shared) => influence(shared),
             None => Influence { compliance: [&self.wheel.surface, &self.rail.surface], relative: &self.relative },
         }
     }
 
-    /// Displacements by the forces of other lines; `None`: there are none.
-    pub fn others(&self) -> Option<Influence<'_>> {
-        self.shared.as_ref().map(influence)
+    /// Logarithms of the distances of all nodes, where lines have a flexibility of their own \[1].
+    pub fn logarithms(&self) -> Option<&DMatrix<f64>> {
+        self.logarithms.as_deref()
     }
 }
 
@@ -156,35 +127,32 @@ impl Bodies {
 
     /// Takes from each body the flexibility `kernel`, in whose place lines have one of their own.
     pub fn with_lines(mut self, kernel: LineKernel) -> Self {
-        let ([narrow, wide], spacing) = &self.nodes;
-        self.apart = Some((kernel, [narrow, wide].map(|nodes| line_compliance(&kernel, nodes, *spacing))));
+        let (nodes, spacing) = &self.nodes;
+        self.apart = Some((kernel, nodes.each_ref().map(|nodes| Arc::new(logarithms(nodes, *spacing)))));
         self
     }
 
-    /// Compliance of the flexibility that belongs to lines, at given ports with `size` components.
-    fn apart(&self, ports: Ports, size: usize) -> Option<Cow<'_, DMatrix<f64>>> {
-        let (kernel, [narrow, wide]) = self.apart.as_ref()?;
-        // Bodies at smooth ports lack `−κ ln|x|` already.
-        let rest = |i: usize, j: usize| match (i % 2, j % 2) {
-            (0, 0) => kernel.tangential.factor * kernel.tangential.reach,
-            (1, 1) => kernel.normal.factor * kernel.normal.reach,
-            _ => 0.0,
-        };
-        Some(match ports {
-            Ports::Narrow => Cow::Borrowed(narrow),
-            Ports::Wide => Cow::Borrowed(wide),
-            Ports::Smooth => Cow::Owned(DMatrix::from_fn(size, size, rest)),
-        })
-    }
-
-    /// Nodes of given ports \[m].
-    fn nodes(&self, ports: Ports) -> Option<&Vec<f64>> {
-        let ([narrow, wide], _) = &self.nodes;
+    /// Logarithms of the distances of the nodes of given ports, where lines have a flexibility of their own \[1].
+    fn logarithms(&self, ports: Ports) -> Option<&Arc<DMatrix<f64>>> {
+        let (_, [narrow, wide]) = self.apart.as_ref()?;
         match ports {
             Ports::Narrow => Some(narrow),
             Ports::Wide => Some(wide),
             Ports::Smooth => None,
         }
+    }
+
+    /// Compliances of wheel and rail less the flexibility that belongs to lines, where they have one of their own.
+    fn shared(&self, ports: Ports, surfaces: [&DMatrix<f64>; 2]) -> Option<Compliances> {
+        let (kernel, _) = self.apart.as_ref()?;
+        let apart = match self.logarithms(ports) {
+            Some(logarithms) => line_compliance(kernel, logarithms),
+            // Bodies at smooth ports lack the logarithms already.
+            None => line_compliance(kernel, &DMatrix::zeros(surfaces[0].nrows() / 2, surfaces[0].nrows() / 2)),
+        };
+        let [wheel, rail] = surfaces.map(|surface| surface - &apart);
+        let sum = &wheel + &rail;
+        Some(([wheel, rail], sum))
     }
 
     /// Elastic energy of the contact that the bodies do not count [J/m].
@@ -201,16 +169,18 @@ impl Bodies {
     /// Elastic energy of the flexibility of lines that the bodies do not count, less that which they count in its place
     /// [J/m].
     fn energy_of_lines(&self, state: &State) -> f64 {
-        let ports = ports_of(state);
-        let Some(apart) = self.apart(ports, self::ports(state)) else { return 0.0 };
-        let quadratic = |matrix: &DMatrix<f64>, forces: &DVector<f64>| 0.5 * forces.dot(&(matrix * forces));
-        let counted: f64 = [0, 1].map(|body| quadratic(&apart, &state.loads(body))).iter().sum();
+        let Some((apart, _)) = &self.apart else { return 0.0 };
+        let Some(logarithms) = self.logarithms(ports_of(state)) else {
+            // Solvers of smooth ports count the logarithms.
+            let sum = |body: usize, component: usize| state.loads(body).iter().skip(component).step_by(2).sum::<f64>();
+            let constant = |component: usize| apart.along(component).displacement(0.0);
+            let of_body = |body: usize| [0, 1].map(|c| 0.5 * constant(c) * sum(body, c).powi(2)).iter().sum::<f64>();
+            return state.sum(|line| line.layout.energy) - of_body(0) - of_body(1);
+        };
+        let counted: f64 = [0, 1].map(|body| line_energy(apart, logarithms, &state.loads(body))).iter().sum();
         let of_line = |line: &Line| {
-            let own = self.nodes(ports).map_or(0.0, |nodes| {
-                let alone = line_compliance(&line.layout.kernel, nodes, self.nodes.1);
-                line.contact.traction.loads.iter().map(|loads| quadratic(&alone, loads)).sum()
-            });
-            own + line.layout.energy
+            let loads = line.contact.traction.loads.iter();
+            line.layout.energy + loads.map(|loads| line_energy(&line.layout.kernel, logarithms, loads)).sum::<f64>()
         };
         state.sum(of_line) - counted
     }
@@ -239,13 +209,12 @@ impl Bodies {
                 Ports::Narrow | Ports::Wide | Ports::Smooth => {}
             }
             let relative = &wheel.surface + &rail.surface;
-            let apart = self.apart(ports, wheel.surface.nrows());
-            let shared = apart.map(|apart| with_sum([&wheel, &rail].map(|body| &body.surface - &*apart)));
-            let nodes = shared.as_ref().and_then(|_| self.nodes(ports)).map(|nodes| (nodes.clone(), self.nodes.1));
+            let (shared, logarithms) =
+                (self.shared(ports, [&wheel.surface, &rail.surface]), self.logarithms(ports).cloned());
             let lift = self.apart.as_ref().map_or(0.0, |(LineKernel { tangential, normal, .. }, _)| {
                 normal.factor * normal.reach - tangential.factor * tangential.reach
             });
-            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative, shared, lift, nodes }));
+            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative, shared, lift, logarithms }));
         }
         Ok(recent[recent.len() - 1].clone())
     }

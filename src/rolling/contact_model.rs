@@ -1,6 +1,6 @@
 //! The contact between wheel and rail: surfaces, solver, and the one place where its problem is put together.
 
-use super::bodies::{Operators, OwnCompliances};
+use super::bodies::Operators;
 use super::error::StepError;
 use super::line::Line;
 use super::lines;
@@ -185,11 +185,9 @@ impl ContactModel {
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         let layouts: Vec<_> = found.iter().map(|line| line.layout).collect();
-        let own: Vec<_> = layouts.iter().map(|layout| step.operators.of_line(layout)).collect();
-        let friction = start.iter().zip(step.friction);
-        let lines = friction.zip(layouts.iter().zip(&own));
+        let lines = start.iter().zip(step.friction).zip(&layouts);
         let problem = ContactProblem {
-            lines: lines.map(|((line, friction), laid)| self.line(step, line, *friction, laid)).collect(),
+            lines: lines.map(|((line, friction), layout)| self.line(step, line, *friction, layout)).collect(),
             rigid: step.rigid,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
@@ -199,14 +197,13 @@ impl ContactModel {
         self.solver.solve(&problem, &before, &mut after, scratch)
     }
 
-    /// Problem of a line with a layout, and compliances of its own where there are several, which is in the state
-    /// `start`.
+    /// Problem of a line with a layout, which is in the state `start`.
     fn line<'a>(
         &'a self,
         step: &'a ContactStep,
         start: &'a Line,
         friction: Friction,
-        (layout, own): (&LineLayout, &'a Option<OwnCompliances>),
+        layout: &LineLayout,
     ) -> LineProblem<'a> {
         let ThermalDeformation { radius_growth, swelling, membrane_force } = start.deformation();
         let (weakening, traction) = (start.weakening(), &start.contact.traction);
@@ -214,7 +211,7 @@ impl ContactModel {
         LineProblem {
             share: layout.share,
             kernel: layout.kernel,
-            bodies: surface_response(step, own.as_ref()),
+            bodies: surface_response(step),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,
             duration: step.duration,
@@ -279,13 +276,12 @@ impl ContactModel {
     }
 }
 
-/// Linear answer of the bodies under a line with compliances of its own where there are several.
-fn surface_response<'a>(step: &'a ContactStep, own: Option<&'a OwnCompliances>) -> SurfaceResponse<'a> {
+/// Linear answer of the bodies under a line.
+fn surface_response<'a>(step: &'a ContactStep) -> SurfaceResponse<'a> {
     let (operators, [wheel, rail]) = (step.operators, step.free);
     SurfaceResponse {
-        own: operators.own(own),
-        others: operators.others(),
-        alone: own.map(OwnCompliances::alone),
+        shared: operators.shared(),
+        alone: operators.logarithms(),
         lift: operators.lift,
         free: [&wheel.surface, &rail.surface],
         inertial: &operators.wheel.inertial_response,

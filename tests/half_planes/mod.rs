@@ -6,7 +6,7 @@
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::contact::active_set::ActiveSetSolver;
-use wheelrail::contact::line::kernel::line_compliance;
+use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::line::{ContactGrid, LineState};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
@@ -96,9 +96,9 @@ impl HalfPlanes {
 
     /// Stationary rolling at mean speed 10 m/s.
     pub fn roll(&self, load: f64, creepage: f64, start: &ContactState) -> Result<ContactState, ContactError> {
-        let own = Influence { compliance: [&self.half, &self.half], relative: &self.relative };
+        let half_planes = Influence { compliance: [&self.half, &self.half], relative: &self.relative };
         let line = SideLine { share: 1.0, lower: 0.0, friction: FRICTION };
-        let found = self.roll_on(&[(line, own)], None, (load, creepage), &[start])?;
+        let found = self.roll_on(&[line], (half_planes, None), (load, creepage), &[start])?;
         Ok(found.into_iter().next().unwrap())
     }
 
@@ -111,27 +111,29 @@ impl HalfPlanes {
         (length, shared): (f64, &dyn Fn(f64) -> f64),
         (load, creepage): (f64, f64),
     ) -> Result<Vec<ContactState>, ContactError> {
-        let own = line_compliance(&kernel(length), self.grid.nodes(), self.grid.spacing);
-        let nodes = self.grid.nodes();
-        let shared = DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| {
-            if i % 2 == j % 2 { shared(nodes[i / 2] - nodes[j / 2]) } else { 0.0 }
-        });
-        let whole: Vec<_> = lines.iter().map(|line| &own + line.share * &shared).collect();
-        let both: Vec<_> = whole.iter().map(|half| 2.0 * half).collect();
-        let both_shared = 2.0 * &shared;
-        let with_own = |(k, line): (usize, &SideLine)| {
-            (*line, Influence { compliance: [&whole[k], &whole[k]], relative: &both[k] })
-        };
-        let lines: Vec<_> = lines.iter().enumerate().map(with_own).collect();
-        let others = Influence { compliance: [&shared, &shared], relative: &both_shared };
+        let (nodes, ports) = (self.grid.nodes(), self.grid.ports());
+        let logarithms = logarithms(nodes, self.grid.spacing);
+        let shared =
+            DMatrix::from_fn(
+                ports,
+                ports,
+                |i, j| {
+                    if i % 2 == j % 2 { shared(nodes[i / 2] - nodes[j / 2]) } else { 0.0 }
+                },
+            );
+        let both = 2.0 * &shared;
+        let shared = Influence { compliance: [&shared, &shared], relative: &both };
         let start = self.start();
-        self.roll_on(&lines, Some(others), (load, creepage), &vec![&start; lines.len()])
+        let alone = Some((&logarithms, length));
+        self.roll_on(lines, (shared, alone), (load, creepage), &vec![&start; lines.len()])
     }
 
+    /// Rolling of lines between bodies that are displaced by the forces of all; `alone`: logarithms of the distances of
+    /// all nodes and reach of the flexibility that each has for itself.
     fn roll_on(
         &self,
-        lines: &[(SideLine, Influence)],
-        others: Option<Influence>,
+        lines: &[SideLine],
+        (shared, alone): (Influence, Option<(&DMatrix<f64>, f64)>),
         (load, creepage): (f64, f64),
         start: &[&ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
@@ -141,16 +143,15 @@ impl HalfPlanes {
         let (flat, sound) = (Piecewise::default(), Flattening::none(0.0));
         let ends = [self.grid.nodes()[0], -self.grid.nodes()[0]];
         let lower = |line: &SideLine| Piecewise { x: ends.to_vec(), value: vec![line.lower; 2] };
-        let swollen: Vec<_> = lines.iter().map(|(line, _)| lower(line)).collect();
+        let swollen: Vec<_> = lines.iter().map(lower).collect();
         let mut problems = Vec::new();
-        for ((line, own), swelling) in lines.iter().zip(&swollen) {
+        for (line, swelling) in lines.iter().zip(&swollen) {
             problems.push(LineProblem {
                 share: line.share,
-                kernel: kernel(1.0),
+                kernel: kernel(alone.map_or(1.0, |(_, length)| length)),
                 bodies: SurfaceResponse {
-                    own: *own,
-                    others,
-                    alone: None,
+                    shared,
+                    alone: alone.map(|(logarithms, _)| logarithms),
                     lift: 0.0,
                     free: [&self.free[0], &self.free[1]],
                     inertial: &self.none[0],

@@ -4,13 +4,14 @@
 #[path = "../rigid_bodies/mod.rs"]
 mod rigid_bodies;
 
-use rigid_bodies::{Own, RigidBodies, SMOOTH, Step};
+use nalgebra::DMatrix;
+use rigid_bodies::{RigidBodies, SMOOTH, Step};
 use serde_json::Value as Json;
 use std::f64::consts::PI;
 use wheelrail::analytic::{HalfPlane, contact_modulus};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::line::kernel::line_compliance;
+use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::series::{Fallback, SeriesSolver};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
@@ -72,7 +73,8 @@ pub struct HalfSpaces {
     pub hertz: Hertz,
     pub radius: f64,
     patch: PatchLayout,
-    grid: ContactGrid,
+    /// Logarithms of the distances of the nodes of the grid.
+    logarithms: DMatrix<f64>,
     /// Bodies beneath the series, and beneath the grid.
     bodies: [RigidBodies; 2],
 }
@@ -111,7 +113,7 @@ impl HalfSpaces {
             hertz,
             radius,
             bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),
-            grid,
+            logarithms: logarithms(grid.nodes(), grid.spacing),
         }
     }
 
@@ -134,15 +136,6 @@ impl HalfSpaces {
         self.patch.moving(load).collect()
     }
 
-    fn own(&self, layout: &[LineLayout]) -> Vec<Own> {
-        let of = |line: &LineLayout| {
-            let body = line_compliance(&line.kernel, self.grid.nodes(), self.grid.spacing);
-            let both = 2.0 * &body;
-            [body, both]
-        };
-        layout.iter().map(of).collect()
-    }
-
     /// Contact under a `load`; `motion` are those of translation and rotation.
     pub fn solve(
         &self,
@@ -153,12 +146,12 @@ impl HalfSpaces {
     ) -> Result<Lines, ContactError> {
         let layout = self.layout(load);
         let [smooth, nodes] = &self.bodies;
-        let (bodies, own) = match start.iter().all(|line| line.ports == Ports::Smooth) {
-            true => (smooth, Vec::new()),
-            false => (nodes, self.own(&layout)),
+        let (bodies, logarithms) = match start.iter().all(|line| line.ports == Ports::Smooth) {
+            true => (smooth, None),
+            false => (nodes, Some(&self.logarithms)),
         };
         let load = [load / WIDTH, LOAD / WIDTH];
-        let step = Step { radius: self.radius, lines: (&layout, &own), load, motion, laws };
+        let step = Step { radius: self.radius, lines: (&layout, logarithms), load, motion, laws };
         bodies.solve(&self.solver, &step, start)
     }
 

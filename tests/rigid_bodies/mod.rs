@@ -13,9 +13,6 @@ use wheelrail::surface::{Flattening, Placement, Surfaces};
 /// Displacement components at the points of smooth bodies.
 pub const SMOOTH: usize = 10;
 
-/// Displacements by the forces of a line itself: those of each body, and of both together.
-pub type Own = [DMatrix<f64>; 2];
-
 /// Bodies that do not yield.
 pub struct RigidBodies {
     none: [DMatrix<f64>; 4],
@@ -26,8 +23,8 @@ pub struct RigidBodies {
 pub struct Step<'a> {
     /// Radius of the wheel [m].
     pub radius: f64,
-    /// The lines, and their displacements on the nodes of a grid; none on smooth bodies, where the solver knows them.
-    pub lines: (&'a [LineLayout], &'a [Own]),
+    /// The lines, and the logarithms of the distances of the nodes of a grid; none on smooth bodies.
+    pub lines: (&'a [LineLayout], Option<&'a DMatrix<f64>>),
     /// Load per metre of the bodies' width, and that which scales tolerances [N/m].
     pub load: [f64; 2],
     /// Translation and rotation.
@@ -43,13 +40,10 @@ impl RigidBodies {
         Self { none: [of(ports, ports), of(ports, 3), of(3, ports), of(3, 3)], still: DVector::zeros(ports) }
     }
 
-    fn response<'a>(&'a self, own: Option<&'a Own>) -> SurfaceResponse<'a> {
-        let nothing = Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] };
-        let of_line = |[body, both]: &'a Own| Influence { compliance: [body, body], relative: both };
+    fn response<'a>(&'a self, logarithms: Option<&'a DMatrix<f64>>) -> SurfaceResponse<'a> {
         SurfaceResponse {
-            own: own.map_or(nothing, of_line),
-            others: own.map(|_| nothing),
-            alone: None,
+            shared: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
+            alone: logarithms,
             lift: 0.0,
             free: [&self.still, &self.still],
             inertial: &self.none[1],
@@ -66,13 +60,14 @@ impl RigidBodies {
         step: &Step,
         start: &[ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
-        let Step { radius, lines: (layout, own), load: [load, nominal_load], motion, laws: (time, friction) } = *step;
+        let Step { radius, lines: (layout, logarithms), load: [load, nominal_load], motion, laws: (time, friction) } =
+            *step;
         let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
-        let line = |(k, layout): (usize, &LineLayout)| LineProblem {
+        let line = |layout: &LineLayout| LineProblem {
             share: layout.share,
             kernel: layout.kernel,
-            bodies: self.response(own.get(k)),
+            bodies: self.response(logarithms),
             membrane: [&flat, &flat],
             time,
             duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
@@ -89,7 +84,7 @@ impl RigidBodies {
             friction,
         };
         let problem = ContactProblem {
-            lines: layout.iter().enumerate().map(line).collect(),
+            lines: layout.iter().map(line).collect(),
             rigid: [motion[0], hub, motion[1]],
             nominal_load,
             edge_tolerance: 1e-5,

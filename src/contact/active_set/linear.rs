@@ -30,11 +30,11 @@ pub(super) fn solve(
     for (k, unknown) in unknowns.lines.iter().enumerate() {
         let gap: NodeEquation = (
             |line, i, window, row| line.gap_row(i, window, row),
-            |line, i, share, window, row| line.gap_by_other(i, share, window, row),
+            |line, i, share, window, row| line.gap_by_shared(i, share, window, row),
         );
         let slip: NodeEquation = (
             |line, i, window, row| line.slip_row(i, window, row),
-            |line, i, share, window, row| line.slip_by_other(i, share, window, row),
+            |line, i, share, window, row| line.slip_by_shared(i, share, window, row),
         );
         for (nodes, equation) in [(&unknown.closed, gap), (&unknown.stuck, slip)] {
             for &i in nodes {

@@ -45,8 +45,8 @@ pub struct ActiveSetScratch {
 }
 
 impl ActiveSetScratch {
-    /// Linear problems solved so far by alternation, and all equations together: ordinary steps need no others than the
-    /// first.
+    /// Linear problems solved so far by alternation or line by line, and all equations together: ordinary steps need no
+    /// others than the first.
     pub fn solved(&self) -> [u64; 2] {
         self.memory.solved
     }

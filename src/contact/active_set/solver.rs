@@ -109,7 +109,7 @@ impl ContactSolver for ActiveSetSolver {
     ) -> Result<(), ContactError> {
         let ports = start.first().ok_or(ContactError::ForeignState)?.ports;
         let grid = self.grid(ports).ok_or(ContactError::ForeignState)?;
-        let fits = |line: &LineProblem| line.bodies.own.relative.nrows() == grid.ports();
+        let fits = |line: &LineProblem| line.bodies.shared.relative.nrows() == grid.ports();
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
             return Err(ContactError::ForeignState);
         }

@@ -55,7 +55,7 @@ impl Rules {
 pub(super) fn penalty(line: &ContactLine) -> f64 {
     let stiffness = |i: usize| {
         let port = line.grid.port(i) + 1;
-        line.problem.bodies.own.relative[(port, port)]
+        line.problem.compliance(port, port)
     };
     line.grid.len() as f64 / (0..line.grid.len()).map(stiffness).sum::<f64>()
 }

@@ -77,10 +77,7 @@ impl Unknowns {
         for (value, &k) in rest.iter_mut().zip(&self.axes) {
             *value = equation.motions[k];
         }
-        let largest = largest(target);
-        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        target.iter_mut().for_each(|value| *value *= scale);
-        *side = -axes.constant(equation) * scale;
+        *side = -axes.constant(equation) * scale(target);
     }
 
     /// Gives the lines the solution of the linear problem: port forces and motions.
@@ -117,7 +114,7 @@ impl LineUnknowns {
     }
 
     /// Number of unknowns.
-    fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.closed.len() + self.stuck.len()
     }
 
@@ -137,7 +134,7 @@ impl LineUnknowns {
     }
 
     /// Writes the coefficients of the unknowns, given those of all port `forces`.
-    fn write(&self, target: &mut [f64], forces: &[f64], grid: &ContactGrid) {
+    pub fn write(&self, target: &mut [f64], forces: &[f64], grid: &ContactGrid) {
         let (normal, tangential) = target.split_at_mut(self.closed.len());
         let nodes = forces.as_chunks::<2>().0;
         let pressed = |[tangential, normal]: &[f64; 2], friction: &f64| normal + friction * tangential;
@@ -160,18 +157,30 @@ impl LineUnknowns {
 
     /// Gives a line its part of the solution.
     fn accept(&self, solution: &[f64], line: &mut ContactLine) {
-        let forces = &mut line.traction.port_forces;
+        line.traction.port_forces.fill(0.0);
+        self.place(solution, line.grid, line.traction.port_forces.as_mut_slice());
+    }
+
+    /// Writes the forces of a solution at the ports of the closed nodes.
+    pub fn place(&self, solution: &[f64], grid: &ContactGrid, forces: &mut [f64]) {
         let (normal, tangential) = solution.split_at(self.closed.len());
-        forces.fill(0.0);
         for ((&i, force), friction) in self.closed.iter().zip(normal).zip(&self.friction) {
-            let port = line.grid.port(i);
+            let port = grid.port(i);
             forces[port + 1] = *force;
             forces[port] = friction * force;
         }
         for (force, &i) in tangential.iter().zip(&self.stuck) {
-            forces[line.grid.port(i)] = *force;
+            forces[grid.port(i)] = *force;
         }
     }
+}
+
+/// Scales the coefficients of an equation to a largest one of one; returns the factor.
+pub(super) fn scale(coefficients: &mut [f64]) -> f64 {
+    let largest = largest(coefficients);
+    let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+    coefficients.iter_mut().for_each(|value| *value *= scale);
+    scale
 }
 
 /// Largest amount, of four at a time.

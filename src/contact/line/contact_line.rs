@@ -27,6 +27,7 @@ pub struct LineScratch {
     overlap: Vec<f64>,
     lift: Vec<f64>,
     centred_slip: Vec<f64>,
+    displaced: [Vec<f64>; 2],
 }
 
 impl LineScratch {
@@ -40,7 +41,7 @@ impl LineScratch {
         accelerations: [f64; 3],
     ) {
         self.given.find(grid, problem, state, forces, accelerations);
-        let ports = if problem.bodies.others.is_some() { grid.ports() } else { 0 };
+        let ports = if problem.bodies.alone.is_some() { grid.ports() } else { 0 };
         self.others.reset(ports);
     }
 }
@@ -80,6 +81,8 @@ pub struct ContactLine<'a> {
     /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
     /// numerical dissipation.
     pub centred_slip: &'a mut Vec<f64>,
+    /// Nodal forces of one component [N/m], and the displacement by them \[m].
+    pub displaced: &'a mut [Vec<f64>; 2],
 }
 
 /// State, history and traction from which a line starts, and which it changes.
@@ -93,7 +96,7 @@ impl<'a> ContactLine<'a> {
         (state, history, traction): LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip } = scratch;
+        let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip, displaced } = scratch;
         lift.clear();
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
@@ -119,6 +122,7 @@ impl<'a> ContactLine<'a> {
             overlap,
             lift,
             centred_slip,
+            displaced,
         }
     }
 
@@ -149,7 +153,7 @@ impl<'a> ContactLine<'a> {
         if self.problem.duration > 0.0 {
             1.0 / (RESISTANCE * self.grid.width(i))
         } else {
-            SOFTER * self.problem.bodies.own.relative[(port, port)]
+            SOFTER * self.problem.compliance(port, port)
         }
     }
 

@@ -8,13 +8,15 @@ use crate::contact::problem::LineProblem;
 /// Gives each of several lines the displacements by the hot layers of the others.
 pub fn pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScratch]) {
     for (k, line) in lines.iter().enumerate() {
-        let Some(influence) = &line.bodies.others else { continue };
+        if line.bodies.alone.is_none() {
+            continue;
+        }
         let mut sum = [Vec::new(), Vec::new()];
         for (_, (other, scratch)) in lines.iter().zip(&*scratch).enumerate().filter(|(j, _)| *j != k) {
             let pulls = sum.iter_mut().zip(&scratch.given.layers.pull);
             pulls.for_each(|(sum, pull)| add(other.share, pull, sum));
         }
-        scratch[k].given.add_pulls_of_others(grid, influence, &sum);
+        scratch[k].given.add_pulls_of_others(grid, &line.bodies.shared, &sum);
         scratch[k].others.pull = sum;
     }
 }

@@ -22,6 +22,7 @@ pub fn finish(line: ContactLine) {
         overlap,
         lift,
         centred_slip: slip,
+        displaced,
         ..
     } = line;
     let [wheel, rail] = &traction.surface;
@@ -52,7 +53,7 @@ pub fn finish(line: ContactLine) {
     let [friction, work] = power.friction(&problem.time, &mut history.friction);
     let power = traction.friction.dissipate(friction, work, problem.duration);
     let slopes = Slopes { grid, gap: &state.gap, overlap, rail_slope: &given.rail_slope, depth: &given.depth };
-    observe::lift(grid, problem, (&traction.port_forces, load), lift);
+    observe::lift(grid, problem, (&traction.port_forces, load), (lift, displaced));
     let wheel = WheelShape { radius: problem.radius(), frame: &frame, surface: &traction.surface[0], lift };
     traction.resultant = observe::resultant(wheel, slopes, traction);
     traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();

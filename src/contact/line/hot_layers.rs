@@ -15,7 +15,7 @@ pub struct HotLayers {
     pub pull: [Vec<f64>; 2],
     /// Displacement of all ports by the membrane forces \[m]; empty without any.
     pub membrane: [DVector<f64>; 2],
-    /// Membrane force of the body at hand at the candidates [N/m].
+    /// Membrane force of the body at hand at the candidates [N/m], then displacement of all nodes \[m].
     force: Vec<f64>,
 }
 
@@ -41,7 +41,12 @@ impl HotLayers {
         for i in 0..=last {
             pull.push(-0.5 * (at_candidates[(i + 1).min(last)] - at_candidates[i.saturating_sub(1)]));
         }
-        displace(grid, problem.bodies.own.compliance[body], pull, membrane);
+        displace(grid, (problem.share, problem.bodies.shared.compliance[body]), pull, membrane);
+        if let Some(alone) = problem.alone() {
+            alone.displace(0, (grid.port(0) / 2, pull), at_candidates);
+            let nodes = membrane.as_mut_slice().as_chunks_mut::<2>().0;
+            nodes.iter_mut().zip(&*at_candidates).for_each(|([along, _], moved)| *along += moved);
+        }
         *known += &*membrane;
     }
 
@@ -55,7 +60,7 @@ impl HotLayers {
         known: &mut DVector<f64>,
     ) {
         let mut by_others = DVector::zeros(known.len());
-        displace(grid, compliance, pull, &mut by_others);
+        displace(grid, (1.0, compliance), pull, &mut by_others);
         let membrane = &mut self.membrane[body];
         if membrane.is_empty() {
             membrane.clone_from(&by_others)
@@ -71,10 +76,15 @@ impl HotLayers {
     }
 }
 
-/// Adds the displacement by tangential forces `pull` at the candidates [N/m].
-fn displace(grid: &ContactGrid, compliance: &DMatrix<f64>, pull: &[f64], displacement: &mut DVector<f64>) {
+/// Adds the displacement by tangential forces `pull` at the candidates [N/m], a `share` of which the bodies feel.
+fn displace(
+    grid: &ContactGrid,
+    (share, compliance): (f64, &DMatrix<f64>),
+    pull: &[f64],
+    displacement: &mut DVector<f64>,
+) {
     let ports = displacement.len();
     // Every other column belongs to a normal force.
     let columns = &compliance.as_slice()[grid.port(0) * ports..];
-    add_columns(1.0, columns, 2 * ports, pull, displacement.as_mut_slice());
+    add_columns(share, columns, 2 * ports, pull, displacement.as_mut_slice());
 }

@@ -7,7 +7,8 @@
 
 use crate::analytic::digamma;
 use crate::contact::kernel::{LineKernel, Logarithm};
-use nalgebra::DMatrix;
+use crate::linalg::vectorised::quadratic_form;
+use nalgebra::{DMatrix, DVector};
 
 /// Number of neighbours that are corrected.
 pub const REACH: usize = 8;
@@ -54,14 +55,12 @@ impl KernelCorrection {
     }
 }
 
-/// Compliance of the surface of one body at `nodes` by the flexibility that a line has for itself, per unit nodal
-/// force, x and y of every node [m/(N/m)]; `spacing` is the distance of the nodes in the middle \[m]. At neighbouring
-/// nodes its differences are those of the discrete kernel `1/(n + ½)`: `κ (ln(L/h) − ψ(n + ½))` with the digamma
-/// function ψ, the number n of cells between two nodes and their mean length h. Beyond the middle, where cells grow, h is
-/// that of the nodes at hand: with the spacing of the middle a node would give way by its own force the more, the longer
-/// its cells are.
-pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
-    let n = nodes.len();
+/// Logarithms of the distances of `nodes` over 1 m, with their signs reversed \[1]; `spacing` is the distance of the
+/// nodes in the middle \[m]. At neighbouring nodes their differences are those of the discrete kernel `1/(n + ½)`:
+/// `−ln h − ψ(n + ½)` with the digamma function ψ, the number n of cells between two nodes and their mean length h.
+/// Beyond the middle, where cells grow, h is that of the nodes at hand: with the spacing of the middle a node would give
+/// way by its own force the more, the longer its cells are.
+pub fn logarithms(nodes: &[f64], spacing: f64) -> DMatrix<f64> {
     let cells: Vec<f64> = nodes.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let width = |i: usize| {
         let beside = [i.checked_sub(1), Some(i)].map(|at| at.and_then(|at| cells.get(at)).copied());
@@ -69,20 +68,36 @@ pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMat
     };
     // `ψ(n + ½) − ln n`, and `ψ(½)`.
     let discrete = |apart: usize| digamma(apart as f64 + 0.5) - (apart.max(1) as f64).ln();
-    let discrete: Vec<f64> = (0..n).map(discrete).collect();
-    let mut compliance = DMatrix::zeros(2 * n, 2 * n);
-    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+    let discrete: Vec<f64> = (0..nodes.len()).map(discrete).collect();
+    DMatrix::from_fn(nodes.len(), nodes.len(), |i, j| {
         let distance = if i == j { width(i) } else { (nodes[i] - nodes[j]).abs() };
-        let shape = distance.ln() + discrete[i.abs_diff(j)];
-        compliance[(2 * i, 2 * j)] = kernel.tangential.factor * (kernel.tangential.reach - shape);
-        compliance[(2 * i + 1, 2 * j + 1)] = kernel.normal.factor * (kernel.normal.reach - shape);
-    }
-    compliance
+        -distance.ln() - discrete[i.abs_diff(j)]
+    })
+}
+
+/// Compliance of the surface of one body by the flexibility that a line has for itself, per unit nodal force, x and y
+/// of every node [m/(N/m)], from the [`logarithms`] of their distances.
+pub fn line_compliance(kernel: &LineKernel, logarithms: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = logarithms.nrows();
+    DMatrix::from_fn(2 * n, 2 * n, |i, j| match i % 2 == j % 2 {
+        true => kernel.along(i % 2).displacement(logarithms[(i / 2, j / 2)]),
+        false => 0.0,
+    })
+}
+
+/// Elastic energy of the flexibility that a line has for itself, in one body, under forces at all ports [J/m].
+pub fn line_energy(kernel: &LineKernel, logarithms: &DMatrix<f64>, forces: &DVector<f64>) -> f64 {
+    let of_component = |component: usize| {
+        let forces: Vec<f64> = forces.iter().skip(component).step_by(2).copied().collect();
+        let (Logarithm { factor, reach }, sum) = (kernel.along(component), forces.iter().sum::<f64>());
+        0.5 * factor * (reach * sum * sum + quadratic_form(logarithms.as_slice(), &forces))
+    };
+    of_component(0) + of_component(1)
 }
 
 impl KernelCorrection {
     /// Elastic energy of the correction under nodal forces [J/m].
-    pub fn energy(&self, forces: &nalgebra::DVector<f64>) -> f64 {
+    pub fn energy(&self, forces: &DVector<f64>) -> f64 {
         let forces = forces.as_slice();
         let mut energy = 0.0;
         for k in 0..REACH.min(forces.len() / 2) {
@@ -106,7 +121,7 @@ mod tests {
         let kernel = LineKernel { tangential: along(2.0), normal: along(1.0), coupling: 0.0 };
         let h = 1e-4;
         let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
-        let matrix = line_compliance(&kernel, &nodes, h);
+        let matrix = line_compliance(&kernel, &logarithms(&nodes, h));
         for (component, factor) in [1.0, 2.0].into_iter().enumerate() {
             let at = |n: usize| factor * matrix[(2 * n + component, component)];
             assert!((at(0) - at(1) - 4.0).abs() < 1e-12 && (at(3) - at(4) - 2.0 / 3.5).abs() < 1e-12);
@@ -128,7 +143,7 @@ mod tests {
             half.push(last + h * (1.0 + 0.1 * f64::from((k - 40).max(0))).min(5.0));
         }
         let nodes: Vec<f64> = half[1..].iter().rev().map(|x| -x).chain(half.iter().copied()).collect();
-        let matrix = line_compliance(&kernel, &nodes, h);
+        let matrix = line_compliance(&kernel, &logarithms(&nodes, h));
         let inner = 1..nodes.len() - 1;
         let [low, high] = [0, nodes.len() - 2].map(|i| 0.5 * (nodes[i] + nodes[i + 1]));
         let part = |s: f64| if s == 0.0 { 0.0 } else { s * (1.0 - (s.abs() / reach).ln()) };

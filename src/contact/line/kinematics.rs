@@ -41,7 +41,7 @@ impl ContactLine<'_> {
     /// Takes the rim angle as a function of the forces, about the present iterate.
     pub fn update_rim(&mut self) {
         let Self { frame, problem, given, traction, rim, .. } = self;
-        rim.update(frame, &problem.bodies, &given.displacement[0], &traction.port_forces);
+        rim.update(frame, problem, &given.displacement[0], &traction.port_forces);
     }
 
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
@@ -49,7 +49,7 @@ impl ContactLine<'_> {
     pub fn evaluate(&mut self, accelerations: [Option<f64>; 3]) {
         self.displace(accelerations);
         let load = self.load_of_all();
-        observe::lift(self.grid, self.problem, (&self.traction.port_forces, load), self.lift);
+        observe::lift(self.grid, self.problem, (&self.traction.port_forces, load), (self.lift, self.displaced));
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
@@ -75,24 +75,35 @@ impl ContactLine<'_> {
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
     fn displace(&mut self, accelerations: [Option<f64>; 3]) {
-        let Self { problem, given, others, traction, rim, .. } = self;
+        let Self { problem, given, others, traction, rim, displaced, .. } = self;
         let bodies = &problem.bodies;
-        let forces = traction.port_forces.as_slice();
+        let (mean, _) = others.mean(problem.share, (&traction.port_forces, &given.layers.pull));
+        let forces = mean.as_slice();
         let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
         let loaded = first..forces.iter().rposition(|force| *force != 0.0).map_or(first, |last| last + 1);
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
             let surface = &mut traction.surface[body];
             copy(surface, &given.displacement[body]);
             let columns =
-                &bodies.own.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
+                &bodies.shared.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
             add_columns(sign, columns, surface.len(), &forces[loaded.clone()], surface.as_mut_slice());
-            if let Some(influence) = &bodies.others {
-                surface.gemv(sign, influence.compliance[body], &others.forces, 1.0);
+        }
+        rim.value = rim.constant + rim.shared.iter().zip(forces).map(|(t, f)| t * f).sum::<f64>();
+        if let Some(alone) = problem.alone() {
+            let [forces, displaced] = &mut **displaced;
+            for component in 0..2 {
+                forces.clear();
+                forces.extend(traction.port_forces.iter().skip(component).step_by(2));
+                alone.displace(component, (0, forces), displaced);
+                for (surface, sign) in traction.surface.iter_mut().zip([1.0, -1.0]) {
+                    let nodes = surface.as_mut_slice().as_chunks_mut::<2>().0;
+                    nodes.iter_mut().zip(&*displaced).for_each(|(node, moved)| node[component] += sign * moved);
+                }
+                if component == 0 {
+                    rim.value += rim.alone.iter().zip(&*forces).map(|(t, f)| t * f).sum::<f64>();
+                }
             }
         }
-        rim.value = rim.constant;
-        rim.value += rim.forces.iter().zip(traction.port_forces.iter()).map(|(t, f)| t * f).sum::<f64>();
-        rim.value += rim.others.iter().zip(others.forces.iter()).map(|(t, f)| t * f).sum::<f64>();
         for (k, acceleration) in accelerations.into_iter().enumerate() {
             let Some(acceleration) = acceleration else { continue };
             traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);

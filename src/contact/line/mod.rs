@@ -3,14 +3,15 @@
 //! A line knows no solver, no rigid axis and no brake: rigid motions are numbers to it. [`ContactGrid`] has the nodes,
 //! [`LineState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
-//! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`others`]
-//! the forces of the lines beside it and [`exchange`] how they come there, [`streamline`] the upwind differences of the
-//! slip, [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure
+//! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`alone`]
+//! the flexibility that it has for itself, [`others`] the forces of the lines beside it and [`exchange`] how they come
+//! there, [`streamline`] the upwind differences of the slip, [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure
 //! pushes, [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of
 //! the grid, [`regrid`] the change to a wider or narrower grid. Of a solution [`power`] takes the power, [`observe`]
 //! the traction, and [`mod@finish`] both. Theory:
 //! `docs/theory/contact.md`.
 
+pub(super) mod alone;
 pub(super) mod contact_line;
 pub(super) mod exchange;
 pub(super) mod finish;

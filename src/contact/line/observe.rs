@@ -38,21 +38,19 @@ pub(in crate::contact) fn lift(
     grid: &ContactGrid,
     problem: &LineProblem,
     (forces, load): (&DVector<f64>, f64),
-    lift: &mut Vec<f64>,
+    (lift, memory): (&mut Vec<f64>, &mut [Vec<f64>; 2]),
 ) {
     lift.clear();
     let kernel = &problem.kernel;
-    let Some(alone) = problem.bodies.alone.filter(|_| kernel.tangential != kernel.normal) else { return };
+    let Some(alone) = problem.alone().filter(|_| kernel.tangential != kernel.normal) else { return };
     lift.resize(grid.len(), problem.bodies.lift * load);
-    for j in 0..grid.len() {
-        let (port, force) = (grid.port(j), forces[grid.port(j) + 1]);
-        if force == 0.0 {
-            continue;
-        }
-        let [along, normal] = [alone.column(port), alone.column(port + 1)];
-        for (i, lift) in lift.iter_mut().enumerate() {
-            *lift += (along[grid.port(i)] - normal[grid.port(i) + 1]) * force;
-        }
+    let first = grid.port(0) / 2;
+    let [normal, displaced] = memory;
+    normal.clear();
+    normal.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
+    for (component, sign) in [(0, 1.0), (1, -1.0)] {
+        alone.displace(component, (first, normal), displaced);
+        lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
     }
 }
 

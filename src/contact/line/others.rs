@@ -1,7 +1,7 @@
 //! Forces of the other lines, by which the bodies displace a line.
 //!
 //! All lines press the same bodies. What the forces of a line do to the surface beneath it beyond what they do to the
-//! bodies as a whole is its own ([`crate::contact::LineKernel`]); the rest acts on all lines alike.
+//! bodies as a whole is its own ([`super::alone`]); the rest acts on all lines alike.
 
 use super::vectors::copy;
 use nalgebra::DVector;

@@ -7,9 +7,9 @@
 //! the contact with the velocity of the rim, `r (Ω − θ̇)`. Derivation: `docs/theory/lever-arms.md`.
 
 use super::grid::ContactGrid;
-use crate::contact::problem::SurfaceResponse;
+use crate::contact::problem::LineProblem;
 use crate::linalg::vectorised::add_columns;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// Displacements of the wheel surface as seen from the turned rim.
 #[derive(Clone, Copy)]
@@ -61,10 +61,11 @@ pub(in crate::contact) fn sagitta(grid: &ContactGrid, radius: f64, heights: &mut
 /// Rim angle as an affine function of port forces and rigid accelerations.
 #[derive(Default)]
 pub struct RimAngleRow {
-    /// Coefficients of all port forces [rad/(N/m)].
-    pub forces: Vec<f64>,
-    /// Coefficients of the port forces of other lines; empty: there are none.
-    pub others: Vec<f64>,
+    /// Coefficients of all port forces by which the bodies are displaced [rad/(N/m)].
+    pub shared: Vec<f64>,
+    /// Those of the tangential forces of the line at all nodes besides, by the flexibility that it has for itself;
+    /// empty: it has none.
+    pub alone: Vec<f64>,
     /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
     pub accelerations: [f64; 3],
     /// Constant \[rad].
@@ -78,10 +79,10 @@ pub struct RimAngleRow {
 impl RimAngleRow {
     /// Takes the mean of [`RimFrame::angle_of`] with the weights of the present port `forces`; `known`: displacement of
     /// the wheel without contact forces and without accelerations that are sought \[m].
-    pub fn update(&mut self, frame: &RimFrame, bodies: &SurfaceResponse, known: &DVector<f64>, forces: &DVector<f64>) {
-        let ports = frame.grid.ports();
-        self.forces.clear();
-        self.forces.resize(ports, 0.0);
+    pub fn update(&mut self, frame: &RimFrame, problem: &LineProblem, known: &DVector<f64>, forces: &DVector<f64>) {
+        let (ports, bodies) = (frame.grid.ports(), &problem.bodies);
+        self.shared.clear();
+        self.shared.resize(ports, 0.0);
         (self.accelerations, self.constant) = ([0.0; 3], 0.0);
         self.weights.clear();
         let mut first = 0;
@@ -95,16 +96,18 @@ impl RimAngleRow {
             self.accelerations.iter_mut().enumerate().for_each(|(k, t)| *t += weight * bodies.inertial[(port, k)]);
             self.constant += weight * known[port];
         }
-        let (weights, start) = (&self.weights, first * ports);
         // Every other column belongs to a normal force.
-        let mean = |compliance: &DMatrix<f64>, mean: &mut [f64]| {
-            add_columns(1.0, &compliance.as_slice()[start..], 2 * ports, weights, mean);
-        };
-        mean(bodies.own.compliance[0], &mut self.forces);
-        self.others.clear();
-        if let Some(others) = &bodies.others {
-            self.others.resize(ports, 0.0);
-            mean(others.compliance[0], &mut self.others);
+        let columns = &bodies.shared.compliance[0].as_slice()[first * ports..];
+        add_columns(1.0, columns, 2 * ports, &self.weights, &mut self.shared);
+        self.alone.clear();
+        if let Some(alone) = problem.alone() {
+            alone.displace(0, (first / 2, &self.weights), &mut self.alone);
         }
+    }
+
+    /// Coefficient of the force of the line itself, which has a `share` of the width, at a port [rad/(N/m)].
+    pub fn by_force(&self, share: f64, port: usize) -> f64 {
+        let alone = self.alone.get(port / 2).filter(|_| port.is_multiple_of(2)).copied().unwrap_or(0.0);
+        share * self.shared[port] + alone
     }
 }

@@ -17,20 +17,19 @@ pub struct AffineRow {
     pub constant: f64,
 }
 
-/// Effect of nodal forces on gap and slip.
-#[derive(Clone, Copy)]
-struct Effect<'a> {
-    influence: Influence<'a>,
-    /// Coefficients of the forces in the rim angle [rad/(N/m)].
-    rim_angle: &'a [f64],
-}
-
 impl ContactLine<'_> {
     /// `g` at a closed candidate, `g + c (λ_n − Λ)` at one that yields above the force `Λ` \[m]. Writes the force
     /// coefficients of the ports `window` to `forces`.
     pub fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        self.gap_by_shared(i, self.problem.share, window.clone(), forces);
+        self.add_gap(i, window, forces)
+    }
+
+    /// Adds to the coefficients of the line's own forces in the gap what only the line feels of them; returns the rest
+    /// of the gap.
+    pub fn add_gap(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let port = self.grid.port(i) + 1;
-        self.gap_by_forces(i, self.own_forces(), window, forces);
+        self.add_alone((1, -self.grid.x[i]), [(port, 2.0)], window, forces);
         let mut row = self.gap_terms(i);
         if self.state.yielded[i] {
             let creep = self.creep(i);
@@ -40,69 +39,59 @@ impl ContactLine<'_> {
         row
     }
 
-    /// Effect of the line's own forces.
-    fn own_forces(&self) -> Effect<'_> {
-        Effect { influence: self.problem.bodies.own, rim_angle: &self.rim.forces }
-    }
-
-    /// Effect of the forces of other lines, each weighted with its share of the width; `None`: there are none.
-    fn forces_of_others(&self) -> Option<Effect<'_>> {
-        let influence = self.problem.bodies.others?;
-        Some(Effect { influence, rim_angle: &self.rim.others })
-    }
-
-    /// Writes the change of the gap at a candidate with the forces of another line that has a `share` of the width, at
-    /// the ports `window` to `forces`.
-    pub fn gap_by_other(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
-        let Some(effect) = self.forces_of_others() else { return };
-        self.gap_by_forces(i, effect, window.clone(), forces);
-        forces[window].iter_mut().for_each(|force| *force *= share);
-    }
-
-    /// Writes the change of the slip at a candidate with the forces of another line that has a `share` of the width, at
-    /// the ports `window` to `forces`.
-    pub fn slip_by_other(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
-        let Some(effect) = self.forces_of_others() else { return };
-        let (row, to_right) = (self.upwind.row(i), self.upstream_right());
-        let (stencil, [stretch, _]) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
-        let by_angle = self.slip_by_angle(&stencil, stretch);
-        self.slip_by_forces(i, effect, (stencil, by_angle), window.clone(), forces);
-        forces[window].iter_mut().for_each(|force| *force *= share);
-    }
-
-    fn gap_by_forces(&self, i: usize, effect: Effect, window: Range<usize>, forces: &mut [f64]) {
+    /// Writes the change of the gap at a candidate with the forces of a line, a `share` of which the bodies feel, at
+    /// the ports `window` to `forces`: as far as the bodies are displaced.
+    pub fn gap_by_shared(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
         let (x, port) = (self.grid.x[i], self.grid.port(i) + 1);
-        let compliance = column(effect.influence.relative, port)[window.clone()].iter();
-        let both = compliance.zip(&effect.rim_angle[window.clone()]);
-        forces[window].iter_mut().zip(both).for_each(|(f, (c, t))| *f = c - x * t);
+        let compliance = column(self.problem.bodies.shared.relative, port)[window.clone()].iter();
+        let both = compliance.zip(&self.rim.shared[window.clone()]);
+        forces[window].iter_mut().zip(both).for_each(|(f, (c, t))| *f = share * (c - x * t));
     }
 
-    /// Change of the slip with the forces, given the upwind stencil and the change with the rim angle.
-    fn slip_by_forces(
+    /// Writes the change of the slip at a candidate with the forces of a line, a `share` of which the bodies feel, at
+    /// the ports `window` to `forces`: as far as the bodies are displaced.
+    pub fn slip_by_shared(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
+        let (stencil, by_angle) = self.upwind_slip(i);
+        let (v, velocity, gain) = (self.traction.rigid[0], self.rim_velocity(), self.problem.time.a0);
+        let Influence { compliance, relative } = self.problem.bodies.shared;
+        let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
+        let upstream = stencil.map(|(at, weight)| {
+            let [wheel, rail] = compliance.map(|matrix| of_node(matrix, at));
+            [(rail, -share * v * weight), (wheel, -share * velocity * weight)]
+        });
+        let [[a, b], [c, d], [e, f]] = upstream;
+        let own = (of_node(relative, self.grid.port(i)), share * gain);
+        let turned = (&self.rim.shared[window.clone()], share * by_angle);
+        combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, turned]);
+    }
+
+    /// Adds what the line alone feels of its forces at the ports `window`: displacement of a component at given ports
+    /// times the factors beside them, and the rim angle times `turned`.
+    fn add_alone<const N: usize>(
         &self,
-        i: usize,
-        effect: Effect,
-        (stencil, by_angle): ([(usize, f64); 3], f64),
+        (component, turned): (usize, f64),
+        ports: [(usize, f64); N],
         window: Range<usize>,
         forces: &mut [f64],
     ) {
-        let (v, velocity, gain) = (self.traction.rigid[0], self.rim_velocity(), self.problem.time.a0);
-        let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
-        let upstream = stencil.map(|(at, weight)| {
-            let [wheel, rail] = effect.influence.compliance.map(|matrix| of_node(matrix, at));
-            [(rail, -v * weight), (wheel, -velocity * weight)]
-        });
-        let [[a, b], [c, d], [e, f]] = upstream;
-        let own = (of_node(effect.influence.relative, self.grid.port(i)), gain);
-        combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, (&effect.rim_angle[window], by_angle)]);
+        let Some(alone) = self.problem.alone() else { return };
+        let first = window.start / 2;
+        let nodes = forces[window].as_chunks_mut::<2>().0;
+        let moved = alone.by_nodes(component, ports.map(|(port, factor)| (port / 2, factor)), first);
+        for ((node, moved), by_force) in nodes.iter_mut().zip(moved).zip(&self.rim.alone[first..]) {
+            node[component] += moved;
+            node[0] += turned * by_force;
+        }
     }
 
-    /// Change of the slip with the rim angle [m/s/rad], given the upwind stencil and the stretch of the wheel: a turn
-    /// of the rim tilts the surface and slows the rim.
-    fn slip_by_angle(&self, stencil: &[(usize, f64); 3], stretch: f64) -> f64 {
+    /// Upwind stencil of the slip at a candidate, and the change of the slip with the rim angle [m/s/rad]: a turn of
+    /// the rim tilts the surface and slows the rim.
+    fn upwind_slip(&self, i: usize) -> ([(usize, f64); 3], f64) {
+        let (row, to_right) = (self.upwind.row(i), self.upstream_right());
+        let (stencil, [stretch, _]) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
         let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
         let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
-        self.rim_velocity() * tilt + self.problem.radius() * self.problem.time.a0 * stretch
+        (stencil, self.rim_velocity() * tilt + self.problem.radius() * self.problem.time.a0 * stretch)
     }
 
     /// The gap at a candidate without that by contact forces and by the rim angle with them \[m].
@@ -118,6 +107,13 @@ impl ContactLine<'_> {
     /// Slip at a candidate [m/s], linearised in V, Ω and the rim angle about the present iterate. Writes the force
     /// coefficients of the ports `window` to `forces`.
     pub fn slip_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        self.slip_by_shared(i, self.problem.share, window.clone(), forces);
+        self.add_slip(i, window, forces)
+    }
+
+    /// Adds to the coefficients of the line's own forces in the slip what only the line feels of them; returns the rest
+    /// of the slip.
+    pub fn add_slip(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
         let to_right = self.upstream_right();
@@ -127,17 +123,17 @@ impl ContactLine<'_> {
         let [wheel, rail] = &self.given.displacement;
         let mut accelerations: [f64; 3] = std::array::from_fn(|k| gain * bodies.inertial[(port, k)]);
         let mut constant = gain * (wheel[port] - rail[port]) + self.given.slip_offset[i];
-        let row = self.upwind.row(i);
-        let stencil = self.stencil(i, row, to_right);
+        let (stencil, by_angle) = self.upwind_slip(i);
         for (at, weight) in stencil {
             for (k, load) in accelerations.iter_mut().enumerate() {
                 *load -= velocity * weight * bodies.inertial[(at, k)];
             }
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
-        let [stretch_wheel, stretch_rail] = self.stretches(i, row, to_right);
-        let (rim, by_angle) = (&self.rim, self.slip_by_angle(&stencil, stretch_wheel));
-        self.slip_by_forces(i, self.own_forces(), (stencil, by_angle), window, forces);
+        let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
+        let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
+        self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window, forces);
+        let rim = &self.rim;
         accelerations.iter_mut().zip(rim.accelerations).for_each(|(load, t)| *load += by_angle * t);
         constant += by_angle * (rim.constant - self.frame.rim_angle);
         let motions = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];

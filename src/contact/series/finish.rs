@@ -49,7 +49,7 @@ fn expansion(line: &SeriesLine) -> f64 {
         return 0.0;
     }
     let (v, rim) = (line.rigid[0], line.rim_velocity());
-    let (points, compliance) = (&line.constants.points, line.problem.line.bodies.shared().compliance);
+    let (points, compliance) = (&line.constants.points, line.problem.line.bodies.shared.compliance);
     // What the pulls do to the bodies less the half-planes.
     let [[wheel, wheel_lift], [rail, rail_lift]] = [0, 1].map(|body| {
         [0, 1].map(|component| {

@@ -105,7 +105,7 @@ impl SeriesContact<'_> {
         let bodies = &first.problem.line.bodies;
         let values = first.constants.points.values(first.tractions.pressure.centre);
         let smooth: f64 =
-            bodies.shared().compliance.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
+            bodies.shared.compliance.iter().map(|matrix| dot(&answer(matrix, 1, 1, &values), &values)).sum();
         let middles: Vec<_> = self.lines.iter().map(SeriesLine::middle_gap).collect();
         let shares = || self.lines.iter().map(|line| line.problem.line.share).zip(&middles);
         // The lines side by side are springs in parallel.

@@ -136,7 +136,7 @@ impl SeriesSolver {
         found: &mut [&mut ContactState],
     ) -> Result<(), ContactError> {
         let begun: Option<Vec<_>> = starts.iter().map(|start| SeriesStart::of(start)).collect();
-        let fits = |line: &LineProblem| line.bodies.shared().relative.nrows() == 2 * POINTS;
+        let fits = |line: &LineProblem| line.bodies.shared.relative.nrows() == 2 * POINTS;
         let lines = problem.lines.len();
         let begun = begun.filter(|begun| begun.len() == lines && found.len() == lines && lines <= MOST_LINES);
         let Some(begun) = begun.filter(|_| problem.lines.iter().all(fits)) else {

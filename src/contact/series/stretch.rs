@@ -109,7 +109,7 @@ impl SeriesLine<'_> {
     /// Effect of tangential forces of all lines on the slip by the smooth displacements: by their values and by their
     /// slopes.
     fn convected(&self) -> [[AtPoints; POINTS]; 2] {
-        let ([wheel, rail], v) = (self.problem.line.bodies.shared().compliance, self.rigid[0]);
+        let ([wheel, rail], v) = (self.problem.line.bodies.shared.compliance, self.rigid[0]);
         let (rim, a0) = (self.rim_velocity(), self.problem.line.time.a0);
         let entry = |matrix: &nalgebra::DMatrix<f64>, k: usize, l: usize| matrix[(2 * k, 2 * l)];
         let value = |k, l| a0 * (entry(wheel, k, l) + entry(rail, k, l));

@@ -83,7 +83,7 @@ impl SmoothSurfaces {
     /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on
     /// wheel and rail; `accelerations` are the rigid ones.
     pub fn new(bodies: &SurfaceResponse, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
-        let shared = bodies.shared();
+        let shared = bodies.shared;
         let body = |index: usize, sign: f64| {
             let mut forces = [0.0; 2 * POINTS];
             for k in 0..POINTS {

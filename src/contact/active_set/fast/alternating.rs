@@ -59,7 +59,7 @@ fn write_gaps(
     }
     for (of, offset) in equations.rim_angle.iter_mut().zip([1, 0]) {
         of.clear();
-        of.extend(closed.iter().map(|&i| line.rim.forces[line.grid.port(i) + offset]));
+        of.extend(closed.iter().map(|&i| line.rim.by_force(line.problem.share, line.grid.port(i) + offset)));
     }
     let height = sought.last() == Some(&1);
     equations.reset(stuck.len() + sought.len() - usize::from(height), height);

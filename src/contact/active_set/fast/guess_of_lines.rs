@@ -1,12 +1,13 @@
 //! Guess of the closed nodes of several lines on uneven surfaces: as [`super::initial_guess`] for a single one, but
-//! with the gaps of all lines and the balance of the height in one system of equations.
+//! with the gaps of all lines and the balance of the height solved [line by line](super::line_by_line).
 
-use crate::contact::active_set::axes::{Axes, Equation};
+use super::line_by_line::{self, Known, LineByLine};
+use crate::contact::active_set::axes::Axes;
 use crate::contact::active_set::states::{Comparison, guess_state};
 use crate::contact::active_set::unknowns::Unknowns;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
-use crate::linalg::DenseSystem;
+use crate::linalg::vectorised::{add_columns, dot};
 use nalgebra::DVector;
 
 /// Guesses of the closed nodes at most.
@@ -16,16 +17,36 @@ const MAX_GUESSES: usize = 6;
 #[derive(Default)]
 pub struct GuessOfLines {
     unknowns: Unknowns,
-    system: DenseSystem,
-    /// Tangential forces at the candidates of every line before the guess [N/m].
-    shear: Vec<Vec<f64>>,
+    /// Shear forces before the guess, and the gap by them.
+    known: Known,
+    /// Forces of one component at the candidates of every line [N/m].
+    forces: Vec<Vec<f64>>,
+    /// Gap by them at the candidates of every line \[m].
+    gaps: Vec<Vec<f64>>,
+    displaced: Displaced,
     before: Vec<NodeStatus>,
+}
+
+/// Displacements by forces of one component.
+#[derive(Default)]
+struct Displaced {
+    /// Forces of all lines at the candidates, by their shares of the width [N/m].
+    mean: Vec<f64>,
+    /// Displacement of both bodies at all ports, and of a line besides at all nodes \[m].
+    ports: Vec<f64>,
+    alone: Vec<f64>,
 }
 
 impl GuessOfLines {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
     /// velocities at hand, where the surfaces are uneven. `rows` is memory for the coefficients of all ports.
-    pub fn find(&mut self, lines: &mut [ContactLine], axes: &Axes, comparison: Comparison, rows: &mut [Vec<f64>]) {
+    pub fn find(
+        &mut self,
+        lines: &mut [ContactLine],
+        axes: &Axes,
+        comparison: Comparison,
+        (rows, equations): (&mut [Vec<f64>], &mut LineByLine),
+    ) {
         let skipped = |line: &ContactLine| line.given.rail_slope.is_empty() || line.problem.time.is_stationary();
         if lines.iter().all(skipped) {
             return;
@@ -34,7 +55,7 @@ impl GuessOfLines {
         let of_line =
             |line: &ContactLine| (line.state.status.clone(), line.traction.port_forces.clone(), line.traction.rigid[1]);
         let starts: Vec<Start> = lines.iter().map(of_line).collect();
-        if self.settle(lines, axes, comparison, rows) {
+        if self.settle(lines, axes, comparison, (rows, equations)) {
             return;
         }
         for (line, (status, forces, height)) in lines.iter_mut().zip(starts) {
@@ -50,15 +71,16 @@ impl GuessOfLines {
         lines: &mut [ContactLine],
         axes: &Axes,
         comparison: Comparison,
-        rows: &mut [Vec<f64>],
+        (rows, equations): (&mut [Vec<f64>], &mut LineByLine),
     ) -> bool {
         lines.iter_mut().for_each(ContactLine::update_rim);
-        let of_line = |line: &ContactLine| (0..line.grid.len()).map(|i| line.tangential(i)).collect();
-        self.shear = lines.iter().map(of_line).collect();
+        self.take_shear(lines);
         for _ in 0..MAX_GUESSES {
             self.unknowns.list_pressures(lines, axes);
-            let pressed = self.press(lines, axes, rows).is_some();
-            if pressed && !self.close(lines, axes, comparison, rows) {
+            let known = (&self.unknowns, &self.known);
+            let pressed = line_by_line::solve(lines, axes, known, rows, equations);
+            self.give_shear(lines);
+            if pressed && !self.close(lines, axes, comparison) {
                 return true;
             }
             if self.unknowns.closed() == 0 {
@@ -68,81 +90,90 @@ impl GuessOfLines {
         false
     }
 
-    /// Solves for the normal forces of the closed nodes, and for the height of the hub if that is sought.
-    fn press(&mut self, lines: &mut [ContactLine], axes: &Axes, rows: &mut [Vec<f64>]) -> Option<()> {
-        let Self { unknowns, system, shear, .. } = self;
-        system.reset(unknowns.len());
-        let grid = lines.first()?.grid;
-        let mut r = 0;
-        for k in 0..lines.len() {
-            for &i in &unknowns.lines[k].closed {
-                let gap = gap(lines, axes, (k, i), rows);
-                unknowns.write(system.row(r), (&sheared(gap, lines, axes, shear, rows), rows), grid, axes);
-                r += 1;
+    /// Takes the shear forces, and the gap by them.
+    fn take_shear(&mut self, lines: &[ContactLine]) {
+        let Self { known, forces, displaced, .. } = self;
+        known.forces.resize_with(lines.len(), Vec::new);
+        for (line, ports) in lines.iter().zip(&mut known.forces) {
+            ports.clear();
+            ports.resize(line.grid.ports(), 0.0);
+            (0..line.grid.len()).for_each(|i| ports[line.grid.port(i)] = line.tangential(i));
+        }
+        take(lines, 0, forces);
+        displaced.gaps(lines, 0, forces, &mut known.gaps);
+    }
+
+    /// Gives closed nodes the shear forces of before.
+    fn give_shear(&self, lines: &mut [ContactLine]) {
+        for (line, forces) in lines.iter_mut().zip(&self.known.forces) {
+            for i in (0..line.grid.len()).filter(|&i| line.state.status[i].is_active()) {
+                line.traction.port_forces[line.grid.port(i)] = forces[line.grid.port(i)];
             }
         }
-        for &axis in &unknowns.axes {
-            let balance = axes.row(axis, lines, rows);
-            unknowns.write(system.row(r), (&sheared(balance, lines, axes, shear, rows), rows), grid, axes);
-            r += 1;
-        }
-        let solution = system.solve()?;
-        unknowns.accept(solution, lines, axes);
-        for (line, shear) in lines.iter_mut().zip(shear) {
-            for (i, force) in shear.iter().enumerate().filter(|(i, _)| line.state.status[*i].is_active()) {
-                line.traction.port_forces[grid.port(i)] = *force;
-            }
-        }
-        lines.iter().all(|line| line.traction.rigid[1].is_finite()).then_some(())
     }
 
     /// Opens closed nodes that pull and closes open ones that overlap; returns whether there were any.
-    fn close(&mut self, lines: &mut [ContactLine], axes: &Axes, comparison: Comparison, rows: &mut [Vec<f64>]) -> bool {
+    fn close(&mut self, lines: &mut [ContactLine], axes: &Axes, comparison: Comparison) -> bool {
+        let Self { known, forces, gaps, displaced, before, .. } = self;
+        take(lines, 1, forces);
+        displaced.gaps(lines, 1, forces, gaps);
         let mut changed = false;
-        for k in 0..lines.len() {
-            self.before.clone_from(&lines[k].state.status);
-            for i in 0..lines[k].grid.len() {
-                let equation = gap(lines, axes, (k, i), rows);
-                let equation = sheared(equation, lines, axes, &self.shear, rows);
-                let of_normal = |(line, row): (&ContactLine, &Vec<f64>)| -> f64 {
-                    (0..line.grid.len()).map(|n| row[line.grid.port(n) + 1] * line.normal(n)).sum()
-                };
-                let height = if axes.seeks(1) { equation.motions[1] * lines[k].traction.rigid[1] } else { 0.0 };
-                let by_forces: f64 = lines.iter().zip(&*rows).map(of_normal).sum();
-                let gap = axes.constant(&equation) + height + by_forces;
-                changed |= guess_state(&mut lines[k], i, gap, comparison, &self.before);
+        for ((line, known), gaps) in lines.iter_mut().zip(&known.gaps).zip(gaps) {
+            before.clone_from(&line.state.status);
+            for i in 0..line.grid.len() {
+                let equation = axes.equation(line.gap_terms(i));
+                let sought = (0..3).filter(|&axis| axes.seeks(axis));
+                let by_motions: f64 = sought.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum();
+                let gap = axes.constant(&equation) + by_motions + known[i] + gaps[i];
+                changed |= guess_state(line, i, gap, comparison, before);
             }
         }
         changed
     }
 }
 
-/// Gap at node `i` of line `k`; writes the coefficients of all port forces of every line to `rows`.
-fn gap(lines: &[ContactLine], axes: &Axes, (k, i): (usize, usize), rows: &mut [Vec<f64>]) -> Equation {
-    let (line, mut own) = (&lines[k], None);
-    for (j, row) in rows.iter_mut().enumerate() {
-        let window = 0..row.len();
-        match j == k {
-            true => own = Some(line.gap_row(i, window, row)),
-            false => line.gap_by_other(i, lines[j].problem.share, window, row),
-        }
+/// Takes the tangential (`component` 0) or normal forces (1) at all candidates of every line.
+fn take(lines: &[ContactLine], component: usize, forces: &mut Vec<Vec<f64>>) {
+    forces.resize_with(lines.len(), Vec::new);
+    for (line, forces) in lines.iter().zip(forces) {
+        forces.clear();
+        forces.extend((0..line.grid.len()).map(|i| line.traction.port_forces[line.grid.port(i) + component]));
     }
-    axes.equation(own.unwrap_or_default())
 }
 
-/// An equation with the shear forces and the velocities at hand as known.
-fn sheared(
-    mut equation: Equation,
-    lines: &[ContactLine],
-    axes: &Axes,
-    shear: &[Vec<f64>],
-    rows: &[Vec<f64>],
-) -> Equation {
-    for ((line, shear), row) in lines.iter().zip(shear).zip(rows) {
-        equation.constant += shear.iter().enumerate().map(|(i, force)| row[line.grid.port(i)] * force).sum::<f64>();
+impl Displaced {
+    /// Writes the change of the gap at all candidates of every line with tangential (`component` 0) or normal `forces`
+    /// (1) at the candidates.
+    fn gaps(&mut self, lines: &[ContactLine], component: usize, forces: &[Vec<f64>], gaps: &mut Vec<Vec<f64>>) {
+        let Some(ContactLine { grid, problem, .. }) = lines.first() else { return };
+        let (relative, first) = (problem.bodies.shared.relative, grid.port(0) + component);
+        let Self { mean, ports, alone } = self;
+        mean.clear();
+        mean.resize(grid.len(), 0.0);
+        for (line, forces) in lines.iter().zip(forces) {
+            mean.iter_mut().zip(forces).for_each(|(mean, force)| *mean += line.problem.share * force);
+        }
+        ports.clear();
+        ports.resize(grid.ports(), 0.0);
+        let columns = &relative.as_slice()[first * grid.ports()..];
+        add_columns(1.0, columns, 2 * grid.ports(), mean, ports);
+        gaps.resize_with(lines.len(), Vec::new);
+        for ((line, forces), gaps) in lines.iter().zip(forces).zip(gaps) {
+            let of_ports = line.rim.shared[first..].iter().step_by(2);
+            let mut turned: f64 = of_ports.zip(&*mean).map(|(by_force, force)| by_force * force).sum();
+            alone.clear();
+            alone.resize(grid.ports() / 2, 0.0);
+            if let Some(of_line) = line.problem.alone() {
+                match component {
+                    0 => turned += dot(&line.rim.alone[first / 2..][..grid.len()], forces),
+                    _ => of_line.displace(1, (first / 2, forces), alone),
+                }
+            }
+            gaps.clear();
+            gaps.extend((0..grid.len()).map(|i| {
+                let port = grid.port(i);
+                ports[port + 1] + 2.0 * alone[port / 2] - grid.x[i] * turned
+            }));
+        }
     }
-    for axis in [0, 2].into_iter().filter(|&axis| axes.seeks(axis)) {
-        equation.constant += equation.motions[axis] * lines[0].traction.rigid[axis];
-    }
-    equation
 }

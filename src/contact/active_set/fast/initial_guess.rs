@@ -100,7 +100,7 @@ impl InitialGuess {
         forces.clear();
         forces.extend((0..line.grid.len()).map(|i| line.tangential(i)));
         displace(line, 0, forces, displaced);
-        let turned: f64 = (0..line.grid.len()).map(|i| line.rim.forces[line.grid.port(i)] * forces[i]).sum();
+        let turned = turned(line, 0, forces);
         base.clear();
         by_height.clear();
         for i in 0..line.grid.len() {
@@ -140,17 +140,17 @@ impl InitialGuess {
             return false;
         }
         let normal = &self.normal;
-        let sums = |coefficients: &[f64]| {
+        let sums = |coefficient: &dyn Fn(usize) -> f64| {
             let sum = |forces: &Vec<f64>| -> f64 {
-                closed.iter().zip(forces).map(|(&i, force)| coefficients[grid.port(i) + 1] * force).sum()
+                closed.iter().zip(forces).map(|(&i, force)| coefficient(grid.port(i) + 1) * force).sum()
             };
             normal.each_ref().map(sum)
         };
         // Height and rim angle by these forces: two equations.
-        let turned = sums(&line.rim.forces);
+        let turned = sums(&|port| line.rim.by_force(line.problem.share, port));
         let (height, angle) = match balance {
             Some(balance) => {
-                let of = sums(row);
+                let of = sums(&|port| row[port]);
                 let (side, by_height) = (balance.known - of[0], balance.by_height + of[1]);
                 let angle =
                     (turned[0] * by_height + turned[1] * side) / ((1.0 - turned[2]) * by_height + turned[1] * of[2]);
@@ -201,7 +201,7 @@ impl InitialGuess {
         forces.clear();
         forces.extend((0..grid.len()).map(|i| line.normal(i)));
         displace(line, 1, forces, displaced);
-        let turned: f64 = (0..grid.len()).map(|i| line.rim.forces[grid.port(i) + 1] * forces[i]).sum();
+        let turned = turned(line, 1, forces);
         before.clone_from(&line.state.status);
         let mut changed = false;
         for i in 0..grid.len() {
@@ -215,11 +215,24 @@ impl InitialGuess {
 
 /// Displacements of all ports by normal (`offset` 1) or tangential (0) forces at the candidates.
 fn displace(line: &ContactLine, offset: usize, forces: &[f64], displaced: &mut Vec<f64>) {
-    let relative = line.problem.bodies.own.relative;
+    let relative = line.problem.bodies.shared.relative;
     displaced.clear();
     displaced.resize(relative.nrows(), 0.0);
-    let columns = &relative.as_slice()[(line.grid.port(0) + offset) * relative.nrows()..];
-    add_columns(1.0, columns, 2 * relative.nrows(), forces, displaced);
+    let first = line.grid.port(0);
+    let columns = &relative.as_slice()[(first + offset) * relative.nrows()..];
+    add_columns(line.problem.share, columns, 2 * relative.nrows(), forces, displaced);
+    if let Some(alone) = line.problem.alone() {
+        let mut moved = Vec::new();
+        alone.displace(offset, (first / 2, forces), &mut moved);
+        let nodes = displaced.as_chunks_mut::<2>().0;
+        nodes.iter_mut().zip(moved).for_each(|(node, moved)| node[offset] += 2.0 * moved);
+    }
+}
+
+/// Rim angle by such forces \[rad].
+fn turned(line: &ContactLine, offset: usize, forces: &[f64]) -> f64 {
+    let by_force = |i: usize| line.rim.by_force(line.problem.share, line.grid.port(i) + offset);
+    forces.iter().enumerate().map(|(i, force)| by_force(i) * force).sum()
 }
 
 /// Factorises the compliance of the closed nodes, of which some may yield.

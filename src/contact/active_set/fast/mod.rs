@@ -2,14 +2,16 @@
 //! surfaces, for the tolerance of the edges: without the guess, forces on a rough rail change by 1.4e-5.
 //!
 //! This file alone names them. [`guess_of_lines`] and [`initial_guess`] can be deleted by themselves, [`alternating`]
-//! with its equations [`pressure_shear`], and [`patch_inverse`], which both use, after them.
+//! with its equations [`pressure_shear`], and [`line_by_line`] and [`patch_inverse`], which they use, after them.
 
 mod alternating;
 mod guess_of_lines;
 mod initial_guess;
+mod line_by_line;
 mod patch_inverse;
 mod pressure_shear;
 
+use self::line_by_line::Known;
 use super::axes::Axes;
 use super::states::Comparison;
 use super::unknowns::{LineUnknowns, Unknowns};
@@ -23,6 +25,7 @@ pub(super) struct Shortcuts {
     alternating: pressure_shear::PressureShear,
     guess: initial_guess::InitialGuess,
     guess_of_lines: guess_of_lines::GuessOfLines,
+    line_by_line: line_by_line::LineByLine,
 }
 
 impl Shortcuts {
@@ -35,13 +38,15 @@ impl Shortcuts {
         comparison: Comparison,
         (unknowns, rows, before): (&mut Unknowns, &mut [Vec<f64>], &mut Vec<NodeStatus>),
     ) {
-        let [line] = lines else { return self.guess_of_lines.find(lines, axes, comparison, rows) };
+        let [line] = lines else {
+            return self.guess_of_lines.find(lines, axes, comparison, (rows, &mut self.line_by_line));
+        };
         unknowns.lines.resize_with(1, LineUnknowns::default);
         self.guess.find(line, axes, comparison, (&mut unknowns.lines[0], rows, before, &mut self.inverses));
     }
 
-    /// Solves the linear problem of the present states of a single line and gives the line its forces and motions;
-    /// `false`: it takes all equations together.
+    /// Solves the linear problem of the present states and gives the lines their forces and motions; `false`: it takes
+    /// all equations together.
     pub fn solve(
         &mut self,
         lines: &mut [ContactLine],
@@ -49,6 +54,9 @@ impl Shortcuts {
         unknowns: &Unknowns,
         rows: &mut [Vec<f64>],
     ) -> bool {
-        lines.len() == 1 && alternating::solve(lines, axes, unknowns, rows, (&mut self.inverses, &mut self.alternating))
+        match lines.len() {
+            1 => alternating::solve(lines, axes, unknowns, rows, (&mut self.inverses, &mut self.alternating)),
+            _ => line_by_line::solve(lines, axes, (unknowns, &Known::default()), rows, &mut self.line_by_line),
+        }
     }
 }

@@ -7,6 +7,7 @@
 //! alone. A kept factor has the same bits whatever came before ([`InverseFactor`]), so that a step is a function of the
 //! state alone.
 
+use crate::contact::kernel::LineKernel;
 use crate::contact::line::ContactGrid;
 use crate::contact::problem::LineProblem;
 use crate::linalg::InverseFactor;
@@ -31,6 +32,8 @@ struct OfStep {
     a0: f64,
     /// First normal column of the compliance: those of other models and grids are told apart by it.
     column: Vec<f64>,
+    /// Share of the width and flexibility of the line.
+    kernel: (f64, LineKernel),
     /// Gap at all candidates per tangential force at all candidates [m/(N/m)], by columns.
     coupling: Vec<f64>,
     /// First closed nodes and their factors, the last one used at the end.
@@ -48,17 +51,23 @@ pub struct KeptInverses {
 
 /// Normal displacement at candidate `i` per normal force at candidate `j` [m/(N/m)].
 pub fn compliance(problem: &LineProblem, grid: &ContactGrid, i: usize, j: usize) -> f64 {
-    problem.bodies.own.relative[(grid.port(i) + 1, grid.port(j) + 1)]
+    problem.compliance(grid.port(i) + 1, grid.port(j) + 1)
 }
 
 impl OfStep {
+    /// True if the matrices are those of a problem with this first column.
+    fn fits(&self, problem: &LineProblem, column: &[f64]) -> bool {
+        let same = (self.a0, self.kernel) == (problem.time.a0, (problem.share, problem.kernel));
+        same && self.column == column
+    }
+
     fn new(problem: &LineProblem, grid: &ContactGrid) -> Self {
-        let relative = problem.bodies.own.relative;
         let nodes = 0..grid.len();
-        let of_shear = |j: usize| nodes.clone().map(move |i| relative[(grid.port(i) + 1, grid.port(j))]);
+        let of_shear = |j: usize| nodes.clone().map(move |i| problem.compliance(grid.port(i) + 1, grid.port(j)));
         Self {
             a0: problem.time.a0,
             column: first_column(problem, grid).to_vec(),
+            kernel: (problem.share, problem.kernel),
             coupling: nodes.clone().flat_map(of_shear).collect(),
             factors: Vec::new(),
             inverses: Vec::new(),
@@ -110,7 +119,7 @@ impl OfStep {
 
 /// The column of the first candidate's normal force in the compliance.
 fn first_column<'a>(problem: &LineProblem<'a>, grid: &ContactGrid) -> &'a [f64] {
-    let relative = problem.bodies.own.relative;
+    let relative = problem.bodies.shared.relative;
     &relative.as_slice()[(grid.port(0) + 1) * relative.nrows()..][..relative.nrows()]
 }
 
@@ -135,7 +144,7 @@ impl KeptInverses {
 
     fn of_step(&mut self, problem: &LineProblem, grid: &ContactGrid) -> Option<&mut OfStep> {
         let column = first_column(problem, grid);
-        match self.recent.iter().position(|kept| kept.a0 == problem.time.a0 && kept.column == column) {
+        match self.recent.iter().position(|kept| kept.fits(problem, column)) {
             Some(at) => self.recent[at..].rotate_left(1),
             None => {
                 if self.recent.len() >= KEPT[0] {

@@ -1,0 +1,308 @@
+//! Linear problem of several lines, solved line by line.
+//!
+//! Lines feel each other through the bodies and the motions of the hub alone, and what the bodies pass on is smooth. So
+//! the equations of each line are factorised by themselves, the motions follow from their balances, and the forces of
+//! the other lines from an iteration (GMRES) to which all of this is a good approximation: four lines cost four times
+//! as much as one, not 64 times.
+
+use crate::contact::active_set::axes::{Axes, Equation};
+use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns, scale};
+use crate::contact::line::ContactGrid;
+use crate::contact::line::contact_line::ContactLine;
+use crate::linalg::DenseSystem;
+use crate::linalg::gmres::{Gmres, LinearSystem};
+use crate::linalg::vectorised::dot;
+use std::ops::Range;
+
+/// Change of the forces that counts as none, and that which is accepted where round-off allows no smaller one, over
+/// their norm \[1].
+const PRECISION: [f64; 2] = [1e-14, 1e-11];
+
+/// Parts of the solution that are known beside the unknowns; empty: none.
+#[derive(Default)]
+pub struct Known {
+    /// Gap that they leave at the candidates of every line \[m].
+    pub gaps: Vec<Vec<f64>>,
+    /// Forces at all ports of every line [N/m].
+    pub forces: Vec<Vec<f64>>,
+}
+
+/// Equations of all lines, and the memory to solve them.
+#[derive(Default)]
+pub struct LineByLine {
+    lines: Vec<LineEquations>,
+    motions: MotionBalances,
+    /// Ports from the first to the last closed node of all lines.
+    window: Range<usize>,
+    /// Forces of all lines at these ports, by their shares of the width [N/m].
+    mean: Vec<f64>,
+    /// Forces of all lines, then the motions.
+    unknowns: Vec<f64>,
+    /// Their change.
+    change: Vec<f64>,
+    gmres: Gmres,
+}
+
+/// Equations of one line.
+#[derive(Default)]
+struct LineEquations {
+    /// Share of the width \[1].
+    share: f64,
+    /// Coefficients of its own forces.
+    own: DenseSystem,
+    /// Own forces without those of other lines and motions, and their change with the motions.
+    alone: Vec<f64>,
+    by_motions: [Vec<f64>; 3],
+    /// Coefficients of other lines' forces at the ports of the window, row by row.
+    shared: Vec<f64>,
+    /// Coefficients of the own forces in the balances.
+    balances: [Vec<f64>; 3],
+    /// Forces at all ports, those within the window [N/m].
+    forces: Vec<f64>,
+    /// An equation.
+    row: Vec<f64>,
+}
+
+/// Balances of the motions that are sought.
+#[derive(Default)]
+struct MotionBalances {
+    count: usize,
+    /// Coefficients of the motions once the forces are eliminated.
+    system: DenseSystem,
+    known: [f64; 3],
+    values: [f64; 3],
+}
+
+/// Solves the linear problem of the present states and gives the lines their forces and motions; `false`: it takes all
+/// equations together. `rows` is memory for the coefficients of all ports of every line.
+pub fn solve(
+    lines: &mut [ContactLine],
+    axes: &Axes,
+    (unknowns, known): (&Unknowns, &Known),
+    rows: &mut [Vec<f64>],
+    equations: &mut LineByLine,
+) -> bool {
+    let solved = equations.write(lines, axes, (unknowns, known), rows) && equations.solve(lines[0].grid, unknowns);
+    if solved {
+        unknowns.accept(&equations.unknowns, lines, axes);
+    }
+    solved
+}
+
+/// Part of an equation that motions which are sought, but not unknown, make known.
+fn by_known_motions(equation: &Equation, line: &ContactLine, axes: &Axes, unknowns: &Unknowns) -> f64 {
+    let known = (0..3).filter(|axis| axes.seeks(*axis) && !unknowns.axes.contains(axis));
+    known.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum()
+}
+
+impl LineByLine {
+    /// Writes all equations, and the present forces as a guess; whether those of every line have a solution.
+    fn write(
+        &mut self,
+        lines: &[ContactLine],
+        axes: &Axes,
+        (unknowns, known): (&Unknowns, &Known),
+        rows: &mut [Vec<f64>],
+    ) -> bool {
+        let Some(grid) = lines.first().map(|line| line.grid) else { return false };
+        let windows = unknowns.lines.iter().map(|line| line.window(grid)).filter(|window| !window.is_empty());
+        let Some(window) = windows.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else { return false };
+        self.window = window;
+        self.lines.resize_with(lines.len(), LineEquations::default);
+        self.unknowns.clear();
+        for (k, equations) in self.lines.iter_mut().enumerate() {
+            let own = &unknowns.lines[k];
+            let gaps = known.gaps.get(k).map_or(&[][..], |gaps| gaps);
+            if !equations.write(&lines[k], axes, (own, unknowns, gaps), (&self.window, rows)) {
+                return false;
+            }
+            let present = own.closed.iter().map(|&i| lines[k].normal(i));
+            self.unknowns.extend(present.chain(own.stuck.iter().map(|&i| lines[k].tangential(i))));
+        }
+        self.write_balances(lines, axes, (unknowns, known), rows)
+    }
+
+    /// Writes the balances, from which the forces are eliminated; whether they have a solution.
+    fn write_balances(
+        &mut self,
+        lines: &[ContactLine],
+        axes: &Axes,
+        (unknowns, known): (&Unknowns, &Known),
+        rows: &mut [Vec<f64>],
+    ) -> bool {
+        let Self { lines: equations, motions, .. } = self;
+        motions.count = unknowns.axes.len();
+        motions.system.reset(motions.count);
+        for (a, &axis) in unknowns.axes.iter().enumerate() {
+            let balance = axes.row(axis, lines, rows);
+            let by_forces = rows.iter().zip(&known.forces).map(|(row, forces)| dot(row, forces)).sum::<f64>();
+            let mut side = -axes.constant(&balance) - by_forces;
+            side -= by_known_motions(&balance, &lines[0], axes, unknowns);
+            let (coefficients, _) = motions.system.row(a);
+            coefficients.iter_mut().zip(&unknowns.axes).for_each(|(value, &axis)| *value = balance.motions[axis]);
+            for ((line, own), row) in equations.iter_mut().zip(&unknowns.lines).zip(&*rows) {
+                let LineEquations { balances, by_motions, .. } = line;
+                balances[a].resize(own.len(), 0.0);
+                own.write(&mut balances[a], row, lines[0].grid);
+                coefficients.iter_mut().zip(by_motions).for_each(|(value, by)| *value -= dot(&balances[a], by));
+            }
+            let scale = scale(coefficients);
+            equations.iter_mut().for_each(|line| line.balances[a].iter_mut().for_each(|value| *value *= scale));
+            motions.known[a] = side * scale;
+        }
+        motions.system.factorise()
+    }
+
+    /// Solves for all forces and motions; `false`: the iteration does not converge.
+    fn solve(&mut self, grid: &ContactGrid, unknowns: &Unknowns) -> bool {
+        let mut forces = std::mem::take(&mut self.unknowns);
+        let mut change = std::mem::take(&mut self.change);
+        change.clear();
+        change.resize(forces.len(), 0.0);
+        let mut solved = self.answer(grid, unknowns, (&forces, true), &mut change);
+        if solved {
+            change.iter_mut().zip(&forces).for_each(|(change, force)| *change -= force);
+            let norm = |values: &[f64]| dot(values, values).sqrt();
+            let [most, size] = [norm(&change), norm(&forces).max(norm(&change))];
+            let mut gmres = std::mem::take(&mut self.gmres);
+            let [tolerance, accepted] = PRECISION.map(|precision| precision * size / most);
+            let mut system = BetweenLines { equations: self, grid, unknowns };
+            solved = most <= PRECISION[0] * size || gmres.solve(&mut system, &mut change, tolerance, accepted).is_ok();
+            self.gmres = gmres;
+            forces.iter_mut().zip(&change).for_each(|(force, change)| *force += change);
+            // Once more with the motions, which belong to these forces.
+            solved = solved && self.answer(grid, unknowns, (&forces, true), &mut change);
+            std::mem::swap(&mut forces, &mut change);
+        }
+        forces.extend_from_slice(&self.motions.values[..self.motions.count]);
+        (self.unknowns, self.change) = (forces, change);
+        solved
+    }
+
+    /// Writes the forces of all lines that belong to given ones of the others, and takes the motions; those without
+    /// the `known` part of the equations are their change. Whether all are finite.
+    fn answer(
+        &mut self,
+        grid: &ContactGrid,
+        unknowns: &Unknowns,
+        (given, known): (&[f64], bool),
+        forces: &mut [f64],
+    ) -> bool {
+        let Self { lines, motions, window, mean, .. } = self;
+        mean.clear();
+        mean.resize(window.len(), 0.0);
+        let mut rest = given;
+        for (line, own) in lines.iter_mut().zip(&unknowns.lines) {
+            let (given, others) = rest.split_at(own.len());
+            line.place(own, (given, grid), window, mean);
+            rest = others;
+        }
+        motions.values = if known { motions.known } else { [0.0; 3] };
+        let values = &mut motions.values[..motions.count];
+        let (mut rest, mut finite) = (&mut *forces, true);
+        for (line, own) in lines.iter_mut().zip(&unknowns.lines) {
+            let (forces, others) = rest.split_at_mut(own.len());
+            finite &= line.answer(mean, (window, known), forces);
+            values.iter_mut().zip(&line.balances).for_each(|(value, balance)| *value -= dot(balance, forces));
+            rest = others;
+        }
+        finite &= motions.system.solve_with(values);
+        let mut rest = forces;
+        for (line, own) in lines.iter().zip(&unknowns.lines) {
+            let (forces, others) = rest.split_at_mut(own.len());
+            for (value, by_motion) in values.iter().zip(&line.by_motions) {
+                forces.iter_mut().zip(by_motion).for_each(|(force, by)| *force -= by * value);
+            }
+            rest = others;
+        }
+        finite
+    }
+}
+
+impl LineEquations {
+    /// Writes the equations of a line; whether they have a solution. `gaps` are known at its candidates.
+    fn write(
+        &mut self,
+        line: &ContactLine,
+        axes: &Axes,
+        (own, unknowns, gaps): (&LineUnknowns, &Unknowns, &[f64]),
+        (window, rows): (&Range<usize>, &mut [Vec<f64>]),
+    ) -> bool {
+        let (size, count, patch) = (own.len(), unknowns.axes.len(), own.window(line.grid));
+        let [others, forces, ..] = rows else { return false };
+        self.share = line.problem.share;
+        self.own.reset(size);
+        self.row.resize(size + count, 0.0);
+        self.alone.resize(size, 0.0);
+        self.by_motions.iter_mut().for_each(|values| values.resize(size, 0.0));
+        self.shared.clear();
+        let nodes = own.closed.iter().map(|&i| (i, false)).chain(own.stuck.iter().map(|&i| (i, true)));
+        for (r, (i, sticks)) in nodes.enumerate() {
+            match sticks {
+                true => line.slip_by_shared(i, 1.0, window.clone(), others),
+                false => line.gap_by_shared(i, 1.0, window.clone(), others),
+            }
+            let shared = forces[patch.clone()].iter_mut().zip(&others[patch.clone()]);
+            shared.for_each(|(force, by_all)| *force = self.share * by_all);
+            let equation = axes.equation(match sticks {
+                true => line.add_slip(i, patch.clone(), forces),
+                false => line.add_gap(i, patch.clone(), forces),
+            });
+            let (coefficients, motions) = self.row.split_at_mut(size);
+            own.write(coefficients, forces, line.grid);
+            motions.iter_mut().zip(&unknowns.axes).for_each(|(value, &axis)| *value = equation.motions[axis]);
+            let scale = scale(&mut self.row);
+            let known = gaps.get(i).copied().unwrap_or(0.0) + by_known_motions(&equation, line, axes, unknowns);
+            self.alone[r] = -scale * (axes.constant(&equation) + known);
+            self.own.row(r).0.copy_from_slice(&self.row[..size]);
+            self.by_motions.iter_mut().zip(&self.row[size..]).for_each(|(by_motion, value)| by_motion[r] = *value);
+            self.shared.extend(others[window.clone()].iter().map(|by_all| scale * by_all));
+        }
+        let motions = self.by_motions.iter_mut().take(count);
+        self.own.factorise() && motions.chain([&mut self.alone]).all(|side| self.own.solve_with(side))
+    }
+
+    /// Takes the forces of a solution, and adds them to those of all lines at the ports of the window.
+    fn place(
+        &mut self,
+        own: &LineUnknowns,
+        (forces, grid): (&[f64], &ContactGrid),
+        window: &Range<usize>,
+        mean: &mut [f64],
+    ) {
+        self.forces.resize(grid.ports(), 0.0);
+        self.forces[window.clone()].fill(0.0);
+        own.place(forces, grid, &mut self.forces);
+        mean.iter_mut().zip(&self.forces[window.clone()]).for_each(|(mean, force)| *mean += self.share * force);
+    }
+
+    /// Writes the forces that belong to those of the other lines; whether they are finite. `mean`: forces of all lines.
+    fn answer(&mut self, mean: &[f64], (window, known): (&Range<usize>, bool), forces: &mut [f64]) -> bool {
+        let others = &mut self.forces[window.clone()];
+        others.iter_mut().zip(mean).for_each(|(force, mean)| *force = mean - self.share * *force);
+        let rows = self.shared.chunks_exact(window.len());
+        forces.iter_mut().zip(rows).for_each(|(force, row)| *force = -dot(row, others));
+        let finite = self.own.solve_with(forces);
+        if known {
+            forces.iter_mut().zip(&self.alone).for_each(|(force, alone)| *force += alone);
+        }
+        finite
+    }
+}
+
+/// Change of the forces by those of the other lines.
+struct BetweenLines<'a> {
+    equations: &'a mut LineByLine,
+    grid: &'a ContactGrid,
+    unknowns: &'a Unknowns,
+}
+
+impl LinearSystem for BetweenLines<'_> {
+    fn apply(&mut self, x: &[f64], out: &mut [f64]) {
+        // What is not finite ends the iteration.
+        self.equations.answer(self.grid, self.unknowns, (x, false), out);
+        out.iter_mut().zip(x).for_each(|(out, x)| *out = x - *out);
+    }
+
+    fn precondition(&mut self, _: &mut [f64]) {}
+}
