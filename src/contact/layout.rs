@@ -164,13 +164,17 @@ impl PatchLayout {
         rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * row.line_load / approach))
     }
 
-    /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
-    /// punch, and the outer ones lift off first. Waves of the surfaces act on them as on the patch.
+    /// Lines under a load \[N] that stay where they are while the patch changes: all have one reach, so that the outer
+    /// ones are nearly as stiff as the middle and lift off first. Waves of the surfaces act on them about as on the patch.
     pub fn staying(&self, load: f64) -> impl Iterator<Item = LineLayout> {
         let scale = (self.load_of(load) / self.load).cbrt();
-        let approach = scale * scale * self.approach;
-        let mean = scale * scale * self.load / self.rows.iter().map(|row| row.width).sum::<f64>();
-        rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * mean / approach))
+        let factor = |row: &PatchRow| row.half_length * row.half_length / (4.0 * self.radius * row.line_load);
+        let lines = self.rows.iter().map(|row| [0.5 * row.width / factor(row), row.half_length]);
+        let length = scale * mindlin::common_length(1.5 * self.load / self.approach, lines);
+        rows::scaled(&self.rows, scale).map(move |row| {
+            let logarithm = (2.0 * length / row.half_length).ln();
+            self.line(&row, scale, 0.5 / (factor(&row) * logarithm))
+        })
     }
 
     /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load

@@ -29,17 +29,24 @@ pub fn lateral_compliance(a: f64, b: f64, shear_modulus: f64, poissons_ratio: f6
 /// A line of the half-length `a_k` bears `u/(2(1 − ν)/(πG k₁₁) ln(2L/a_k))` per width when it is shifted by `u`. `lines`
 /// are the widths and half-lengths \[m] of at least one line.
 pub fn kernel_length([a, b]: [f64; 2], poissons_ratio: f64, lines: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let shape = elliptic::complete((a / b).powi(2), 1.0, 1.0 - poissons_ratio) / b;
+    common_length(2.0 * (1.0 - poissons_ratio) / (k11(a / b) * shape), lines)
+}
+
+/// Length `L` \[m] with which contact lines of the half-lengths `a_k` \[m] and the weights `w_k` together are as stiff as
+/// they have to be, `Σ w_k/ln(2L/a_k) = stiffness`. `lines` are weights and half-lengths of at least one line, the
+/// stiffness is positive and has the unit of the weights.
+pub fn common_length(stiffness: f64, lines: impl Iterator<Item = [f64; 2]>) -> f64 {
     let lines: Vec<_> = lines.collect();
     let longest = lines.iter().fold(0.0, |longest: f64, [_, half_length]| longest.max(*half_length));
     // `Σ w/(t + o) = 1/wanted` with `t = ln(2L/longest)`, `o = ln(longest/a_k) ≥ 0`.
-    let shape = elliptic::complete((a / b).powi(2), 1.0, 1.0 - poissons_ratio) / b;
-    let wanted = k11(a / b) * shape / (2.0 * (1.0 - poissons_ratio));
-    let offsets: Vec<_> = lines.iter().map(|[width, half_length]| (width, (longest / half_length).ln())).collect();
+    let wanted = 1.0 / stiffness;
+    let offsets: Vec<_> = lines.iter().map(|[weight, half_length]| (weight, (longest / half_length).ln())).collect();
     // The harmonic mean of `t + o` is concave: from above, Newton's method comes below the root and then rises to it.
-    let mut t = wanted * lines.iter().map(|[width, _]| width).sum::<f64>();
+    let mut t = wanted * lines.iter().map(|[weight, _]| weight).sum::<f64>();
     for _ in 0..MOST_STEPS {
-        let sum: f64 = offsets.iter().map(|(width, offset)| *width / (t + offset)).sum();
-        let slope: f64 = offsets.iter().map(|(width, offset)| *width / (t + offset).powi(2)).sum();
+        let sum: f64 = offsets.iter().map(|(weight, offset)| *weight / (t + offset)).sum();
+        let slope: f64 = offsets.iter().map(|(weight, offset)| *weight / (t + offset).powi(2)).sum();
         let step = (wanted - 1.0 / sum) * sum * sum / slope;
         t = (t + step).max(0.5 * t);
         if step.abs() <= CLOSE * t {
