@@ -13,6 +13,10 @@ use std::f64::consts::PI;
 /// are shorter than the patch on a flat may be, for which their flexibility then is none.
 const LEAST: f64 = 0.1;
 
+/// Distance up to which the flexibility of a line is a logarithm, over the half-length under the load for which it is laid
+/// out \[1]: more than a patch is long by half of its load more.
+const END: f64 = 2.5;
+
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LineLayout {
@@ -134,6 +138,7 @@ impl PatchLayout {
                     tangential: Logarithm { reach: self.tangential.reach + scale.ln(), ..self.tangential },
                     normal: Logarithm { factor, reach: (0.5 * half_length).ln() + approach / (3.0 * pressing) },
                     coupling: self.coupling,
+                    end: END * half_length,
                 },
                 energy: line_load * (approach / 15.0 - 0.25 * pressing),
             }

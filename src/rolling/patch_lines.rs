@@ -15,7 +15,12 @@ pub fn apart(config: &Config) -> LineKernel {
     let [tangential, rigid, yielding] = REACHES;
     let normal = if config.rail.support_stiffness > 0.0 { yielding } else { rigid };
     let along = |reach: f64| Logarithm { factor: half_plane.kernel, reach: reach.ln() };
-    LineKernel { tangential: along(tangential), normal: along(normal), coupling: half_plane.coupling }
+    LineKernel {
+        tangential: along(tangential),
+        normal: along(normal),
+        coupling: half_plane.coupling,
+        end: f64::INFINITY,
+    }
 }
 
 /// Lines of the patch.

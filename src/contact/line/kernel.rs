@@ -73,7 +73,7 @@ pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMat
     let mut compliance = DMatrix::zeros(2 * n, 2 * n);
     for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
         let distance = if i == j { width(i) } else { (nodes[i] - nodes[j]).abs() };
-        let shape = distance.ln() + discrete[i.abs_diff(j)];
+        let shape = (distance.ln() + discrete[i.abs_diff(j)]).min(kernel.end.ln());
         compliance[(2 * i, 2 * j)] = kernel.tangential.factor * (kernel.tangential.reach - shape);
         compliance[(2 * i + 1, 2 * j + 1)] = kernel.normal.factor * (kernel.normal.reach - shape);
     }
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {
         let along = |factor: f64| Logarithm { factor, reach: 0.03_f64.ln() };
-        let kernel = LineKernel { tangential: along(2.0), normal: along(1.0), coupling: 0.0 };
+        let kernel = LineKernel { tangential: along(2.0), normal: along(1.0), coupling: 0.0, end: f64::INFINITY };
         let h = 1e-4;
         let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
         let matrix = line_compliance(&kernel, &nodes, h);
@@ -121,7 +121,7 @@ mod tests {
     fn nodes_of_growing_distance_are_displaced_as_the_half_plane_under_a_pressure() {
         let (h, reach) = (1e-4, 0.03_f64);
         let along = Logarithm { factor: 1.0, reach: reach.ln() };
-        let kernel = LineKernel { tangential: along, normal: along, coupling: 0.0 };
+        let kernel = LineKernel { tangential: along, normal: along, coupling: 0.0, end: f64::INFINITY };
         let mut half = vec![0.0];
         for k in 0..90 {
             let last = half[half.len() - 1];
