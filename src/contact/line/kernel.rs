@@ -6,7 +6,7 @@
 //! (see [`super::streamline`]); beyond [`REACH`] nodes both kernels agree.
 
 use crate::analytic::digamma;
-use crate::contact::kernel::{LineKernel, Logarithm};
+use crate::contact::kernel::LineKernel;
 use nalgebra::DMatrix;
 
 /// Number of neighbours that are corrected.
@@ -99,6 +99,7 @@ impl KernelCorrection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::kernel::Logarithm;
 
     #[test]
     fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {
