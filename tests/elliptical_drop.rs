@@ -96,7 +96,7 @@ fn a_dropped_wheel_strikes_as_hertz_says_and_comes_back() {
     }
 }
 
-/// What the rail gives is what the load takes, less what the damper of the vehicle has taken on the way: from rest to
+/// Impulse of the rail: that of the load, less what the damper of the vehicle has taken on the way: from rest to
 /// rest over some bounces. Measured: 1e-7 of the impulse.
 #[test]
 fn a_wheel_that_bounces_until_it_rests_has_lost_no_momentum() {

@@ -350,7 +350,7 @@ fn neither_energy_nor_force_jumps_where_lines_go_from_series_to_the_grid_and_bac
     }
 }
 
-/// What the rail takes from the turning wheel it gives to the moving vehicle, with the rolling radius as lever arm.
+/// Momentum that the rail takes from the turning wheel goes to the moving vehicle, with the rolling radius as lever arm.
 /// Measured: 1.3e-5 of the impulse with either solver, and 2e-7 between them.
 #[test]
 fn lines_that_change_their_solver_lose_no_momentum() {
