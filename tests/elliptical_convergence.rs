@@ -24,8 +24,8 @@ impl Numbers {
     }
 }
 
-/// A single line as narrow as the patch: load and height of the hub stay, with series and grid, whose energy on this mesh
-/// is off by 7 % of the little that friction takes.
+/// A single line as narrow as the patch: load and height of the hub stay, with series and grid, whose energy on this
+/// mesh is off by 7 % of the little that friction takes.
 #[test]
 fn a_single_line_carries_the_wheel() {
     for (contact, residual) in [(ContactMethod::Auto, 1e-3), (ContactMethod::Grid, 0.1)] {
@@ -165,8 +165,8 @@ fn a_flat_strikes_alike_whatever_lines_step_and_mesh() {
     within(differences("flat", reference, 2.5e-5, 20, striking), [3e-3, 0.03]);
 }
 
-/// Largest energy that the balance misses, over the largest stored energy, while an elastic wheel passes a flat of 50 mm
-/// at 10 m/s without friction. Its patches reach to where the nodes are farther apart.
+/// Largest energy that the balance misses, over the largest stored energy, while an elastic wheel passes a flat of 50
+/// mm at 10 m/s without friction. Its patches reach to where the nodes are farther apart.
 fn missing(elements: usize) -> f64 {
     let (step, velocity) = (5e-5, 10.0);
     let mut config = Numbers { lines: 3, elements, step }.ellipse();

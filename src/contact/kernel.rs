@@ -23,8 +23,8 @@ pub struct LineKernel {
     /// A pressure p strains the surface by `−g p`; `g` [1/Pa].
     pub coupling: f64,
     /// Distance from which on both stay what they are there \[m]: beyond, where no patch on smooth surfaces reaches, a
-    /// logarithm would lift the surface ever higher, and a long patch would gain energy by being pressed. Up to a constant
-    /// the rest is convex and falls to zero, so that it is positive definite (Pólya). Infinite: nowhere.
+    /// logarithm would lift the surface ever higher, and a long patch would gain energy by being pressed. Up to a
+    /// constant the rest is convex and falls to zero, so that it is positive definite (Pólya). Infinite: nowhere.
     pub end: f64,
 }
 

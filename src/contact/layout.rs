@@ -9,12 +9,12 @@ use crate::patch::{Ellipse, Hertz, mindlin};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Smallest load for which lines are laid out, over that of the description \[1]. The reaches of lines under a smaller one
-/// are shorter than the patch on a flat may be, for which their flexibility then is none.
+/// Smallest load for which lines are laid out, over that of the description \[1]. The reaches of lines under a smaller
+/// one are shorter than the patch on a flat may be, for which their flexibility then is none.
 const LEAST: f64 = 0.1;
 
-/// Distance up to which the flexibility of a line is a logarithm, over the half-length under the load for which it is laid
-/// out \[1]: more than a patch is long by half of its load more.
+/// Distance up to which the flexibility of a line is a logarithm, over the half-length under the load for which it is
+/// laid out \[1]: more than a patch is long by half of its load more.
 const END: f64 = 2.5;
 
 /// A line as part of a patch.

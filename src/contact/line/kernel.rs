@@ -57,9 +57,9 @@ impl KernelCorrection {
 /// Compliance of the surface of one body at `nodes` by the flexibility that a line has for itself, per unit nodal
 /// force, x and y of every node [m/(N/m)]; `spacing` is the distance of the nodes in the middle \[m]. At neighbouring
 /// nodes its differences are those of the discrete kernel `1/(n + ½)`: `κ (ln(L/h) − ψ(n + ½))` with the digamma
-/// function ψ, the number n of cells between two nodes and their mean length h. Beyond the middle, where cells grow, h is
-/// that of the nodes at hand: with the spacing of the middle a node would give way by its own force the more, the longer
-/// its cells are.
+/// function ψ, the number n of cells between two nodes and their mean length h. Beyond the middle, where cells grow, h
+/// is that of the nodes at hand: with the spacing of the middle a node would give way by its own force the more, the
+/// longer its cells are.
 pub fn line_compliance(kernel: &LineKernel, nodes: &[f64], spacing: f64) -> DMatrix<f64> {
     let n = nodes.len();
     let cells: Vec<f64> = nodes.windows(2).map(|pair| pair[1] - pair[0]).collect();
