@@ -32,8 +32,8 @@ fn dropped(model: &Arc<Model>, height: f64, load: f64) -> (Simulation, Inputs) {
     (simulation, inputs)
 }
 
-/// The largest force \[N] and approach \[m] by the balance of energy: the load falls by the height and the approach, and
-/// the contact stores `⅖ N δ` where `N = k δ^{3/2}`, a spring in series with it `½ c N²`.
+/// The largest force \[N] and approach \[m] by the balance of energy: the load falls by the height and the approach,
+/// and the contact stores `⅖ N δ` where `N = k δ^{3/2}`, a spring in series with it `½ c N²`.
 fn by_energy(model: &Model, spring: f64, height: f64, load: f64) -> [f64; 2] {
     let hertz = model.config().hertz();
     let missing = |force: f64| {
@@ -50,11 +50,11 @@ fn by_energy(model: &Model, spring: f64, height: f64, load: f64) -> [f64; 2] {
     [low, hertz.under(low).approach + spring * low]
 }
 
-/// A hub of 20 t, beside which the deformation carries no momentum worth mentioning. Bodies of the structural width are a
-/// linear spring in series with the contact, whose compliance is that at rest, 3.67e-10 m/N from 10 to 190 kN. Measured:
-/// force and approach 1e-3 and 5e-4 too large from 50 µm, 2.0e-3 and 1.3e-3 from 1 µm, whatever step, mesh and lines:
-/// below a tenth of the nominal load lines are too soft (by 0.1 µm at 5 kN, by 0.56 µm at 2 kN), which counts the more the
-/// less the wheel falls. Energy 3e-4 of what the load does, momentum 2e-5 of the impulse.
+/// A hub of 20 t, beside which the deformation carries no momentum worth mentioning. Bodies of the structural width are
+/// a linear spring in series with the contact, whose compliance is that at rest, 3.67e-10 m/N from 10 to 190 kN.
+/// Measured: force and approach 1e-3 and 5e-4 too large from 50 µm, 2.0e-3 and 1.3e-3 from 1 µm, whatever step, mesh
+/// and lines: below a tenth of the nominal load lines are too soft (by 0.1 µm at 5 kN, by 0.56 µm at 2 kN), which
+/// counts the more the less the wheel falls. Energy 3e-4 of what the load does, momentum 2e-5 of the impulse.
 #[test]
 fn a_dropped_wheel_strikes_as_hertz_says_and_comes_back() {
     for (lines, elements, step) in [(7, 10, 1e-4), (7, 10, 2.5e-5), (5, 20, 1e-4)] {
@@ -96,7 +96,7 @@ fn a_dropped_wheel_strikes_as_hertz_says_and_comes_back() {
     }
 }
 
-/// What the rail gives is what the load takes, less what the damper of the vehicle has taken on the way: from rest to
+/// Impulse of the rail: that of the load, less what the damper of the vehicle has taken on the way: from rest to
 /// rest over some bounces. Measured: 1e-7 of the impulse.
 #[test]
 fn a_wheel_that_bounces_until_it_rests_has_lost_no_momentum() {

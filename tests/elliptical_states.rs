@@ -248,9 +248,9 @@ fn derivatives_are_those_of_the_repeated_step() {
 }
 
 /// A load within 0.2 % of that for which lines are laid out leaves them their widths: derivatives are those of lines of
-/// constant width. Force and approach answer as they do beyond, where lines are laid out anew. Pressure, which rises with
-/// the square root of the load of a line and the third root of that of an ellipse, does not (1.50 of the difference), nor
-/// does the creep force in a single step (0.79).
+/// constant width. Force and approach answer as they do beyond, where lines are laid out anew. Pressure, which rises
+/// with the square root of the load of a line and the third root of that of an ellipse, does not (1.50 of the
+/// difference), nor does the creep force in a single step (0.79).
 #[test]
 fn derivatives_by_the_load_are_those_across_layouts() {
     let mut config = ellipse(7, 10, false);
@@ -350,8 +350,8 @@ fn neither_energy_nor_force_jumps_where_lines_go_from_series_to_the_grid_and_bac
     }
 }
 
-/// What the rail takes from the turning wheel it gives to the moving vehicle, with the rolling radius as lever arm.
-/// Measured: 1.3e-5 of the impulse with either solver, and 2e-7 between them.
+/// Momentum that the rail takes from the turning wheel goes to the moving vehicle, with the rolling radius as lever
+/// arm. Measured: 1.3e-5 of the impulse with either solver, and 2e-7 between them.
 #[test]
 fn lines_that_change_their_solver_lose_no_momentum() {
     let lost = |contact: ContactMethod| {
