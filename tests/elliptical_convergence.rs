@@ -162,7 +162,7 @@ fn striking(numbers: Numbers) -> [f64; 2] {
 #[test]
 fn a_flat_strikes_alike_whatever_lines_step_and_mesh() {
     let reference = Numbers { lines: 7, elements: 10, step: 5e-5 };
-    within(differences("flat", reference, 2.5e-5, 20, striking), [3e-3, 0.03]);
+    within(differences("flat", reference, 2.5e-5, 20, striking), [3e-3, 0.06]);
 }
 
 /// Largest energy that the balance misses, over the largest stored energy, while an elastic wheel passes a flat of 50
@@ -194,10 +194,9 @@ fn what_the_strike_of_a_long_flat_misses_falls_with_the_element() {
     assert!(coarse < 6e-3 && fine < 0.6 * coarse, "{coarse} {fine}");
 }
 
-/// A flat of 60 mm at 1 m/s, on which the wheel lies down: with logarithms that went on for ever seven lines found no
-/// contact. Measured: 126 and 125 kN at most with 3 and 7 lines, and 31.6 mm for half of the patch.
+/// A flat of 60 mm at 1 m/s, on which the wheel lies down: the reach of every line is longer than its patch. Measured: 126 and 125 kN at most with 3 and 7 lines, and 31.6 mm for half of the patch.
 #[test]
-fn a_wheel_lies_down_on_a_flat_longer_than_its_lines_reach() {
+fn a_wheel_lies_down_on_a_flat_of_sixty_millimetres() {
     let found = [3, 7].map(|lines| {
         let mut config = Numbers { lines, elements: 10, step: 2.5e-4 }.ellipse();
         (config.thermal.enabled, config.physics.yielding, config.tuning.tolerance) = (false, false, 0.0);

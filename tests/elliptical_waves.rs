@@ -1,8 +1,9 @@
 //! Waves of the rail under an elliptical patch.
 //!
-//! Closed form: a small height `h` of the surfaces changes the force by the work of the pressure under a flat punch of the
+//! Closed form of the patch: a small height `h` of the surfaces changes the force by the work of the pressure under a flat punch of the
 //! same patch, by Betti's theorem. Summed across the patch that pressure is constant along it, so that waves of the
-//! amplitude A and the wave number k act with `A sin(ka)/(ka)` (under a line with `A J₀(ka)`).
+//! amplitude A and the wave number k act with `A sin(ka)/(ka)` (under a line with `A J₀(ka)`). Lines that
+//! reach as far as patches of soft steel are long are not quite equally stiff, as this needs.
 
 mod common;
 
@@ -42,7 +43,7 @@ fn height(lines: usize) -> f64 {
 
 #[test]
 fn waves_act_with_their_mean_under_a_punch() {
-    for (lines, tolerance) in [(5, 0.03), (7, 0.01)] {
+    for (lines, tolerance) in [(5, 0.05), (7, 0.03)] {
         let (a, hub) = (rest(lines).hertz().under(1e5).a, height(lines));
         // Half of the difference of crest and trough under the middle.
         let answer = |length: f64| {
@@ -66,7 +67,7 @@ fn a_patch_on_a_rough_rail_has_the_pressure_of_hertz_under_other_loads() {
     config.rail.profile = format!("sinusoid(amplitude = {AMPLITUDE:?}, wavelength = 1.0)");
     let model = model(config);
     let hertz = model.config().hertz();
-    for (share, tolerance) in [(0.3, 0.06), (0.5, 0.04), (0.8, 0.02), (1.0, 0.005), (1.2, 0.02), (1.5, 0.04)] {
+    for (share, tolerance) in [(0.3, 0.05), (0.5, 0.04), (0.8, 0.015), (1.0, 0.002), (1.2, 0.015), (1.5, 0.03)] {
         let mut inputs = Inputs::rolling(model.config());
         inputs.drive.load = share * 1e5;
         let seen = Simulation::new(model.clone(), &inputs).unwrap().outputs().clone();

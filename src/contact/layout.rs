@@ -5,7 +5,7 @@ use crate::analytic::HalfPlane;
 use crate::patch::gauss::{self, GaussLine};
 use crate::patch::k11::k11;
 use crate::patch::rows::{self, EquivalentEllipse, PatchRow};
-use crate::patch::{Ellipse, Hertz, hertz, mindlin};
+use crate::patch::{Ellipse, Hertz, hertz, mindlin, reach};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -164,17 +164,21 @@ impl PatchLayout {
         rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * row.line_load / approach))
     }
 
-    /// Lines under a load \[N] that stay where they are while the patch changes: all have one reach, so that the outer
-    /// ones are nearly as stiff as the middle and lift off first. Waves of the surfaces act on them about as on the patch.
-    pub fn staying(&self, load: f64) -> impl Iterator<Item = LineLayout> {
+    /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
+    /// punch, and the outer ones lift off first. Waves of the surfaces act on them as on the patch. Lines that may become
+    /// as long as `longest` \[m], half of that counted, reach so far that none is pushed up by its own forces; outer ones
+    /// are then less stiff.
+    pub fn staying(&self, load: f64, longest: f64) -> Vec<LineLayout> {
         let scale = (self.load_of(load) / self.load).cbrt();
+        let rows: Vec<_> = rows::scaled(&self.rows, scale).collect();
         let factor = |row: &PatchRow| row.half_length * row.half_length / (4.0 * self.radius * row.line_load);
-        let lines = self.rows.iter().map(|row| [0.5 * row.width / factor(row), row.half_length]);
-        let length = scale * mindlin::common_length(1.5 * self.load / self.approach, lines);
-        rows::scaled(&self.rows, scale).map(move |row| {
-            let logarithm = (2.0 * length / row.half_length).ln();
-            self.line(&row, scale, 0.5 / (factor(&row) * logarithm))
-        })
+        let lines: Vec<_> = rows.iter().map(|row| [0.5 * row.width / factor(row), row.half_length]).collect();
+        let stiffness = 1.5 * rows::load(&rows) / (scale * scale * self.approach);
+        let lengths = reach::proportional_lengths(stiffness, &lines, 0.5 * longest);
+        let line = |(row, length): (&PatchRow, f64)| {
+            self.line(row, scale, 0.5 / (factor(row) * (2.0 * length / row.half_length).ln()))
+        };
+        rows.iter().zip(lengths).map(line).collect()
     }
 
     /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load

@@ -1,12 +1,7 @@
 //! Mindlin's stiffness of a sticking patch under a shear force, and contact lines that have it.
 
-use crate::patch::{elliptic, k11::k11};
+use crate::patch::{elliptic, k11::k11, reach::common_length};
 use std::f64::consts::PI;
-
-/// Relative step that ends the search for the length: it converges quadratically, so the result is exact.
-const CLOSE: f64 = 1e-10;
-/// Steps of this search at most; it needs at most four.
-const MOST_STEPS: usize = 100;
 
 /// Compliance `1/K_x` [m/N] of a sticking ellipse with the half axes `a` and `b` \[m] under a force in `x`, of **both**
 /// bodies together, equal half-spaces with the shear modulus \[Pa] and Poisson's ratio \[1].
@@ -31,29 +26,6 @@ pub fn lateral_compliance(a: f64, b: f64, shear_modulus: f64, poissons_ratio: f6
 pub fn kernel_length([a, b]: [f64; 2], poissons_ratio: f64, lines: impl Iterator<Item = [f64; 2]>) -> f64 {
     let shape = elliptic::complete((a / b).powi(2), 1.0, 1.0 - poissons_ratio) / b;
     common_length(2.0 * (1.0 - poissons_ratio) / (k11(a / b) * shape), lines)
-}
-
-/// Length `L` \[m] with which contact lines of the half-lengths `a_k` \[m] and the weights `w_k` together are as stiff as
-/// they have to be, `Σ w_k/ln(2L/a_k) = stiffness`. `lines` are weights and half-lengths of at least one line, the
-/// stiffness is positive and has the unit of the weights.
-pub fn common_length(stiffness: f64, lines: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let lines: Vec<_> = lines.collect();
-    let longest = lines.iter().fold(0.0, |longest: f64, [_, half_length]| longest.max(*half_length));
-    // `Σ w/(t + o) = 1/wanted` with `t = ln(2L/longest)`, `o = ln(longest/a_k) ≥ 0`.
-    let wanted = 1.0 / stiffness;
-    let offsets: Vec<_> = lines.iter().map(|[weight, half_length]| (weight, (longest / half_length).ln())).collect();
-    // The harmonic mean of `t + o` is concave: from above, Newton's method comes below the root and then rises to it.
-    let mut t = wanted * lines.iter().map(|[weight, _]| weight).sum::<f64>();
-    for _ in 0..MOST_STEPS {
-        let sum: f64 = offsets.iter().map(|(weight, offset)| *weight / (t + offset)).sum();
-        let slope: f64 = offsets.iter().map(|(weight, offset)| *weight / (t + offset).powi(2)).sum();
-        let step = (wanted - 1.0 / sum) * sum * sum / slope;
-        t = (t + step).max(0.5 * t);
-        if step.abs() <= CLOSE * t {
-            break;
-        }
-    }
-    0.5 * longest * t.exp()
 }
 
 #[cfg(test)]

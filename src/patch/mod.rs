@@ -10,6 +10,7 @@ pub mod gauss;
 pub mod hertz;
 pub mod k11;
 pub mod mindlin;
+pub mod reach;
 pub mod rows;
 
 pub use gauss::GaussLine;

@@ -4,6 +4,7 @@ use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
 use crate::contact::{LineKernel, LineLayout, Logarithm, PatchLayout, PatchMaterial};
 use crate::material::Isotropic;
+use crate::surface;
 
 /// Distances at which forces displace plane bodies as they displace those of wheel and rail \[m]: tangential, normal on
 /// a rigid base, and normal on a track that yields (`docs/theory/structural-width.md`).
@@ -34,6 +35,16 @@ pub enum PatchLines {
     Sized(PatchLayout),
 }
 
+/// Half-length that patches of soft steel reach, over that under the nominal load \[1].
+const SOFT: f64 = 3.5;
+
+/// Half of the length of the longest patch that is to be expected on surfaces with profiles \[m]: on the longest flat of
+/// the wheel, or on soft steel.
+fn longest_patch(config: &Config) -> f64 {
+    let half_length = config.nominal_patch().half_length;
+    (0.5 * surface::longest_flat(&config.wheel.profile) + half_length).max(SOFT * half_length)
+}
+
 impl PatchLines {
     /// Those of a configuration. On surfaces that are not `smooth`, whose patch is as long as their profile makes it, lines
     /// keep the layout of the nominal load: what the contact stores is then a function of its state.
@@ -59,7 +70,7 @@ impl PatchLines {
         Ok(match smooth {
             true => Self::Sized(patch),
             false => Self::Constant {
-                lines: patch.staying(load).collect(),
+                lines: patch.staying(load, longest_patch(config)),
                 symmetric: patch.is_symmetric(),
                 centre: patch.centre(),
             },
