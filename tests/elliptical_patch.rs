@@ -78,7 +78,11 @@ fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact(
             continue;
         }
         for lines in [5, 7, 9] {
-            let tolerance = if name == "step88" && lines == 5 { 0.025 } else { 0.018 };
+            let tolerance = match name {
+                "step88" if lines == 5 => 0.025,
+                "load3" => 0.007,
+                _ => 0.018,
+            };
             assert!(transient(case, lines) < tolerance, "{name} {lines}");
         }
     }

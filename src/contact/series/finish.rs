@@ -3,7 +3,7 @@
 use super::hot_layers::SeriesLayers;
 use super::places::{AtPlaces, total};
 use super::series_line::SeriesLine;
-use super::state::{Past, SeriesState, Tractions};
+use super::state::{Past, PatchPast, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
 use crate::contact::kernel::LineKernel;
@@ -78,7 +78,12 @@ fn expansion(line: &SeriesLine) -> f64 {
 fn remember(line: &SeriesLine, force: &[f64; POWER], state: &mut SeriesState, history: &mut LineHistory) -> [f64; 2] {
     let time = &line.problem.line.time;
     (state.tractions, state.kernel) = (line.tractions, line.problem.line.kernel);
-    let now = Past::Patch(line.tractions, line.relative(&line.surface, true));
+    let now = Past::Patch(PatchPast {
+        tractions: line.tractions,
+        smooth: line.relative(&line.surface, true),
+        reach: line.problem.line.kernel.tangential.reach,
+        share: line.problem.line.share,
+    });
     match time.is_stationary() {
         true => {
             history.rim_angle = History::constant(line.rim_angle);

@@ -1,5 +1,6 @@
 //! One line on its way to the solution on a single patch.
 
+use super::chebyshev::Arch;
 use super::constants::Constants;
 use super::hot_layers::{self, SeriesLayers};
 use super::places::{Places, lifts, place, total, turns};
@@ -141,9 +142,8 @@ impl<'a> SeriesLine<'a> {
     /// the pressure's friction `q` and, if `sticks`, the part that sticking takes away from it.
     pub fn relative(&self, surface: &SmoothSurfaces, sticks: bool) -> AtPoints {
         let (smooth, kernel) = (surface.relative(), self.problem.line.kernel.tangential);
-        let Tractions { pressure, slide, stick } = &self.tractions;
-        let force = slide * pressure.total() + if sticks { stick.total() } else { 0.0 };
-        let reach = 2.0 * kernel.factor * kernel.reach * force;
+        let stick = if sticks { self.tractions.stick } else { Arch::default() };
+        let reach = 2.0 * kernel.factor * kernel.reach * Tractions { stick, ..self.tractions }.total();
         let warm = self.layers.as_ref().map_or([0.0; POINTS], |layers| layers.relative);
         std::array::from_fn(|k| smooth[k] + warm[k] + reach)
     }

@@ -30,7 +30,8 @@ impl SeriesLine<'_> {
             let (smooth, logarithm) =
                 (points.polynomial(&self.relative(surface, sticks)), tractions.shear_logarithm(x));
             let past = self.before.kernel.tangential.factor;
-            let [last, before] = self.before.past.each_ref().map(|time| time.at(x, past, points));
+            let own = (past, Some([self.problem.line.share, kernel.tangential.reach]));
+            let [last, before] = self.before.past.each_ref().map(|time| time.at(x, own, points));
             for i in 0..N {
                 let now = smooth.at(x[i]) - 2.0 * along * logarithm[i];
                 slip[i] += time.a0 * now + time.a1 * last[i] + time.a2 * before[i];

@@ -5,7 +5,7 @@ use super::constants::{Constants, LayerTables};
 use super::contact::MOST_LINES;
 use super::hot_layers::SeriesLayers;
 use super::series_line::SeriesStart;
-use super::state::{Past, SeriesState, Tractions};
+use super::state::{Past, PatchPast, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE, Tables};
 use super::{finish, laws, transfer};
 use crate::contact::active_set::ActiveSetSolver;
@@ -197,7 +197,7 @@ impl ContactSolver for SeriesSolver {
         // That of a cylinder is found in the first iteration.
         pressure.terms[0] = 1.0;
         let tractions = Tractions { pressure, slide: 1.0, stick: Arch { terms: Default::default(), ..pressure } };
-        let past = [(); 2].map(|()| Past::Patch(Tractions::default(), [0.0; POINTS]));
+        let past = [(); 2].map(|()| Past::Patch(PatchPast::default()));
         let state = SeriesState { tractions, past, ..SeriesState::default() };
         let zeros = || DVector::zeros(2 * POINTS);
         let [loads, surface] = [(); 2].map(|()| [zeros(), zeros()]);

@@ -21,11 +21,33 @@ pub struct Tractions {
 /// Tangential displacement of the wheel less that of the rail, as a function of x.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Past {
-    /// Found on a patch: by the half-planes under these tractions, `−2κ ∫ q ln|x − s| ds`, and the smooth rest at the
-    /// points of the polynomial \[m].
-    Patch(Tractions, [f64; POINTS]),
+    /// Found on a patch.
+    Patch(PatchPast),
     /// Found on a grid: the first node \[m], the spacing \[m] and the values \[m].
     Grid(f64, f64, Vec<f64>),
+}
+
+/// Displacement by the half-planes under tractions, `−2κ ∫ q ln|x − s| ds`, and by all else.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PatchPast {
+    /// The tractions.
+    pub tractions: Tractions,
+    /// All else at the points of the polynomial \[m].
+    pub smooth: [f64; POINTS],
+    /// `ln(L/1 m)` of the reach of the line, by which that contains `2κ ln L ∫ q ds` \[1].
+    pub reach: f64,
+    /// Share of the line in the width of the bodies \[1].
+    pub share: f64,
+}
+
+impl PatchPast {
+    /// Factor with which the line's own displacement u is carried on by a line with another share s of the width and
+    /// another reach \[1]: its energy stays, which is `½ s u²/K` with `K ∝ ln(2L/a)` where all sticks.
+    fn carried(&self, [share, reach]: [f64; 2]) -> f64 {
+        let logarithm = |reach: f64| reach - (0.5 * self.tractions.pressure.half_width).ln();
+        let square = self.share * logarithm(reach) / (share * logarithm(self.reach));
+        if square > 0.0 && square.is_finite() { square.sqrt() } else { 1.0 }
+    }
 }
 
 /// State of a line as series, from step to step.
@@ -64,6 +86,11 @@ impl Tractions {
         logarithm_of_both(self.slide, [&self.pressure, &self.stick], x)
     }
 
+    /// Force on the wheel `∫ q ds` [N/m].
+    pub fn total(&self) -> f64 {
+        self.slide * self.pressure.total() + self.stick.total()
+    }
+
     /// Effect of the shear from the effects of pressure and stick.
     fn together<const N: usize>(&self, pressure: [f64; N], stick: [f64; N]) -> [f64; N] {
         std::array::from_fn(|i| self.slide * pressure[i] + stick[i])
@@ -84,8 +111,12 @@ impl Past {
     /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         match self {
-            Past::Patch(tractions, smooth) => {
-                tractions.pressure.is_sound() && tractions.stick.is_sound() && smooth.iter().all(|u| u.is_finite())
+            Past::Patch(PatchPast { tractions, smooth, reach, share }) => {
+                reach.is_finite()
+                    && share.is_finite()
+                    && tractions.pressure.is_sound()
+                    && tractions.stick.is_sound()
+                    && smooth.iter().all(|u| u.is_finite())
             }
             Past::Grid(first, spacing, values) => {
                 first.is_finite() && *spacing > 0.0 && values.iter().all(|u| u.is_finite())
@@ -93,12 +124,20 @@ impl Past {
         }
     }
 
-    /// Displacement at x \[m]; `kernel` of one half-plane [m/(N/m)].
-    pub fn at<const N: usize>(&self, x: &[f64; N], kernel: f64, points: &Lagrange) -> [f64; N] {
+    /// Displacement at x \[m]; `kernel` of one half-plane [m/(N/m)]. It is carried on by the line with the given share of
+    /// the width and the reach `ln(L/1 m)`; `None`: by one like that which had it.
+    pub fn at<const N: usize>(
+        &self,
+        x: &[f64; N],
+        (kernel, line): (f64, Option<[f64; 2]>),
+        points: &Lagrange,
+    ) -> [f64; N] {
         match self {
-            Past::Patch(tractions, smooth) => {
-                let (smooth, logarithm) = (points.polynomial(smooth), tractions.shear_logarithm(x));
-                std::array::from_fn(|i| smooth.at(x[i]) - 2.0 * kernel * logarithm[i])
+            Past::Patch(past) => {
+                let carried = line.map_or(1.0, |line| past.carried(line));
+                let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
+                let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
+                std::array::from_fn(|i| smooth.at(x[i]) + own - 2.0 * carried * kernel * logarithm[i])
             }
             Past::Grid(first, spacing, values) if values.len() > 3 => x.map(|x| cubic((x - first) / spacing, values)),
             Past::Grid(..) => [0.0; N],

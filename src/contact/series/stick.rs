@@ -2,7 +2,7 @@
 
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
-use super::state::{Past, SeriesState, Tractions};
+use super::state::{Past, PatchPast, SeriesState, Tractions};
 use crate::contact::error::ContactError;
 use crate::multistep::TimeDerivative;
 
@@ -206,7 +206,7 @@ impl StickSearch {
     fn expected(now: &Tractions, before: &SeriesState, time: &TimeDerivative) -> f64 {
         let share = |tractions: &Tractions| tractions.stick.half_width / tractions.pressure.half_width;
         match &before.past[1] {
-            Past::Patch(earlier, _) if earlier.same_branch(now) && !earlier.slides() => {
+            Past::Patch(PatchPast { tractions: earlier, .. }) if earlier.same_branch(now) && !earlier.slides() => {
                 let change = step_ratio(time) * (share(now) - share(earlier));
                 // Where nearly all or nothing sticks, slip may come from the other side or go.
                 let steady = change.abs() <= EXPECTED && (SURE..=1.0 - SURE).contains(&(share(now) + change));

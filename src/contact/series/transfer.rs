@@ -45,7 +45,7 @@ pub(super) fn to_grid(
         _ => slipping,
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
-    let past = |k: usize, x: f64| patch.past[k].at(&[x], patch.kernel.tangential.factor, &constants.points)[0];
+    let past = |k: usize, x: f64| patch.past[k].at(&[x], (patch.kernel.tangential.factor, None), &constants.points)[0];
     state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
     state.rest = REST;
     let closed = |i: usize| status(grid.x[i]).is_active();
