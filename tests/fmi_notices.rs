@@ -160,3 +160,16 @@ fn a_fixed_parameter_that_is_set_in_a_run_points_to_the_input_that_changes_it() 
         slave.refused(slave.set_real(parameter, real_start(parameter)), &[parameter, "fixed parameter", input]);
     }
 }
+
+/// Of a load whose patch is as much narrower or wider as to warm the bodies 1.26 or .79 times as much.
+#[test]
+fn a_load_that_warms_the_bodies_otherwise_than_the_patch_is_told() {
+    for (load, shape, told) in
+        [(5e4, 2, Some("1.26 times")), (2e5, 2, Some("0.79 times")), (9e4, 2, None), (5e4, 1, None)]
+    {
+        let found = warnings(&[("drive.load", load)], &[("contact.shape", shape)], 1, |_, _| ());
+        let about = found.iter().filter(|text| text.contains("model.nominal_load = 100000 N")).collect::<Vec<_>>();
+        assert_eq!(about.len(), usize::from(told.is_some()), "{load} {shape}: {found:?}");
+        assert!(told.is_none_or(|words| about[0].contains(words) && about[0].contains("mean load")), "{found:?}");
+    }
+}

@@ -11,6 +11,8 @@ use crate::simulation::validity::Limit;
 use crate::simulation::{Inputs, Outputs, Simulation};
 use wheelrail_slave::{Life, Log, Status};
 
+/// Share of the heat by which a patch of another width warms the bodies otherwise that is worth a word \[1].
+const WARMS_OTHERWISE: f64 = 0.05;
 /// Values that a message names, of those that it counts.
 const NAMED: usize = 3;
 /// Speed \[m/s] from which a wheel that turns against its travel is worth a word.
@@ -39,8 +41,12 @@ impl Notices {
     /// Warns of parameters and inputs that were written and do not act as they stand, and of values that look like
     /// another unit.
     pub fn of_settings(&mut self, settings: &Settings, config: &Config, life: &Life) {
-        let texts =
-            [of_preset_values(settings, config), of_start_values(settings, config), of_creepage(settings, config)];
+        let texts = [
+            of_preset_values(settings, config),
+            of_start_values(settings, config),
+            of_creepage(settings, config),
+            of_load(settings, config),
+        ];
         texts.into_iter().flatten().for_each(|text| life.log().report(Status::Warning, &text));
         for (reference, value) in &settings.parameters {
             if let Some(row) = find(*reference)
@@ -176,6 +182,24 @@ fn of_creepage(settings: &Settings, config: &Config) -> Option<String> {
         "initial.creepage = 0 is its declared start value and counts as not given: the run starts with the creepage that \
          drive.moment and drive.force need; set initial.given = written to start with a creepage of 0, or to changed to confirm"
             .to_owned()
+    })
+}
+
+/// Warning of a load at the start by which the patch has another width than that with which the bodies take up heat.
+fn of_load(settings: &Settings, config: &Config) -> Option<String> {
+    let (inputs, nominal) = (settings.inputs(config, true), config.model.nominal_load);
+    let load = inputs.drive.load;
+    let spreads = config.thermal.enabled && !config.contact.shape.is_line() && !inputs.vertical.prescribes_motion();
+    let warms = (nominal / load).cbrt();
+    let wrong = spreads && load > 0.0 && (warms - 1.0).abs() > WARMS_OTHERWISE;
+    wrong.then(|| {
+        format!(
+            "drive.load = {} N, but wheel and rail take up heat as under a patch that belongs to model.nominal_load = {} N: as a \
+             whole they warm {warms:.2} times as much as they should, while the contact is right; set model.nominal_load to the \
+             mean load of the run",
+            display_number(load),
+            display_number(nominal)
+        )
     })
 }
 
