@@ -173,3 +173,20 @@ fn a_load_that_warms_the_bodies_otherwise_than_the_patch_is_told() {
         assert!(told.is_none_or(|words| about[0].contains(words) && about[0].contains("mean load")), "{found:?}");
     }
 }
+
+#[test]
+fn rows_of_a_patch_of_another_shape_are_told() {
+    for (shape, told) in [(1, 1), (2, 1), (3, 0)] {
+        let dll = load();
+        let slave = Slave::coarse(&dll);
+        let rows = "position,half_length,load_share; -2e-3,5e-3,1; 2e-3,5e-3,1";
+        assert_eq!(
+            (slave.set_string("contact.rows", rows), slave.set_integer("contact.shape", shape)),
+            (fmi2OK, fmi2OK)
+        );
+        slave.initialize();
+        let found: Vec<_> = slave.messages().into_iter().map(|message| message.text).collect();
+        let about = found.iter().filter(|text| text.contains("contact.rows has no effect")).count();
+        assert_eq!(about, told, "{shape}: {found:?}");
+    }
+}

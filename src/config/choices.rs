@@ -123,6 +123,14 @@ impl ContactShape {
             ContactShape::Ellipse | ContactShape::Rows => false,
         }
     }
+
+    /// The patch is that of `contact.rows`.
+    pub fn has_rows(self) -> bool {
+        match self {
+            ContactShape::Line | ContactShape::Ellipse => false,
+            ContactShape::Rows => true,
+        }
+    }
 }
 
 choice! {

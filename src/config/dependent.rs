@@ -112,15 +112,20 @@ fn longest_half_width(config: &Config) -> f64 {
     (WHEEL_SHARE * config.wheel.radius).min(RAIL_SHARE * config.rail.length)
 }
 
-/// Rows of a patch for which wheel and rail have room.
+/// Rows of a patch for which wheel and rail have room; rows that have not been read are not judged.
 fn longest_row(config: &Config) -> Dependent {
     let (radius, length) = (display_number(config.wheel.radius), display_number(config.rail.length));
+    let rows = config.patch_rows().ok().flatten();
+    let [low, high] = match rows {
+        Some(_) => [SMALLEST_HALF_WIDTH, longest_half_width(config)],
+        None => [0.0, f64::INFINITY],
+    };
     Dependent {
         name: "largest half_length of contact.rows",
-        value: config.nominal_patch().half_length,
+        value: rows.map_or(0.0, |rows| rows.half_length()),
         unit: "m",
-        low: SMALLEST_HALF_WIDTH,
-        high: longest_half_width(config),
+        low,
+        high,
         others: format!(
             "wheel.radius = {radius} m and rail.length = {length} m (the contact zone fits wheel and rail)"
         ),

@@ -81,10 +81,7 @@ impl Config {
                 return Err(ConfigError::Range { name: row.name, value, range: row.kind.range() });
             }
         }
-        match self.patch_rows() {
-            // A file is read when the model is prepared.
-            Ok(_) | Err(RowsError::Unread(_)) => dependent::ranges(self).into_iter().try_for_each(Dependent::check),
-            Err(error) => Err(error.into()),
-        }
+        self.check_rows()?;
+        dependent::ranges(self).into_iter().try_for_each(Dependent::check)
     }
 }

@@ -44,6 +44,15 @@ impl Config {
         }
     }
 
+    /// Refuses a text of rows without meaning, even where the patch has another shape; a file is read when the model is
+    /// prepared.
+    pub(super) fn check_rows(&self) -> Result<(), RowsError> {
+        let text = &self.contact.rows;
+        let read =
+            if text.is_empty() { self.patch_rows() } else { PatchRows::parse(text, self.model.nominal_load).map(Some) };
+        if patch_rows::is_file(text) { Ok(()) } else { read.map(|_| ()) }
+    }
+
     /// Patch under the nominal load, for rows in a file that has not been read that of an ellipse. A line has the half-width `a = √(4 P R / (π E*))` of the Hertzian line contact of
     /// a cylinder on a plane of the same material (Johnson, *Contact Mechanics* (1985), eq. 4.43).
     pub fn nominal_patch(&self) -> NominalPatch {

@@ -46,6 +46,7 @@ impl Notices {
             of_start_values(settings, config),
             of_creepage(settings, config),
             of_load(settings, config),
+            of_rows(settings, config),
         ];
         texts.into_iter().flatten().for_each(|text| life.log().report(Status::Warning, &text));
         for (reference, value) in &settings.parameters {
@@ -201,6 +202,13 @@ fn of_load(settings: &Settings, config: &Config) -> Option<String> {
             display_number(nominal)
         )
     })
+}
+
+/// Warning of rows of a patch that has another shape.
+fn of_rows(settings: &Settings, config: &Config) -> Option<String> {
+    let set = named("contact.rows").is_some_and(|row| settings.parameters.contains_key(&row.reference));
+    let idle = set && !config.contact.rows.is_empty() && !config.contact.shape.has_rows();
+    idle.then(|| "contact.rows has no effect: contact.shape is another; set contact.shape = rows".to_owned())
 }
 
 /// The number of things, in words.
