@@ -5,7 +5,7 @@ use common::*;
 use std::sync::Arc;
 use wheelrail::analytic::{carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::config::{Config, ContactMethod, ContactShape, StartTemperature};
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
+use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
 
 /// The preset with a number of lines and of elements per half axis.
 fn ellipse(lines: usize, elements: usize, heat: bool) -> Config {
@@ -13,30 +13,6 @@ fn ellipse(lines: usize, elements: usize, heat: bool) -> Config {
     config.contact.lines = lines;
     config.thermal.enabled = heat;
     config
-}
-
-/// Runs with inputs that are changed before every step; outputs at the start and after every step.
-fn run(
-    model: &Arc<Model>,
-    mut inputs: Inputs,
-    (step, count): (f64, usize),
-    change: impl Fn(&mut Inputs, f64),
-) -> Vec<Outputs> {
-    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    let mut seen = vec![simulation.outputs().clone()];
-    for k in 1..=count {
-        change(&mut inputs, k as f64 * step);
-        simulation.advance(&inputs, step).unwrap_or_else(|error| panic!("step {k} of {step} s: {error}"));
-        seen.push(simulation.outputs().clone());
-    }
-    seen
-}
-
-fn vary(inputs: &mut Inputs, t: f64) {
-    inputs.drive.moment = -4000.0 - 2000.0 * (300.0 * t).sin();
-    inputs.drive.load = 1e5 * (1.0 + 0.1 * (400.0 * t).sin());
-    inputs.drive.friction = 0.3 + 0.03 * (200.0 * t).sin();
-    inputs.drive.temperature = 293.0 + 1e3 * t;
 }
 
 #[test]

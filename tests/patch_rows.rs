@@ -31,30 +31,6 @@ fn ellipse(lines: usize, heat: bool) -> Config {
     config
 }
 
-/// Outputs at the start and after every step of inputs that change.
-fn run(
-    model: &Arc<Model>,
-    mut inputs: Inputs,
-    (step, count): (f64, usize),
-    change: impl Fn(&mut Inputs, f64),
-) -> Vec<Outputs> {
-    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    let mut seen = vec![simulation.outputs().clone()];
-    for k in 1..=count {
-        change(&mut inputs, k as f64 * step);
-        simulation.advance(&inputs, step).unwrap_or_else(|error| panic!("step {k} of {step} s: {error}"));
-        seen.push(simulation.outputs().clone());
-    }
-    seen
-}
-
-fn vary(inputs: &mut Inputs, t: f64) {
-    inputs.drive.moment = -4000.0 - 2000.0 * (300.0 * t).sin();
-    inputs.drive.load = 1e5 * (1.0 + 0.1 * (400.0 * t).sin());
-    inputs.drive.friction = 0.3 + 0.03 * (200.0 * t).sin();
-    inputs.drive.temperature = 293.0 + 1e3 * t;
-}
-
 /// Steady rolling at 20 m/s before the tread comes round again.
 fn rolling(model: &Arc<Model>, creepage: f64) -> Outputs {
     run(model, prescribed(model, 20.0, creepage), (2.5e-3, 20), |_, _| {}).pop().unwrap()

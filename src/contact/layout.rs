@@ -9,8 +9,8 @@ use crate::patch::{Ellipse, Hertz, hertz, mindlin, reach};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Smallest load for which lines are laid out, over that of the description \[1]. The reaches of lines under a smaller one
-/// are shorter than the patch on a flat may be, for which their flexibility then is none.
+/// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that layout,
+/// with which they are too soft.
 const LEAST: f64 = 0.1;
 
 /// A line as part of a patch.

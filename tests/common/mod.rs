@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 use wheelrail::config::{Config, ContactMethod, presets};
 use wheelrail::contact::SolverState;
-use wheelrail::simulation::{BasisStore, Inputs, Model, Rotation, Simulation, Translation};
+use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 pub const KMH: f64 = 1.0 / 3.6;
 
@@ -83,4 +83,29 @@ pub fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config
 /// True where the contact was found on a patch.
 pub fn is_patch(simulation: &Simulation) -> bool {
     matches!(simulation.state().lines[0].contact.solver, SolverState::Series(_))
+}
+
+/// Outputs at the start and after every step of inputs that change.
+pub fn run(
+    model: &Arc<Model>,
+    mut inputs: Inputs,
+    (step, count): (f64, usize),
+    change: impl Fn(&mut Inputs, f64),
+) -> Vec<Outputs> {
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut seen = vec![simulation.outputs().clone()];
+    for k in 1..=count {
+        change(&mut inputs, k as f64 * step);
+        simulation.advance(&inputs, step).unwrap_or_else(|error| panic!("step {k} of {step} s: {error}"));
+        seen.push(simulation.outputs().clone());
+    }
+    seen
+}
+
+/// Moment, load, friction and rail temperature that change a little in every step, at the time `t` [s].
+pub fn vary(inputs: &mut Inputs, t: f64) {
+    inputs.drive.moment = -4000.0 - 2000.0 * (300.0 * t).sin();
+    inputs.drive.load = 1e5 * (1.0 + 0.1 * (400.0 * t).sin());
+    inputs.drive.friction = 0.3 + 0.03 * (200.0 * t).sin();
+    inputs.drive.temperature = 293.0 + 1e3 * t;
 }

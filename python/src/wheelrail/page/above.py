@@ -39,8 +39,9 @@ def _edges(run, position, time):
     middle = 0.5 * (position[:, 1:] + position[:, :-1])
     first, last = 2.0 * position[:, :1] - middle[:, :1], 2.0 * position[:, -1:] - middle[:, -1:]
     if run.has("contact.width"):
-        half = 0.5 * np.interp(time, run.time, run.get("contact.width"))[:, None]
-        first, last = np.minimum(-half, position[:, :1]), np.maximum(half, position[:, -1:])
+        # Positions may begin anywhere, as those of a table of rows do.
+        beyond = 0.5 * (np.interp(time, run.time, run.get("contact.width"))[:, None] - (last - first))
+        first, last = np.minimum(first - beyond, position[:, :1]), np.maximum(last + beyond, position[:, -1:])
     return np.hstack([first, middle, last])
 
 
