@@ -21,6 +21,7 @@ VALUES = {
     "rail.temperature": (293.0, 303.0),
     "rail.slope": (0.0, 0.01),
     "rail.elevation": (0.0, 1e-6),
+    "rail.elevation_rate": (0.0, 1e-3),
     "brake.torque": (0.0, 500.0),
 }
 # Inputs that act whatever is prescribed.

@@ -6,6 +6,7 @@ use common::{model, preset};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use wheelrail::config::{Config, Hub};
+use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, Translation, Vertical};
 
 const GRAVITY: f64 = 9.80665;
@@ -270,4 +271,39 @@ fn a_wheelset_is_two_wheels() {
     assert!((two.heat_to_rail / one.heat_to_rail - 2.0).abs() < 1e-2);
     assert!((two.temperature_wheel_max - one.temperature_wheel_max).abs() < 0.1);
     assert!((two.temperature_wheel_bulk - one.temperature_wheel_bulk).abs() < 1e-2);
+}
+
+/// Largest deviation of the contact force from the load \[N] on a sinusoidal track of the amplitude 0.1 mm and the wave 1 m at
+/// 20 m/s, in the second half of half a second in steps of `h` seconds; with its rates where `given`.
+fn force_on_a_wave(h: f64, given: bool) -> (f64, bool) {
+    let model = wheel(|config| config.initial.velocity = 20.0);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let (mut worst, mut told, frequency): (f64, _, _) = (0.0, false, 2.0 * PI * 20.0);
+    for k in 1..=(0.5 / h).round() as u32 {
+        let phase = frequency * h * f64::from(k);
+        inputs.drive.elevation = 1e-4 * (1.0 - phase.cos());
+        inputs.drive.elevation_rate = if given { 1e-4 * frequency * phase.sin() } else { 0.0 };
+        simulation.advance(&inputs, h).unwrap();
+        told |= simulation.exceeded_limits().any(|limit| limit == Limit::Track);
+        if phase > 0.25 * frequency {
+            let [low, high] = [simulation.outputs().contact_force_min, simulation.outputs().contact_force_max];
+            worst = worst.max((low - 1e5).abs()).max((high - 1e5).abs());
+        }
+    }
+    (worst, told)
+}
+
+#[test]
+fn a_track_loads_the_wheel_alike_in_steps_of_one_and_five_milliseconds_or_tells_that_it_does_not() {
+    let (exact, _) = force_on_a_wave(2.5e-4, true);
+    for (h, given) in [(1e-3, false), (2e-3, false), (1e-3, true), (5e-3, true)] {
+        let (force, told) = force_on_a_wave(h, given);
+        println!("steps of {h} s, rates given: {given}: {force} N, in short steps {exact} N");
+        assert!((force / exact - 1.0).abs() < 0.05 && !told);
+    }
+    let (force, told) = force_on_a_wave(5e-3, false);
+    println!("steps of 0.005 s without rates: {force} N");
+    // Corners would make it 8.4 kN.
+    assert!(told && force < 4.2e3);
 }

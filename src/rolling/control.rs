@@ -150,9 +150,9 @@ macro_rules! inputs {
 
         /// Everything the outside prescribes during one communication step.
         ///
-        /// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities, the hub displacement and
-        /// the elevation of the rail cannot
-        /// jump: they move linearly from their present value to the input's value at the end of the communication step.
+        /// Forces and friction follow `drive + rate·(t − t_start)`. Prescribed velocities and the hub displacement
+        /// cannot jump: they move linearly from their present value to the input's value at the end of the communication
+        /// step. The elevation of the rail gets there on a cubic ([`super::elevation`]).
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         pub struct Inputs {
             $( #[doc = concat!($choice_text, ".")] pub $choice: $Choice, )*
@@ -220,9 +220,13 @@ inputs! {
             "Gradient of the track, rising in x positive: the weight of all masses that move in x pulls the wheel along it, \
              downhill; drive.load stays normal to the track";
         253 elevation of "rail", in "m" as "mm", from -0.1 to 0.1, nominal 1e-3,
-            "Height of the rail under the wheel, up positive; moves linearly to its value over the step, as \
-             drive.displacement does, whose zero stays where it was (the height of the modelled piece of rail is the \
-             parameter rail.height)";
+            "Height of the rail under the wheel, up positive; it reaches its value at the end of the step, smoothly: see \
+             rail.elevation_rate. The zero of drive.displacement stays where it was (the height of the modelled piece of rail is \
+             the parameter rail.height)";
+        254 elevation_rate of "rail", in "m/s" as "mm/s", from -10.0 to 10.0, nominal 1e-2,
+            "Rate of rail.elevation at the end of the step: velocity times inclination of the rail under the wheel. A master that \
+             knows the track gives it, and steps of a tenth of a wave are short enough; 0: that of the parabola through this height \
+             and those of the two steps before, for which steps should be a thirtieth of a wave";
         206 tread_heat of "drive", in "W" as "kW", from 0.0 to 1e9, nominal 1e4,
             "Heat of the brake blocks into the tread";
         260 torque of "brake", in "N.m" as "kN.m", from 0.0 to 1e9, nominal 1e4,

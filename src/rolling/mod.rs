@@ -21,6 +21,7 @@ pub mod bodies;
 pub mod brake;
 pub mod contact_model;
 pub mod control;
+pub mod elevation;
 pub mod error;
 pub mod fields;
 pub mod flattening;

@@ -71,6 +71,7 @@ fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
         temperature: 100.0,
         slope: 1.0,
         elevation: approach,
+        elevation_rate: 1.0,
     }
 }
 

@@ -1,5 +1,6 @@
 //! All data that a restart needs, and nothing else. Per metre of width.
 
+use super::elevation::Rise;
 use super::line::Line;
 use super::support::BaseMotion;
 use crate::heat::LateralHistory;
@@ -20,6 +21,8 @@ pub struct State {
     pub rail: BodyState,
     /// Height of the rail under the wheel \[m].
     pub elevation: f64,
+    /// Rates of that height.
+    pub rise: Rise,
     /// Motion of the base of the rail.
     pub base: BaseMotion,
     /// Contact lines side by side.

@@ -47,6 +47,8 @@ limits! {
     Waves,
     /// Internal step that resolves the shortest wave of the surfaces.
     Sampling,
+    /// Blow that a corner of the track gives to the wheel.
+    Track,
     /// Residual of the energy balance.
     Energy,
     /// Internal steps that a communication step takes.
@@ -98,6 +100,8 @@ const RESOLVED_PHASE: f64 = 0.2;
 /// `a²/R` \[1]. Estimated: with it, steps of up to 25 µs are indefinite in `railway_dry`, where those of 20 µs chatter
 /// and those of 50 µs do not.
 const TREAD_SHIFT: f64 = 1.5;
+/// Blow of a corner of `rail.elevation`, over the nominal load, beyond which a run is told of it \[1].
+const CORNER: f64 = 0.01;
 /// Residual of the energy balance beyond which a run is told of it \[1].
 const UNBALANCED: f64 = 0.05;
 /// Internal steps in one communication step beyond which a run is told that it takes long \[1]: with heat about half a
@@ -151,6 +155,7 @@ impl Simulation {
                 let way = mean.max(self.speed() * self.state().clock.last_step);
                 (way, AtMost(self.shortest_wave() / FEWEST_PER_WAVE))
             }
+            Limit::Track => (self.blow_of_the_track(), AtMost(CORNER * nominal)),
             Limit::Energy => (outputs.energy_residual.abs(), AtMost(UNBALANCED)),
             Limit::Effort => (outputs.internal_steps as f64, AtMost(MANY_STEPS)),
             Limit::Limited => (outputs.limited_steps as f64, AtMost(0.0)),
@@ -205,6 +210,18 @@ impl Simulation {
         let config = self.model().config();
         let (half_width, element) = (nominal_half_width(config), grid_spacing(config));
         HOLE * element * (length + element) / (half_width * half_width)
+    }
+
+    /// Force \[N] that the error of the rate of `rail.elevation` may ring the wheel on its contact with: rate `ṡ` times
+    /// `√(k m)`, with the stiffness `k` from load and approach, and the mass `m` of the wheel.
+    fn blow_of_the_track(&self) -> f64 {
+        let (outputs, rolling) = (self.outputs(), &self.model().rolling);
+        let stiffness = outputs.contact_force_y / outputs.contact_approach;
+        if !(stiffness > 0.0) {
+            return 0.0;
+        }
+        let mass = rolling.wheel.inertia[1] * self.model().config().width();
+        self.state().rise.error * (stiffness * mass).sqrt()
     }
 
     /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding

@@ -22,6 +22,7 @@ mod control;
 mod prediction;
 
 use super::control::{Drive, Inputs};
+use super::elevation::Course;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::{Pressing, State, StepControl};
@@ -93,7 +94,7 @@ pub fn advance(
     let end = inputs.at(h);
     end.validate()?;
     let [velocity, displacement, omega] = state.motion.values();
-    let start = Drive { omega, velocity, displacement, elevation: state.elevation, ..inputs.at(0.0) };
+    let start = Drive { omega, velocity, displacement, ..inputs.at(0.0) };
     let h = h + state.clock.pending;
     if h < SHORTEST_STEP {
         out.clone_from(state);
@@ -101,11 +102,13 @@ pub fn advance(
         return Ok(());
     }
     let [mut now, mut next] = std::mem::take(&mut workspace.states);
-    let ramp = Ramp { inputs, start, end, h };
+    let elevation = state.rise.course([state.elevation, end.elevation], end.elevation_rate, h);
+    let ramp = Ramp { inputs, start, end, elevation, h };
     let result = march(model, tuning, state, &ramp, workspace, &mut now, &mut next);
     if result.is_ok() {
         std::mem::swap(out, &mut now);
         out.clock.time = state.clock.time + h;
+        out.rise = ramp.elevation.rise();
     }
     workspace.states = [now, next];
     result
@@ -116,14 +119,16 @@ struct Ramp<'a> {
     inputs: &'a Inputs,
     start: Drive,
     end: Drive,
+    elevation: Course,
     /// Its length [s].
     h: f64,
 }
 
 impl Ramp<'_> {
-    /// Values at a fraction of the step; prescribed motions move linearly.
+    /// Values at a fraction of the step; prescribed motions move linearly, the rail smoothly.
     fn at(&self, fraction: f64) -> Drive {
-        self.start.zip(&self.end, |a, b| if fraction == 1.0 { b } else { a + fraction * (b - a) })
+        let linear = self.start.zip(&self.end, |a, b| if fraction == 1.0 { b } else { a + fraction * (b - a) });
+        Drive { elevation: self.elevation.at(fraction), ..linear }
     }
 }
 
@@ -136,10 +141,12 @@ fn resolving_step(model: &RollingModel, state: &State, h: f64) -> f64 {
     (wave / (STEPS_PER_WAVE * speed)).min(AUTOMATIC)
 }
 
-/// Number of pieces into which `solver.max_step`, or the surfaces, divide a communication step of `h` seconds.
-fn fewest_pieces(model: &RollingModel, tuning: &Tuning, state: &State, h: f64) -> Result<u64, StepError> {
+/// Number of pieces into which `solver.max_step`, or the surfaces, and the elevation of the rail divide a communication
+/// step.
+fn fewest_pieces(model: &RollingModel, tuning: &Tuning, state: &State, ramp: &Ramp) -> Result<u64, StepError> {
+    let h = ramp.h;
     let max_step = if tuning.max_step > 0.0 { tuning.max_step } else { resolving_step(model, state, h) };
-    let pieces = (h / max_step - 1e-9).ceil().max(1.0) as u64;
+    let pieces = ((h / max_step - 1e-9).ceil().max(1.0) as u64).max(ramp.elevation.pieces());
     if pieces > MOST_PIECES {
         return Err(StepError::TooManySteps { step: h, max_step, pieces, most: MOST_PIECES });
     }
@@ -198,7 +205,7 @@ fn march(
     now: &mut State,
     next: &mut State,
 ) -> Result<(), StepError> {
-    let fewest = fewest_pieces(model, tuning, state, ramp.h)?;
+    let fewest = fewest_pieces(model, tuning, state, ramp)?;
     let mut place = Place { done: 0, pieces: fewest };
     let mut control = Control::new(tuning, state.clock.control);
     while !control.allows(ramp.h / place.pieces as f64) && place.may_halve(tuning, 0) {

@@ -22,6 +22,7 @@ impl Simulation {
             Limit::Chatter => chatter(self, value, bound),
             Limit::Waves => waves(self, value, bound),
             Limit::Sampling => sampling(value, bound),
+            Limit::Track => track(value, bound),
             Limit::Energy => energy(self, value),
             Limit::Effort => effort(self, value),
             Limit::Limited => limited(self, value),
@@ -139,6 +140,12 @@ fn sampling(value: f64, bound: f64) -> String {
          chooses it by the profile",
         1e3 * value,
         1e3 * bound
+    )
+}
+
+fn track(value: f64, bound: f64) -> String {
+    format!(
+        "rail.elevation changes between communication points as no smooth track does: its corners may ring the wheel with some          {value:.0} N, more than {bound:.0} N; give rail.elevation_rate, or take communication steps of a thirtieth of the          shortest wave of the track"
     )
 }
 
