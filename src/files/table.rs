@@ -70,7 +70,7 @@ impl<'a> Table<'a> {
 
     /// Rows one after the other; one with other cells than names is refused.
     pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, TableError>> {
-        self.rest.iter().map(|&(line, text)| {
+        self.rest.iter().map(move |&(line, text)| {
             let cells = cells(text).map_err(|why| TableError::new(line, why))?;
             if cells.len() == self.names.len() {
                 return Ok(Row { line, cells });

@@ -23,7 +23,7 @@ impl Simulation {
         };
         let gaps = [("rail.profile", &surfaces.rail), ("wheel.profile", &surfaces.wheel)].into_iter().filter_map(gap);
         let far = self.sense();
-        let ahead = surfaces.rail.sampled().filter(|[first, last]| f64::min(far * first, far * last) > FAR);
+        let ahead = surfaces.rail.sample_ends().filter(|[first, last]| f64::min(far * first, far * last) > FAR);
         gaps.chain(ahead.map(|ends| self.far(ends, [0.0; 2]))).collect()
     }
 
@@ -32,7 +32,7 @@ impl Simulation {
         let rail = &self.model().rolling.contact.surfaces.rail;
         let reach = self.model().rolling.reach;
         let unmet = !rail.is_smooth() && !rail.meets(way[0] - reach, way[1] + reach);
-        let nearest = || rail.sampled().next();
+        let nearest = || rail.sample_ends().next();
         unmet.then(|| match nearest() {
             Some(ends) => self.far(ends, way),
             None => format!(

@@ -7,7 +7,7 @@ of those it is said how many samples are not seen. The command line does the sam
 """
 
 from bisect import bisect_left, bisect_right
-from math import floor
+from math import ceil, floor
 from numbers import Number
 
 from .samples import samples_of
@@ -17,9 +17,10 @@ ROUNDING = 1e-9  # s: shorter times than this are rounding
 SHORTEST = 1e-6  # s: steps are divided into no shorter ones
 SEEN = 1e-6  # share of its largest value by which a value may be off the line that takes its place
 FINEST = 20  # how often a step is halved to find where a function jumps
-MOST = 500  # samples of a function in a step: noise has no end
+FINE = 2.5e-4  # s: a function is asked at least as often as this
+MOST = 2000  # samples of a function in a step: noise has no end
 PIECES = 4  # in which a function is asked at least
-CLOSE = 1e-3  # share of its range in a step by which a function may be off a straight piece
+CLOSE = 1e-4  # share of its range in a step by which a function may be off a straight piece
 MOTIONS = ("drive.omega", "drive.velocity", "drive.displacement", "rail.elevation")
 
 
@@ -130,10 +131,11 @@ class Function:
 
     def _samples(self, begin, end):
         """Samples that follow the function within a step; two at one time where it jumps."""
-        points = [(time, self.at(time)) for time in (begin + (end - begin) * k / PIECES for k in range(PIECES))]
+        pieces = min(max(ceil((end - begin) / FINE), PIECES), MOST)
+        points = [(time, self.at(time)) for time in (begin + (end - begin) * k / pieces for k in range(pieces))]
         points.append((end, self.at(end)))
         values = [value for _, value in points]
-        off = CLOSE * (max(values) - min(values)) if self.variable.type == "Real" else 0.0
+        off = max(CLOSE * (max(values) - min(values)), 1e-9 * max(map(abs, values)))
         found = points[:1]
         for left, right in zip(points, points[1:]):
             self._follow(left, right, off, FINEST, found)

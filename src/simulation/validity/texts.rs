@@ -178,7 +178,7 @@ fn limited(simulation: &Simulation, value: f64) -> String {
 fn end(simulation: &Simulation, bound: f64) -> String {
     let rail = &simulation.model().rolling.contact.surfaces.rail;
     let at = if simulation.outputs().wheel_velocity >= 0.0 { bound } else { -bound };
-    let mut samples = rail.sampled().filter(|ends| ends.contains(&at));
+    let mut samples = rail.sample_ends().filter(|ends| ends.contains(&at));
     let [first, last] = samples.next().unwrap_or([at; 2]);
     format!(
         "the contact, at {:.3} m, has passed the last sample of rail.profile at {at:.3} m, behind which the rail keeps its last \

@@ -40,7 +40,7 @@ impl Defect {
     }
 
     /// First and last position \[m] of samples that lie on the rail; none of other forms.
-    pub fn sampled(&self) -> Option<[f64; 2]> {
+    pub fn sample_ends(&self) -> Option<[f64; 2]> {
         let (Form::Samples(samples), Repetition { position, every, count, turn: None }) =
             (&self.form, &self.repetition)
         else {

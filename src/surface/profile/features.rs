@@ -83,10 +83,10 @@ impl Feature {
     }
 
     /// First and last position \[m] of samples on the rail.
-    pub fn sampled(&self) -> Option<[f64; 2]> {
+    pub fn sample_ends(&self) -> Option<[f64; 2]> {
         match self {
             Self::Undulation(_) => None,
-            Self::Defect(defect) => defect.sampled(),
+            Self::Defect(defect) => defect.sample_ends(),
         }
     }
 

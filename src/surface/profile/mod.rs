@@ -101,8 +101,8 @@ impl Profile {
     }
 
     /// First and last position \[m] of every file on the rail.
-    pub fn sampled(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.features.iter().filter_map(Feature::sampled)
+    pub fn sample_ends(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.features.iter().filter_map(Feature::sample_ends)
     }
 
     /// Ends \[m] of the first gap in samples, which are taken to be straight across it, and their usual distance.

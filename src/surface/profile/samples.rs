@@ -134,7 +134,7 @@ impl HeightSamples {
     /// Ends \[m] of the longest distance between two samples of different height, where it is [`GAP`] times as long as
     /// usual, and the usual distance: the median.
     pub fn gap(&self) -> Option<([f64; 2], f64)> {
-        let pairs = || self.points.x.windows(2).zip(self.points.value.windows(2)).map(|(x, height)| (x, height));
+        let pairs = || self.points.x.windows(2).zip(self.points.value.windows(2));
         let mut lengths: Vec<f64> = pairs().map(|(x, _)| x[1] - x[0]).collect();
         lengths.sort_unstable_by(f64::total_cmp);
         let usual = *lengths.get(lengths.len() / 2).filter(|_| lengths.len() >= FEW)?;
