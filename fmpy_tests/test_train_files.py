@@ -19,7 +19,7 @@ BAD = [
     ("coach.json", '"bogie_half_distance": 9.5,', '"bogie_half_distance": 9.5', r"coach.json:\d+: not JSON"),
     ("coach.json", '"height": 1.8', '"height": NaN', "NaN is not a number"),
     ("coach.json", '"height": 1.8', '"height": 1.8, "height": 2', "height twice"),
-    ("leaves.json", '"friction": 0.08', '"friction": 1.08', r"conditions.contaminated.friction = 1.08 is outside 0.001 to 1$"),
+    ("leaves.json", '"friction": 0.08', '"friction": 1.08', r"conditions.contaminated.friction = 1.08 is outside 0.001 to 1; if 1.08 % are meant, write 0.0108$"),
     ("leaves.json", '"leaves.csv"', '"trees.csv"', "trees.csv: cannot be read"),
     ("disc_brake.json", '"axles": [1]', '"axles": [5]', r"sander.axles entry = 5 is outside 1 to 4$"),
     ("disc_brake.json", '"axles": [1]', '"axles": 1', "sander.axles is 1, not a list"),
@@ -33,7 +33,7 @@ BAD = [
     ("leaves.csv", "400,wet", "400,icy", "leaves.csv:3: condition 'icy' is none of dry, wet, contaminated"),
     ("leaves.csv", "400,wet", "-400,wet", "leaves.csv:3: position -400 m is not beyond 0 m"),
     ("leaves.csv", "400,wet,0", "400,wet,0.5", r"leaves.csv:3: slope = 0.5 is outside -0.2 to 0.2$"),
-    ("leaves.csv", "400,wet,0,0", "400,wet,0", "leaves.csv:3: 3 entries, the first line has 4"),
+    ("leaves.csv", "400,wet,0,0", "400,wet,0", "leaves.csv:3: 3 entries, line 1 has 4"),
     ("leaves.csv", "400,wet", "far,wet", "leaves.csv:3: position is 'far', not a number"),
 ]
 

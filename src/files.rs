@@ -1,6 +1,8 @@
 //! Files that others name: only regular ones of bounded size are read, so that no pipe, device or forgotten terabyte
 //! holds up who reads it.
 
+pub mod table;
+
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;

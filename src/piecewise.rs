@@ -172,6 +172,27 @@ pub fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
     if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
 }
 
+/// Values at both ends of the straight line with the mean and the first moment of a piecewise linear function through
+/// points `[x, value]`, of which there are at least two and whose x ascend. Where the line would leave the range of the
+/// values, it is less steep.
+pub fn straight(points: &[[f64; 2]]) -> [f64; 2] {
+    let (first, last) = (points[0][0], points[points.len() - 1][0]);
+    let (length, middle) = (last - first, 0.5 * (first + last));
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for pair in points.windows(2) {
+        let ([a, v], [b, w]) = (pair[0], pair[1]);
+        sum += 0.5 * (b - a) * (v + w);
+        let (a, b, along) = (a - middle, b - middle, b - a);
+        moment += along / 6.0 * (v * (2.0 * a + b) + w * (a + 2.0 * b));
+    }
+    let values = || points.iter().map(|point| point[1]);
+    let [low, high] = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
+    let mean = (sum / length).clamp(low, high);
+    let most = f64::min(mean - low, high - mean);
+    let half = (6.0 * moment / (length * length)).clamp(-most, most);
+    [mean - half, mean + half]
+}
+
 /// Replaces `out` by the values at the ascending positions `at`, see [`interpolate`].
 pub fn resample(x: &[f64], values: &[f64], at: &[f64], out: &mut Vec<f64>) {
     let mut next = 0;

@@ -22,6 +22,7 @@
 pub mod advice;
 mod foreign_state;
 mod lock;
+mod met;
 pub mod mistaken_units;
 mod patch_file;
 mod shared;

@@ -18,7 +18,8 @@ const ROUNDING: f64 = 1e-6;
 pub struct Course {
     /// Inputs over time: CSV with a column `time` [s] and columns named after inputs; numbers are linear between rows,
     /// choices (by name or number) hold until the next row, and the last row holds to the end. Two rows at the same
-    /// time make a jump; lines that begin with # are skipped.
+    /// time make a jump, at that time whatever the step; what varies within a step acts with its mean; lines that begin
+    /// with # are skipped.
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
     /// End of the run [s]; that of the scenario, or 1, if not given.
@@ -55,10 +56,13 @@ impl Run {
         if !(stop >= 0.0 && stop.is_finite()) {
             return Err(Failure::Usage(format!("--stop = {stop} is outside its range: finite, at least 0 s")));
         }
+        for text in scenario.iter().flat_map(|scenario| scenario.unseen(stop, step)) {
+            eprintln!("warning: {text}");
+        }
         let instance = setup.initialize(fixed, Some(stop))?;
         let steps = (stop / step - ROUNDING).ceil().max(0.0) as usize;
         let mut run = Run { instance, scenario, step, stop, done: 0, steps };
-        run.prescribe(0.0)?;
+        run.prescribe(0.0, 0.0)?;
         run.instance.exit_initialization().map_err(failed)?;
         Ok(run)
     }
@@ -68,7 +72,8 @@ impl Run {
         if self.done == self.steps { self.stop } else { self.done as f64 * self.step }
     }
 
-    /// One communication step; the last one is shorter if need be. `false` at the end of the run.
+    /// One communication step; the last one is shorter if need be, and one in which inputs jump is taken in parts, which
+    /// end at the jumps. `false` at the end of the run.
     pub fn advance(&mut self) -> Result<bool, Failure> {
         if self.done == self.steps {
             return Ok(false);
@@ -77,8 +82,14 @@ impl Run {
         let rest = self.stop - time;
         // Only a last step that is really shorter differs from the others.
         let h = if rest < (1.0 - ROUNDING) * self.step { rest } else { self.step };
-        self.prescribe(h)?;
-        self.instance.do_step(time, h).map_err(failed)?;
+        let ends = self.scenario.as_ref().map_or_else(|| vec![time + h], |scenario| scenario.parts(time, time + h));
+        let mut begin = time;
+        for &end in &ends {
+            let h = if ends.len() == 1 { h } else { end - begin };
+            self.prescribe(begin, h)?;
+            self.instance.do_step(begin, h).map_err(failed)?;
+            begin = end;
+        }
         self.done += 1;
         Ok(true)
     }
@@ -88,19 +99,21 @@ impl Run {
         self.instance.terminate().map_err(failed)
     }
 
-    /// Sets the inputs of the scenario for a step `h` [s] from now on, as ramps; for none yet if `h` is zero.
-    fn prescribe(&mut self, h: f64) -> Result<(), Failure> {
-        let time = self.time();
+    /// Sets the inputs of the scenario for a step of `h` from `time` on [s], as ramps; for none yet if `h` is zero.
+    fn prescribe(&mut self, time: f64, h: f64) -> Result<(), Failure> {
         let Some(scenario) = &self.scenario else { return Ok(()) };
         let (mut choices, mut reals, mut rates) = ((vec![], vec![]), (vec![], vec![]), (vec![], vec![]));
         for column in scenario.columns() {
             let reference = column.variable.reference;
             match (&column.values, column.variable.kind) {
                 (Values::Real(values), Kind::Real { .. }) => {
-                    let now = scenario.after(values, time);
+                    let [now, then] = match h > 0.0 {
+                        true => scenario.line(column, values, time, time + h),
+                        false => [scenario.after(values, time); 2],
+                    };
                     reals.0.push(reference);
                     reals.1.push(Value::Real(now));
-                    let rate = if h > 0.0 { (scenario.before(values, time + h) - now) / h } else { 0.0 };
+                    let rate = if h > 0.0 { (then - now) / h } else { 0.0 };
                     if rate != 0.0 {
                         rates.0.push(reference);
                         rates.1.push(rate);

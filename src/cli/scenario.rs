@@ -2,15 +2,23 @@
 
 use super::Failure;
 use super::setting::{find, parse};
-use std::io::Read;
 use std::path::Path;
 use wheelrail::config::display_number;
 use wheelrail::files;
+use wheelrail::files::table::{Table, TableError, decimal_comma};
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
-use wheelrail::piecewise::between;
+use wheelrail::piecewise::{between, straight};
 
 /// Shorter times than this are rounding [s].
-const ROUNDING: f64 = 1e-10;
+const ROUNDING: f64 = 1e-9;
+/// Steps are divided into no shorter ones than this [s].
+const SHORTEST: f64 = 1e-6;
+/// Share of its largest value by which a value may be off the line that takes its place.
+const SEEN: f64 = 1e-6;
+/// Latest time \[s]: a later one is a date, or counts something else than seconds.
+const LATEST: f64 = 1e8;
+/// Inputs that move to their value at the end of a step: their mean over it has no meaning.
+const MOTIONS: [&str; 4] = ["drive.omega", "drive.velocity", "drive.displacement", "rail.elevation"];
 
 /// Values of inputs at given times. Real inputs are linear between rows, choices hold until the next row; before the
 /// first and after the last row everything is held. Two rows at the same time make a jump.
@@ -18,6 +26,8 @@ pub struct Scenario {
     /// Ascending [s].
     times: Vec<f64>,
     columns: Vec<Column>,
+    /// Times at which a number jumps or a choice changes, ascending [s].
+    jumps: Vec<f64>,
 }
 
 /// One input.
@@ -41,33 +51,41 @@ impl Scenario {
     pub fn read(path: &Path) -> Result<Scenario, Failure> {
         let wrong = |why: String| Failure::Usage(format!("scenario {}: {why}", path.display()));
         let text = files::read_text(path).map_err(|error| wrong(error.to_string()))?;
-        Scenario::parse(text.as_bytes()).map_err(wrong)
+        Scenario::parse(&text).map_err(|error| wrong(error.to_string()))
     }
 
     /// Reads CSV text; an error says what is wrong in it.
-    fn parse(text: impl Read) -> Result<Scenario, String> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text);
-        let header = reader.headers().map_err(|error| error.to_string())?.clone();
-        let time = header.iter().position(|name| name == "time").ok_or("has no column time")?;
-        let mut columns = columns(&header, time)?;
+    fn parse(text: &str) -> Result<Scenario, TableError> {
+        let table = Table::read(text)?;
+        let (names, header) = table.names();
+        let at_header = |why: String| TableError::new(header, why);
+        let time = names.iter().position(|name| *name == "time");
+        let time = time.ok_or_else(|| at_header("no column time".to_owned()))?;
+        let mut columns = columns(names, time).map_err(at_header)?;
         let mut times: Vec<f64> = Vec::new();
-        for row in reader.records() {
-            let row = row.map_err(|error| error.to_string())?;
-            let line = row.position().map_or(0, csv::Position::line);
-            let at_line = |why: String| format!("line {line}: {why}");
-            times.push(next_time(&row[time], times.last().copied()).map_err(at_line)?);
+        for row in table.rows() {
+            let row = row?;
+            let refused = |text: &str, why: String| {
+                let advice = decimal_comma(text).map_or_else(String::new, |advice| format!("; {advice}"));
+                TableError::new(row.line, why + &advice)
+            };
+            let text = row.text(time);
+            times.push(next_time(text, times.last().copied()).map_err(|why| refused(text, why))?);
             for (index, column) in &mut columns {
-                match (&mut column.values, parse(column.variable, &row[*index]).map_err(at_line)?) {
+                let text = row.text(*index);
+                match (&mut column.values, parse(column.variable, text).map_err(|why| refused(text, why))?) {
                     (Values::Real(values), Value::Real(value)) => values.push(value),
                     (Values::Choice(values), Value::Integer(value)) => values.push(value),
-                    _ => return Err(at_line(format!("{} is no input", column.variable.name))),
+                    _ => return Err(refused(text, format!("{} is no input", column.variable.name))),
                 }
             }
         }
         if times.is_empty() {
-            return Err("has no rows".to_owned());
+            return Err(at_header("no rows follow".to_owned()));
         }
-        Ok(Scenario { times, columns: columns.into_iter().map(|(_, column)| column).collect() })
+        let columns: Vec<_> = columns.into_iter().map(|(_, column)| column).collect();
+        let jumps = jumps(&times, &columns);
+        Ok(Scenario { times, columns, jumps })
     }
 
     /// Time of the last row [s].
@@ -90,6 +108,75 @@ impl Scenario {
         between(&self.times, values, time, self.times.partition_point(|&t| t < time - ROUNDING))
     }
 
+    /// Ends of the parts into which a step from `begin` to `end` [s] is divided at jumps, `end` the last one. What jumps
+    /// closer to another end than [`SHORTEST`] stays within its part.
+    pub fn parts(&self, begin: f64, end: f64) -> Vec<f64> {
+        let (mut last, mut ends) = (begin, Vec::new());
+        let first = self.jumps.partition_point(|&jump| jump <= begin);
+        for &jump in self.jumps[first..].iter().take_while(|jump| **jump < end - SHORTEST) {
+            if jump > last + SHORTEST {
+                ends.push(jump);
+                last = jump;
+            }
+        }
+        ends.push(end);
+        ends
+    }
+
+    /// Values at the beginning and the end [s] of a part of a step between which an input is straight: those that it
+    /// has there, or where it varies within the part, of a line with the same mean and the same first moment.
+    pub fn line(&self, column: &Column, values: &[f64], begin: f64, end: f64) -> [f64; 2] {
+        let ends = [self.after(values, begin), self.before(values, end)];
+        let within =
+            self.times.partition_point(|&t| t <= begin + ROUNDING)..self.times.partition_point(|&t| t < end - ROUNDING);
+        if within.is_empty() || MOTIONS.contains(&column.variable.name) {
+            return ends;
+        }
+        let mut points = vec![[0.0, ends[0]]];
+        points.extend(within.map(|row| [self.times[row] - begin, values[row]]));
+        points.push([end - begin, ends[1]]);
+        straight(&points)
+    }
+
+    /// Warnings of what a run from 0 to `stop` in steps of `step` [s] does not see.
+    pub fn unseen(&self, stop: f64, step: f64) -> Vec<String> {
+        let mut texts = Vec::new();
+        let [first, last] = [self.times[0], self.end()].map(display_number);
+        if self.times[0] > stop || (self.end() < 0.0 && stop > 0.0) {
+            texts.push(format!(
+                "scenario: its times from {first} to {last} s lie outside of the run from 0 to {} s, in which inputs hold",
+                display_number(stop)
+            ));
+        }
+        for column in &self.columns {
+            let Values::Real(values) = &column.values else { continue };
+            let hidden = if MOTIONS.contains(&column.variable.name) { self.hidden(values, stop, step) } else { 0 };
+            if hidden > 0 {
+                texts.push(format!(
+                    "{}: {hidden} of {} rows lie within communication steps of {} s and off the straight line through the ends \
+                     of their step, and are not seen; take a shorter --step",
+                    column.variable.name,
+                    values.len(),
+                    display_number(step)
+                ));
+            }
+        }
+        texts
+    }
+
+    /// Number of values within steps that are off the straight line through the ends of their step.
+    fn hidden(&self, values: &[f64], stop: f64, step: f64) -> usize {
+        let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        let off = |(&time, &value): (&f64, &f64)| {
+            let begin = step * ((time + ROUNDING) / step).floor();
+            let end = (begin + step).min(stop);
+            let inside = time > begin + ROUNDING && time < end - ROUNDING;
+            let [from, to] = [self.after(values, begin), self.before(values, end)];
+            inside && time > 0.0 && (from + (to - from) * (time - begin) / (end - begin) - value).abs() > SEEN * size
+        };
+        self.times.iter().zip(values).filter(|row| off(*row)).count()
+    }
+
     /// Choice that holds from a time on.
     pub fn choice(&self, values: &[i32], time: f64) -> i32 {
         values[self.times.partition_point(|&t| t <= time + ROUNDING).max(1) - 1]
@@ -97,30 +184,40 @@ impl Scenario {
 }
 
 /// Empty columns for the names besides `time`, with their positions.
-fn columns(header: &csv::StringRecord, time: usize) -> Result<Vec<(usize, Column)>, String> {
-    let mut columns: Vec<(usize, Column)> = Vec::new();
-    for (index, name) in header.iter().enumerate().filter(|(index, _)| *index != time) {
+fn columns(names: &[&str], time: usize) -> Result<Vec<(usize, Column)>, String> {
+    let others = names.iter().enumerate().filter(|(index, _)| *index != time);
+    let column = |(index, name): (usize, &&str)| {
         let input = |v: &Variable| v.causality() == Causality::Input;
         let variable =
             find(name, input).map_err(|why| format!("column {}: {why} (columns are time and inputs)", index + 1))?;
-        if columns.iter().any(|(_, column)| column.variable.name == name) {
-            return Err(format!("has two columns {name}"));
-        }
         let real = matches!(variable.kind, Kind::Real { .. });
         let values = if real { Values::Real(Vec::new()) } else { Values::Choice(Vec::new()) };
-        columns.push((index, Column { variable, values }));
-    }
-    Ok(columns)
+        Ok((index, Column { variable, values }))
+    };
+    others.map(column).collect()
+}
+
+/// Times at which a number jumps or a choice changes [s].
+fn jumps(times: &[f64], columns: &[Column]) -> Vec<f64> {
+    let jumps = |row: usize| {
+        columns.iter().any(|column| match &column.values {
+            Values::Real(values) => times[row] == times[row - 1] && values[row] != values[row - 1],
+            Values::Choice(values) => values[row] != values[row - 1],
+        })
+    };
+    let mut found: Vec<_> = (1..times.len()).filter(|&row| jumps(row)).map(|row| times[row]).collect();
+    found.dedup();
+    found
 }
 
 /// Time of a row [s], not before that of the row above.
 fn next_time(text: &str, before: Option<f64>) -> Result<f64, String> {
     let now: f64 = text.parse().unwrap_or(f64::NAN);
-    if now.is_finite() && before.is_none_or(|before| now >= before) {
+    if now.abs() <= LATEST && before.is_none_or(|before| now >= before) {
         return Ok(now);
     }
-    let range = before.map_or_else(|| "finite numbers".to_owned(), |t| format!("at least {} s", display_number(t)));
-    Err(format!("time = \"{text}\" is outside its range: {range}"))
+    let least = before.map_or_else(String::new, |t| format!("at least {} s, ", display_number(t)));
+    Err(format!("time = \"{text}\" is outside its range: {least}at most {LATEST:e} s; times are seconds of the run"))
 }
 
 #[cfg(test)]
@@ -147,14 +244,14 @@ mod tests {
     proptest! {
         #[test]
         fn any_bytes_are_a_scenario_or_refused_with_a_reason(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-            if let Err(why) = Scenario::parse(bytes.as_slice()) {
-                prop_assert!(!why.is_empty());
+            if let Err(why) = Scenario::parse(&String::from_utf8_lossy(&bytes)) {
+                prop_assert!(!why.problem.is_empty());
             }
         }
 
         #[test]
         fn what_is_nearly_a_scenario_is_refused_by_line_or_column_or_can_be_evaluated(text in nearly()) {
-            match Scenario::parse(text.as_bytes()) {
+            match Scenario::parse(&text) {
                 Ok(scenario) => {
                     for column in scenario.columns() {
                         let Values::Real(values) = &column.values else { continue };
@@ -163,14 +260,14 @@ mod tests {
                         }
                     }
                 }
-                Err(why) => prop_assert!(["line", "column", "no rows", "UTF-8"].iter().any(|word| why.contains(word)), "{why}"),
+                Err(why) => prop_assert!(why.line > 0, "{why}"),
             }
         }
 
         #[test]
         fn a_printed_scenario_reads_back(loads in prop::collection::vec(0.0..1e9_f64, 1..20)) {
             let rows: Vec<_> = loads.iter().enumerate().map(|(time, load)| format!("{time},{load:?}")).collect();
-            let scenario = Scenario::parse(format!("time,drive.load\n{}\n", rows.join("\n")).as_bytes()).unwrap();
+            let scenario = Scenario::parse(format!("time,drive.load\n{}\n", rows.join("\n"))).unwrap();
             let Values::Real(read) = &scenario.columns()[0].values else { panic!("a real input") };
             prop_assert_eq!(read, &loads);
         }
@@ -178,7 +275,7 @@ mod tests {
 
     /// Reads a scenario from text; the message of the refusal.
     fn scenario(text: &str) -> Result<Scenario, String> {
-        Scenario::parse(text.as_bytes())
+        Scenario::parse(text).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -212,7 +309,12 @@ mod tests {
             ("time,drive.load\n0,1\n2,-1\n", &["line 3", "drive.load = -1", "0 to"]),
             ("time,drive.load\n0,\n", &["line 2", "drive.load", "a number [N]"]),
             ("time,control.vertical\n0,up\n", &["line 2", "force (1) or displacement (2)"]),
-            ("time,drive.load\n0\n", &["line: 2"]),
+            ("time,drive.load\n0\n", &["line 2", "1 cell, but line 1 names 2 columns"]),
+            ("time,drive.load\n0,1,5\n", &["line 2", "3 cells", "decimal points"]),
+            ("time,drive.load\n\"0,5\",1\n", &["line 2", "time = \"0,5\"", "a decimal point"]),
+            ("time,drive.load\n0,\"1,5\"\n", &["line 2", "drive.load = \"1,5\"", "a decimal point"]),
+            ("time;drive.load\n0;1\n", &["line 1", "semicolons"]),
+            ("time,drive.load\n1700000000,1\n", &["line 2", "at most 1e8 s", "seconds of the run"]),
             ("time,drive.load\n", &["no rows"]),
             ("time,drive.load,drive.load\n0,1,1\n", &["two columns drive.load"]),
         ] {

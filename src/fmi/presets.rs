@@ -8,6 +8,9 @@ use std::{fs, io};
 /// Name of the preset that holds until another is chosen.
 pub const DEFAULT: &str = "railway";
 
+/// Similarity of two names from which one may be a slip of the other \[1].
+const SIMILAR: f64 = 0.8;
+
 /// Reads `<resources>/<name>.json`. Without resources only the default is known, which is `Config::default()`. The
 /// error text lists the presets that exist.
 pub fn load(resources: Option<&Path>, name: &str) -> Result<Config, String> {
@@ -23,6 +26,13 @@ pub fn load(resources: Option<&Path>, name: &str) -> Result<Config, String> {
         Some(Ok(text)) => text,
         Some(Err(error)) if name == DEFAULT && error.kind() == io::ErrorKind::NotFound => return Ok(Config::default()),
         None if name == DEFAULT => return Ok(Config::default()),
+        Some(Err(error)) if error.kind() == io::ErrorKind::NotFound => {
+            let names = available(resources);
+            let near = names.iter().map(|known| (strsim::jaro_winkler(known, name), known));
+            let near = near.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(similar, _)| *similar > SIMILAR);
+            let hint = near.map_or_else(String::new, |(_, known)| format!("; did you mean \"{known}\"?"));
+            return unknown(&format!("is unknown{hint}"));
+        }
         Some(Err(error)) => return unknown(&format!("cannot be read ({error})")),
         None => return unknown("is unknown because the resources of the FMU cannot be read"),
     };

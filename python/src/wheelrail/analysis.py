@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from . import signals, surfaces
-from .files import BadFile
+from .tables import BadFile, number_in, read_table
 
 FORCE = "contact.force_y"
 SHARES = (0.5, 0.9, 0.99, 0.999)  # of time, of which the level that is not exceeded is printed
@@ -18,32 +18,16 @@ SHARES = (0.5, 0.9, 0.99, 0.999)  # of time, of which the level that is not exce
 
 def read_columns(path, names):
     """Columns of a CSV file by name, as arrays."""
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            numbered = [(reader.line_num, row) for row in reader if row]
-    except OSError as error:
-        raise BadFile(f"{path}: cannot be read ({error.strerror})") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise BadFile(f"{path}: is no CSV file ({error})") from error
-    lines, rows = [line for line, _ in numbered], [row for _, row in numbered]
-    if len(rows) < 2:
-        raise BadFile(f"{path}: {len(rows)} lines; a header and rows are needed")
-    header = [name.strip() for name in rows[0]]
+    header, head, lines = read_table(path)
     for name in names:
         if name not in header:
             near = difflib.get_close_matches(name, header, n=3) or header[:8]
-            raise BadFile(f"{path}:1: column {name} is missing; nearest: {', '.join(near)}")
+            raise BadFile(f"{path}:{head}: column {name} is missing; nearest: {', '.join(near)}")
     columns = [header.index(name) for name in names]
-    table = np.empty((len(names), len(rows) - 1))
-    for i, row in enumerate(rows[1:]):
-        for k, column in enumerate(columns):
-            try:
-                table[k, i] = float(row[column])
-            except (ValueError, IndexError):
-                found = row[column] if column < len(row) else "missing"
-                raise BadFile(f"{path}:{lines[i + 1]}: {names[k]} is {found!r}, not a number") from None
-    return list(table)
+    table = [[number_in(path, line, header[k], row[k]) for k in columns] for line, row in lines]
+    if not table:
+        raise BadFile(f"{path}: only a header; rows are needed")
+    return list(np.array(table).T)
 
 
 def add_commands(commands):

@@ -1,6 +1,5 @@
 """Readable files with a schema: JSON and CSV in, values in attributes out, or an error with file, line, name and range."""
 
-import csv
 import difflib
 import json
 import math
@@ -11,14 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 
+from .tables import BadFile, number_in, read_table, text_of
+from .warn import warn
 
-class BadFile(Exception):
-    """A file that cannot be used; the text names file, line, name and range."""
+FAR = 10.0  # times its usual size a value is doubtful
+SMALL = 100.0  # and by this factor below it, where another unit would make it usual
 
 
 @dataclass(frozen=True)
 class Real:
-    """A number from `low` to `high`. Without a `default` it must be given, unless it is `optional`: then it may be None."""
+    """A number from `low` to `high`. Without a `default` it must be given, unless it is `optional`: then it may be None.
+
+    `usual` is its usual size, and `others` are units in which it may be meant by mistake: name, factor, and what is added in the
+    unit of the field, such as `("km/h", 1 / 3.6, 0.0)`. A value far from its usual size is doubted.
+    """
 
     low: float
     high: float
@@ -27,6 +32,8 @@ class Real:
     default: float | None = None
     whole: bool = False
     optional: bool = False
+    usual: float | None = None
+    others: tuple = ()
 
     def check(self, value):
         """What is wrong with it."""
@@ -34,9 +41,31 @@ class Real:
         if not number or (self.whole and value != int(value)):
             return f"is {value!r}, not a {'whole ' if self.whole else ''}number"
         if not self.low <= value <= self.high:
-            unit = f" {self.unit}" if self.unit not in ("", "1") else ""
-            return f"= {value:g}{unit} is outside {self.low:g} to {self.high:g}{unit}"
+            unit = self._unit()
+            return f"= {value:g}{unit} is outside {self.low:g} to {self.high:g}{unit}{self._meant(value)}"
         return None
+
+    def doubt(self, value):
+        """What is doubtful about a value that is allowed; None if nothing is."""
+        if not self.usual or not value or self.usual / SMALL <= abs(value) < FAR * self.usual:
+            return None
+        meant = self._meant(value)
+        if abs(value) < self.usual and not meant:
+            return None
+        return f"= {value:g}{self._unit()} is far from its usual size of {self.usual:g}{self._unit()} ({self.about}){meant}"
+
+    def _unit(self):
+        return f" {self.unit}" if self.unit not in ("", "1") else ""
+
+    def _meant(self, value):
+        """Words about the units in which a value would be allowed, and usual if that is known."""
+        texts = []
+        for name, factor, zero in self.others:
+            meant = value * factor + zero
+            near = self.usual is None or zero or self.usual / FAR <= abs(meant) <= FAR * self.usual
+            if near and self.low <= meant <= self.high:
+                texts.append(f"; if {value:g} {name} {'are' if name else 'is'} meant, write {meant:.6g}")
+        return "".join(texts)
 
 
 @dataclass(frozen=True)
@@ -111,7 +140,7 @@ REMARKS = ("source", "$schema")
 def read_json(path, schema):
     """The values of a JSON file as attributes. Names that are neither in the schema nor `REMARKS` are errors."""
     path = Path(path)
-    text = _text(path)
+    text = text_of(path)
     try:
         values = json.loads(text, object_pairs_hook=_once, parse_constant=_refuse)
     except json.JSONDecodeError as error:
@@ -123,37 +152,31 @@ def read_json(path, schema):
     return _Reader(path, _lines(text)).group(values, schema, ())
 
 
-def read_csv(path, columns):
+def read_csv(path, columns, wrong=lambda row, before: None):
     """The columns of a CSV file: name to list of values. The first line names them; all of `columns` without default must
-    be there, no others."""
-    path = Path(path)
-    try:
-        rows = list(csv.reader(_text(path).splitlines()))
-    except csv.Error as error:
-        raise BadFile(f"{path}: is no CSV file: {error}") from None
-    if not rows:
-        raise BadFile(f"{path}:1: empty; expected a line with {', '.join(columns)}")
-    header = [name.strip() for name in rows[0]]
-    for name in header:
+    be there, no others. `wrong` says what is wrong with a row, name to value, after the row before it, if there is one."""
+    names, head, rows = read_table(path)
+    for name in names:
         if name not in columns:
-            raise BadFile(f"{path}:1: unknown column {name!r}{meant(name, columns)}")
-        if header.count(name) > 1:
-            raise BadFile(f"{path}:1: column {name!r} twice")
+            raise BadFile(f"{path}:{head}: unknown column {name!r}{meant(name, columns)}")
     for name, field in columns.items():
-        if name not in header and _needed(field):
-            raise BadFile(f"{path}:1: column {name!r} is missing ({field.about})")
-    table = {name: [] for name in columns}
-    for line, row in enumerate(rows[1:], start=2):
-        if not row:
-            raise BadFile(f"{path}:{line}: an empty line")
-        if len(row) != len(header):
-            raise BadFile(f"{path}:{line}: {len(row)} entries, the first line has {len(header)}")
-        given = dict(zip(header, row))
-        for name, field in columns.items():
-            table[name].append(_entry(path, line, name, field, given[name].strip()) if name in given else field.default)
-    if not table[next(iter(columns))]:
-        raise BadFile(f"{path}:2: no line of values")
-    return table
+        if name not in names and _needed(field):
+            raise BadFile(f"{path}:{head}: column {name!r} is missing ({field.about})")
+    found, doubted = [], set()
+    for line, cells in rows:
+        given = dict(zip(names, cells))
+        entry = lambda name, field: _entry(path, line, name, field, given[name]) if name in given else field.default
+        row = {name: entry(name, field) for name, field in columns.items()}
+        if problem := wrong(row, found[-1] if found else None):
+            raise BadFile(f"{path}:{line}: {problem}")
+        for name in given.keys() - doubted:
+            if doubt := doubt_of(columns[name], row[name]):
+                doubted.add(name)
+                warn(f"{path}:{line}: {name} {doubt}")
+        found.append(row)
+    if not found:
+        raise BadFile(f"{path}:{head + 1}: no line of values")
+    return {name: [row[name] for row in found] for name in columns}
 
 
 def json_schema(schema):
@@ -206,9 +229,12 @@ class _Reader:
 
     def fail(self, place, problem):
         """Raises with file, line and name."""
-        known = next(place[:n] for n in range(len(place), -1, -1) if place[:n] in self.lines)
         name = ".".join(map(str, place)) or "the file"
-        raise BadFile(f"{self.path}:{self.lines[known]}: {name} {problem}")
+        raise BadFile(f"{self.path}:{self.line(place)}: {name} {problem}")
+
+    def line(self, place):
+        """Line of a name, or of what it is in."""
+        return self.lines[next(place[:n] for n in range(len(place), -1, -1) if place[:n] in self.lines)]
 
     def group(self, values, schema, place):
         """An object whose names the schema lists."""
@@ -239,6 +265,8 @@ class _Reader:
         wrong = field.check(value)
         if wrong:
             self.fail(place, wrong)
+        if doubt := doubt_of(field, value):
+            warn(f"{self.path}:{self.line(place)}: {'.'.join(map(str, place))} {doubt}")
         return number(value, field)
 
     def named(self, value, field, place):
@@ -273,16 +301,6 @@ def number(value, field):
     return (int(value) if field.whole else float(value)) if isinstance(field, Real) else value
 
 
-def _text(path):
-    """Text of a file."""
-    if path.is_fifo() or path.is_char_device():
-        raise BadFile(f"{path}: is no regular file")
-    try:
-        return path.read_text(encoding="utf-8-sig")  # some editors begin files with a mark
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadFile(f"{path}: cannot be read: {error}") from None
-
-
 def _once(pairs):
     """An object, unless a name comes twice."""
     names = [name for name, _ in pairs]
@@ -297,6 +315,13 @@ def _refuse(constant):
     raise ValueError(f"{constant} is not a number")
 
 
+def doubt_of(field, value):
+    """What is doubtful about a value of a field."""
+    if isinstance(field, Several):
+        return next((f"entry {doubt}" for doubt in (doubt_of(field.item, entry) for entry in value) if doubt), None)
+    return field.doubt(value) if isinstance(field, Real) else None
+
+
 def meant(name, known):
     """A hint at a name that resembles the unknown one."""
     close = difflib.get_close_matches(name, known, n=1)
@@ -305,12 +330,7 @@ def meant(name, known):
 
 def _entry(path, line, name, field, text):
     """One entry of a CSV file."""
-    value = text
-    if isinstance(field, Real):
-        try:
-            value = float(text)
-        except ValueError:
-            raise BadFile(f"{path}:{line}: {name} is {text!r}, not a number") from None
+    value = number_in(path, line, name, text) if isinstance(field, Real) else text
     wrong = field.check(value)
     if wrong:
         raise BadFile(f"{path}:{line}: {name} {wrong}")

@@ -230,10 +230,14 @@ class Wheel:
         """Advances by `h` seconds."""
         if not isinstance(h, Real):
             raise ValueError(f"step({short(h)}): expected a number of seconds")
-        self._call(self.slave.doStep, self.time, h)
-        self.time += h
+        self.advance(h)
         for recorder in self._recorders:
             recorder.stepped()
+
+    def advance(self, h):
+        """Advances by a part of `h` seconds of a step; records do not count it."""
+        self._call(self.slave.doStep, self.time, h)
+        self.time += h
 
     def save(self):
         """A handle for `restore`; free it with `forget`."""

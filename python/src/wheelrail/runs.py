@@ -4,10 +4,10 @@ from contextlib import ExitStack
 from math import ceil, isfinite
 from numbers import Real
 
-import numpy as np
-
+from .courses import courses_of, parts
 from .fmu import Fmu, Wheel
-from .values import Refused, check_names, short, to_fmu
+from .values import check_names, short
+from .warn import warn
 
 ROUNDING = 1e-6  # difference of times, in steps, that is rounding only
 BAR = "{desc}: {percentage:3.0f} % |{bar}| {n:.4g} of {total:.4g} s [{elapsed}<{remaining}]"
@@ -29,23 +29,28 @@ def simulate(
 ):
     """The record of a run from 0 to `stop` in communication steps of `step`, both in seconds: an xarray Dataset.
 
-    `inputs` are by name constants, pairs of times [s] and values (also a pandas Series or a DataArray over time), between which
-    they are linear, or functions of the time; choices hold. Two values at the same time make a jump, and the last one holds.
+    `inputs` are by name constants, functions of the time, or samples over time [s] in any of the forms of `samples`: a dict, pairs,
+    a pandas Series. Between samples they are linear, choices hold. Two samples at one time make a jump, at that time whatever
+    the step is; what varies within a step acts with its mean (`courses`). A DataFrame has a column for every input, over its
+    index or its column `time`, as a scenario of the command line.
     Without `stop` the run ends with the last of these times, or at 1 s. `outputs`, `profiles`, `depth` and `every` say
     what is recorded, see `records.Recorder`. `fmu` is an opened `Fmu`, the path of one, or `default_path()`.
 
     What stops a run carries the record so far as its attribute `run`. The bar of the `progress` shows on a terminal only.
     """
-    parameters, inputs = parameters or {}, inputs or {}
+    parameters, inputs = parameters or {}, _by_name(inputs)
     check_names(parameters, "simulate")
     check_names(inputs, "simulate")
     with ExitStack() as stack:
         fmu = fmu if hasattr(fmu, "description") else stack.enter_context(Fmu(fmu))
-        courses = {name: _course(fmu, name, given) for name, given in inputs.items()}
+        courses = courses_of(fmu, inputs)
         step = _seconds("step", step, "more than 0")
         if stop is None:
             stop = max((course.end for course in courses.values()), default=0.0) or 1.0
         stop = _seconds("stop", stop, "at least 0", zero=True)
+        for name, course in courses.items():
+            for text in () if course.constant else course.unseen(name, stop, step):
+                warn(text)
         wheel = stack.enter_context(Wheel(fmu, parameters, {name: course.at(0.0) for name, course in courses.items()}))
         names = [outputs] if isinstance(outputs, str) else outputs or ()
         recorder = wheel.record(*names, profiles=profiles, depth=depth, every=every, title=title)
@@ -71,110 +76,37 @@ def _advance(wheel, courses, stop, step, progress):
             wheel.time = k * step
             rest = stop - wheel.time
             h = rest if rest < (1.0 - ROUNDING) * step else step
-            if moving:
-                now = {name: course.at(wheel.time) for name, course in moving.items()}
-                wheel.set(now)
-                rates = {name: (moving[name].before(wheel.time + h) - now[name]) / h for name in moving if moving[name].linear}
-                wheel.set_rates({name: rate for name, rate in rates.items() if rate})
+            *first, last = parts(moving.values(), wheel.time, wheel.time + h)
+            for end in first:
+                _prescribe(wheel, moving, end)
+                wheel.advance(end - wheel.time)
+                wheel.time, h = end, last - end
+            _prescribe(wheel, moving, last)
             wheel.step(h)
             wheel.time = stop if k == steps - 1 else (k + 1) * step
-            bar.update(h)
+            bar.update(wheel.time - bar.n)
 
 
-class _Course:
-    """An input over time: its value from a time on, and that up to a time, which differ at a jump only."""
-
-    constant, linear, end = False, True, 0.0
-
-    def at(self, time):
-        """The value from `time` [s] on."""
-        raise NotImplementedError
-
-    def before(self, time):
-        """The value up to `time` [s]."""
-        return self.at(time)
+def _prescribe(wheel, moving, end):
+    """Sets inputs that vary for a step up to a time [s], as ramps."""
+    if not moving:
+        return
+    lines = {name: course.line(wheel.time, end) for name, course in moving.items()}
+    wheel.set({name: value for name, (value, _) in lines.items()})
+    real = [name for name in lines if wheel.fmu.variable(name).type == "Real"]
+    rates = {name: (lines[name][1] - lines[name][0]) / (end - wheel.time) for name in real}
+    wheel.set_rates({name: rate for name, rate in rates.items() if rate})
 
 
-class _Constant(_Course):
-    """An input that holds its value."""
-
-    constant = True
-
-    def __init__(self, value):
-        self.value = value
-
-    def at(self, time):
-        return self.value
-
-
-class _Function(_Course):
-    """An input that is a function of the time."""
-
-    def __init__(self, variable, function):
-        self.variable, self.function, self.linear = variable, function, variable.type == "Real"
-
-    def at(self, time):
-        try:
-            return to_fmu(self.variable, self.function(time))
-        except Refused as refused:
-            raise Refused(f"at {time:g} s {refused}") from None
-
-
-class _Samples(_Course):
-    """An input with values at times."""
-
-    def __init__(self, variable, times, values):
-        self.times, self.values, self.end = times, values, float(times[-1])
-        self.linear = variable.type == "Real"
-
-    def at(self, time):
-        return self._value(time, np.searchsorted(self.times, time, side="right"))
-
-    def before(self, time):
-        return self._value(time, np.searchsorted(self.times, time, side="left"))
-
-    def _value(self, time, after):
-        """The value on the piece that ends with the sample `after`."""
-        if after == 0 or after == len(self.times) or not self.linear:
-            return self.values[max(after - 1, 0)]
-        (t0, t1), (v0, v1) = self.times[after - 1 : after + 1], self.values[after - 1 : after + 1]
-        return v0 + (v1 - v0) * (time - t0) / (t1 - t0)
-
-
-def _course(fmu, name, given):
-    """The course of an input: from a constant, pairs of times and values, or a function."""
-    variable = fmu.variable(name)
-    if variable.causality != "input":
-        where = "give it in parameters" if variable.causality == "parameter" else "it can be recorded only"
-        raise Refused(f"{name} is no input but {'an' if variable.causality[0] in 'aeiou' else 'a'} {variable.causality}: {where}")
-    if callable(given):
-        return _Function(variable, given)
-    if hasattr(given, "to_series"):  # a DataArray
-        given = given.to_series()
-    if hasattr(given, "index") and hasattr(given, "to_numpy"):  # a Series
-        given = (given.index.to_numpy(), given.to_numpy())
-    if isinstance(given, str) or isinstance(given, Real) or getattr(given, "shape", None) == ():
-        return _Constant(to_fmu(variable, given))
-    if not isinstance(given, (tuple, list)) or len(given) != 2:
-        raise ValueError(f"{name} = {short(given)} is no value, no pair of times and values, and no function of the time")
-    return _Samples(variable, *_samples(variable, *given))
-
-
-def _samples(variable, times, values):
-    """Times that ascend, and as many values as the variable wants them."""
-    name = variable.name
-    try:
-        times, values = np.asarray(times, dtype=float), list(values)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} = ({short(times)}, {short(values)}): expected as many times [s] as values") from None
-    if times.ndim != 1 or len(times) != len(values) or not len(values):
-        raise ValueError(f"{name} has {times.size} times and {len(values)} values: expected one value for each, at least one")
-    if not np.isfinite(times).all():
-        raise ValueError(f"{name}: time {times[~np.isfinite(times)][0]} s is not finite")
-    if (falls := np.flatnonzero(np.diff(times) < 0.0)).size:
-        k = falls[0]
-        raise ValueError(f"{name}: times must ascend, {times[k + 1]:g} s follows {times[k]:g} s")
-    return times, [to_fmu(variable, value) for value in values]
+def _by_name(inputs):
+    """Inputs by name; those of a table are over its column `time`, if it has one."""
+    if inputs is None:
+        return {}
+    if hasattr(inputs, "set_index") and "time" in inputs.columns:
+        inputs = inputs.set_index("time")
+    if hasattr(inputs, "columns") and not inputs.columns.is_unique:
+        raise ValueError(f"inputs have the column {inputs.columns[inputs.columns.duplicated()][0]!r} twice")
+    return inputs
 
 
 def _seconds(name, value, range_, zero=False):

@@ -26,6 +26,7 @@ ROLLING = 0.01  # slide below which a wheelset counts as rolling in the predicti
 STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
 IMMOBILE = 1e6  # times its mass counts a wheelset that is held
 AT_REST = 2e-3  # m/s
+WEAK = 0.05  # m/s2, of a stop whose brake is not one
 
 # Columns of a result, of the vehicle and of every axle: name to unit and meaning.
 OF_VEHICLE = {
@@ -96,7 +97,7 @@ class Contacts:
 
     def slope(self, axle):
         """Slope of the track below an axle."""
-        return self.track.sections.slope[scenarios.section(self.track, self.places[axle])]
+        return scenarios.slope(self.track, self.places[axle])
 
     def lifted(self, h, speed):
         """Height [m] of the rail below the axles in `h` [s], and its rate [m/s]; `speed` [m/s] before the first step."""
@@ -175,8 +176,16 @@ class Stop:
             if rest is None and self.at_rest():
                 rest = self.contacts.time
             if self.contacts.time > s.longest:
-                raise TimeoutError(f"no standstill in {s.longest:g} s: still {self.coach.speed():.3g} m/s")
+                raise TimeoutError(f"no standstill in {s.longest:g} s: still {self.coach.speed():.3g} m/s{self._weak()}")
         return np.array(self.rows)
+
+    def _weak(self):
+        """Words about a brake that is none."""
+        vehicle, brake = self.scenario.vehicle, self.scenario.brake
+        mass = vehicle.body.mass + vehicle.body.payload + 2 * vehicle.bogie.mass + AXLES * vehicle.wheelset.mass
+        slows = AXLES * brake.torque / (self.radius * mass)
+        weak = f"; the brake slows it by {slows:.2g} m/s2 at most: is torque = {brake.torque:g} N m in {self.scenario.paths['brake']} meant?"
+        return weak if slows < WEAK else ""
 
     def at_rest(self):
         """Whether the coach has stopped."""
@@ -190,7 +199,7 @@ class Stop:
             s, seen = self.scenario, self.contacts
             raise TrackEnds(
                 f"the stop is longer than the track: after {seen.time:.1f} s and {self.coach.travelled():.0f} m still "
-                f"{self.coach.speed():.3g} m/s; raise length = {s.track.length:g} m in {s.paths['track']}"
+                f"{self.coach.speed():.3g} m/s; raise length = {s.track.length:g} m in {s.paths['track']}{self._weak()}"
             ) from error
 
     def _step(self, h):

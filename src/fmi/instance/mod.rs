@@ -84,12 +84,18 @@ impl Slave for WheelSlave {
         saving::try_to_save(&self.config)?;
         self.simulation(life)?;
         self.notices.of_settings(&self.settings, &self.config, life);
+        if let Some(simulation) = &self.simulation {
+            self.notices.of_profiles(simulation, life.log());
+        }
         self.settings.inputs = self.settings.given(&self.config, true).into_owned();
         self.warn_of_limits(life.time(), life);
         Ok(self.settings.tolerance_in_use(&self.config))
     }
 
     fn terminate(&mut self, life: &Life) -> Outcome {
+        if let Some(simulation) = &self.simulation {
+            self.notices.of_way(simulation, life.log());
+        }
         saving::save_profile(&self.config, self.simulation.as_ref(), life.log())
     }
 

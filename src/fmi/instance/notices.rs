@@ -13,6 +13,8 @@ use wheelrail_slave::{Life, Log, Status};
 
 /// Share of the heat by which a patch of another width warms the bodies otherwise that is worth a word \[1].
 const WARMS_OTHERWISE: f64 = 0.05;
+/// Factor between the pressure by the width that is set and that of the preset that is worth a word \[1].
+const FAR_PRESSURE: f64 = 2.0;
 /// Values that a message names, of those that it counts.
 const NAMED: usize = 3;
 /// Speed \[m/s] from which a wheel that turns against its travel is worth a word.
@@ -35,6 +37,8 @@ pub(super) struct Notices {
     limits: Vec<Limit>,
     /// Subjects, with the variable that each is about.
     subjects: Vec<(Subject, Reference)>,
+    /// Least and largest distance at which the wheel has been \[m].
+    way: [f64; 2],
 }
 
 impl Notices {
@@ -47,6 +51,7 @@ impl Notices {
             of_creepage(settings, config),
             of_load(settings, config),
             of_rows(settings, config),
+            of_width(settings, config),
         ];
         texts.into_iter().flatten().for_each(|text| life.log().report(Status::Warning, &text));
         for (reference, value) in &settings.parameters {
@@ -108,8 +113,22 @@ impl Notices {
         }
     }
 
+    /// Warns of profiles that have gaps or lie far from the start.
+    pub fn of_profiles(&self, simulation: &Simulation, log: &Log) {
+        simulation.doubts_of_profiles().iter().for_each(|text| log.report(Status::Warning, text));
+    }
+
+    /// Warns of a profile that the run has not met, at its end.
+    pub fn of_way(&self, simulation: &Simulation, log: &Log) {
+        if let Some(text) = simulation.doubt_of_way(self.way).filter(|_| self.way != [0.0; 2]) {
+            log.report(Status::Warning, &text);
+        }
+    }
+
     /// Warns of limits of the model that the run is beyond at a time \[s].
     pub fn of_limits(&mut self, simulation: &Simulation, time: f64, log: &Log) {
+        let at = simulation.outputs().wheel_distance;
+        self.way = [self.way[0].min(at), self.way[1].max(at)];
         let new: Vec<_> = simulation.exceeded_limits().filter(|limit| !self.limits.contains(limit)).collect();
         for limit in new {
             self.limits.push(limit);
@@ -209,6 +228,25 @@ fn of_rows(settings: &Settings, config: &Config) -> Option<String> {
     let set = named("contact.rows").is_some_and(|row| settings.parameters.contains_key(&row.reference));
     let idle = set && !config.contact.rows.is_empty() && !config.contact.shape.has_rows();
     idle.then(|| "contact.rows has no effect: contact.shape is another; set contact.shape = rows".to_owned())
+}
+
+/// Warning of a width that is not that of the patch.
+fn of_width(settings: &Settings, config: &Config) -> Option<String> {
+    let set = named("model.contact_width").is_some_and(|row| settings.parameters.contains_key(&row.reference));
+    let pressure = |config: &Config| (config.model.nominal_load / config.model.contact_width).sqrt();
+    let (share, usual) = (pressure(config) / pressure(&settings.base), settings.base.model.contact_width);
+    let doubtful = set && config.contact.shape.is_line() && !(1.0 / FAR_PRESSURE..FAR_PRESSURE).contains(&share);
+    doubtful.then(|| {
+        format!(
+            "model.contact_width = {} m gives model.nominal_load = {} N {share:.2} times the pressure of preset \"{}\", in which \
+             the width is {} m: it is the width of the patch, not that of wheel or rail (thermal.rim_width, \
+             thermal.head_width); two wheels have twice the width under twice the load",
+            display_number(config.model.contact_width),
+            display_number(config.model.nominal_load),
+            settings.preset,
+            display_number(usual)
+        )
+    })
 }
 
 /// The number of things, in words.

@@ -183,9 +183,14 @@ fn limited(simulation: &Simulation, value: f64) -> String {
 }
 
 fn end(simulation: &Simulation, bound: f64) -> String {
+    let rail = &simulation.model().rolling.contact.surfaces.rail;
+    let at = if simulation.outputs().wheel_velocity >= 0.0 { bound } else { -bound };
+    let mut samples = rail.sample_ends().filter(|ends| ends.contains(&at));
+    let [first, last] = samples.next().unwrap_or([at; 2]);
     format!(
-        "the contact has passed the last sample of rail.profile at {:.3} m, behind which the rail keeps its last height; \
-         repeat it with file(\"...\", every = length), or give a longer file",
-        if simulation.outputs().wheel_velocity >= 0.0 { bound } else { -bound }
+        "the contact, at {:.3} m, has passed the last sample of rail.profile at {at:.3} m, behind which the rail keeps its last \
+         height; samples lie from {first:.3} to {last:.3} m, and the run begins at 0: move them by file(\"...\", position = metres), \
+         repeat them with file(\"...\", every = length), or give a longer file",
+        simulation.outputs().wheel_distance
     )
 }

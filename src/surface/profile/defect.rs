@@ -39,6 +39,25 @@ impl Defect {
         (!whole && last.is_finite()).then_some(last)
     }
 
+    /// First and last position \[m] of samples that lie on the rail; none of other forms.
+    pub fn sample_ends(&self) -> Option<[f64; 2]> {
+        let (Form::Samples(samples), Repetition { position, every, count, turn: None }) =
+            (&self.form, &self.repetition)
+        else {
+            return None;
+        };
+        let [begin, end] = samples.reach();
+        Some([position + begin, position + every * (count - 1.0) + end])
+    }
+
+    /// Ends \[m] of a gap in samples, and their usual distance.
+    pub fn gap(&self) -> Option<([f64; 2], f64)> {
+        match &self.form {
+            Form::Samples(samples) => samples.gap(),
+            _ => None,
+        }
+    }
+
     /// Distance \[m] of a position from the middle of the one form that may reach it.
     fn local(&self, position: f64) -> f64 {
         let Repetition { position: first, every, count, turn } = self.repetition;

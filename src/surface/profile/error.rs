@@ -94,7 +94,7 @@ pub enum ProfileError {
         /// Path after it was joined to the folder.
         path: String,
         /// Line of the file, from 1.
-        line: u64,
+        line: usize,
         /// Problem and remedy.
         problem: String,
     },

@@ -82,6 +82,22 @@ impl Feature {
         }
     }
 
+    /// First and last position \[m] of samples on the rail.
+    pub fn sample_ends(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Undulation(_) => None,
+            Self::Defect(defect) => defect.sample_ends(),
+        }
+    }
+
+    /// Ends \[m] of a gap in samples, and their usual distance.
+    pub fn gap(&self) -> Option<([f64; 2], f64)> {
+        match self {
+            Self::Undulation(_) => None,
+            Self::Defect(defect) => defect.gap(),
+        }
+    }
+
     /// Possibility of an overlap with another feature; `false` is certain.
     pub fn may_overlap(&self, other: &Self) -> bool {
         match (self.only_stretch(), other.only_stretch()) {

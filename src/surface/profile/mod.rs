@@ -100,6 +100,21 @@ impl Profile {
         if forward { ends.reduce(f64::min) } else { ends.reduce(f64::max) }
     }
 
+    /// First and last position \[m] of every file on the rail.
+    pub fn sample_ends(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.features.iter().filter_map(Feature::sample_ends)
+    }
+
+    /// Ends \[m] of the first gap in samples, which are taken to be straight across it, and their usual distance.
+    pub fn gap(&self) -> Option<([f64; 2], f64)> {
+        self.features.iter().find_map(Feature::gap)
+    }
+
+    /// Presence of any feature between two positions \[m].
+    pub fn meets(&self, low: f64, high: f64) -> bool {
+        self.features.iter().any(|feature| feature.meets(low, high))
+    }
+
     /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached
     /// where features do not overlap.
     pub fn range(&self) -> [f64; 2] {

@@ -3,6 +3,7 @@
 use super::error::ProfileError;
 use crate::config::display_number;
 use crate::files;
+use crate::files::table::{Table, TableError};
 use crate::piecewise::Piecewise;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,9 @@ const HIGHEST: f64 = 0.1;
 const ROUNDED: [f64; 2] = [1e-9, 1e-4];
 /// Difference of the distance of the ends from the period that is rounding, as share of the period.
 pub const ROUNDED_PERIOD: f64 = 1e-9;
+/// Distance of samples, in usual ones, from which it is a gap; fewer samples than some have no usual distance \[1].
+const GAP: f64 = 10.0;
+const FEW: usize = 10;
 /// Columns of a file.
 const COLUMNS: [&str; 2] = ["position", "height"];
 
@@ -46,29 +50,22 @@ impl HeightSamples {
 
     /// Reads the text of a file.
     pub fn from_csv(text: &str, path: &str, factor: f64) -> Result<Self, ProfileError> {
-        let wrong = |line: u64, problem: String| ProfileError::File { path: path.to_owned(), line, problem };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
+        let wrong = |line: usize, problem: String| ProfileError::File { path: path.to_owned(), line, problem };
+        let wrong_line = |error: TableError| wrong(error.line, error.problem);
+        let table = Table::read(text).map_err(wrong_line)?;
+        let (names, header) = table.names();
         let mut columns = [0; 2];
         for (column, name) in columns.iter_mut().zip(COLUMNS) {
-            let found = header.iter().position(|given| given.trim_start_matches('\u{feff}') == name);
-            let given = header.iter().collect::<Vec<_>>().join(",");
+            let given = names.join(",");
             let problem = || format!("column {name} is missing; the header must be position,height [m], not {given}");
-            *column = found.ok_or_else(|| wrong(1, problem()))?;
+            *column = names.iter().position(|found| *found == name).ok_or_else(|| wrong(header, problem()))?;
         }
         let mut points = Piecewise::default();
-        for record in reader.records() {
-            let record =
-                record.map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let mut numbers = [0.0; 2];
-            for ((number, column), name) in numbers.iter_mut().zip(columns).zip(COLUMNS) {
-                let given = record.get(column).unwrap_or_default();
-                let finite = given.parse().ok().filter(|value: &f64| value.is_finite());
-                let problem = || format!("{name} = {given:?} is no finite number [m]; correct or leave out the line");
-                *number = finite.ok_or_else(|| wrong(line, problem()))?;
-            }
-            let [position, height] = numbers;
+        for row in table.rows() {
+            let row = row.map_err(wrong_line)?;
+            let line = row.line;
+            let number = |k: usize| row.number(columns[k], COLUMNS[k], "m").map_err(wrong_line);
+            let (position, height) = (number(0)?, number(1)?);
             if let Some(&before) = points.x.last().filter(|before| **before >= position) {
                 let problem =
                     format!("position = {position} m must be larger than {before} m before it; sort the lines");
@@ -132,6 +129,18 @@ impl HeightSamples {
     pub fn range(&self) -> [f64; 2] {
         let heights = || self.points.value.iter().copied();
         [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// Ends \[m] of the longest distance between two samples of different height, where it is [`GAP`] times as long as
+    /// usual, and the usual distance: the median.
+    pub fn gap(&self) -> Option<([f64; 2], f64)> {
+        let pairs = || self.points.x.windows(2).zip(self.points.value.windows(2));
+        let mut lengths: Vec<f64> = pairs().map(|(x, _)| x[1] - x[0]).collect();
+        lengths.sort_unstable_by(f64::total_cmp);
+        let usual = *lengths.get(lengths.len() / 2).filter(|_| lengths.len() >= FEW)?;
+        let uneven = pairs().filter(|(_, height)| height[0] != height[1]).map(|(x, _)| [x[0], x[1]]);
+        let longest = uneven.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        (longest[1] - longest[0] > GAP * usual).then_some((longest, usual))
     }
 
     /// Shortest wavelength that they can hold \[m]: twice their smallest distance.

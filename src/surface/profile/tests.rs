@@ -359,12 +359,14 @@ fn files_without_meaning_are_refused_by_line_and_value() {
         ("nan", "position,height\n0,1e-6\n1,NaN\n", &["line 3", "height = \"NaN\"", "finite"]),
         ("infinite", "position,height\ninf,1e-6\n1,0\n", &["line 2", "position = \"inf\""]),
         ("words", "position,height\n0,1e-6\n1,high\n", &["line 3", "height = \"high\""]),
-        ("short", "position,height\n0,1e-6\n1\n", &["line 3", "height = \"\""]),
+        ("short", "position,height\n0,1e-6\n1\n", &["line 3", "1 cell, but line 1 names 2 columns"]),
         ("column", "position,depth\n0,1e-6\n1,0\n", &["line 1", "column height is missing", "position,depth"]),
         ("headless", "0,1e-6\n1,0\n", &["line 1", "column position is missing", "0,1e-6"]),
         ("deep", "position,height\n0,1e-6\n1,-0.2\n", &["line 3", "height = -0.2 m", "0.1 m"]),
         ("one", "position,height\n0,1e-6\n", &["1 sample, at least 2"]),
-        ("none", "", &["column position is missing"]),
+        ("none", "", &["line 1", "no line of names"]),
+        ("comma", "position,height\n0,0\n1,0,00005\n", &["line 3", "3 cells", "decimal points"]),
+        ("double", "position,height,height\n0,0,1e-6\n", &["line 1", "two columns height"]),
     ] {
         with_file(name, text, |folder| {
             let message = Profile::parse("profile.csv", Some(folder), Body::Rail).unwrap_err().to_string();

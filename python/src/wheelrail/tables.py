@@ -1,0 +1,85 @@
+"""Tables as text (CSV): a line of names, and below it lines with one cell for each name.
+
+Cells are separated by commas, numbers have decimal points. Blank lines and lines that begin with `#` are skipped, a mark of
+byte order and any ending of lines are taken, cells may stand in quotes. Everything else is refused, with line and column. The
+command line and profiles of rails and wheels read their files by the same rules.
+"""
+
+import re
+from pathlib import Path
+
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+SEPARATORS = {";": "semicolons", "\t": "tabs"}
+
+
+class BadFile(Exception):
+    """A file that cannot be used; the text names file, line, name and range."""
+
+
+def text_of(path):
+    """Text of a regular file."""
+    path = Path(path)
+    if path.is_fifo() or path.is_char_device():
+        raise BadFile(f"{path}: is no regular file")
+    try:
+        return path.read_text(encoding="utf-8-sig")  # some editors begin files with a mark
+    except OSError as error:
+        raise BadFile(f"{path}: cannot be read: {error}") from None
+    except UnicodeDecodeError as error:
+        raise BadFile(f"{path}: cannot be read: no text in UTF-8, such as JSON or CSV: {error}") from None
+
+
+def read_table(path):
+    """Names of the columns, the line in which they stand, and rows as pairs of line and cells, lazily."""
+    lines = enumerate(text_of(path).split("\n"), start=1)  # Python reads any ending of lines as this one
+    lines = [(line, text.strip()) for line, text in lines]
+    lines = [(line, text) for line, text in lines if text and not text.startswith("#")]
+    if not lines:
+        raise BadFile(f"{path}:1: empty: no line of names of columns")
+    head, first = lines[0]
+    names = _cells(path, head, first)
+    if len(names) == 1 and (found := [word for sign, word in SEPARATORS.items() if sign in first]):
+        raise BadFile(f"{path}:{head}: columns are separated by {found[0]}; write commas, and decimal points in numbers")
+    for k, name in enumerate(names):
+        if not name:
+            raise BadFile(f"{path}:{head}: column {k + 1} has no name")
+        if name in names[:k]:
+            numbers = f"{first} are no names of columns, which the first line must have"
+            raise BadFile(f"{path}:{head}: {numbers if NUMBER.fullmatch(name) else f'column {name!r} twice; leave one of them out'}")
+    return names, head, _rows(path, len(names), head, lines[1:])
+
+
+def _rows(path, width, head, lines):
+    """Line and cells of every row; one with other cells than names is refused."""
+    for line, text in lines:
+        cells = _cells(path, line, text)
+        if len(cells) != width:
+            much = "commas separate entries, numbers have decimal points: 1.5, not 1,5"
+            advice = much if len(cells) > width else "write a value for each"
+            raise BadFile(f"{path}:{line}: {len(cells)} entries, line {head} has {width}; {advice}")
+        yield line, cells
+
+
+def _cells(path, line, text):
+    """Cells of a line without the blanks and the quotes around them."""
+    if '"' not in text:
+        return [cell.strip() for cell in text.split(",")]
+    quoted, cells = False, [""]
+    for letter in text:
+        quoted ^= letter == '"'
+        if letter == "," and not quoted:
+            cells.append("")
+        else:
+            cells[-1] += letter
+    if quoted:
+        raise BadFile(f"{path}:{line}: a quote is not closed in this line")
+    bare = lambda cell: cell[1:-1].strip() if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell
+    return [bare(cell.strip()) for cell in cells]
+
+
+def number_in(path, line, name, cell):
+    """The number in a cell."""
+    if NUMBER.fullmatch(cell):
+        return float(cell)
+    advice = "; write a decimal point in the place of the comma" if "," in cell else ""
+    raise BadFile(f"{path}:{line}: {name} is {cell!r}, not a number{advice}")

@@ -1,0 +1,67 @@
+//! Profiles against the way of a run: samples that it does not meet, and gaps between them.
+
+use super::Simulation;
+use crate::config::display_number;
+
+/// Distance \[m] of samples ahead of the start from which a word is due at once; nearer ones may be meant.
+const FAR: f64 = 1000.0;
+
+impl Simulation {
+    /// Doubts about the profiles at the start: gaps in samples, and samples far ahead.
+    pub fn doubts_of_profiles(&self) -> Vec<String> {
+        let surfaces = &self.model().rolling.contact.surfaces;
+        let gap = |(name, profile): (&str, &crate::surface::Profile)| {
+            profile.gap().map(|([from, to], usual)| {
+                format!(
+                    "{name}: no samples between {} and {} m of the file, where they usually are {} m apart: the surface is \
+                     straight there; fill the gap, or confirm it by samples",
+                    display_number(from),
+                    display_number(to),
+                    display_number(usual)
+                )
+            })
+        };
+        let gaps = [("rail.profile", &surfaces.rail), ("wheel.profile", &surfaces.wheel)].into_iter().filter_map(gap);
+        let far = self.sense();
+        let ahead = surfaces.rail.sample_ends().filter(|[first, last]| f64::min(far * first, far * last) > FAR);
+        gaps.chain(ahead.map(|ends| self.far(ends, [0.0; 2]))).collect()
+    }
+
+    /// Doubt about the profile of the rail after a run between two distances \[m], nothing of which it has met.
+    pub fn doubt_of_way(&self, way: [f64; 2]) -> Option<String> {
+        let rail = &self.model().rolling.contact.surfaces.rail;
+        let reach = self.model().rolling.reach;
+        let unmet = !rail.is_smooth() && !rail.meets(way[0] - reach, way[1] + reach);
+        let nearest = || rail.sample_ends().next();
+        unmet.then(|| match nearest() {
+            Some(ends) => self.far(ends, way),
+            None => format!(
+                "rail.profile has had no effect: none of its features lies between {} and {} m, where the wheel has been; \
+                 positions count from the start of the run, ahead positive",
+                display_number(way[0]),
+                display_number(way[1])
+            ),
+        })
+    }
+
+    /// Words about samples beside the way of a run.
+    fn far(&self, [first, last]: [f64; 2], [low, high]: [f64; 2]) -> String {
+        let way = match low == high {
+            true => format!("the run begins at {} m", display_number(low)),
+            false => format!("the wheel has been between {} and {} m", display_number(low), display_number(high)),
+        };
+        let shift = if self.sense() > 0.0 { -first } else { -last };
+        format!(
+            "rail.profile: samples lie from {} to {} m, but {way}, where the rail is level: positions count from the start of the \
+             run; if they are chainages, file(\"...\", position = {}) lets them begin there",
+            display_number(first),
+            display_number(last),
+            display_number(shift)
+        )
+    }
+
+    /// Sign of the direction of travel \[1].
+    fn sense(&self) -> f64 {
+        if self.outputs().wheel_velocity >= 0.0 { 1.0 } else { -1.0 }
+    }
+}
