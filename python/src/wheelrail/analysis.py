@@ -11,6 +11,7 @@ import numpy as np
 
 from . import signals, surfaces
 from .files import BadFile
+from .output import fresh, write_rows
 
 FORCE = "contact.force_y"
 SHARES = (0.5, 0.9, 0.99, 0.999)  # of time, of which the level that is not exceeded is printed
@@ -78,10 +79,8 @@ def run(options):
     except signals.BadSignal as error:
         raise BadFile(f"{options.file}: {error}") from error
     print("\n".join(lines))
-    options.out.mkdir(parents=True, exist_ok=True)
     table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
-    with open(table, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([header, *([f"{value:.9g}" for value in row] for row in rows)])
+    write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
     save(picture, draw)
     print(f"written: {table}, {picture}")
 
@@ -93,7 +92,8 @@ def save(path, draw):
     plt = pyplot()
     figure, axis = plt.subplots(figsize=(6.4, 4.0), layout="constrained")
     draw(axis)
-    figure.savefig(path, dpi=110)
+    with fresh(path) as new:
+        figure.savefig(new, dpi=110)
     plt.close(figure)
 
 
