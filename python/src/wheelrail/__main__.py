@@ -25,8 +25,8 @@ from .train import TrackEnds
 from .warn import WheelrailWarning, in_lines
 
 
-OF_RUST = """Single runs in one call are `wheelrail.simulate` in Python. The program of a checkout, target/release/wheelrail, has
-commands of its own: simulate, characterize, export (fields for ParaView), describe, pack."""
+# Commands of the program in Rust, which is not part of this package.
+OF_RUST = ("simulate", "steady", "export", "describe", "pack")
 
 
 def called():
@@ -37,7 +37,7 @@ def called():
 
 def arguments(argv=None):
     """Command line."""
-    parser = argparse.ArgumentParser(prog=called(), description="A train brakes; what results say.", epilog=OF_RUST)
+    parser = argparse.ArgumentParser(prog=called(), description="A train brakes; what results say.")
     parser.add_argument("--version", action="version", version=f"wheelrail {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
@@ -64,6 +64,14 @@ def arguments(argv=None):
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
     analysis.add_commands(commands)
     page.add_command(commands)
+    for command in commands.choices.values():
+        command.add_argument("--version", action="version", version=f"wheelrail {__version__}")
+    wanted = next(iter(sys.argv[1:] if argv is None else argv), "")
+    if wanted in OF_RUST:
+        parser.error(
+            f"{wanted} is a command of the program in Rust, target/release/wheelrail of a checkout; in Python, wheelrail.simulate() "
+            "computes a run, and the commands are " + ", ".join(commands.choices)
+        )
     return parser.parse_args(argv)
 
 
