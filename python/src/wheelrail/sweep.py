@@ -201,8 +201,8 @@ class Files:
 
     def fill(self):
         """Writes what was not known yet when a row was written."""
-        waiting = [row for row in self.stops.rows if math.isnan(row[DRY])]
-        if any(not math.isnan(self.over_dry(row)[DRY]) for row in waiting):
+        waiting = [self.over_dry(row) for row in self.stops.rows if math.isnan(row[DRY])]
+        if any(not math.isnan(row[DRY]) for row in waiting):
             self.stops.rewrite()
 
 
