@@ -59,7 +59,7 @@ def side_by_side(scenario, path, progress=lambda name, done: None, endless=None)
     context = multiprocessing.get_context("spawn")
     runs, before, once = variants(scenario), set(multiprocessing.active_children()), Once()
     with kept_from_children():
-        manager, pool = context.Manager(), ProcessPoolExecutor(len(runs), context, max_tasks_per_child=1)
+        manager, pool = context.Manager(), ProcessPoolExecutor(len(runs), context)
         helper = set(multiprocessing.active_children())
         news = manager.Queue()
         jobs = [pool.submit(stop, name, s, dry, path, news) for name, (s, dry) in runs.items()]
