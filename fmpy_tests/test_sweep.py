@@ -222,3 +222,16 @@ def test_a_dry_stop_does_not_depend_on_what_only_slides(many, swept, apart):
     assert (sweep.reference(many, {swept: 1.0}) == {}) == apart
     many.brake.protection = object
     assert (sweep.reference(many, {swept: 1.0}) == {}) == (apart and not swept.endswith("slide_high"))
+
+
+def test_all_rows_that_came_before_their_dry_stops_are_filled(tmp_path):
+    loaded = scenario.load(TRAIN / "low_adhesion.json")
+    loaded.sweep.speed, loaded.sweep.adhesion, loaded.sweep.payload, loaded.sweep.slide_high = [1.0], [0.1, 0.15, 0.2], [0.0], [0.15]
+    files = sweep.Files(loaded, True, tmp_path / "sweep.csv")
+    for point in sweep.points(loaded):
+        files.stops.add(files.over_dry(point | dict.fromkeys(sweep_table.RESULTS, 2.0)))
+    assert all(math.isnan(row["dry distance"]) for row in files.stops.rows)
+    files.dry.add(sweep.references(loaded)[0] | dict.fromkeys(sweep_table.OF_DRY, 1.0))
+    files.fill()
+    again = sweep.Files(loaded, True, tmp_path / "sweep.csv").stops.rows
+    assert [row["extension over dry"] for row in again] == [100.0] * 3

@@ -140,3 +140,10 @@ def test_wheels_in_the_fmu_follow_the_height_profile_of_the_rail(coach, fmu):
     assert 0.3 * lift < max(pressed) - static < lift
     # The contact still rings by 20 kN from the kinks.
     assert np.mean(loads[-20:]) == pytest.approx(np.mean(pressed[-20:]), rel=0.01)
+
+
+def test_wheelsets_of_a_train_do_not_save_to_one_file(coach, fmu, tmp_path):
+    coach.wheel["wheel.profile_save"] = str(tmp_path / "worn.csv")
+    with pytest.raises(Refused, match="wheel.profile_save = .*worn.csv': all wheelsets of a train would save to that file"):
+        Stop(coach, fmu)
+    assert list(tmp_path.iterdir()) == []

@@ -81,3 +81,62 @@ def test_the_sdist_brings_no_fmu_and_says_what_to_do(tmp_path):
     assert not list(source.rglob("*.fmu")) and "Other platforms" in (source / "README.md").read_text()
     refused = run("-c", "from wheelrail import Fmu; Fmu()", cwd=tmp_path, path=source / "src")
     assert refused.returncode == 1 and "WHEELRAIL_FMU" in refused.stderr.splitlines()[-1]
+
+
+SOURCES = """
+import csv, sys
+import wheelrail
+from wheelrail import report, scenario
+from wheelrail.train import Stop
+
+run = wheelrail.simulate({"preset": "railway_wet", "initial.velocity": 20.0}, {"brake.torque": 8000.0}, stop=0.1, every=5, profiles=True)
+wheelrail.save(run, "record.nc")
+wheelrail.save(run[["wheel.velocity", "contact.force_x"]], "few.nc")
+frame = wheelrail.table(run)[["wheel.velocity", "contact.force_x", "contact.creepage"]]
+frame.to_csv("plain.csv")
+frame.rename(columns={"contact.force_x": "contact.force_x [N]"}).to_csv("units.csv")
+stop = Stop(scenario.load(sys.argv[1], {"speed": 1.0, "step": 0.01, "hold": 0.0}), dry=0.3)
+report.write_csv("stops/train_dry.csv", stop.run())
+report.write_csv("stop.csv", stop.run())
+"""
+
+
+@pytest.mark.parametrize("source", ["record.nc", "few.nc", "plain.csv", "units.csv", "stop.csv", "stops"])
+@pytest.mark.parametrize("named", ["no FMU", "the FMU of the package", "an FMU by its path"])
+def test_the_page_of_every_source_is_written_from_the_installed_package(source, named, sources, installed, packed):
+    command = ["-m", "wheelrail", "report", source, "--out", f"{source}-{named[:2]}.html"]
+    options = {"WHEELRAIL_FMU": str(sources / "none.fmu")} if named == "no FMU" else {}
+    command += ["--fmu", packed.resolve()] if named == "an FMU by its path" else []
+    text = succeed(*command, cwd=sources, path=installed, **options)
+    print(text)
+    page = (sources / f"{source}-{named[:2]}.html").read_text(encoding="utf-8")
+    assert text.startswith("written: ") and page.startswith("<!") and len(page) > 1e6
+    # The balance of momentum knows the mass of the vehicle, which is that of the preset in an FMU.
+    if source == "record.nc":
+        assert ("the mass that moves" in page) == (named == "no FMU")
+
+
+@pytest.fixture(scope="module")
+def sources(installed, tmp_path_factory):
+    """A folder with files of every kind that a page is made of."""
+    for name in ("plotly", "h5netcdf", "pandas"):
+        pytest.importorskip(name, reason=f"{name} is not installed")
+    place = tmp_path_factory.mktemp("sources")
+    succeed("-c", SOURCES, ROOT / "examples" / "train" / "low_adhesion.json", cwd=place, path=installed)
+    return place
+
+
+def test_the_commands_of_the_package_say_their_version_and_which_are_not_theirs(installed, tmp_path):
+    version = succeed("-c", "import wheelrail; print(wheelrail.__version__)", cwd=tmp_path, path=installed).strip()
+    (information,) = installed.glob("wheelrail-*.dist-info")
+    declared = dict(line.replace(" ", "").split("=") for line in (information / "entry_points.txt").read_text().splitlines() if "=" in line)
+    assert declared == dict.fromkeys(("wheelrail", "wheelrail-train"), "wheelrail.__main__:main")
+    for name in declared:
+        script = installed / "bin" / name
+        for command in (["--version"], ["train", "--version"], ["report", "--version"]):
+            assert succeed(script, *command, cwd=tmp_path, path=installed) == f"wheelrail {version}\n"
+        assert succeed(script, "--help", cwd=tmp_path, path=installed).startswith(f"usage: {name} ")
+        refused = run(script, "export", cwd=tmp_path, path=installed)
+        assert refused.returncode == 2 and "export is a command of the program in Rust" in refused.stderr
+    for module in ("wheelrail", "wheelrail.examples"):
+        assert succeed("-m", module, "--version", cwd=tmp_path, path=installed) == f"wheelrail {version}\n"

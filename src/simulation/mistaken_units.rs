@@ -3,6 +3,7 @@
 use crate::config::display_number;
 use crate::config::units::{Measure, UNITS};
 use crate::config::value::Kind;
+use std::f64::consts::TAU;
 
 /// Temperature \[K] below which no wheel rolls: a lower one is probably meant in degrees Celsius.
 const COLDEST: f64 = 200.0;
@@ -34,7 +35,8 @@ pub fn cold(name: &str, kind: Kind, value: f64) -> Option<String> {
     })
 }
 
-/// Message about a value whose size is far from the `usual` one, and near it in the unit in which people read it.
+/// Message about a value whose size is far from the `usual` one, and near it in the unit in which people read it, and
+/// about a whole number of radians beyond a turn, which no angle that was read somewhere is.
 pub fn unusual(name: &str, kind: Kind, value: f64, usual: f64) -> Option<String> {
     let Kind::Real { measure: Measure { unit, display }, .. } = kind else { return None };
     let percent = match name {
@@ -51,6 +53,14 @@ pub fn unusual(name: &str, kind: Kind, value: f64, usual: f64) -> Option<String>
         ));
     }
     let shown = display?;
+    if (unit, shown) == ("rad", "deg") && value.abs() > TAU && value.fract() == 0.0 {
+        return Some(format!(
+            "{name} = {} rad is {:.1} turns; if {0} deg are meant, set {}",
+            display_number(value),
+            value.abs() / TAU,
+            display_number(value.to_radians())
+        ));
+    }
     let factor = UNITS.iter().find(|row| row.name == unit)?.displays.iter().find(|row| row.name == shown)?.factor;
     let meant = value / factor;
     let off = |number: f64, by: f64| !(usual.abs() / by..=usual.abs() * by).contains(&number.abs());
@@ -85,6 +95,8 @@ mod tests {
             ("thermal.reference_pressure", 500.0, 500e6, "5e8"),
             ("material.latent_heat", 270.0, 270e3, "270000"),
             ("vehicle.mass", 9.872, 9872.0, "9872"),
+            ("thermal.tread_point", 180.0, 0.0, "3.14159"),
+            ("thermal.tread_point", -90.0, 0.0, "-1.5708"),
         ] {
             let text = unusual(name, kind(name), value, usual).unwrap();
             assert!(text.starts_with(&format!("{name} = ")) && text.ends_with(&format!("set {meant}")), "{text}");
@@ -105,6 +117,9 @@ mod tests {
             ("friction.coefficient", 1.0, 0.3),
             ("friction.memory_length", 1.0, 0.0),
             ("thermal.wheel_excess", 20.0, 0.0),
+            ("thermal.tread_point", 6.0, 0.0),
+            ("thermal.tread_point", -3.1416, 0.0),
+            ("thermal.tread_point", 1234.5678, 0.0),
         ] {
             assert_eq!(unusual(name, kind(name), value, usual), None);
             assert_eq!(cold(name, kind(name), value), None);

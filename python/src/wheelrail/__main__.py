@@ -1,4 +1,5 @@
-"""Command line: `python -m wheelrail train|sweep|ssp SCENARIO`, `report RUN`, `schema KIND`; what results say: see `analysis`."""
+"""Command line: `wheelrail` or `python -m wheelrail` with `train|sweep|ssp SCENARIO`, `report RUN`, `schema KIND`; what results
+say: see `analysis`."""
 
 import argparse
 import json
@@ -6,24 +7,38 @@ import math
 import os
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
-from . import analysis
+from . import __version__, analysis
 from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
 from .files import BadFile, json_schema
 from .fmu import Fmu, Refused, default_path
+from .output import fresh
 from .page import command as page
 from .results import directory, spare
 from .sweep_command import SweepStopped
 from .sweep_command import run as sweep
 from .train import TrackEnds
+from .warn import WheelrailWarning, in_lines
+
+
+# Commands of the program in Rust, which is not part of this package.
+OF_RUST = ("simulate", "steady", "export", "describe", "pack")
+
+
+def called():
+    """The name by which the command line was started."""
+    name = Path(sys.argv[0]).stem
+    return name if name in ("wheelrail", "wheelrail-train") else "python -m wheelrail"
 
 
 def arguments(argv=None):
     """Command line."""
-    parser = argparse.ArgumentParser(prog="python -m wheelrail", description="A train brakes; what results say.")
+    parser = argparse.ArgumentParser(prog=called(), description="A train brakes; what results say.")
+    parser.add_argument("--version", action="version", version=f"wheelrail {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
         command = commands.add_parser(name, help=about)
@@ -49,6 +64,14 @@ def arguments(argv=None):
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
     analysis.add_commands(commands)
     page.add_command(commands)
+    for command in commands.choices.values():
+        command.add_argument("--version", action="version", version=f"wheelrail {__version__}")
+    wanted = next(iter(sys.argv[1:] if argv is None else argv), "")
+    if wanted in OF_RUST:
+        parser.error(
+            f"{wanted} is a command of the program in Rust, target/release/wheelrail of a checkout; in Python, wheelrail.simulate() "
+            "computes a run, and the commands are " + ", ".join(commands.choices)
+        )
     return parser.parse_args(argv)
 
 
@@ -71,17 +94,19 @@ def train(options, scenario):
 
         stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
     if stops:
-        for old in listed:
-            old.unlink(missing_ok=True)
         print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
         print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
-        written = [out / "train_columns.csv", out / "train.png"]
-        report.write_columns(written[0], report.described(next(iter(stops.values()))[0]))
-        draw_stops(written[1], stops, scenario.name)
-        for name, (table, _) in stops.items():
-            written.append(path_of[name])
-            report.write_csv(written[-1], table)
-        written += page.of_train(out / "train.html", stops, scenario)
+        written = [out / "train_columns.csv", out / "train.png", *(path_of[name] for name in stops)]
+        written += [out / "train.html"] if page.drawable() else []
+        with ExitStack() as together:  # nothing takes the place of old results before all is written
+            new = {path: together.enter_context(fresh(path)) for path in written}
+            report.write_columns(new[written[0]], report.described(next(iter(stops.values()))[0]))
+            draw_stops(new[written[1]], stops, scenario.name)
+            for name, (table, _) in stops.items():
+                report.write_csv(new[path_of[name]], table)
+            page.of_train(new.get(out / "train.html"), stops, scenario)
+        for old in set(listed) - set(written):
+            old.unlink(missing_ok=True)
         simulated, wall = sum(table[-1, 0] for table, _ in stops.values()), time.perf_counter() - began
         print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {', '.join(path.name for path in written)}")
     if endless:
@@ -160,13 +185,15 @@ def main(argv=None):
         print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))
         return
     try:
-        run(options)
+        with in_lines():
+            run(options)
+        sys.stdout.flush()
     except BrokenPipeError:  # who read what is printed has gone, such as `head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
     except (BadFile, FileNotFoundError) as error:
         end(error, 2)
-    except (Refused, TimeoutError, ControllerFailed, TrackEnds, Died, SweepStopped, OSError) as error:
+    except (Refused, TimeoutError, ControllerFailed, TrackEnds, Died, SweepStopped, WheelrailWarning, OSError) as error:
         end(error, getattr(error, "code", 1))
     except KeyboardInterrupt:
         end("stopped", 130)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from . import signals, surfaces
+from .output import fresh, write_rows
 from .tables import BadFile, number_in, read_table
 
 FORCE = "contact.force_y"
@@ -62,10 +63,8 @@ def run(options):
     except signals.BadSignal as error:
         raise BadFile(f"{options.file}: {error}") from error
     print("\n".join(lines))
-    options.out.mkdir(parents=True, exist_ok=True)
     table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
-    with open(table, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([header, *([f"{value:.9g}" for value in row] for row in rows)])
+    write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
     save(picture, draw)
     print(f"written: {table}, {picture}")
 
@@ -77,7 +76,8 @@ def save(path, draw):
     plt = pyplot()
     figure, axis = plt.subplots(figsize=(6.4, 4.0), layout="constrained")
     draw(axis)
-    figure.savefig(path, dpi=110)
+    with fresh(path) as new:
+        figure.savefig(new, dpi=110)
     plt.close(figure)
 
 

@@ -10,6 +10,7 @@ from copy import deepcopy
 from .fmu import Fmu
 from .interrupt import kept_from_children
 from .train import Stop, TrackEnds
+from .warn import Once, collected
 
 DRY, PROTECTED, UNPROTECTED = "dry", "WSP on", "WSP off"
 
@@ -23,9 +24,8 @@ def variants(scenario):
 
 def stop(name, scenario, dry, path, news=None):
     """One stop: name, its table and its rail. `path` of the FMU, or None for rigid wheelsets; `news` is a queue that gets
-    (name, share done) about a hundred times."""
-    with Fmu(path) if path else nullcontext() as fmu:
-        run = Stop(scenario, fmu, dry)
+    (name, share done) about a hundred times, and (name, warnings), which are not said then."""
+    with Fmu(path) if path else nullcontext() as fmu, collected() if news is not None else nullcontext() as texts:
         told = 0
 
         def tell(run):
@@ -36,9 +36,14 @@ def stop(name, scenario, dry, path, news=None):
                 news.put((name, done))
 
         try:
-            table = run.run(tell)
+            run = Stop(scenario, fmu, dry)
+            try:
+                table = run.run(tell)
+            finally:
+                run.close()
         finally:
-            run.close()
+            if texts:
+                news.put((name, texts))
     if news is not None:
         news.put((name, 100))
     return name, table, run.contacts.rail
@@ -52,7 +57,7 @@ def side_by_side(scenario, path, progress=lambda name, done: None, endless=None)
     """All variants at once; name to (table, rail map). The first that fails ends the others, but one that comes to no end, in time
     or on the track, is put into `endless`, name to error, if that is given."""
     context = multiprocessing.get_context("spawn")
-    runs, before = variants(scenario), set(multiprocessing.active_children())
+    runs, before, once = variants(scenario), set(multiprocessing.active_children()), Once()
     with kept_from_children():
         manager, pool = context.Manager(), ProcessPoolExecutor(len(runs), context)
         helper = set(multiprocessing.active_children())
@@ -61,16 +66,18 @@ def side_by_side(scenario, path, progress=lambda name, done: None, endless=None)
     with manager, pool:
         try:
             while not all(job.done() for job in jobs):
-                _hear(news, progress)
+                _hear(news, progress, once)
                 _ended(runs, jobs, endless)
-            while not news.empty():
-                progress(*news.get())
             return _ended(runs, jobs, endless)
         except BrokenProcessPool:
             raise Died("the process of a stop was killed; it may have had too little memory") from None
         finally:
-            for child in set(multiprocessing.active_children()) - before - helper:
-                child.terminate()
+            try:
+                while not news.empty():
+                    _hear(news, progress, once)
+            finally:
+                for child in set(multiprocessing.active_children()) - before - helper:
+                    child.terminate()
 
 
 def _ended(runs, jobs, endless):
@@ -85,9 +92,14 @@ def _ended(runs, jobs, endless):
     return found
 
 
-def _hear(news, progress):
-    """Passes on what comes within a moment."""
+def _hear(news, progress, once):
+    """Passes on what comes within a moment: shares done, and warnings, each kind once."""
     try:
-        progress(*news.get(timeout=0.2))
+        name, heard = news.get(timeout=0.2)
     except queue.Empty:
-        pass
+        return
+    if isinstance(heard, int):
+        progress(name, heard)
+        return
+    for text in heard:
+        once.warn(text, f"{name}, ")

@@ -2,47 +2,25 @@
 
 import difflib
 import os
-from ctypes import byref
+import re
 from itertools import count
 from numbers import Real
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from weakref import finalize
 from xml.etree import ElementTree
 from zipfile import BadZipFile
 
 import fmpy
-from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
-from fmpy.fmi2 import fmi2CallbackAllocateMemoryTYPE, fmi2CallbackFreeMemoryTYPE
-from fmpy.logging import addLoggerProxy
+from fmpy import fmi2
 
+from .calls import Calls, callbacks
+from .folder import TemporaryFolder
 from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
+from .warn import warn
 
-
-class Message(str):
-    """A message of the FMU: its text, with the `status` that it was logged with (1: warning, 2: discarded step, 3: error)."""
-
-    status = 0
-
-
-# fmpy formats messages through one proxy per process, which knows one logger only: the messages of all instances arrive
-# here and are told apart by the unique instance name.
-_messages = {}
+WARNING = 1  # status of messages about calls that worked
+AT = re.compile(r"^t = \S+ s: ")  # with which the FMU begins warnings
 _numbers = count(1)
-
-
-@fmi2CallbackLoggerTYPE
-def _receive(_component, instance, status, _category, message):
-    text = Message(message.decode())
-    text.status = status
-    _messages.setdefault(instance.decode(), []).append(text)
-
-
-_callbacks = fmi2CallbackFunctions()
-_callbacks.logger = _receive
-_callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
-_callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
-addLoggerProxy(byref(_callbacks))
 
 
 def default_path():
@@ -60,16 +38,16 @@ class Fmu:
             raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
         if not Path(path).is_file():
             raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU")
-        self._temporary = TemporaryDirectory(prefix="wheelrail-")
+        self._folder = TemporaryFolder("wheelrail-")
         try:
-            self.directory = fmpy.extract(str(path), unzipdir=self._temporary.name)
+            self.directory = fmpy.extract(str(path), unzipdir=str(self._folder.path))
             self.description = fmpy.read_model_description(self.directory)
         except (BadZipFile, KeyError, OSError, ValueError, SyntaxError) as failure:
-            self._temporary.cleanup()
+            self._folder.remove()
             why = (str(failure).splitlines() or [type(failure).__name__])[0]
             raise Refused(f"{path} is no FMU: {why}") from failure
         if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2"):
-            self._temporary.cleanup()
+            self._folder.remove()
             raise Refused(f"{path} is no FMU of FMI 2.0 for co-simulation")
         self.variables = {v.name: v for v in self.description.modelVariables}
         notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iterfind("VendorAnnotations/Tool//Retired")
@@ -110,7 +88,7 @@ class Fmu:
         return self
 
     def __exit__(self, *_):
-        self._temporary.cleanup()
+        self._folder.remove()
 
 
 class Wheel:
@@ -119,6 +97,10 @@ class Wheel:
     `parameters` are set before and `inputs` in Initialization Mode. All of them count, those too that have their declared
     start values: `initial.given` is `written` unless given. Refused calls raise `Refused` with the FMU's own words. Use as
     a context manager, or call `close`.
+
+    Warnings of the FMU are said as `WheelrailWarning`, each once, when the call that led to them is done: the wheel is as it is
+    without them, also where a filter makes errors of them. `log` is a list of all that the FMU has said so far, texts with a
+    `status`: 1 of warnings, 2 of steps that were discarded, 3 of calls that were refused.
     """
 
     def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
@@ -127,21 +109,22 @@ class Wheel:
         for values in (parameters, inputs):
             check_names(values or {}, "Wheel")
         self.fmu, self.time = fmu, 0.0
-        name = f"{name}-{next(_numbers)}"
-        self.log = _messages[name] = []
-        self._recorders = []
-        self.slave = _loaded(fmu, name)
-        self._call(self.slave.instantiate, callbacks=_callbacks)
+        self.log, self._heard, self._said, self._recorders = [], 0, set(), []
+        self._calls = Calls(self.log)
+        self.slave = instance(fmu, f"{name}-{next(_numbers)}", self._calls)
+        self._free = finalize(self, _free, self.slave, self._calls)
+        self._free.atexit = False
         try:
             self._call(self.slave.setupExperiment, startTime=0.0)
             # Other FMUs of this project, such as the coach, have no such choice.
             given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
-            self.set(given | (parameters or {}))
+            self._set(given | (parameters or {}))
             self._call(self.slave.enterInitializationMode)
-            self.set(inputs or {})
+            self._set(inputs or {})
             self._call(self.slave.exitInitializationMode)
+            self._say()
         except BaseException:
-            self.slave.freeInstance()
+            self._free()
             raise
 
     def __enter__(self):
@@ -151,18 +134,25 @@ class Wheel:
         self.close()
 
     def close(self):
-        """Terminates and frees the instance; nothing happens if that has been done. Records keep what they have."""
+        """Terminates and frees the instance; nothing happens if that has been done. Records keep what they have. A process
+        that was forked leaves the instance to the one that made it."""
         if isinstance(self.slave, _Closed):
             return
         try:
-            self._call(self.slave.terminate)
+            if not self._calls.foreign():
+                self._call(self.slave.terminate)
         finally:
-            self.slave.freeInstance()
+            self._free()
             self.slave = _Closed()
+        self._say()
 
     def set(self, values):
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
         check_names(values, "set")
+        self._set(values)
+        self._say()
+
+    def _set(self, values):
         given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
         for variable, value in given:
             if variable.type != "Real":
@@ -180,6 +170,7 @@ class Wheel:
                 raise Refused(f"{variable.name} is a choice, which has no rate")
         references, rates = [variable.valueReference for variable, _ in given], [rate for _, rate in given]
         self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), rates)
+        self._say()
 
     def get(self, *names):
         """Values of variables of any types, choices by number; one name gives a scalar, several a list."""
@@ -233,6 +224,7 @@ class Wheel:
         self.advance(h)
         for recorder in self._recorders:
             recorder.stepped()
+        self._say()
 
     def advance(self, h):
         """Advances by a part of `h` seconds of a step; records do not count it."""
@@ -252,6 +244,7 @@ class Wheel:
         self.time = time
         for recorder in self._recorders:
             recorder.rewind()
+        self._say()
 
     def forget(self, saved):
         """Frees a saved state."""
@@ -261,11 +254,20 @@ class Wheel:
         return getattr(self.slave, direction + kind(variable))
 
     def _call(self, function, *arguments, **named):
-        seen = len(self.log)
         try:
-            return function(*arguments, **named)
-        except FMICallException as failure:
-            raise Refused("; ".join(self.log[seen:]) or str(failure)) from failure
+            return self._calls(function, *arguments, **named)
+        except Refused:
+            self._say()
+            raise
+
+    def _say(self):
+        """Says warnings that have not been said."""
+        while self._heard < len(self.log):
+            message = self.log[self._heard]
+            self._heard += 1
+            if message.status == WARNING and (text := AT.sub("", message)) not in self._said:
+                self._said.add(text)
+                warn(str(message))
 
 
 class _Closed:
@@ -275,13 +277,26 @@ class _Closed:
         raise Refused("the wheel is closed: read its results before, or record them")
 
 
-def _loaded(fmu, name):
+def instance(fmu, name, call):
     """An instance of the FMU's library, which is loaded with it."""
-    d = fmu.description
+    d, here = fmu.description, os.getcwd()
     if not Path(fmu.directory).is_dir():
         raise Refused("the FMU is closed: open wheels within `with Fmu() as fmu`")
     try:
         identifier = d.coSimulation.modelIdentifier
-        return FMU2Slave(guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name)
+        slave = fmi2.FMU2Slave(guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name)
     except Exception as failure:  # fmpy raises plain exceptions
+        os.chdir(here)  # where fmpy has left
         raise Refused(f"the library of the FMU cannot be loaded on this machine: {failure}") from failure
+    try:
+        call(slave.instantiate, callbacks=callbacks(call.log))
+    except Exception as failure:
+        raise Refused("; ".join(call.log) or str(failure)) from failure
+    return slave
+
+
+def _free(slave, call):
+    """Frees an instance that this process has made."""
+    if not call.foreign():
+        with call.lock:
+            slave.freeInstance()

@@ -12,11 +12,15 @@ import importlib.util
 import inspect
 import re
 import sys
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import cache
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from .files import BadFile
+from .folder import TemporaryFolder
 
 FORM = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
@@ -126,16 +130,36 @@ def _line(error, files):
     return place
 
 
-_modules, _folders = {}, []
+_modules = ContextVar("modules of one's own", default=None)
+
+
+@contextmanager
+def fresh_modules():
+    """Classes that are loaded meanwhile share modules that nothing else has: what these keep begins anew."""
+    token = _modules.set({})
+    try:
+        yield
+    finally:
+        _modules.reset(token)
 
 
 def _module(name, files):
-    """The module of a name: imported if it is installed, else made of the texts of its files, once in a process."""
-    if not files:
-        return importlib.import_module(name)
-    if files not in _modules:
-        _modules[files] = _made(name, files)
-    return _modules[files]
+    """The module of a name, executed anew unless `fresh_modules` has it already: of the texts of its files, or as installed."""
+    made = _modules.get() if _modules.get() is not None else {}
+    if (name, files) not in made:
+        made[name, files] = _made(name, files) if files else _imported(name)
+    return made[name, files]
+
+
+def _imported(name):
+    """An installed module, with all of its package that is written in Python, executed anew; this package itself is not."""
+    package = name.partition(".")[0]
+    if package != __name__.partition(".")[0]:
+        for other, module in list(sys.modules.items()):
+            loader = getattr(getattr(module, "__spec__", None), "loader", None)
+            if other.partition(".")[0] == package and isinstance(loader, SourceFileLoader):
+                del sys.modules[other]
+    return importlib.import_module(name)
 
 
 def _made(name, files):
@@ -144,10 +168,7 @@ def _made(name, files):
     folder = Path(path).parent
     beside = {Path(other).stem: (Path(other), content) for other, content in files[1:]}
     if not all(other.is_file() and other.read_text(encoding="utf-8") == content for other, content in beside.values()):
-        _folders.append(TemporaryDirectory(prefix="wheelrail-own-"))
-        folder = Path(_folders[-1].name)
-        for other, content in beside.values():
-            (folder / other.name).write_text(content, encoding="utf-8")
+        folder = _folder(files).path
     unique = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(unique, loader=None, origin=path))
     module.__file__ = path
@@ -164,3 +185,12 @@ def _made(name, files):
     finally:
         sys.path.remove(str(folder))
     return module
+
+
+@cache
+def _folder(files):
+    """A temporary folder with the modules beside one's own, made once in a process."""
+    made = TemporaryFolder("wheelrail-own-")
+    for other, content in files[1:]:
+        (made.path / Path(other).name).write_text(content, encoding="utf-8")
+    return made

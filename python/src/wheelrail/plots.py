@@ -1,8 +1,11 @@
 """Pictures of stops."""
 
+from io import BytesIO
+
 import numpy as np
 
 from .brake import Valve
+from .output import fresh
 from .report import CELSIUS, axles_of, column, slide
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
@@ -29,10 +32,11 @@ def save(path, figure):
     import matplotlib.pyplot as plt
     from PIL import Image
 
-    figure.savefig(path)
+    drawn = BytesIO()
+    figure.savefig(drawn, format="png")
     plt.close(figure)
-    with Image.open(path) as image:
-        image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True, dpi=image.info["dpi"])
+    with Image.open(drawn) as image, fresh(path) as new:
+        image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(new, optimize=True, dpi=image.info["dpi"])
 
 
 WIDTH = 8.0  # inch, shown 800 px wide: 9 points are 12 px there

@@ -5,11 +5,13 @@ import json
 import re
 from ctypes import c_double, c_int, c_uint
 from fnmatch import fnmatchcase
+from io import BytesIO
 from math import isclose
 from pathlib import Path
 
 import numpy as np
 
+from . import output
 from .values import Refused, kind, short
 
 # Profiles over the depth below the surface; all others lie across the contact patch.
@@ -165,16 +167,14 @@ def celsius(record):
 def save(run, path):
     """Writes a record: all of it as NetCDF (`.nc`), or what `table` gives of it as Parquet (`.parquet`)."""
     path, _ = _kind_of_file(path), _checked(run, "save")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if path.suffix == ".nc":
-            _library("h5netcdf")
-            run.to_netcdf(path, engine="h5netcdf")
-        else:
-            _library("pyarrow")
-            table(run).to_parquet(path, engine="pyarrow")
-    except OSError as failure:
-        raise OSError(f"{path} cannot be written: {_first_line(failure)}") from failure
+    _library("h5netcdf" if path.suffix == ".nc" else "pyarrow")
+    made = BytesIO()
+    # In memory: a file that HDF5 cannot finish takes Python down with it.
+    if path.suffix == ".nc":
+        run.to_netcdf(made, engine="h5netcdf")
+    else:
+        table(run).to_parquet(made, engine="pyarrow")
+    output.write(path, made.getbuffer())
     return path
 
 

@@ -1,10 +1,10 @@
 """Key figures of a stop in the manner of EN 15595: table of several stops side by side, and CSV."""
 
-import csv
 import math
 
 import numpy as np
 
+from .output import write_rows
 from .train import AT_REST, AXLES, COUPLER, OF_AXLE, OF_VEHICLE, columns
 
 MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
@@ -151,16 +151,12 @@ def write_csv(path, table):
         if kind in IN_CELSIUS:
             names[k] = f"{IN_CELSIUS[kind][0]}_{axle}"
             values[:, k] = np.where(values[:, k] > 0.0, values[:, k] - CELSIUS, np.nan)
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(names)
-        writer.writerows([f"{value:.9g}" for value in row] for row in values)
+    write_rows(path, [names, *([f"{value:.9g}" for value in row] for row in values)])
 
 
 def write_columns(path, rows):
     """Writes what the columns of other files are: name, unit, description."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([("column", "unit", "description"), *rows])
+    write_rows(path, [("column", "unit", "description"), *rows])
 
 
 def described(table):

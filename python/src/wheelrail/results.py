@@ -1,6 +1,11 @@
 """Where results go: a directory named after the scenario's file, in which nothing is overwritten unasked."""
 
+import errno
+
 from .files import BadFile
+from .output import Unwritten
+
+FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
 def directory(out, scenario):
@@ -12,6 +17,8 @@ def directory(out, scenario):
         probe.touch()
         probe.unlink()
     except OSError as error:
+        if error.errno in FULL:
+            raise Unwritten(path, error.strerror) from None
         raise BadFile(f"--out: nothing can be written to {path}: {error.strerror}") from None
     return path
 

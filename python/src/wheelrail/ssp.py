@@ -16,10 +16,13 @@ from pathlib import Path
 from types import SimpleNamespace
 from xml.sax.saxutils import quoteattr
 
-from fmpy.fmi2 import FMU2Slave
-
+from .calls import Calls
 from .files import BadFile
+from .fmu import instance
+from .output import fresh
+from .output import write as write_file
 from .parallel import friction
+from .values import kind
 from .vehicle import AXLES, Coach
 from .wheelset import whole_wheelset
 
@@ -76,20 +79,16 @@ def wheelset_values(scenario, fmu):
 
 def preset_values(fmu, preset):
     """Parameters of a preset, by name: type and value, as masters write it."""
-    identifier = fmu.description.coSimulation.modelIdentifier
-    slave = FMU2Slave(
-        guid=fmu.description.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=preset
-    )
-    slave.instantiate()
+    calls = Calls([])
+    slave = instance(fmu, preset, calls)
     try:
-        slave.setupExperiment(startTime=0.0)
-        slave.setString([fmu.variable("preset").valueReference], [preset])
-        slave.enterInitializationMode()
+        calls(slave.setupExperiment, startTime=0.0)
+        calls(slave.setString, [fmu.variable("preset").valueReference], [preset])
+        calls(slave.enterInitializationMode)
         values = {}
         for v in fmu.variables.values():
             if v.causality == "parameter" and v.name != "preset":
-                kind = "Integer" if v.type == "Enumeration" else v.type
-                [value] = getattr(slave, f"get{kind}")([v.valueReference])
+                [value] = calls(getattr(slave, f"get{kind(v)}"), [v.valueReference])
                 values[v.name] = (v.type, _written(v, value))
         return values
     finally:
@@ -234,7 +233,7 @@ def osp(values, step):
 
 def archive(path, entries):
     """Writes a zip file; equal entries give equal bytes."""
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+    with fresh(path) as new, zipfile.ZipFile(new, "w", zipfile.ZIP_DEFLATED) as file:
         for name, content in entries.items():
             info = zipfile.ZipInfo(name)
             info.compress_type, info.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
@@ -267,10 +266,9 @@ def write(scenario, fmu, coach, paths, out, stop_time=10.0, step=STEP):
     entries |= {f"resources/{name}": content for name, content in files.items()}
     entries |= {f"resources/{name}.ssv": ssv(name.split("/")[-1], of) for name, of in sets.items()}
     package, system = Path(out) / "coach_and_wheels.ssp", Path(out) / "osp"
-    system.mkdir(parents=True, exist_ok=True)
     archive(package, entries)
     for name, content in files.items():
-        (system / name).write_bytes(content)
+        write_file(system / name, content)
     structure = system / "OspSystemStructure.xml"
-    structure.write_text(osp(values, step), encoding="utf-8")
+    write_file(structure, osp(values, step))
     return package, structure

@@ -25,7 +25,9 @@ from .scenario import SHORT, changed
 from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table
 from .sweep_table import columns_path, dry_path, unfinished, write_meanings, write_unfinished
 from .train import Stop, TrackEnds
+from .warn import Once, collected
 
+TOLD = "warnings"  # of a stop
 # Swept if a scenario names no key.
 DEFAULT = {"speed": [27.8, 38.9], "adhesion": [0.05, 0.1]}
 # What a row does not depend on: the time after which a stop is given up, what comes after it, names, where files are.
@@ -149,13 +151,15 @@ def watch(limit):
 
 
 def one(scenario, dry, path, limit=0.0):
-    """Results of one stop, or why there are none, under `REASON`. `dry`: a friction in place of the track's, or None; `path` of
+    """Results of one stop, or why there are none, under `REASON`; its warnings, if any, under `TOLD`. `dry`: a friction in place of the track's, or None; `path` of
     the FMU; None takes rigid wheelsets; a bare name is looked for where dask puts files that were sent to its workers; `limit` as
     in `watch`."""
-    try:
-        return results(scenario, dry, path, limit)
-    except (TooSlow, TimeoutError, Refused, ControllerFailed, TrackEnds, BadFile, ValueError) as error:
-        return {REASON: " ".join(str(error).split())}
+    with collected() as texts:
+        try:
+            found = results(scenario, dry, path, limit)
+        except (TooSlow, TimeoutError, Refused, ControllerFailed, TrackEnds, BadFile, ValueError) as error:
+            found = {REASON: " ".join(str(error).split())}
+    return found | ({TOLD: texts} if texts else {})
 
 
 def results(scenario, dry, path, limit):
@@ -197,18 +201,18 @@ class Files:
 
     def fill(self):
         """Writes what was not known yet when a row was written."""
-        waiting = [row for row in self.stops.rows if math.isnan(row[DRY])]
-        if any(not math.isnan(self.over_dry(row)[DRY]) for row in waiting):
+        waiting = [self.over_dry(row) for row in self.stops.rows if math.isnan(row[DRY])]
+        if any(not math.isnan(row[DRY]) for row in waiting):
             self.stops.rewrite()
 
 
 def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
     """Computes what is missing in the file at `path`; returns all rows with results, and the points without, with their
-    reasons. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none. `progress` gets every row; those of dry stops
+    reasons. Warnings are said once of each kind. `fmu` None takes rigid wheelsets; `limit` [s] of one stop, 0: none. `progress` gets every row; those of dry stops
     have `DRY` true."""
     from distributed.diagnostics.plugin import UploadFile
 
-    files = Files(scenario, fmu is None, path)
+    files, once = Files(scenario, fmu is None, path), Once()
     missing, failed = files.missing(scenario), []
     made = scenarios_of(scenario, [point for _, point in missing])
     if fmu is not None:
@@ -216,6 +220,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
         fmu = Path(fmu).name
     write_meanings(columns_path(files.path), files.stops.keys)
     for (dry, point), found in finished(client, missing, made, fmu, limit):
+        texts = found.pop(TOLD, ())
         row = point | ({DRY: True} if dry else {}) | found
         if REASON in row:
             failed.append(row)
@@ -224,6 +229,8 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
         else:
             files.stops.add(files.over_dry(row))
         progress(row)
+        for text in texts:
+            once.warn(text, f"{described(row)}, ")
     files.fill()
     write_unfinished(unfinished(files.path), files.name, [*files.stops.keys, DRY], failed)
     return files.stops.rows, failed

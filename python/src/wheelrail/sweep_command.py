@@ -6,6 +6,7 @@ from contextlib import ExitStack
 
 from .files import BadFile
 from .interrupt import kept_from_children
+from .output import Unwritten
 from .progress import Progress
 from .results import directory
 from .sweep import Files, SchedulerGone, described, lists, points, references, scenarios_of, speed, sweep
@@ -77,6 +78,8 @@ def _computed(distributed, options, scenario, fmu, path, missing):
             return sweep(client, scenario, fmu, path, tell, options.limit)
     except KeyboardInterrupt:
         reason, code = "stopped", 130
+    except Unwritten as error:
+        reason, code = str(error), 1
     except (SchedulerGone, distributed.CancelledError, OSError) as error:
         reason, code = f"connection to the scheduler lost ({error or type(error).__name__})", 1
     there = f" after {count} of {len(missing)} stops; results are in {path.parent}, and the same command goes on from there"

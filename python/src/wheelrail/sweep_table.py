@@ -6,8 +6,10 @@ A row names the scenario it belongs to by a fingerprint, so that rows of another
 import csv
 import json
 import os
+from io import StringIO
 
 from .files import BadFile, Flag, Real, Several
+from .output import append, write_rows
 from .report import write_columns
 from .scenario import field_of
 
@@ -68,20 +70,14 @@ class Table:
 
     def add(self, row):
         """Writes a row at once."""
-        new = not self.path.is_file() or not self.path.stat().st_size
-        with open(self.path, "a", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            if new:
-                writer.writerow(self.header())
-            writer.writerow(self._line(row))
+        new, text = not self.path.is_file() or not self.path.stat().st_size, StringIO(newline="")
+        csv.writer(text).writerows([*([self.header()] if new else []), self._line(row)])
+        append(self.path, text.getvalue())
         self.rows.append(row)
 
     def rewrite(self):
         """Writes all rows anew, or leaves the file as it was."""
-        beside = self.path.with_suffix(".new")
-        with open(beside, "w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([self.header(), *map(self._line, self.rows)])
-        os.replace(beside, self.path)
+        write_rows(self.path, [self.header(), *map(self._line, self.rows)])
 
     def _line(self, row):
         return [self.name, *(cell(row[name]) for name in self.header()[1:])]
@@ -90,10 +86,11 @@ class Table:
         """Rows of the file."""
         if not self.path.is_file():
             return []
-        text = self.path.read_text(encoding="utf-8")
-        if not text.endswith("\n"):
-            text = text[: text.rfind("\n") + 1]
-            self.path.write_text(text, encoding="utf-8")
+        text = self.path.read_bytes()
+        if not text.endswith(b"\n"):
+            text = text[: text.rfind(b"\n") + 1]
+            os.truncate(self.path, len(text))
+        text = text.decode()
         rows, other = list(csv.DictReader(text.splitlines())), "; add --force to begin anew, or take another --out"
         for line, row in enumerate(rows, start=2):
             if list(row) != self.header():
@@ -129,10 +126,8 @@ def write_unfinished(path, name, keys, failed):
     if not failed:
         path.unlink(missing_ok=True)
         return
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow([SCENARIO, *keys, REASON])
-        writer.writerows([name, *(cell(row.get(key, "")) for key in keys), row[REASON]] for row in failed)
+    rows = ([name, *(cell(row.get(key, "")) for key in keys), row[REASON]] for row in failed)
+    write_rows(path, [(SCENARIO, *keys, REASON), *rows])
 
 
 def write_meanings(path, keys):

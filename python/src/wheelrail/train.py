@@ -17,9 +17,12 @@ import numpy as np
 from . import scenario as scenarios
 from .brake import Brakes
 from .controllers import OwnDriver
+from .own import fresh_modules
 from .rail_map import OffTheMap
 from .team import Team
+from .values import Refused
 from .vehicle import AXLES, GRAVITY, Coach
+from .warn import Once, collected
 from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
@@ -27,6 +30,7 @@ STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow tha
 IMMOBILE = 1e6  # times its mass counts a wheelset that is held
 AT_REST = 2e-3  # m/s
 WEAK = 0.05  # m/s2, of a stop whose brake is not one
+SAVED = "wheel.profile_save"
 
 # Columns of a result, of the vehicle and of every axle: name to unit and meaning.
 OF_VEHICLE = {
@@ -76,6 +80,7 @@ class Contacts:
         self.places = np.array(positions, float)
         self.seen = None
         self.met = [(0.0, 0.0)] * len(wheelsets)
+        self.told = []  # warnings that have not been said: axle, from 0, and text
         # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not. Other stops may need
         # the cores meanwhile.
         self.team = Team(None if any(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets) else 1, patience=0.0)
@@ -89,11 +94,19 @@ class Contacts:
             for k in range(len(self.wheelsets))
         ]
         before = self.seen
-        self.seen = self.team.map(lambda pair: pair[0].step(h, pair[1]), zip(self.wheelsets, drives))
+        self.seen = self.team.map(lambda k: self._stepped(k, h, drives[k]), range(len(self.wheelsets)))
         self.time += h
         for axle, seen in enumerate(self.seen):
             self._leave(axle, before[axle] if before else None, seen, sand[axle])
         return self.seen
+
+    def _stepped(self, axle, h, drive):
+        """A wheelset after its step, on any thread."""
+        with collected() as texts:
+            try:
+                return self.wheelsets[axle].step(h, drive)
+            finally:
+                self.told += [(axle, text) for text in texts]
 
     def slope(self, axle):
         """Slope of the track below an axle."""
@@ -128,20 +141,24 @@ class Contacts:
 
 
 def wheelsets_of(fmu, scenario, coach):
-    """Wheelsets of all coaches from the front: in the FMU, if there is one, where the scenario has them there; the others are
-    rigid, with the friction law of the scenario's wheels and of the FMU, or refused if they do not know it."""
+    """Wheelsets of all coaches from the front, and the warnings of their start: in the FMU, if there is one, where the scenario
+    has them there; the others are rigid, with the friction law of the scenario's wheels and of the FMU, or refused if they do
+    not know it."""
     wheelset, parameters = scenario.vehicle.wheelset, scenario.wheel
     damping = scenario.vehicle.primary.vertical_damping
     inside = (scenario.fmu_coaches or range(1, coach.count + 1)) if fmu else ()
+    if inside and parameters.get(SAVED):
+        raise Refused(f"{SAVED} = {parameters[SAVED]!r}: all wheelsets of a train would save to that file; leave it out here")
     law = FrictionLaw.of(parameters, fmu) if len(inside) < coach.count else None
-    found = []
-    for number in range(1, coach.count + 1):
-        for _ in range(AXLES):
-            if number in inside:
-                found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, dict(parameters)))
-            else:
-                found.append(RigidWheelset(wheelset, scenario.speed, law=law))
-    return found
+    found, told = [], []
+    for axle in range(coach.count * AXLES):
+        if axle // AXLES + 1 not in inside:
+            found.append(RigidWheelset(wheelset, scenario.speed, law=law))
+            continue
+        with collected() as texts:
+            found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, dict(parameters)))
+        told += [(axle, text) for text in texts]
+    return found, told
 
 
 class Stop:
@@ -158,14 +175,18 @@ class Stop:
         self.axles = self.coach.axles
         self.coach.start(scenario.speed)
         of = lambda k: f", coach {k + 1}," if self.coach.count > 1 else ""
-        self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES, of(k)) for k in range(self.coach.count)]
-        self.driver = OwnDriver(scenario.driver, scenario, scenario.driver_parameters) if scenario.driver else None
+        with fresh_modules():
+            self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES, of(k)) for k in range(self.coach.count)]
+            self.driver = OwnDriver(scenario.driver, scenario, scenario.driver_parameters) if scenario.driver else None
         ahead = self.coach.axle_positions - self.coach.axle_positions[0]
         rail = scenarios.rail_map(scenario.track, -ahead[-1], self.axles, dry)
-        self.contacts = Contacts(wheelsets_of(fmu, scenario, self.coach), ahead, rail, scenario.track)
+        wheelsets, told = wheelsets_of(fmu, scenario, self.coach)
+        self.contacts = Contacts(wheelsets, ahead, rail, scenario.track)
         self.torques = np.zeros(self.axles)
         self.radius = scenario.vehicle.wheelset.radius
-        self.rows = []
+        self.rows, self.once = [], Once()
+        self.contacts.told += told
+        self._say()
 
     def run(self, progress=lambda stop: None):
         """Brakes to rest, watches it for a while; returns the table of `columns()`."""
@@ -201,6 +222,14 @@ class Stop:
                 f"the stop is longer than the track: after {seen.time:.1f} s and {self.coach.travelled():.0f} m still "
                 f"{self.coach.speed():.3g} m/s; raise length = {s.track.length:g} m in {s.paths['track']}{self._weak()}"
             ) from error
+        finally:
+            self._say()
+
+    def _say(self):
+        """Says warnings of the wheelsets, each kind once in a stop."""
+        told, self.contacts.told = sorted(self.contacts.told, key=lambda entry: entry[0]), []
+        for axle, text in told:
+            self.once.warn(text, f"axle {axle + 1}: ")
 
     def _step(self, h):
         """One step; positions beyond the map of the rail are refused by the map."""

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .fmu import Refused, Wheel
+from .warn import collected
 
 WHEELS = 2
 
@@ -88,7 +89,9 @@ DOUBLED = (
 
 def whole_wheelset(fmu, wheelset, parameters):
     """Parameters of one wheel made those of two on an axle that weigh and turn as given [kg, kg m2]."""
-    with Wheel(fmu, parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}) as one:
+    rim = parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}
+    # What is to be said of the parameters is said of the wheelset.
+    with collected(), Wheel(fmu, rim) as one:
         if not one.has_constant_width():
             raise Refused(
                 "contact.shape = ellipse or rows is the patch of one wheel, but a wheelset is one FMU here: set contact.shape = line, or "

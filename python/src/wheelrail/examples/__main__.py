@@ -5,6 +5,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from .. import __version__
 from ..fmu import default_path
 
 INSIDE = Path(__file__).with_name("files")
@@ -29,6 +30,7 @@ def main(argv=None):
     """Command line."""
     parser = argparse.ArgumentParser(prog="python -m wheelrail.examples", description="Copies the examples and the FMU into a folder.")
     parser.add_argument("folder", type=Path, nargs="?", default=Path("wheelrail-examples"), help="default: %(default)s")
+    parser.add_argument("--version", action="version", version=f"wheelrail {__version__}")
     folder = parser.parse_args(argv).folder
     try:
         first = copied(folder)

@@ -8,6 +8,7 @@ network.
 from datetime import datetime
 from pathlib import Path
 
+from .. import output
 from ..files import BadFile
 from . import sources
 from .html import drawable
@@ -15,7 +16,7 @@ from .run import Run, of_dataset
 from .stops import Stop, of_table
 from .writing import run_page, stops_page
 
-__all__ = ["Run", "drawable", "of_file", "of_stops", "write"]
+__all__ = ["BadFile", "Run", "drawable", "of_file", "of_stops", "write"]
 
 
 def write(path, dataset):
@@ -43,13 +44,8 @@ def of_file(source, out=None, fmu=None):
 
 def _save(path, text):
     """Writes a page, its directory too."""
-    path = Path(path)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadFile(f"{path}: cannot be written ({error.strerror})") from error
-    return path
+    output.write(path, text)
+    return Path(path)
 
 
 def _now():

@@ -14,20 +14,20 @@ def add_command(commands):
         "run", type=Path, help="NetCDF record, CSV of `wheelrail simulate --out`, or directory of results of `train`"
     )
     command.add_argument("--out", type=Path, help="HTML file; default: beside RUN")
-    command.add_argument("--fmu", type=Path, help=f"says units and meanings for a CSV, default {default_path()}")
+    command.add_argument("--fmu", type=Path, help=f"says units and meanings for a CSV and the mass of the vehicle, default {default_path()}")
 
 
 def of_train(path, stops, scenario):
-    """Writes the page of the stops of `train` where plotly is installed; a list of its path, or none."""
-    if not drawable():
+    """Writes the page of the stops of `train`, or says what it needs: `path` is None where plotly is not installed."""
+    if path is None:
         print("no page of the stops, which plotly draws: pip install 'wheelrail[report]'")
-        return []
+        return
     about = [
         ("vehicle", scenario.vehicle.name), ("brake", scenario.brake.name), ("track", scenario.track.name),
         ("speed at the start", f"{3.6 * scenario.speed:g} km/h"), ("communication step", f"{1e3 * scenario.step:g} ms"),
         *((name, str(value)) for name, value in scenario.wheel.items()),
     ]  # fmt: skip
-    return [of_stops(path, stops, scenario.name, about)]
+    of_stops(path, stops, scenario.name, about)
 
 
 def run(options):

@@ -84,7 +84,7 @@ def _vehicle_mass(fmu, about):
     variable = next((v for v in description.modelVariables if v.name == name), None)
     if variable is None or str(about.get("fmu_version")) != str(description.version):
         return None
-    with ZipFile(fmu) as archive:
+    with ZipFile(fmu or default_path()) as archive:
         path = f"resources/{about.get('preset')}.json"
         preset = json.loads(archive.read(path)) if path in archive.namelist() else {}
     return float(preset.get("vehicle", {}).get("mass", variable.start))

@@ -1,0 +1,86 @@
+"""Calls of an instance and what it says meanwhile.
+
+Every instance has a logger of its own, which lives as long as fmpy's slave does. That of fmpy serves a whole process: whoever
+asks for it last has the messages of all, and takes the others down with it. The FMUs of this project need no such go-between,
+for their messages are plain text with doubled percent signs.
+"""
+
+import atexit
+import os
+import re
+from ctypes import cast
+from threading import RLock
+from time import monotonic
+from weakref import WeakSet
+
+import fmpy
+from fmpy import fmi1, fmi2  # as modules, which stay when they are reloaded
+
+from .values import Refused
+
+PATIENCE = 10.0  # s, at the end of Python, for calls that other threads have not finished
+C_FUNCTION = re.compile(r"^fmi2\w+: ")  # with which the FMU begins refusals
+
+
+class Message(str):
+    """A message of the FMU: its text, with the `status` that it was logged with (1: warning, 2: discarded step, 3: error)."""
+
+    status = 0
+
+
+def callbacks(log):
+    """What an instance calls: a logger that fills the list `log` with `Message`s, and memory of the C library."""
+
+    @fmi2.fmi2CallbackLoggerTYPE
+    def receive(_environment, _instance, status, _category, message):
+        text = Message(C_FUNCTION.sub("", (message or b"").decode(errors="replace").replace("%%", "%")))
+        text.status = status
+        log.append(text)
+
+    functions = fmi2.fmi2CallbackFunctions()
+    functions.logger = functions.kept = receive
+    functions.allocateMemory = cast(fmpy.calloc, fmi2.fmi2CallbackAllocateMemoryTYPE)
+    functions.freeMemory = cast(fmpy.free, fmi2.fmi2CallbackFreeMemoryTYPE)
+    return functions
+
+
+class Calls:
+    """Calls functions of one instance, one at a time. What is refused is raised in the FMU's own words, of the list `log`."""
+
+    def __init__(self, log):
+        self.log, self.lock, self.owner = log, RLock(), os.getpid()
+        _living.add(self)
+
+    def __call__(self, function, *arguments, **named):
+        with self.lock:
+            seen = len(self.log)
+            try:
+                return function(*arguments, **named)
+            except fmi1.FMICallException as failure:
+                said = "; ".join(message for message in self.log[seen:] if message.status == failure.status)
+                raise Refused(said or f"the FMU refused the call without a word (status {failure.status})") from None
+
+    def foreign(self):
+        """Whether this process was forked from that which has the instance."""
+        return os.getpid() != self.owner
+
+
+_living = WeakSet()
+
+
+@atexit.register
+def _wait():
+    """Lets no call begin any more, and waits for those that run: a message to a Python that has ended would kill the process."""
+    end = monotonic() + PATIENCE
+    for calls in list(_living):
+        calls.lock.acquire(timeout=max(end - monotonic(), 0.0))
+
+
+def _alone():
+    """In a process that was forked there is no other thread which could hold a lock."""
+    for calls in list(_living):
+        calls.lock = RLock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_alone)

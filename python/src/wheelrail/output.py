@@ -1,0 +1,93 @@
+"""Files that this package writes: beside what is there, and put in its place when all of it is safe on the disk."""
+
+import csv
+import os
+import secrets
+import shutil
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Lock
+
+_lock, _owned = Lock(), set()
+
+
+class Unwritten(OSError):
+    """A file that could not be written; what was there before is unchanged."""
+
+    def __init__(self, path, why, kept=False):
+        super().__init__(f"{path} cannot be written: {why}" + ("; the file that was there is unchanged" if kept else ""))
+        self.why = why
+
+
+@contextmanager
+def fresh(path):
+    """The path of a file beside `path`, with the same ending, which takes its place in the end. What goes wrong removes it."""
+    target = Path(os.path.realpath(path))
+    if target.exists() and not (target.is_file() or target.is_dir()):  # a device or a pipe has no place to take
+        with _failing(path, False):
+            yield target
+        return
+    with _owner(target, path), _failing(path, target.is_file()):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        beside = target.with_name(f".wheelrail-{secrets.token_hex(6)}{target.suffix}")
+        try:
+            beside.touch(exist_ok=False)
+            if target.is_file():
+                shutil.copymode(target, beside)
+            yield beside
+            with open(beside, "rb+") as file:
+                os.fsync(file.fileno())
+            os.replace(beside, target)
+        finally:
+            beside.unlink(missing_ok=True)
+
+
+def write(path, content):
+    """Writes text or bytes."""
+    with fresh(path) as new:
+        new.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def write_rows(path, rows):
+    """Writes a CSV file."""
+    with fresh(path) as new, open(new, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows(rows)
+
+
+def append(path, text):
+    """Adds text to the end of a file, all of it or nothing."""
+    size = path.stat().st_size if path.is_file() else None
+    with _owner(Path(os.path.realpath(path)), path), _failing(path, size is not None):
+        try:
+            with open(path, "ab") as file:
+                file.write(text.encode())
+        except BaseException:
+            if size is None:
+                path.unlink(missing_ok=True)
+            else:
+                os.truncate(path, size)
+            raise
+
+
+@contextmanager
+def _owner(target, path):
+    """Nobody else in this process writes the file meanwhile."""
+    with _lock:
+        if target in _owned:
+            raise Unwritten(path, "another run in this process is writing it now; give each a path of its own", kept=True)
+        _owned.add(target)
+    try:
+        yield
+    finally:
+        with _lock:
+            _owned.discard(target)
+
+
+@contextmanager
+def _failing(path, kept):
+    """What the system refuses is said of the path that was asked for."""
+    try:
+        yield
+    except OSError as failure:
+        why = getattr(failure, "why", None) or failure.strerror or (str(failure).splitlines() or [type(failure).__name__])[0]
+        raise Unwritten(path, why, kept) from failure
