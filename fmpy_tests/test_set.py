@@ -128,9 +128,14 @@ def test_a_height_profile_is_read_and_its_mistakes_are_named(low_adhesion, tmp_p
     (tmp_path / "leaves.json").write_text(track)
     (tmp_path / "rail.csv").write_text("position,elevation\n0,0\n1,0.001\n3,0\n")
     read = scenario.load(tmp_path / "low_adhesion.json").track
-    height, rate = scenario.elevation(read, np.array([-5.0, 0.5, 2.0, 9.0]), np.full(4, 10.0))
-    np.testing.assert_allclose(height, [0.0, 0.0005, 0.0005, 0.0])
-    np.testing.assert_allclose(rate, [0.0, 0.01, -0.005, 0.0])
+    curve = scenario.heights(read)
+    height, rate = scenario.elevation(curve, np.array([-5.0, 0.0, 1.0, 3.0, 9.0]), np.full(5, 10.0))
+    np.testing.assert_allclose(height, [0.0, 0.0, 0.001, 0.0, 0.0], atol=1e-18)
+    # Clamped spline through three points: 2 (1/h1 + 1/h2) s = 3 (d1/h1 + d2/h2) with the chords d.
+    np.testing.assert_allclose(rate, [0.0, 0.0, 10.0 * 3.0 * (1e-3 - 0.25e-3) / 3.0, 0.0, 0.0], atol=1e-18)
+    places = np.linspace(-0.5, 3.5, 401)
+    difference = (scenario.elevation(curve, places + 1e-6, np.ones(401))[0] - scenario.elevation(curve, places - 1e-6, np.ones(401))[0]) / 2e-6
+    np.testing.assert_allclose(scenario.elevation(curve, places, np.ones(401))[1], difference, atol=1e-8)
     for text, words in (
         ("position,elevation\n0,0\n0,0.001\n", "rail.csv:3: position 0 m is not beyond 0 m"),
         ("position,elevation\n0,0.5\n", "rail.csv:2: elevation = 0.5 m is outside"),

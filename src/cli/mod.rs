@@ -14,6 +14,7 @@ mod setup;
 mod simulate;
 mod steady;
 mod table;
+mod track;
 mod vtu;
 
 pub use failure::Failure;

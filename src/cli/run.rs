@@ -1,8 +1,8 @@
 //! A run over time: the slave, its scenario and its communication steps.
 
 use super::Failure;
-use super::scenario::{Scenario, Values};
-use super::setting::Setting;
+use super::scenario::{RATE, Scenario, Values};
+use super::setting::{Setting, find};
 use super::setup::{Setup, failed, wrong};
 use std::path::PathBuf;
 use wheelrail::fmi::instance::Instance;
@@ -125,6 +125,10 @@ impl Run {
                 }
                 _ => return Err(Failure::Usage(format!("{} is no input", column.variable.name))),
             }
+        }
+        if let Some(rate) = scenario.elevation_rate(time + h) {
+            reals.0.push(find(RATE, |_| true)?.reference);
+            reals.1.push(Value::Real(rate));
         }
         self.instance.set(&choices.0, choices.1).map_err(wrong)?;
         self.instance.set(&reals.0, reals.1).map_err(wrong)?;

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::setting::{find, parse};
+use super::track::Heights;
 use std::path::Path;
 use wheelrail::config::display_number;
 use wheelrail::files;
@@ -18,16 +19,24 @@ const SEEN: f64 = 1e-6;
 /// Latest time \[s]: a later one is a date, or counts something else than seconds.
 const LATEST: f64 = 1e8;
 /// Inputs that move to their value at the end of a step: their mean over it has no meaning.
-const MOTIONS: [&str; 4] = ["drive.omega", "drive.velocity", "drive.displacement", "rail.elevation"];
+const MOTIONS: [&str; 5] = ["drive.omega", "drive.velocity", "drive.displacement", HEIGHT, RATE];
+/// The height of the rail, which is smooth between rows.
+const HEIGHT: &str = "rail.elevation";
+/// Its rate at the end of a step.
+pub const RATE: &str = "rail.elevation_rate";
+/// Share of the largest height by which a row may be off the cubic that the FMU follows.
+const UNEVEN: f64 = 1e-2;
 
-/// Values of inputs at given times. Real inputs are linear between rows, choices hold until the next row; before the
-/// first and after the last row everything is held. Two rows at the same time make a jump.
+/// Values of inputs at given times. Real inputs are linear between rows, the height of the rail is smooth, choices hold
+/// until the next row; before the first and after the last row everything is held. Two rows at the same time make a jump.
 pub struct Scenario {
     /// Ascending [s].
     times: Vec<f64>,
     columns: Vec<Column>,
     /// Times at which a number jumps or a choice changes, ascending [s].
     jumps: Vec<f64>,
+    /// The height of the rail, if it has a column.
+    heights: Option<Heights>,
 }
 
 /// One input.
@@ -85,7 +94,12 @@ impl Scenario {
         }
         let columns: Vec<_> = columns.into_iter().map(|(_, column)| column).collect();
         let jumps = jumps(&times, &columns);
-        Ok(Scenario { times, columns, jumps })
+        let heights =
+            columns.iter().find(|column| column.variable.name == HEIGHT).and_then(|column| match &column.values {
+                Values::Real(values) => Some(Heights::new(&times, values)),
+                Values::Choice(_) => None,
+            });
+        Ok(Scenario { times, columns, jumps, heights })
     }
 
     /// Time of the last row [s].
@@ -100,12 +114,28 @@ impl Scenario {
 
     /// Value at a time; at a jump that after it.
     pub fn after(&self, values: &[f64], time: f64) -> f64 {
-        between(&self.times, values, time, self.times.partition_point(|&t| t <= time + ROUNDING))
+        between(&self.times, values, time, self.rows_until(time))
     }
 
     /// Value at a time; at a jump that before it.
     pub fn before(&self, values: &[f64], time: f64) -> f64 {
-        between(&self.times, values, time, self.times.partition_point(|&t| t < time - ROUNDING))
+        between(&self.times, values, time, self.rows_before(time))
+    }
+
+    /// Number of rows up to a time.
+    fn rows_until(&self, time: f64) -> usize {
+        self.times.partition_point(|&t| t <= time + ROUNDING)
+    }
+
+    /// Number of rows before a time.
+    fn rows_before(&self, time: f64) -> usize {
+        self.times.partition_point(|&t| t < time - ROUNDING)
+    }
+
+    /// Rate of the height of the rail up to a time [m/s]; `None` where no column has heights, or one has rates.
+    pub fn elevation_rate(&self, time: f64) -> Option<f64> {
+        let given = self.columns.iter().any(|column| column.variable.name == RATE);
+        self.heights.as_ref().filter(|_| !given).map(|heights| heights.at(time, self.rows_before(time))[1])
     }
 
     /// Ends of the parts into which a step from `begin` to `end` [s] is divided at jumps, `end` the last one. What jumps
@@ -126,9 +156,11 @@ impl Scenario {
     /// Values at the beginning and the end [s] of a part of a step between which an input is straight: those that it
     /// has there, or where it varies within the part, of a line with the same mean and the same first moment.
     pub fn line(&self, column: &Column, values: &[f64], begin: f64, end: f64) -> [f64; 2] {
+        if let (HEIGHT, Some(heights)) = (column.variable.name, &self.heights) {
+            return [heights.at(begin, self.rows_until(begin))[0], heights.at(end, self.rows_before(end))[0]];
+        }
         let ends = [self.after(values, begin), self.before(values, end)];
-        let within =
-            self.times.partition_point(|&t| t <= begin + ROUNDING)..self.times.partition_point(|&t| t < end - ROUNDING);
+        let within = self.rows_until(begin)..self.rows_before(end);
         if within.is_empty() || MOTIONS.contains(&column.variable.name) {
             return ends;
         }
@@ -150,7 +182,8 @@ impl Scenario {
         }
         for column in &self.columns {
             let Values::Real(values) = &column.values else { continue };
-            let hidden = if MOTIONS.contains(&column.variable.name) { self.hidden(values, stop, step) } else { 0 };
+            let hidden =
+                if MOTIONS.contains(&column.variable.name) { self.hidden(column, values, stop, step) } else { 0 };
             if hidden > 0 {
                 texts.push(format!(
                     "{}: {hidden} of {} rows lie within communication steps of {} s and off the straight line through the ends \
@@ -164,15 +197,22 @@ impl Scenario {
         texts
     }
 
-    /// Number of values within steps that are off the straight line through the ends of their step.
-    fn hidden(&self, values: &[f64], stop: f64, step: f64) -> usize {
+    /// Number of values within steps that are off the straight line through the ends of their step, heights off the cubic.
+    fn hidden(&self, column: &Column, values: &[f64], stop: f64, step: f64) -> usize {
         let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        let heights = self.heights.as_ref().filter(|_| column.variable.name == HEIGHT);
+        let may = if heights.is_some() { UNEVEN } else { SEEN };
         let off = |(&time, &value): (&f64, &f64)| {
             let begin = step * ((time + ROUNDING) / step).floor();
             let end = (begin + step).min(stop);
             let inside = time > begin + ROUNDING && time < end - ROUNDING;
-            let [from, to] = [self.after(values, begin), self.before(values, end)];
-            inside && time > 0.0 && (from + (to - from) * (time - begin) / (end - begin) - value).abs() > SEEN * size
+            let [from, to] = self.line(column, values, begin, end);
+            let bent = heights.map_or(0.0, |heights| {
+                let rates = [begin, end].map(|at| heights.at(at, self.rows_before(at))[1]);
+                bend([(to - from) / (end - begin), rates[0], rates[1]], (time - begin) / (end - begin)) * (end - begin)
+            });
+            let line = from + (to - from) * (time - begin) / (end - begin);
+            inside && time > 0.0 && (line + bent - value).abs() > may * size
         };
         self.times.iter().zip(values).filter(|row| off(*row)).count()
     }
@@ -181,6 +221,12 @@ impl Scenario {
     pub fn choice(&self, values: &[i32], time: f64) -> i32 {
         values[self.times.partition_point(|&t| t <= time + ROUNDING).max(1) - 1]
     }
+}
+
+/// Distance of a cubic from the straight line through its ends, over its length, at a share `t` of it, by its mean rate and
+/// those at both ends.
+fn bend([mean, first, last]: [f64; 3], t: f64) -> f64 {
+    t * (1.0 - t) * ((1.0 - t) * (first - mean) - t * (last - mean))
 }
 
 /// Empty columns for the names besides `time`, with their positions.

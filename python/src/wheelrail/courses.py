@@ -3,7 +3,8 @@
 An input that varies is straight between its samples; a choice holds. Two samples at one time make a jump, at that time
 whatever the step is: a step is divided there. What varies otherwise within a step acts as the straight line with the same
 mean and the same first moment, so that no impulse is lost. Velocities and heights move to their value at the end of a step;
-of those it is said how many samples are not seen. The command line does the same with its scenarios.
+of those it is said how many samples are not seen. The height of a rail is a smooth curve, and has its rate at the end of a step
+unless that is an input, too. The command line does the same with its scenarios.
 """
 
 from bisect import bisect_left, bisect_right
@@ -11,17 +12,21 @@ from math import ceil, floor
 from numbers import Number
 
 from .samples import samples_of
+from .smooth import Spline
 from .values import Refused, short, to_fmu
 
 ROUNDING = 1e-9  # s: shorter times than this are rounding
 SHORTEST = 1e-6  # s: steps are divided into no shorter ones
 SEEN = 1e-6  # share of its largest value by which a value may be off the line that takes its place
+UNEVEN = 1e-2  # the same of the height of a rail, off the cubic that the FMU follows
+INSTANT = 1e-6  # s: distance over which a function is differentiated
 FINEST = 20  # how often a step is halved to find where a function jumps
 FINE = 2.5e-4  # s: a function is asked at least as often as this
 MOST = 2000  # samples of a function in a step: noise has no end
 PIECES = 4  # in which a function is asked at least
 CLOSE = 1e-4  # share of its range in a step by which a function may be off a straight piece
-MOTIONS = ("drive.omega", "drive.velocity", "drive.displacement", "rail.elevation")
+HEIGHT, RATE = "rail.elevation", "rail.elevation_rate"
+MOTIONS = ("drive.omega", "drive.velocity", "drive.displacement", HEIGHT, RATE)
 
 
 class Constant:
@@ -77,6 +82,10 @@ class Samples:
         points = [(self.times[k] - begin, self.values[k]) for k in inside]
         return straight([(0.0, ends[0]), *points, (end - begin, ends[1])]) if points else ends
 
+    def rate(self, time):
+        """Rate at the end of a step at `time` [s]; 0 leaves it to the FMU."""
+        return 0.0
+
     def unseen(self, name, stop, step):
         """What a run from 0 to `stop` in steps of `step` [s] does not see of the samples, in words."""
         if self.times[0] > stop or self.end < 0.0 < stop:
@@ -97,6 +106,37 @@ class Samples:
         low, high = self.at(begin), self.before(end)
         line = low + (high - low) * (time - begin) / (end - begin)
         return abs(line - self.values[k]) > SEEN * max(map(abs, self.values))
+
+
+class Heights(Samples):
+    """The height of a rail, sampled over time: smooth between its samples, with rates."""
+
+    def __init__(self, variable, times, values):
+        super().__init__(variable, times, values)
+        self.curve = Spline(self.times, values)
+
+    def rate(self, time):
+        """Rate [m/s] up to `time` [s]."""
+        return float(self.curve.at(time, before=True)[1])
+
+    def _value(self, time, after):
+        """The value on the piece that ends with the sample `after`."""
+        if after == 0 or after == len(self.times):
+            return self.values[max(after - 1, 0)]
+        return float(self.curve.at(min(max(time, self.times[after - 1]), self.times[after]), before=True)[0])
+
+    def _is_hidden(self, k, stop, step):
+        """Whether a sample lies within a step and off the cubic through its ends."""
+        time = self.times[k]
+        begin = step * floor((time + ROUNDING) / step)
+        end = min(begin + step, stop)
+        if time <= 0.0 or not begin + ROUNDING < time < end - ROUNDING:
+            return False
+        heights, rates = self.line(begin, end), (self.rate(begin), self.rate(end))
+        share, mean = (time - begin) / (end - begin), (heights[1] - heights[0]) / (end - begin)
+        bent = share * (1.0 - share) * ((1.0 - share) * (rates[0] - mean) - share * (rates[1] - mean))
+        cubic = heights[0] + (end - begin) * (share * mean + bent)
+        return abs(cubic - self.values[k]) > UNEVEN * max(map(abs, self.values))
 
 
 class Function:
@@ -124,6 +164,11 @@ class Function:
         (first, last), samples = self.known
         samples = samples if first <= begin and end <= last else self._samples(begin, end)
         return samples.line(begin, end)
+
+    def rate(self, time):
+        """Rate up to `time` [s]: the backward difference of second order."""
+        now, before, earlier = (self.at(time - k * INSTANT) for k in range(3))
+        return (1.5 * now - 2.0 * before + 0.5 * earlier) / INSTANT
 
     def unseen(self, name, stop, step):
         """Nothing: what varies within a step is found."""
@@ -197,7 +242,8 @@ def courses_of(fmu, inputs):
         else:
             sampled[name] = given
     for name, (times, values) in samples_of(sampled).items():
-        found[name] = Samples(variables[name], times, [to_fmu(variables[name], value) for value in values])
+        kind = Heights if name == HEIGHT else Samples
+        found[name] = kind(variables[name], times, [to_fmu(variables[name], value) for value in values])
     return {name: found[name] for name in inputs}
 
 

@@ -4,7 +4,7 @@ from contextlib import ExitStack
 from math import ceil, isfinite
 from numbers import Real
 
-from .courses import courses_of, parts
+from .courses import HEIGHT, RATE, courses_of, parts
 from .fmu import Fmu, Wheel
 from .values import check_names, short
 from .warn import warn
@@ -92,7 +92,8 @@ def _prescribe(wheel, moving, end):
     if not moving:
         return
     lines = {name: course.line(wheel.time, end) for name, course in moving.items()}
-    wheel.set({name: value for name, (value, _) in lines.items()})
+    at_end = {RATE: moving[HEIGHT].rate(end)} if HEIGHT in moving and RATE not in moving else {}
+    wheel.set({name: value for name, (value, _) in lines.items()} | at_end)
     real = [name for name in lines if wheel.fmu.variable(name).type == "Real"]
     rates = {name: (lines[name][1] - lines[name][0]) / (end - wheel.time) for name in real}
     wheel.set_rates({name: rate for name, rate in rates.items() if rate})

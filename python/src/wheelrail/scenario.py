@@ -15,6 +15,7 @@ from .own import find
 from .rail_map import RailLaw, RailMap
 from .reach import check_gap, check_reach
 from .schemas import BRAKE, PROFILE, SCENARIO, SECTIONS, TRACK, VEHICLE
+from .smooth import Spline
 from .warn import warn
 
 MOST_CELLS = 5e6  # of the map of the rail, which keeps values of every axle for each of them
@@ -227,17 +228,17 @@ def _beyond(row, before):
     return None
 
 
-def elevation(track, positions, velocities):
-    """Height [m] of the rail at positions [m] from the start, and its rate [m/s] for who moves there."""
-    if not track.profile:
+def heights(track):
+    """Smooth curve through the heights of the rail over positions from the start [m]; None where the rail is even."""
+    return Spline(np.array(track.profile.position) - track.begin, track.profile.elevation) if track.profile else None
+
+
+def elevation(curve, positions, velocities):
+    """Height [m] of the rail at positions [m] from the start by its curve, and its rate [m/s] for who moves there."""
+    if curve is None:
         return np.zeros((2, len(positions)))
-    place, height = np.array(track.profile.position) - track.begin, np.array(track.profile.elevation)
-    if len(place) < 2:
-        return np.array([np.full(len(positions), height[0]), np.zeros(len(positions))])
-    piece = np.clip(np.searchsorted(place, positions, side="right") - 1, 0, len(place) - 2)
-    inside = (np.asarray(positions) >= place[0]) & (np.asarray(positions) < place[-1])
-    rise = np.where(inside, (np.diff(height) / np.diff(place))[piece], 0.0)
-    return np.array([np.interp(positions, place, height), rise * velocities])
+    height, slope = curve.at(positions)
+    return np.array([height, slope * velocities])
 
 
 def section(track, position):

@@ -140,7 +140,7 @@ SECTIONS = {
 PROFILE = {
     "position": Real(-1e7, 1e7, "m", "along the track"),
     "elevation": Real(
-        -0.1, 0.1, "m", "of the rail, linear between positions and level beyond", usual=5e-3, others=MILLIMETRES
+        -0.1, 0.1, "m", "of the rail: a cubic spline between positions, level at both ends and beyond", usual=5e-3, others=MILLIMETRES
     ),
 }
 

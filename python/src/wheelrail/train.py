@@ -76,7 +76,7 @@ class Contacts:
 
     def __init__(self, wheelsets, positions, rail, track):
         self.wheelsets, self.positions, self.rail, self.track = wheelsets, positions, rail, track
-        self.time = 0.0
+        self.time, self.curve = 0.0, scenarios.heights(track)
         self.places = np.array(positions, float)
         self.seen = None
         self.met = [(0.0, 0.0)] * len(wheelsets)
@@ -90,7 +90,7 @@ class Contacts:
         and rate of the rail below each at the end."""
         self.met = [self._rail(axle) for axle in range(len(self.wheelsets))]
         drives = [
-            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k], lifted[0, k])
+            Drive(tuple(forces[:, k]), tuple(loads[:, k]), tuple(torques[:, k]), *self.met[k], *lifted[:, k])
             for k in range(len(self.wheelsets))
         ]
         before = self.seen
@@ -115,7 +115,7 @@ class Contacts:
     def lifted(self, h, speed):
         """Height [m] of the rail below the axles in `h` [s], and its rate [m/s]; `speed` [m/s] before the first step."""
         velocities = np.array([w.velocity for w in self.seen]) if self.seen else np.full(len(self.places), speed)
-        return scenarios.elevation(self.track, self.places + h * velocities, velocities)
+        return scenarios.elevation(self.curve, self.places + h * velocities, velocities)
 
     def _rail(self, axle):
         """Friction and excess temperature that an axle meets."""

@@ -23,6 +23,7 @@ class Drive(NamedTuple):
     friction: float  # 1
     rail_excess: float = 0.0  # K, of the arriving rail over the reference
     elevation: float = 0.0  # m, of the rail under the wheelset at the end of the step; rigid wheelsets feel it by the load only
+    elevation_rate: float = 0.0  # m/s, of that at the end of the step
 
 
 class Seen(NamedTuple):
@@ -67,7 +68,7 @@ class FmuWheelset:
         """Advances by `h` seconds."""
         ramped = {"drive.force": drive.force, "drive.load": drive.load, "brake.torque": drive.torque}
         held = {"rail.friction": drive.friction, "rail.temperature": self.reference + drive.rail_excess}
-        held["rail.elevation"] = drive.elevation
+        held |= {"rail.elevation": drive.elevation, "rail.elevation_rate": drive.elevation_rate}
         self.wheel.set({name: begin for name, (begin, _) in ramped.items()} | held)
         self.wheel.set_rates({name: (end - begin) / h for name, (begin, end) in ramped.items()})
         self.wheel.step(h)
