@@ -82,9 +82,9 @@ impl Damped {
         };
         let half = |k: usize| STEP / 2.0_f64.powi(k as i32);
         let (mut own, mut passing, mut within) = ([0.0; 4], [0.0; 4], [0.0; 3]);
-        for k in 0..4 {
-            own[k] = largest(10, NODES[OWN], half(k))?;
-            passing[k] = largest(10, NODES[k], half(k))?;
+        for (k, (own, passing)) in own.iter_mut().zip(&mut passing).enumerate() {
+            *own = largest(10, NODES[OWN], half(k))?;
+            *passing = largest(10, NODES[k], half(k))?;
         }
         for (k, most) in within.iter_mut().enumerate() {
             *most = largest(10, NODES[k], half(k) / 8.0)?;
@@ -112,8 +112,9 @@ impl Damped {
         let row = |name: &str, forces: &[f64]| -> Vec<(String, f64)> {
             NODES.iter().zip(forces).map(|(nodes, force)| (format!("a13.{name}.{nodes}"), *force)).collect()
         };
-        let damped = [("a13.damped.50".into(), self.own[0]), ("a13.damped.6".into(), self.own[3])];
-        [row("passing", &self.passing), row("within", &self.within), damped.into()].concat()
+        let damped = [("a13.damped.50", self.own[0]), ("a13.damped.6", self.own[3])];
+        let damped = damped.map(|(name, force)| (name.to_owned(), force));
+        [row("passing", &self.passing), row("within", &self.within), damped.to_vec()].concat()
     }
 
     /// Conditions that must hold.
