@@ -71,7 +71,7 @@ fn options() -> Result<Options, String> {
 fn run() -> Result<(), String> {
     let Options { out, wanted, extent, accept, page: only_page } = options()?;
     if only_page {
-        let [written, _] = page::current()?;
+        let [written, _] = page::current(report::COMMITTED)?;
         return write(&page::path(), &written);
     }
     let recipes: Vec<_> =
@@ -106,7 +106,7 @@ fn run() -> Result<(), String> {
     }
     if wanted.is_empty() && extent == Extent::Quick {
         wrong.extend(report::departures(report::COMMITTED, &report::csv(&figures)));
-        let [written, there] = page::current()?;
+        let [written, there] = page::current(report::COMMITTED)?;
         if written != there {
             wrong.push("the tables of docs/thesis.md are not those of thesis/values.csv: --page writes them".into());
         }

@@ -6,7 +6,6 @@
 
 use crate::errors::{self, Kind};
 use crate::quoted::{Quoted, Status};
-use crate::report::COMMITTED;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -92,17 +91,18 @@ pub fn page(current: &str, names: &BTreeMap<String, f64>) -> Result<String, Stri
     Ok(page)
 }
 
-/// The page as the values that are kept in the repository have it, and as it is.
-pub fn current() -> Result<[String; 2], String> {
+/// The page as a table of values has it, and as it is.
+pub fn current(table: &str) -> Result<[String; 2], String> {
     let file = path();
     let page_now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
-    let names = names(COMMITTED, &crate::quoted::all()?)?;
+    let names = names(table, &crate::quoted::all()?)?;
     Ok([page(&page_now, &names)?, page_now])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::COMMITTED;
 
     #[test]
     fn numbers_have_the_form_that_their_place_asks_for() {
@@ -135,7 +135,7 @@ mod tests {
     /// `make thesis ACCEPT=1` writes both, `cargo run -p wheelrail-thesis -- --page` the page alone.
     #[test]
     fn the_tables_of_the_page_are_those_of_the_values_that_are_kept() {
-        let [wanted, found] = current().unwrap();
+        let [wanted, found] = current(COMMITTED).unwrap();
         let differs = wanted.lines().zip(found.lines()).find(|(wanted, found)| wanted != found);
         assert!(wanted == found, "docs/thesis.md is not what thesis/values.csv makes of it, from here on: {differs:?}");
     }
