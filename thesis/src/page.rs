@@ -108,9 +108,9 @@ mod tests {
     fn numbers_have_the_form_that_their_place_asks_for() {
         let names = BTreeMap::from([("x.1".to_owned(), -1234.5678), ("small".to_owned(), 7.5e-5)]);
         let text =
-            filled("{x.1 .0} {x.1 .2} {x.1*-1e-3 +.1} {small .1e} {small*100 .3} {small*-1 .2}", &names).unwrap();
+            filled("{x.1 .0} {x.1 .2} {x.1*-1e-3 +.1} {small .1e} {small*100 .2} {small*-1 .2}", &names).unwrap();
         println!("{text}");
-        assert_eq!(text, "−1235 −1234.57 +1.2 7.5e-5 0.007 0.00");
+        assert_eq!(text, "−1235 −1234.57 +1.2 7.5e-5 0.01 0.00");
         for wrong in ["{y .1}", "{x.1}", "{x.1 3}", "{x.1 .x}", "{x.1*a .3}", "{x.1 .3"] {
             println!("{}", filled(wrong, &names).unwrap_err());
         }
