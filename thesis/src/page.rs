@@ -125,9 +125,9 @@ mod tests {
             )
         };
         let names = names(COMMITTED, &crate::quoted::all().unwrap()).unwrap();
-        let once = page(&marks("", "old\n"), &names).unwrap();
+        let once = page(&marks("", "OUTDATED\n"), &names).unwrap();
         assert!(once.starts_with("a\n<!-- results: begin -->\n") && once.ends_with("<!-- deviations: end -->\nc\n"));
-        assert!(!once.contains("old") && !once.contains('{'), "every name has its number");
+        assert!(!once.contains("OUTDATED") && !once.contains('{'), "every name has its number");
         assert_eq!(page(&once, &names).unwrap(), once);
         assert!(page("no marks", &names).unwrap_err().contains("results: begin"));
     }
