@@ -11,15 +11,17 @@ at a time. Printed for each run:
     p max, p mean  highest peak pressure, and its mean in time while locked, in MPa
     T max          highest surface temperature of wheel and rail in the contact, in °C
     force, mu      mean tangential force while locked in kN, and mean friction coefficient: force over load
-    signs          share of the steps whose change of the wheel's temperature has the other sign than that before (both more
-                   than 0.1 K), in %: a solution that jumps from step to step has 100
-    energy         residual of the energy audit at the end, in %
+    signs          share of the steps whose change of the wheel's temperature has the other sign than that before, in %: a
+                   solution that jumps from step to step has 100. Changes count that the error control would not let pass,
+                   solver.tolerance of the rise, while the load changes by less than 5 %: the temperature of a wheel that
+                   hops follows its load
+    energy         energy that the audit misses at the end over that which has flowed: dissipated, put in at the hub or stored, in %
     Ac1            time from the start of braking until wheel or rail is austenitic, in ms
     halved         share of the steps that the error control had to divide, in %
     ended          when a run stopped early (a discarded step), with its message
 
-Then for each speed: how far the results of coarser steps and meshes are from those of the finest, which limits are kept,
-and friction over speed beside Galton's trials of 1878, as they are remembered (`GALTON`).
+Then for each speed: how far the results of coarser steps and meshes are from those of the finest, which limits are broken,
+and friction over speed beside Galton's trials of 1878, as they are remembered (`GALTON`). A broken limit ends the study with 1.
 """
 
 import argparse
@@ -38,14 +40,15 @@ KELVIN = 273.15  # K at 0 °C
 LOCK = 0.02  # s, in which the rotation stops
 STRONGER = 2.0  # strength of the brake over what a friction coefficient of 1 holds
 SETTLED = 0.05  # s, from which on the slide counts
-NOISE = 0.1  # K: smaller changes of a temperature have no sign
+COLD = 100.0  # K: smaller rises of a temperature count as much for solver.tolerance
+HOPS = 0.05  # of the mean load: larger changes of it in a step take the temperature with them
 MPH = 1.609344  # km/h
 
 # What the results must keep.
 YIELD = 2.97 * 550e6  # Pa: pressure at which a cold wheel steel flows in a line contact, (2 + pi)/sqrt(3) times its yield stress
 SUPERHEAT = 50.0  # K: so far above the liquidus temperatures may be
 SIGNS = 0.10  # share of the steps
-AUDIT = 0.01  # of the dissipation
+AUDIT = 0.01  # of the energy that has flowed
 SPREAD = 0.05  # of the result of the finest run
 
 # Steel tyre sliding on a dry steel rail, speed in mph and friction coefficient. D. Galton and G. Westinghouse, Proc.
@@ -56,10 +59,11 @@ GALTON = ((7, 0.088), (14, 0.072), (27, 0.070), (34, 0.065), (41, 0.057), (55, 0
 OUTPUTS = (
     "wheel.omega", "contact.force_x", "contact.force_y", "contact.pressure_max", "contact.half_width",
     "contact.friction", "temperature.wheel_max", "temperature.rail_max", "solver.energy_residual",
-    "solver.internal_steps", "energy.friction",
+    "solver.internal_steps", "energy.friction", "energy.plastic", "energy.damping", "energy.stored", "energy.hub_work",
+    "energy.thermal_work",
 )  # fmt: skip
 # Written, too, if the binary has them.
-IF_THERE = ("damage.yielded", "damage.melted", "damage.flattening", "energy.plastic")
+IF_THERE = ("damage.yielded", "damage.melted", "damage.flattening")
 
 
 def galton(speed):
@@ -71,11 +75,27 @@ def galton(speed):
     return None
 
 
-def sign_changes(values):
-    """Share of the steps of a sequence whose change has the other sign than the one before."""
-    changes = [b - a for a, b in itertools.pairwise(values)]
-    turns = [a * b < 0.0 and min(abs(a), abs(b)) > NOISE for a, b in itertools.pairwise(changes)]
+def sign_changes(values, start, loads, tolerance):
+    """Share of the steps of a sequence of temperatures whose change has the other sign than the one before, both more than
+    the tolerance of the rise over the start, while the load stays as it is."""
+    steady = HOPS * sum(loads) / max(1, len(loads))
+    changes = [(b - a, abs(q - p)) for (a, p), (b, q) in itertools.pairwise(zip(values, loads))]
+    turns = [
+        a * b < 0.0 and min(abs(a), abs(b)) > tolerance * max(value - start, COLD) and max(p, q) < steady
+        for value, ((a, p), (b, q)) in zip(values[1:], itertools.pairwise(changes))
+    ]
     return sum(turns) / max(1, len(turns))
+
+
+def unaccounted(table):
+    """Energy that the audit misses at the end over the largest of what was dissipated, put in at the hub and stored. Only the
+    first of these is what solver.energy_residual is related to, and nothing is dissipated where there is no friction."""
+    friction, plastic, damping, stored, hub, heat = (
+        table[f"energy.{name}"][-1] for name in ("friction", "plastic", "damping", "stored", "hub_work", "thermal_work")
+    )
+    dissipated = friction + plastic + damping
+    flowed = max(abs(dissipated), abs(stored), abs(hub))
+    return (hub + heat - stored - dissipated) / flowed if flowed else 0.0
 
 
 def crossing(times, values, limit):
@@ -86,11 +106,12 @@ def crossing(times, values, limit):
     return None
 
 
-def figures(table, austenitisation):
+def figures(table, austenitisation, tolerance):
     """Figures of a slide from its table, a dictionary of columns with `time`."""
     late = [i for i, t in enumerate(table["time"]) if t >= SETTLED]
     hottest = [max(pair) for pair in zip(table["temperature.wheel_max"], table["temperature.rail_max"])]
     mean = lambda name: sum(table[name][i] for i in late) / max(1, len(late))
+    pick = lambda name: ([table[name][i] for i in late], table[name][0])
     force = -mean("contact.force_x")
     divided = [n > 1 for n in table["solver.internal_steps"]]
     found = {
@@ -99,8 +120,8 @@ def figures(table, austenitisation):
         "T max": max(hottest) - KELVIN,
         "force": force,
         "mu": force / mean("contact.force_y") if late else 0.0,
-        "signs": sign_changes([table["temperature.wheel_max"][i] for i in late]),
-        "energy": table["solver.energy_residual"][-1],
+        "signs": sign_changes(*pick("temperature.wheel_max"), pick("contact.force_y")[0], tolerance),
+        "energy": unaccounted(table),
         "Ac1": crossing(table["time"], hottest, austenitisation),
         "halved": sum(divided) / len(divided),
         "end": table["time"][-1],
@@ -156,7 +177,7 @@ class Binary:
         with open(out, newline="") as file:
             rows = list(csv.reader(file))
         table = dict(zip(rows[0], zip(*[[float(value) for value in row] for row in rows[1:]])))
-        found = figures(table, self.number("thermal.austenitisation"))
+        found = figures(table, self.number("thermal.austenitisation"), self.number("solver.tolerance"))
         found["error"] = " ".join(errors) if run.returncode else ""
         found["liquidus"] = self.number("material.liquidus") - KELVIN
         case = {"preset": self.preset, "by": by, "speed": speed, "step": step, "elements": elements}
@@ -263,7 +284,6 @@ def arguments():
     parser.add_argument("--meshes", type=numbers, default=[10, 20, 40], help="elements per half-width")
     parser.add_argument("--stop", type=float, default=2.0, help="end of the slide [s]")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
-    parser.add_argument("--strict", action="store_true", help="exit with 1 if a limit is broken")
     return parser.parse_args()
 
 
@@ -294,7 +314,7 @@ def study(options):
         writer.writeheader()
         writer.writerows(results)
     print(f"written: {table}")
-    return 1 if options.strict and count else 0
+    return 1 if count else 0
 
 
 if __name__ == "__main__":

@@ -7,7 +7,8 @@ CONTACT, E. A. H. Vollebregt, 2025, and read from that plot within 0.01): 10 m/s
 with the slip by the law given there, 0.36 (0.38 + 0.62 exp(-0.7 s w)). It is a fit to this measurement: what is tested is the
 way from law to curve, not the law. Softening is off, since the measured fall contains the heat.
 
-Every point is a stationary state: the start of an instance whose velocities are prescribed.
+Every point is a stationary state: the start of an instance whose velocities are prescribed. A point outside the scatter of the
+measurement ends the example with 1.
 """
 
 import argparse
@@ -59,16 +60,18 @@ def plot(path, curve):
 
 
 def run(options):
-    """The curve."""
+    """The curve; true if all of it lies within the scatter of the measurement."""
     with Fmu(options.fmu) as fmu:
         curve = [(creep, adhesion(fmu, creep)) for creep in CREEPS]
     print("creep [%]   measured        FMU")
-    for (low, high, least, most), points, inside in judged(curve):
+    rows = list(judged(curve))
+    for (low, high, least, most), points, inside in rows:
         values = ", ".join(f"{value:.3f} ({creep:g})" for creep, value in points)
         print(f"{low:4g} - {high:4g}  {least:.3f} - {most:.3f}   {values}{'' if inside else '   outside'}")
     options.out.mkdir(parents=True, exist_ok=True)
     plot(options.out / "creep_curve.png", curve)
     print(f"\nwritten: {options.out / 'creep_curve.png'}")
+    return all(inside for *_, inside in rows)
 
 
 def arguments():
@@ -81,6 +84,6 @@ def arguments():
 
 if __name__ == "__main__":
     try:
-        run(arguments())
+        sys.exit(0 if run(arguments()) else 1)
     except (FileNotFoundError, Refused) as error:
         sys.exit(f"error: {error}")

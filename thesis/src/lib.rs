@@ -26,6 +26,7 @@ pub mod mesh;
 pub mod newton;
 pub mod one_dimension;
 pub mod ours;
+pub mod page;
 pub mod paper_a;
 pub mod plot;
 pub mod quoted;

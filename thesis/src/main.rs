@@ -1,17 +1,18 @@
-//! `wheelrail-thesis [--full] [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads and writes the
-//! report.
+//! `wheelrail-thesis [--full] [--accept] [--page] [--out DIR] [ITEM…]`: recomputes figures of the thesis on two threads
+//! and writes the report.
 //!
-//! Ends with an error if a figure shows something else than it must, a quoted number has the wrong status, or, of all
-//! figures without `--full`, if a value is not the one of `thesis/values.csv`. How long it took is said, and fails
-//! nothing.
+//! Ends with an error if a figure shows something else than it must, a quoted number has the wrong status, a value is
+//! not the one of `thesis/values.csv` (without `--full`), or the tables of `docs/thesis.md` are not those of these
+//! values. `--accept` writes both anew, if nothing else is wrong; `--page` writes the page from the values that are
+//! there and recomputes nothing. How long it took is said, and fails nothing.
 
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use wheelrail_thesis::figures::{self, ALL, Extent, Figure};
-use wheelrail_thesis::{paper_a, quoted, report};
+use wheelrail_thesis::{page, paper_a, quoted, report};
 
 fn main() -> ExitCode {
     match run() {
@@ -23,27 +24,62 @@ fn main() -> ExitCode {
     }
 }
 
-fn run() -> Result<(), String> {
-    let (mut out, mut wanted) = (PathBuf::from("results/thesis"), Vec::new());
-    let mut extent = Extent::Quick;
+/// Writes a file and says so.
+fn write(file: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(file, text).map_err(|error| format!("{}: {error}", file.display()))?;
+    say(&file.display().to_string());
+    Ok(())
+}
+
+/// What is asked for on the command line.
+struct Options {
+    out: PathBuf,
+    wanted: Vec<String>,
+    extent: Extent,
+    accept: bool,
+    page: bool,
+}
+
+fn options() -> Result<Options, String> {
+    let mut options = Options {
+        out: PathBuf::from("results/thesis"),
+        wanted: Vec::new(),
+        extent: Extent::Quick,
+        accept: false,
+        page: false,
+    };
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
-            "--full" => extent = Extent::Full,
-            "--out" => out = arguments.next().ok_or("--out needs a directory")?.into(),
-            item if ALL.iter().any(|(name, _)| *name == item) => wanted.push(argument),
+            "--full" => options.extent = Extent::Full,
+            "--accept" => options.accept = true,
+            "--page" => options.page = true,
+            "--out" => options.out = arguments.next().ok_or("--out needs a directory")?.into(),
+            item if ALL.iter().any(|(name, _)| *name == item) => options.wanted.push(argument),
             other => {
                 let names: Vec<&str> = ALL.iter().map(|(name, _)| *name).collect();
                 return Err(format!("{other} is not recomputed; there are {names:?}"));
             }
         }
     }
+    if options.accept && (options.extent == Extent::Full || !options.wanted.is_empty()) {
+        return Err("--accept keeps the values of all figures in their quick extent: neither --full nor items".into());
+    }
+    Ok(options)
+}
+
+fn run() -> Result<(), String> {
+    let Options { out, wanted, extent, accept, page: only_page } = options()?;
+    if only_page {
+        let [written, _] = page::current(report::COMMITTED)?;
+        return write(&page::path(), &written);
+    }
     let recipes: Vec<_> =
         ALL.iter().filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|w| w == name)).collect();
     let start = Instant::now();
     let figures = figures::compute(&recipes, extent, say)?;
-    let seconds = start.elapsed().as_secs_f64();
-    say(&format!("{seconds:.0} s in all; {}", slowest(&figures)));
+    let (seconds, computed) = (start.elapsed().as_secs_f64(), figures.iter().map(|(_, time)| time).sum::<f64>());
+    say(&format!("{seconds:.0} s in all, {computed:.0} s of computing; {}", slowest(&figures)));
     let values: BTreeMap<String, f64> = figures.iter().flat_map(|(figure, _)| figure.values.clone()).collect();
     let quoted = quoted::all()?;
     std::fs::create_dir_all(&out).map_err(|error| format!("{}: {error}", out.display()))?;
@@ -51,13 +87,11 @@ fn run() -> Result<(), String> {
     say(&format!("a step of the product takes {:.0} µs", 1e6 * pace));
     // The last file is for thesis/baseline.m.
     for (name, text) in [
-        ("index.html", report::html(&figures, &quoted)),
+        ("index.html", report::html(&figures, &quoted)?),
         ("values.csv", report::csv(&figures)),
         ("step.txt", format!("{pace:e}\n")),
     ] {
-        let file = out.join(name);
-        std::fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
-        say(&file.display().to_string());
+        write(&out.join(name), &text)?;
     }
     let mut wrong: Vec<String> = figures.iter().flat_map(|(figure, _)| figure.flaws()).collect();
     if wanted.is_empty() {
@@ -67,10 +101,24 @@ fn run() -> Result<(), String> {
             }
         }
     }
+    if accept && wrong.is_empty() {
+        return keep(&report::csv(&figures), &quoted);
+    }
     if wanted.is_empty() && extent == Extent::Quick {
         wrong.extend(report::departures(report::COMMITTED, &report::csv(&figures)));
+        let [written, there] = page::current(report::COMMITTED)?;
+        if written != there {
+            wrong.push("the tables of docs/thesis.md are not those of thesis/values.csv: --page writes them".into());
+        }
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
+}
+
+/// Writes the values that later runs are compared with, and the page that tells them.
+fn keep(values: &str, quoted: &[quoted::Quoted]) -> Result<(), String> {
+    write(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/values.csv")), values)?;
+    let there = std::fs::read_to_string(page::path()).map_err(|error| error.to_string())?;
+    write(&page::path(), &page::page(&there, &page::names(values, quoted)?)?)
 }
 
 /// Writes a line. If nobody reads any more, the work goes on.

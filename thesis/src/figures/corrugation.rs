@@ -49,6 +49,9 @@ pub fn mesh() -> Result<Figure, String> {
     });
     let [five, ten, twenty] = [ours[0].clone()?, ours[1].clone()?, ours[2].clone()?];
     let exact = corrugation_force(TAU * SPEED / WAVE[1]);
+    let off = [five, ten, twenty].iter().fold(0.0_f64, |worst, force| worst.max((force / exact - 1.0).abs()));
+    let coarse = || ratios.iter().flat_map(|row| [row[0], row[1]]);
+    let (low, high) = (coarse().fold(f64::INFINITY, f64::min), coarse().fold(0.0, f64::max));
     let row = |i: usize| {
         format!("({}, {}) {} triangles: {:.3}, stated {}", MESHES[i].0, MESHES[i].1, counts[i], main[i], MESHES[i].2)
     };
@@ -71,8 +74,8 @@ pub fn mesh() -> Result<Figure, String> {
              {:.4} MN/m with 5, 10 and 20 elements, the closed form {:.4}, the standard mesh {:.4}.",
             (0..7).map(row).collect::<Vec<_>>().join("; "),
             100.0 * worst,
-            ratios.iter().map(|r| r[0].min(r[1])).fold(f64::INFINITY, f64::min),
-            ratios.iter().map(|r| r[0].max(r[1])).fold(0.0, f64::max),
+            low,
+            high,
             1e-6 * five,
             1e-6 * ten,
             1e-6 * twenty,
@@ -96,9 +99,7 @@ pub fn mesh() -> Result<Figure, String> {
                     "the product's meshes within 2 % of each other and of the closed form: {:.4}",
                     twenty / exact - 1.0
                 ),
-                [five, ten, twenty]
-                    .iter()
-                    .all(|force| (force / twenty - 1.0).abs() < 0.02 && (force / exact - 1.0).abs() < 0.02),
+                off < 0.02 && [five, ten].iter().all(|force| (force / twenty - 1.0).abs() < 0.02),
             ),
             must(
                 format!("the standard mesh within 4 % of the product: {:.4}", own / twenty - 1.0),
@@ -141,7 +142,12 @@ pub fn step() -> Result<Figure, String> {
                 curve(Source::Quoted, "stated", over(&STEPS.map(|step| step.1))),
             ],
         }],
-        values: STEPS.iter().zip(&main).map(|((step, _), ratio)| (format!("at2.{step:e}"), *ratio)).collect(),
+        values: STEPS
+            .iter()
+            .zip(&main)
+            .map(|((step, _), ratio)| (format!("at2.{step:e}"), *ratio))
+            .chain([("at2.product.1e-5".into(), own[0]), ("at2.product.1e-4".into(), own[2])])
+            .collect(),
         predicates: vec![
             must(format!("stated ratios within 5 %: {worst:.4}"), worst < 0.05),
             must(
@@ -196,7 +202,12 @@ pub fn ends() -> Result<Figure, String> {
                 curve(Source::Quoted, "stated", numbered(&[1.0; 5])),
             ],
         }],
-        values: names.iter().zip(&main).map(|(name, ratio)| (format!("at3.{name}"), *ratio)).collect(),
+        values: names
+            .iter()
+            .zip(&main)
+            .map(|(name, ratio)| (format!("at3.{name}"), *ratio))
+            .chain([("at3.method.off".into(), off(&main)), ("at3.product.off".into(), off(&own))])
+            .collect(),
         predicates: vec![
             must(format!("thesis's method within 0.005: {:.5}", off(&main)), off(&main) < 5e-3),
             must(format!("the product within 0.005: {:.5}", off(&own)), off(&own) < 5e-3),

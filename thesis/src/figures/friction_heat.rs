@@ -277,6 +277,8 @@ pub fn velocity(extent: Extent) -> Result<Figure, String> {
             ("c14.rail".into(), rail),
             ("c14.wheel.locked".into(), at_50[3][0]),
             ("c14.rail.locked".into(), at_50[3][1]),
+            ("c14.wheel.off".into(), off[0]),
+            ("c14.rail.off".into(), off[1]),
         ],
         predicates: vec![
             must(
@@ -340,7 +342,7 @@ pub fn conductance(extent: Extent) -> Result<Figure, String> {
             100.0 * stated
         ),
         plots: vec![plot("wheel", wheel), plot("rail", rail)],
-        values: vec![("c15.perfect".into(), last[0]), ("c15.left".into(), stated)],
+        values: vec![("c15.insulated".into(), first[0]), ("c15.perfect".into(), last[0]), ("c15.left".into(), stated)],
         predicates: vec![
             must("the wheel's mean falls and the rail's rises with the conductance", falls),
             balanced(largest(all.iter().map(|(.., lost)| *lost).chain([apart.heat_imbalance()]))),

@@ -135,7 +135,12 @@ pub fn transient() -> Result<Figure, String> {
                 "time in h",
             ),
         ],
-        values: vec![("b17.warm".into(), warm), ("b17.half_time".into(), half), ("b17.method.warm".into(), their_warm)],
+        values: vec![
+            ("b17.warm".into(), warm),
+            ("b17.half_time".into(), half),
+            ("b17.method.warm".into(), their_warm),
+            ("b17.method.off".into(), shape),
+        ],
         predicates: vec![
             must(format!("within 1 % of the annulus that conducts along the radius: {worst:.4}"), worst < 0.01),
             must(format!("a quarter of the step changes less than 1 %: {steps:.4}"), steps < 0.01),

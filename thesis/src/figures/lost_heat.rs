@@ -196,7 +196,7 @@ pub fn temperature(extent: Extent) -> Result<Figure, String> {
         parameters: "Base of Paper C, ξ = −5e-5, 50 km/h; μ = 0.4 assumed. Own meshes after the thesis's recipe, n_r = 0 to 3 (in full, 4, too), and one of its number of triangles \
                      without refinement of the whole wheel.",
         finding: format!(
-            "Ours {:.2e} K, reference 7.52e-5 K; stated 2.26e-6 K, {:.0} times less. The hub carries away what the mean temperature drives through the annulus: \
+            "Ours {:.2e} K with the centrifugal load and {still:.2e} K without it, reference 7.52e-5 K, without it; stated 2.26e-6 K, {:.0} times less. The hub carries away what the mean temperature drives through the annulus: \
              {:.1} % of the wheel's half of the friction heat in ours, {:.1} % in the thesis, which must have lost the rest. What it describes does not \
              lose so much. Changed one at a time, wheel and rail have — {}. But linear triangles in the wheel do, by an amount that hangs on the mesh — {}. On the mesh described, \
              n_r = 2, they keep four times what is stated; where all refinement is at the contact they have the stated number. So the thesis's wheel \

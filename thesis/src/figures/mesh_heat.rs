@@ -151,12 +151,14 @@ pub fn convergence(extent: Extent) -> Result<Figure, String> {
             arrives[2]
         ),
         plots: vec![Plot { axes: ["radius in m".into(), "temperature in K".into()], curves }],
-        values: vec![
-            ("b11.surface".into(), surface[2]),
-            ("b11.mean".into(), means[2]),
-            ("b.triangles".into(), triangles as f64),
-            ("b.nodes".into(), nodes as f64),
-        ],
+        values: (0..4)
+            .map(|global| (format!("b11.surface.{global}"), surface[global]))
+            .chain([
+                ("b11.mean".into(), means[2]),
+                ("b.triangles".into(), triangles as f64),
+                ("b.nodes".into(), nodes as f64),
+            ])
+            .collect(),
         predicates: vec![
             must(
                 format!("n_r = 3 within 10 % of ours at the contact point: {:+.4}", off(surface[3])),

@@ -251,6 +251,10 @@ pub fn temperature() -> Result<Figure, String> {
         ("d10.method.2".into(), quick_end),
         ("d10.method.6".into(), slow_end),
         ("d10.method.6.fine".into(), fine_end),
+        ("d10.method.share".into(), slow_end / slowest[0]),
+        ("d10.method.share.fine".into(), fine_end / slowest[0]),
+        ("d10.method.over".into(), quick_end / slow_end),
+        ("d10.over".into(), ends[1][0] / slowest[0]),
     ]);
     Ok(Figure {
         item: "D 10",

@@ -76,7 +76,12 @@ pub fn pressure() -> Result<Figure, String> {
             axes: ["place in mm".into(), "pressure in MPa".into()],
             curves: vec![curve(Source::Ours, "ours", shown(points)), curve(Source::Exact, "Hertz", shown(closed))],
         }],
-        values: vec![("b13.half_width".into(), width), ("b13.peak".into(), top)],
+        values: vec![
+            ("b13.half_width".into(), width),
+            ("b13.peak".into(), top),
+            ("b13.peak.off".into(), top / peak - 1.0),
+            ("b13.width.off".into(), width / a - 1.0),
+        ],
         predicates: vec![
             must(format!("peak within 0.5 % of Hertz: {:+.4}", top / peak - 1.0), (top / peak - 1.0).abs() < 5e-3),
             must(format!("half width within 0.5 %: {:+.4}", width / a - 1.0), (width / a - 1.0).abs() < 5e-3),
@@ -252,7 +257,11 @@ pub fn load(extent: Extent) -> Result<Figure, String> {
                 ],
             },
         ],
-        values: vec![("b16.wheel.10".into(), at_10), ("b16.ratio".into(), ratio)],
+        values: vec![
+            ("b16.wheel.10".into(), at_10),
+            ("b16.ratio".into(), ratio),
+            ("b16.width".into(), width[width.len() - 1] / width[0]),
+        ],
         predicates: vec![
             must(format!("width within 2 % of Hertz: {wide:.4}"), wide < 0.02),
             balanced(largest(runs.iter().map(Run::heat_imbalance))),

@@ -110,12 +110,14 @@ impl Validation {
 
     /// By name.
     pub(super) fn values(&self) -> Vec<(String, f64)> {
-        let [nodal, _, _, triangle, node] = self.read[1];
+        let ([nodal, _, _, triangle, node], [low, high]) = (self.read[1], self.range());
         vec![
             ("a.pressure.method".into(), nodal),
             ("a.pressure.triangle".into(), triangle),
             ("a.pressure.stress".into(), node),
-            ("a.pressure.plate".into(), self.ours[1] - self.ours[0]),
+            ("a.pressure.low".into(), low),
+            ("a.pressure.high".into(), high),
+            ("a.pressure.plate.off".into(), self.ours[1] - self.ours[0]),
             ("a.pressure.small".into(), self.ours[0]),
             ("a.pressure.large".into(), self.ours[1]),
         ]
