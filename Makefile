@@ -53,6 +53,7 @@ FMU_ALL := target/wheelrail-all.fmu
 CACHE := target
 VENV := .venv
 PY := $(VENV)/bin/python
+PIP := $(PY) -m pip install --quiet --disable-pip-version-check --no-deps
 
 # Stamps: cargo and pip run only when something they read has changed.
 BUILT := $(TARGET)/release/.built
@@ -255,34 +256,34 @@ endif
 $(INSTALLED): requirements.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable ./python
+	$(PIP) --require-hashes -r requirements.txt
+	$(PIP) --no-build-isolation --editable ./python
 	echo '$(CURDIR)' > $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(TRAIN): requirements-train.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(VENV)/.browser: requirements-browser.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(RECORDS): requirements-records.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(PLATFORMS): requirements-platforms.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(SITE): requirements-site.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
