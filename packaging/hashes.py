@@ -13,7 +13,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-COMMAND = ("uv", "pip", "compile", "--quiet", "--no-deps", "--universal", "--python-version", "3.11.9", "--generate-hashes", "--no-header", "--no-annotate")
+COMMAND = ("uv", "pip", "compile", "--quiet", "--no-deps", "--universal", "--python-version", "3.11.9")
+FORM = ("--generate-hashes", "--no-header", "--no-annotate")
 
 
 def logical_lines(text):
@@ -38,7 +39,7 @@ def hashes(line):
 
 def known(pins):
     """Hashes of all files of each pinned version, by name, from the package index that uv is configured for."""
-    listed = subprocess.run([*COMMAND, "-"], input="\n".join(pins), check=True, stdout=subprocess.PIPE, text=True).stdout
+    listed = subprocess.run([*COMMAND, *FORM, "-"], input="\n".join(pins), check=True, stdout=subprocess.PIPE, text=True).stdout
     return {name(pin(line)): sorted(hashes(line)) for line in logical_lines(listed)}
 
 
