@@ -217,7 +217,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     for (name, path) in files(&contents.reference, |name| name.starts_with(MODEL_IDENTIFIER))? {
         entries.push((format!("documentation/reference/{name}"), read(&path)?));
     }
-    for path in &contents.sbom {
+    if let Some(path) = &contents.sbom {
         entries.push((format!("documentation/licenses/{MODEL_IDENTIFIER}.cdx.json"), read(path)?));
     }
     let mut bases = contents.bases.clone();
