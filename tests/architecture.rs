@@ -63,8 +63,8 @@ const LONGEST_FILE: usize = 400;
 const LONG_FILES: &[(&str, &str)] = &[];
 /// Functions that are longer today. The list may only become shorter.
 const LONG_FUNCTIONS: &[(&str, &str)] = &[("rolling/outputs.rs", "observe")];
-/// Functions of `f64` that the mathematical library of the machine computes, with other last digits on other machines, and
-/// sums of products that are rounded once or twice. `√`, whole powers and roundings are the same everywhere.
+/// Functions of `f64` that the mathematical library of the machine computes, with other last digits on other machines,
+/// and sums of products that are rounded once or twice. `√`, whole powers and roundings are the same everywhere.
 const OF_THE_MACHINE: [&str; 26] = [
     "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
     "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "cbrt", "hypot", "mul_add",
