@@ -3,7 +3,7 @@
 # make quick     what tells most after an edit: architecture, documents, unit tests and fast programs
 # make loop TEST=brake  one test program after an edit; ARGS=name runs the tests of that name in it
 # make test-times  every test, one program after the other, with its CPU time: target/test-times.md
-# make fmu       target/wheelrail.fmu
+# make fmu       target/wheelrail.fmu, and target/wheelrail.cdx.json: the crates that are linked into its library
 #                make fmu PROFILES=no leaves the points of profiles out of its description (target/wheelrail-slim.fmu)
 # make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
 # make reference the run in examples/reference that users can compare theirs with
@@ -41,6 +41,9 @@
 
 PYTHON ?= python3
 CARGO ?= cargo
+# Libraries that are packed name no folders of whoever built them. The edit loop does without: the compiler would take its
+# parts for others wherever `cargo loop` is called by hand.
+RELEASE_CARGO := RUSTC_WRAPPER="$${RUSTC_WRAPPER:-$(CURDIR)/packaging/rustc-wrapper}" $(CARGO)
 
 # Everything is built in one profile and one target directory, so that dependencies compile once.
 TARGET := $(or $(CARGO_TARGET_DIR),target)
@@ -48,11 +51,14 @@ BINARY := $(TARGET)/release/wheelrail
 LIBRARY := $(TARGET)/release/libwheelrail.so
 FMU := target/wheelrail.fmu
 SLIM := target/wheelrail-slim.fmu
+SBOM := target/wheelrail.cdx.json
 COACH := $(TARGET)/release/.coach
 FMU_ALL := target/wheelrail-all.fmu
+SBOM_ALL := target/wheelrail-all.cdx.json
 CACHE := target
 VENV := .venv
 PY := $(VENV)/bin/python
+PIP := $(PY) -m pip install --quiet --disable-pip-version-check --no-deps
 
 # Stamps: cargo and pip run only when something they read has changed.
 BUILT := $(TARGET)/release/.built
@@ -84,8 +90,8 @@ test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
-	$(CARGO) test --release --locked -p wheelrail -p wheelrail-slave
-	$(CARGO) test --release --locked -p wheelrail-thesis
+	$(RELEASE_CARGO) test --release --locked -p wheelrail -p wheelrail-slave
+	$(RELEASE_CARGO) test --release --locked -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
@@ -226,28 +232,34 @@ clean:
 	$(CARGO) clean
 	rm -rf target $(VENV) results modelDescription.xml.new docs/reference.md.new .pytest_cache
 
-$(FMU): $(BUILT)
+$(FMU): $(BUILT) $(SBOM)
 	cp examples/reference/wheelrail_* $(dir $@)
-	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
+	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
 
-$(SLIM): $(BUILT)
-	$(BINARY) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --cache $(CACHE)
+$(SLIM): $(BUILT) $(SBOM)
+	$(BINARY) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
+
+$(SBOM): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
+	$(PYTHON) packaging/sbom.py --out $@
+
+$(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
+	$(PYTHON) packaging/sbom.py --out $@ --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu
 
 # Together with the product, whose dependencies then keep their features and are not compiled anew.
 $(COACH): $(BUILT) $(shell find coach -type f)
-	$(CARGO) build --release --locked -p wheelrail -p wheelrail-coach
+	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-coach
 	touch $@
 
 # Exported functions, version of glibc and size are checked before the archive gets its name.
-$(FMU_ALL): $(BUILT) $(PLATFORMS) packaging/build packaging/mingw-linker packaging/rustc-wrapper
+$(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-linker packaging/rustc-wrapper
 	PATH="$(abspath $(VENV)/bin):$$PATH" packaging/build
 	$(BINARY) pack --out $@.new --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
-		--resources resources --cache $(CACHE)
+		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
 
 $(BUILT): $(SOURCES)
-	$(CARGO) build --release --locked
+	$(RELEASE_CARGO) build --release --locked
 	touch $@
 
 # The stamp holds the folder it was made in: a copied checkout would import the package of the original, and makes its own.
@@ -257,34 +269,34 @@ endif
 $(INSTALLED): requirements.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r requirements.txt
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable ./python
+	$(PIP) --require-hashes -r requirements.txt
+	$(PIP) --no-build-isolation --editable ./python
 	echo '$(CURDIR)' > $@
 
 $(MASTERS): requirements-masters.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(TRAIN): requirements-train.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(VENV)/.browser: requirements-browser.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(RECORDS): requirements-records.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(PLATFORMS): requirements-platforms.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@
 
 $(SITE): requirements-site.txt $(INSTALLED)
-	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps -r $<
+	$(PIP) --require-hashes -r $<
 	touch $@

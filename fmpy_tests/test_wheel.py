@@ -59,6 +59,12 @@ def test_the_wheel_has_licences_examples_and_the_fmu_byte_for_byte(installed, pa
     assert {"ex00_minimal.py", "ex01_braking_stop.py", "ex12_own_vehicle.py", "train"} <= examples
 
 
+def test_the_fmu_and_with_it_the_wheel_brings_its_bill_of_materials(installed, tmp_path):
+    succeed(ROOT / "packaging" / "sbom.py", "--out", tmp_path / "bill.json", cwd=tmp_path)
+    with zipfile.ZipFile(installed / "wheelrail" / "wheelrail.fmu") as archive:
+        assert archive.read("documentation/licenses/wheelrail.cdx.json") == (tmp_path / "bill.json").read_bytes()
+
+
 def test_a_wheel_bears_the_platforms_of_its_fmu(packed, tmp_path):
     """An FMU of two platforms, made of the packed one, whose second library is no library: only names count here."""
     both = tmp_path / "both.fmu"

@@ -26,7 +26,7 @@ static void *find(void *library, const char *name) { return dlsym(library, name)
 static int close_library(void *library) { return dlclose(library); }
 #endif
 
-enum { STEPS = 2000, SAVED = 1000, REPEATED = 200, PRINTED = 20, LONGEST = 1000 };
+enum { STEPS = 2000, SAVED = 1000, REPEATED = 200, PRINTED = 20 };
 static const double STEP = 1e-3; /* s */
 static const unsigned DRIVE_MOMENT = 201, DRIVE_LOAD = 204; /* value references, N m and N */
 
@@ -111,13 +111,13 @@ static void print(size_t count, const double *table) {
 }
 
 int main(int arguments, char **argument) {
-    unsigned references[LONGEST];
     size_t count = arguments > 4 ? (size_t)arguments - 4 : 0;
-    if (count == 0 || count > LONGEST) fail("reading the arguments: host LIBRARY GUID RESOURCES REFERENCE...");
-    for (size_t i = 0; i < count; i++) references[i] = (unsigned)strtoul(argument[4 + i], NULL, 10);
+    if (count == 0) fail("reading the arguments: host LIBRARY GUID RESOURCES REFERENCE...");
     size_t size = REPEATED * count * sizeof(double);
+    unsigned *references = calloc(count, sizeof(unsigned));
     double *table = calloc(STEPS * count, sizeof(double)), *again = calloc(REPEATED * count, sizeof(double));
-    if (!table || !again) fail("allocation");
+    if (!references || !table || !again) fail("allocation");
+    for (size_t i = 0; i < count; i++) references[i] = (unsigned)strtoul(argument[4 + i], NULL, 10);
 
     library = open_library(argument[1]);
     if (!library) fail("loading the library");
@@ -147,6 +147,7 @@ int main(int arguments, char **argument) {
     call("fmi2Terminate");
     ((Free *)function("fmi2FreeInstance"))(wheel);
     if (close_library(library) != 0) fail("unloading the library");
+    free(references);
     free(table);
     free(again);
     return 0;

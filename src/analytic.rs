@@ -23,7 +23,7 @@ impl HalfPlane {
         match (component, force) {
             (0, 1) => -0.5 * side * self.coupling * x.signum(),
             (1, 0) => 0.5 * side * self.coupling * x.signum(),
-            _ => -self.kernel * x.abs().ln(),
+            _ => -self.kernel * libm::log(x.abs()),
         }
     }
 }
@@ -37,7 +37,10 @@ pub fn digamma(mut x: f64) -> f64 {
         x += 1.0;
     }
     let y = 1.0 / (x * x);
-    x.ln() - 0.5 / x - y * (1.0 / 12.0 - y * (1.0 / 120.0 - y * (1.0 / 252.0 - y * (1.0 / 240.0 - y / 132.0)))) - below
+    libm::log(x)
+        - 0.5 / x
+        - y * (1.0 / 12.0 - y * (1.0 / 120.0 - y * (1.0 / 252.0 - y * (1.0 / 240.0 - y / 132.0))))
+        - below
 }
 
 /// Half-width of the Hertzian line contact `a = √(4PR/(πE*))` \[m]; `load` [N/m] (Johnson, 4.43).
@@ -166,7 +169,7 @@ fn bessel_y(order: i32, x: f64) -> f64 {
         sum += digammas * term;
     }
     let singular = if order == 1 { 1.0 / half } else { 0.0 };
-    (2.0 * half.ln() * bessel_j(order, x) - sum - singular) / PI
+    (2.0 * libm::log(half) * bessel_j(order, x) - sum - singular) / PI
 }
 
 /// Temperature rise \[K] of the surface of a half-space at `x` \[m] under the flux `flux` [W/m²] on `|x| ≤ half_width`
@@ -180,8 +183,8 @@ pub fn moving_source(x: f64, half_width: f64, speed: f64, effusivity: f64, flux:
     let (low, high) = ((-half_width - x).max(0.0).sqrt(), (half_width - x).max(0.0).sqrt());
     let part = |i: i32| {
         let angle = PI * (f64::from(i) + 0.5) / f64::from(POINTS);
-        let t = 0.5 * (low + high) - 0.5 * (high - low) * angle.cos();
-        flux(x + t * t) * angle.sin()
+        let t = 0.5 * (low + high) - 0.5 * (high - low) * libm::cos(angle);
+        flux(x + t * t) * libm::sin(angle)
     };
     let integral = 0.5 * (high - low) * PI / f64::from(POINTS) * (0..POINTS).map(part).sum::<f64>();
     2.0 * integral / (effusivity * (PI * speed).sqrt())

@@ -82,7 +82,7 @@ impl Piecewise {
     pub fn sampled(low: f64, high: f64, count: usize, f: impl Fn(f64) -> f64) -> Self {
         let last = count.max(2) - 1;
         let place = |i: usize| {
-            let c = (PI * i as f64 / last as f64).cos();
+            let c = libm::cos(PI * i as f64 / last as f64);
             0.5 * (low * (1.0 + c) + high * (1.0 - c))
         };
         let x: Vec<f64> = (0..=last).map(place).collect();

@@ -63,6 +63,12 @@ const LONGEST_FILE: usize = 400;
 const LONG_FILES: &[(&str, &str)] = &[];
 /// Functions that are longer today. The list may only become shorter.
 const LONG_FUNCTIONS: &[(&str, &str)] = &[("rolling/outputs.rs", "observe")];
+/// Functions of `f64` that the mathematical library of the machine computes, with other last digits on other machines,
+/// and sums of products that are rounded once or twice. `√`, whole powers and roundings are the same everywhere.
+const OF_THE_MACHINE: [&str; 26] = [
+    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
+    "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "cbrt", "hypot", "mul_add",
+];
 /// Beginnings of doc comments that name no subject.
 const NO_SUBJECT: [&str; 3] = ["What", "Whether", "The same"];
 
@@ -243,6 +249,22 @@ fn reaches_into_a_grid(text: &str) -> bool {
     text.contains("grid.")
 }
 
+/// Calls of functions whose last digits depend on the machine, as methods or by path; unit tests do not count.
+fn calls_of_the_machine(text: &str) -> Vec<String> {
+    let code = without_tests(&without_strings(&without_comments(text)));
+    let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    let method = |name: &&str| {
+        let dotted = format!(".{name}(");
+        // `log` without a base is the log of a life cycle.
+        code.match_indices(&dotted).any(|(at, _)| *name != "log" || !code[at + dotted.len()..].starts_with(')'))
+    };
+    let path = |name: &&str| {
+        let paths = [format!("f64::{name}"), format!("f32::{name}")];
+        paths.iter().any(|path| code.match_indices(path).any(|(at, _)| ends(&code[at + path.len()..])))
+    };
+    OF_THE_MACHINE.iter().filter(|name| method(name) || path(name)).map(|name| (*name).to_owned()).collect()
+}
+
 /// A house of made-up files.
 fn house(files: &[(&str, &str)]) -> SourceMap {
     SourceMap::from_files(|file| files.iter().find(|(name, _)| *name == file).map(|(_, text)| (*text).to_owned()))
@@ -343,6 +365,44 @@ fn unsafe_is_only_in_the_c_interface() {
     }
     assert!(has_word("fn f() { unsafe { g() } }", "unsafe"));
     assert!(!has_word("// unsafe\nconst UNSAFE: &str = \"unsafe\"; fn unsafe_code() {}", "unsafe"));
+}
+
+/// `tests/fmi_library.rs` finds those that dependencies call.
+#[test]
+fn functions_come_from_the_portable_library() {
+    let product = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["src", "slave/src"] {
+        let sources = files_below(&product.join(folder));
+        let tests = test_files(&sources);
+        assert!(sources.len() > tests.len() + 5, "{folder}: {} files", sources.len());
+        for (file, text) in sources.iter().filter(|(file, _)| !tests.contains(file)) {
+            let found = calls_of_the_machine(text);
+            assert!(found.is_empty(), "{folder}/{file} calls {}: take them from the crate libm", found.join(", "));
+        }
+    }
+}
+
+#[test]
+fn calls_of_the_machine_are_seen_as_methods_constants_and_paths() {
+    for (code, expected) in [
+        ("fn f(x: f64) -> f64 { x.sin() }", "sin"),
+        ("fn f(x: f64) -> f64 {\n    (2.0 * x)\n        .exp_m1()\n}", "exp_m1"),
+        ("const G: f64 = 2.0; fn f() -> f64 { G.ln() }", "ln"),
+        ("fn f(x: &[f64]) -> Vec<f64> { x.iter().copied().map(f64::cbrt).collect() }", "cbrt"),
+        ("fn f(x: f64) -> f64 { f64::atan2(x, 1.0) }", "atan2"),
+        ("fn f(x: f64) -> f64 { x.log(3.0) }", "log"),
+        ("fn f(x: f64) -> f64 { x.mul_add(2.0, 1.0) }", "mul_add"),
+    ] {
+        assert_eq!(calls_of_the_machine(code), [expected], "{code}");
+    }
+    for code in [
+        "fn f(x: f64) -> f64 { libm::sin(x).sqrt().powi(2) } // x.sin()",
+        "fn f(life: &Life) { life.log().report(); simd.mul_add_e_f64s(a, b, c); }",
+        "fn f(angles: Angles) -> f64 { angles.cosine() + f64::logarithm() }",
+        "#[cfg(test)]\nmod tests { fn f(x: f64) -> f64 { x.sin() } }",
+    ] {
+        assert_eq!(calls_of_the_machine(code), Vec::<String>::new(), "{code}");
+    }
 }
 
 #[test]

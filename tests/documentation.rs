@@ -22,6 +22,7 @@ fn documentation() -> (BTreeMap<String, String>, BTreeSet<String>) {
         binaries: vec![Binary::new("linux64", library).unwrap()],
         resources: root.join("resources"),
         reference: root.join("examples/reference"),
+        sbom: None,
         bases: Vec::new(),
     };
     package::write(&fmu, &contents).unwrap();

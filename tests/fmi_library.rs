@@ -34,16 +34,18 @@ fn needed() -> Vec<String> {
 #[cfg(target_os = "linux")]
 fn it_needs_nothing_but_the_c_runtime() {
     let needed = needed();
-    let known = ["libc", "libm", "ld-linux-x86-64", "ld-linux-aarch64"];
+    let known = ["libc", "ld-linux-x86-64", "ld-linux-aarch64"];
+    println!("{needed:?}");
     assert!(needed.iter().any(|name| name == "libc"), "{needed:?}");
+    // `libm` would mean that results depend on the mathematical library of the machine: on its version, and on the
+    // instructions that it picks for the processor.
     assert!(needed.iter().all(|name| known.contains(&name.as_str())), "{needed:?}");
 }
 
 /// Largest size of what is loaded of the ordinary library \[bytes]. `make fmu-all` links the same code for whole
-/// programs and refuses more than 5 MB (`packaging/check.py`), where this build has 1.5 times as much: 6.3 MB beside
-/// 4.2 MB.
+/// programs and refuses more than 6 MB (`packaging/check.py`); this build has 1.43 times as much.
 #[cfg(target_os = "linux")]
-const LARGEST: u64 = 7_200_000;
+const LARGEST: u64 = 8_600_000;
 
 #[test]
 #[cfg(target_os = "linux")]

@@ -24,6 +24,7 @@ fn contents(binaries: Vec<Binary>) -> Contents {
         binaries,
         resources: root.join("resources"),
         reference: root.join("examples/reference"),
+        sbom: None,
         bases: Vec::new(),
     }
 }
@@ -51,6 +52,26 @@ fn an_archive_holds_the_binaries_of_all_its_platforms() {
     for name in ["modelDescription.xml", "model.png", "documentation/index.html", "resources/railway.json"] {
         assert!(archive.by_name(name).is_ok(), "{name}");
     }
+}
+
+#[test]
+fn a_bill_of_materials_lies_beside_the_licences() {
+    let directory = workplace("bill");
+    let (bill, fmu) = (directory.join("bill.json"), directory.join("bill.fmu"));
+    fs::write(&bill, "{}").unwrap();
+    let mut contents = contents(vec![library(&directory, "linux64").0]);
+    let names = |contents: &Contents| {
+        package::write(&fmu, contents).unwrap();
+        let archive = ZipArchive::new(File::open(&fmu).unwrap()).unwrap();
+        archive.file_names().map(|name| name.unwrap().into_owned()).collect::<Vec<_>>()
+    };
+    let bills = |names: Vec<String>| names.into_iter().filter(|name| name.ends_with(".cdx.json")).collect::<Vec<_>>();
+    assert_eq!(bills(names(&contents)), Vec::<String>::new());
+    contents.sbom = Some(bill);
+    assert_eq!(bills(names(&contents)), ["documentation/licenses/wheelrail.cdx.json"]);
+    contents.sbom = Some(directory.join("nowhere.json"));
+    let error = package::write(&fmu, &contents).unwrap_err().to_string();
+    assert!(error.contains("nowhere.json"), "{error}");
 }
 
 #[test]

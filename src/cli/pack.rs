@@ -29,6 +29,9 @@ pub struct Pack {
     /// Directory with the run that users can compare theirs with.
     #[arg(long, default_value = "examples/reference")]
     reference: PathBuf,
+    /// Bill of materials of the libraries (CycloneDX, packaging/sbom.py), to be packed beside the licences.
+    #[arg(long, value_name = "FILE")]
+    sbom: Option<PathBuf>,
     /// Directory that keeps computed bases for the next time, in its subdirectory `basis`.
     #[arg(long, default_value = "target")]
     cache: PathBuf,
@@ -47,14 +50,14 @@ impl Pack {
         }
         let failed = |error: package::PackageError| Failure::Run(error.to_string());
         let extent = if self.no_profiles { Extent::WithoutProfiles } else { Extent::Full };
-        let Pack { out, library, mut binaries, resources, reference, .. } = self;
+        let Pack { out, library, mut binaries, resources, reference, sbom, .. } = self;
         match package::platform() {
             Ok(own) if binaries.iter().any(|binary| binary.platform() == own) => {}
             Ok(own) => binaries.insert(0, Binary::new(own, library).map_err(failed)?),
             Err(unnamed) if binaries.is_empty() => return Err(failed(unnamed)),
             Err(_) => {}
         }
-        package::write(&out, &Contents { extent, binaries, resources, reference, bases }).map_err(failed)?;
+        package::write(&out, &Contents { extent, binaries, resources, reference, sbom, bases }).map_err(failed)?;
         println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
         Ok(())
     }

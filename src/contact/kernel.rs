@@ -40,7 +40,7 @@ impl LineKernel {
 
     /// That of a half-plane whose displacement ends at the distance `length` \[m].
     pub fn of_half_plane(half_plane: HalfPlane, length: f64) -> Self {
-        let along = Logarithm { factor: half_plane.kernel, reach: length.ln() };
+        let along = Logarithm { factor: half_plane.kernel, reach: libm::log(length) };
         Self { tangential: along, normal: along, coupling: half_plane.coupling }
     }
 

@@ -111,7 +111,7 @@ impl PatchLayout {
         let PatchMaterial { half_plane, shear_modulus, poissons_ratio } = material;
         let (load, modulus) = (rows::load(&rows), 1.0 / (PI * half_plane.kernel));
         let lines = rows.iter().map(|row| [row.width, row.half_length]);
-        let reach = mindlin::kernel_length([a, b], poissons_ratio, lines).ln();
+        let reach = libm::log(mindlin::kernel_length([a, b], poissons_ratio, lines));
         let factor = (1.0 - poissons_ratio) / (PI * shear_modulus) / k11(a / b);
         Self {
             symmetric: false,
@@ -159,7 +159,7 @@ impl PatchLayout {
 
     /// Lines under a load \[N] that move with the patch: under a small change of the load they keep their places in it.
     pub fn moving(&self, load: f64) -> impl Iterator<Item = LineLayout> {
-        let scale = (self.load_of(load) / self.load).cbrt();
+        let scale = libm::cbrt(self.load_of(load) / self.load);
         let approach = scale * scale * self.approach;
         rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * row.line_load / approach))
     }
@@ -169,14 +169,14 @@ impl PatchLayout {
     /// as long as `longest` \[m], half of that counted, reach so far that none is pushed up by its own forces; outer ones
     /// are then less stiff.
     pub fn staying(&self, load: f64, longest: f64) -> Vec<LineLayout> {
-        let scale = (self.load_of(load) / self.load).cbrt();
+        let scale = libm::cbrt(self.load_of(load) / self.load);
         let rows: Vec<_> = rows::scaled(&self.rows, scale).collect();
         let factor = |row: &PatchRow| row.half_length * row.half_length / (4.0 * self.radius * row.line_load);
         let lines: Vec<_> = rows.iter().map(|row| [0.5 * row.width / factor(row), row.half_length]).collect();
         let stiffness = 1.5 * rows::load(&rows) / (scale * scale * self.approach);
         let lengths = reach::proportional_lengths(stiffness, &lines, 0.5 * longest);
         let line = |(row, length): (&PatchRow, f64)| {
-            self.line(row, scale, 0.5 / (factor(row) * (2.0 * length / row.half_length).ln()))
+            self.line(row, scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
         };
         rows.iter().zip(lengths).map(line).collect()
     }
@@ -194,8 +194,8 @@ impl PatchLayout {
             share: width / self.width,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
-                tangential: Logarithm { reach: self.tangential.reach + scale.ln(), ..self.tangential },
-                normal: Logarithm { factor, reach: (0.5 * half_length).ln() + logarithm },
+                tangential: Logarithm { reach: self.tangential.reach + libm::log(scale), ..self.tangential },
+                normal: Logarithm { factor, reach: libm::log(0.5 * half_length) + logarithm },
                 coupling: self.coupling,
             },
             energy: line_load * (0.4 * approach - pressing * (logarithm + 0.25)),

@@ -27,23 +27,23 @@ const MOST_STEPS: usize = 20;
 /// falls by twice the turn to 1 at the free surface. Derivation: `docs/theory/limits-of-steel.md`.
 pub fn bearing(shear: f64) -> f64 {
     let shear = shear.abs().min(1.0);
-    1.0 + PI - shear.asin() + (1.0 - shear * shear).sqrt()
+    1.0 + PI - libm::asin(shear) + (1.0 - shear * shear).sqrt()
 }
 
 /// Pressure of [`bearing`] under a shear traction that is the share `ratio` of the pressure; from [`SLIDES`] on the
 /// shear is the strength of the steel.
 pub fn bearing_in_sliding(ratio: f64) -> f64 {
     let ratio = ratio.abs().min(SLIDES);
-    let mut angle = (ratio * PRANDTL).min(1.0).asin();
+    let mut angle = libm::asin((ratio * PRANDTL).min(1.0));
     for _ in 0..MOST_STEPS {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         let change = (sin - ratio * (1.0 + PI - angle + cos)) / (cos + ratio * (1.0 + sin));
         angle = (angle - change).clamp(0.0, 0.5 * PI);
         if change.abs() <= PRECISION {
             break;
         }
     }
-    1.0 + PI - angle + angle.cos()
+    1.0 + PI - angle + libm::cos(angle)
 }
 
 /// Share of the largest pressure that is left under a shear traction that is the share `ratio` of it and counts with

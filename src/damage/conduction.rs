@@ -85,7 +85,7 @@ pub(super) fn beside(mesh: &SpotMesh, known: &Range<usize>, dt: f64) -> [Range<u
     let link = theta * largest(&line.lower).max(largest(&line.upper));
     // From node to node of `1 − θ L` an influence falls to less than this.
     let passed = link / (1.0 + link);
-    let reach = (CARRIED.ln() / passed.ln()).ceil().min(count as f64) as usize;
+    let reach = (libm::log(CARRIED) / libm::log(passed)).ceil().min(count as f64) as usize;
     let (low, high) = (known.start + reach, known.end.saturating_sub(reach));
     if low < high { [0..low, high..count] } else { [0..count, count..count] }
 }

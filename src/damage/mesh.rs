@@ -75,12 +75,12 @@ impl SpotMesh {
         let SpotLayout { radius, hub_radius, half_width, zone, resolution, .. } = *layout;
         let thickness = DEPTH.min(0.9 * (radius - hub_radius));
         let first = (resolution * FIRST).min(0.02 * thickness);
-        let depth = graded(first, GROWTH.powf(resolution), LARGEST * resolution * thickness, thickness);
+        let depth = graded(first, libm::pow(GROWTH, resolution), LARGEST * resolution * thickness, thickness);
         let middle = (zone + half_width).min(0.25 * PI * radius);
         let count = (middle / (MIDDLE * resolution * half_width)).ceil().max(2.0);
         let mut side: Vec<f64> = (0..=count as usize).map(|i| middle * i as f64 / count).collect();
         let beyond = BEYOND.min(0.25 * PI * radius);
-        let growth = GROWTH_ALONG.powf(resolution);
+        let growth = libm::pow(GROWTH_ALONG, resolution);
         let outer = graded(growth * middle / count, growth, LARGEST * resolution * beyond, beyond);
         side.extend(outer.iter().skip(1).map(|s| middle + s));
         let arc: Vec<f64> = side.iter().rev().map(|s| -s).chain(side.iter().skip(1).copied()).collect();

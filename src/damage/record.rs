@@ -73,7 +73,7 @@ impl PointHistory {
             self.cooling_rate = ((from - COOLING[1]) / (crossing(COOLING[1]) - since)).max(0.0);
         }
         if after < criteria.martensite_start && self.cooling_rate >= criteria.critical_cooling {
-            let share = -(-KOISTINEN_MARBURGER * (criteria.martensite_start - after)).exp_m1();
+            let share = -libm::expm1(-KOISTINEN_MARBURGER * (criteria.martensite_start - after));
             self.martensite = self.martensite.max(share);
         }
     }

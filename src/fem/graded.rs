@@ -77,8 +77,8 @@ impl ContactZone {
     /// Length of each wing [m] and its grading.
     fn wings(&self) -> Option<(f64, Grading)> {
         let (first, length) = (self.spacing(), self.reach - self.core());
-        let slope = (WING_SLOPE * first / self.half_width).clamp(LEAST_WING_GROWTH.ln(), GROWTH.ln());
-        let grading = Grading::one_sided(first, slope.exp(), first + slope * length);
+        let slope = (WING_SLOPE * first / self.half_width).clamp(libm::log(LEAST_WING_GROWTH), libm::log(GROWTH));
+        let grading = Grading::one_sided(first, libm::exp(slope), first + slope * length);
         (length > 0.0 && grading.cells(length) > GUARDS as f64).then_some((length, grading))
     }
 
@@ -160,7 +160,7 @@ fn wheel_layout(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Layou
     let [reach, cell] = zone.end();
     Ok(Layout {
         side: Grading::one_sided(cell / radius, GROWTH, LARGEST_ANGLE),
-        side_length: PI - (reach / radius).asin(),
+        side_length: PI - libm::asin(reach / radius),
         depth: Grading { first: zone.spacing(), growth: DEPTH_GROWTH, largest, last, growth_last: HUB_GROWTH },
     })
 }
@@ -199,8 +199,8 @@ pub fn rail_unknowns(length: f64, height: f64, largest: f64, zone: ContactZone) 
 pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, FemError> {
     let layout = wheel_layout(radius, hub_radius, zone)?;
     let surface_x = zone.surface_x();
-    let mut angles: Vec<f64> = surface_x.iter().map(|x| (x / radius).asin()).collect();
-    let edge = (zone.end()[0] / radius).asin();
+    let mut angles: Vec<f64> = surface_x.iter().map(|x| libm::asin(x / radius)).collect();
+    let edge = libm::asin(zone.end()[0] / radius);
     let side = layout.side.positions(layout.side_length);
     angles.extend(side.iter().skip(1).map(|s| edge + s));
     angles.extend(side.iter().rev().skip(1).take(side.len() - 2).map(|s| -edge - s));
@@ -212,7 +212,7 @@ pub fn wheel(radius: f64, hub_radius: f64, zone: ContactZone) -> Result<Mesh, Fe
         // The rim's surface nodes get their x exactly.
         mesh.nodes.extend(angles.iter().enumerate().map(|(j, angle)| match surface_x.get(j) {
             Some(&x) if *depth == 0.0 => [x, -(radius * radius - x * x).sqrt()],
-            _ => [r * angle.sin(), -r * angle.cos()],
+            _ => [r * libm::sin(*angle), -r * libm::cos(*angle)],
         }));
     }
     for i in 0..rows - 1 {

@@ -42,13 +42,13 @@ impl Grading {
 
     fn pieces(&self, length: f64) -> Pieces {
         let (first, last) = (self.first.min(self.largest), self.last.min(self.largest));
-        let (alpha, beta, top) = (self.growth.ln(), self.growth_last.ln(), self.largest);
+        let (alpha, beta, top) = (libm::log(self.growth), libm::log(self.growth_last), self.largest);
         let crossing = (last + beta * length - first) / (alpha + beta);
         let rising = ((top - first) / alpha).min(crossing).clamp(0.0, length);
         let falling = (length - (top - last) / beta).max(crossing).clamp(rising, length);
-        let rise = (alpha * rising / first).ln_1p() / alpha;
+        let rise = libm::log1p(alpha * rising / first) / alpha;
         let flat = (falling - rising) / top;
-        let fall = (beta * (length - falling) / last).ln_1p() / beta;
+        let fall = libm::log1p(beta * (length - falling) / last) / beta;
         Pieces { first, last, alpha, beta, rising, rise, flat, fall }
     }
 
@@ -69,11 +69,11 @@ impl Grading {
         let place = |k: f64| {
             let t = total * k / cells;
             if t <= rise {
-                first * (alpha * t).exp_m1() / alpha
+                first * libm::expm1(alpha * t) / alpha
             } else if t <= rise + flat {
                 rising + (t - rise) * self.largest
             } else {
-                length - last * (beta * (total - t)).exp_m1() / beta
+                length - last * libm::expm1(beta * (total - t)) / beta
             }
         };
         let mut positions: Vec<f64> = (0..=cells as usize).map(|k| place(k as f64)).collect();

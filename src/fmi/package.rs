@@ -27,6 +27,8 @@ pub struct Contents {
     /// Directory with a run to compare with: inputs, results and their settings (`wheelrail_in.csv`, `_ref.csv`,
     /// `_ref.opt`).
     pub reference: PathBuf,
+    /// Bill of materials of the libraries, for `documentation/licenses/`.
+    pub sbom: Option<PathBuf>,
     /// Precomputed bases, for `resources/basis/`.
     pub bases: Vec<StoredBasis>,
 }
@@ -214,6 +216,9 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     }
     for (name, path) in files(&contents.reference, |name| name.starts_with(MODEL_IDENTIFIER))? {
         entries.push((format!("documentation/reference/{name}"), read(&path)?));
+    }
+    if let Some(path) = &contents.sbom {
+        entries.push((format!("documentation/licenses/{MODEL_IDENTIFIER}.cdx.json"), read(path)?));
     }
     let mut bases = contents.bases.clone();
     bases.sort();

@@ -88,7 +88,7 @@ impl LateralCells {
             }
         }
         let eigen = matrix.symmetric_eigen();
-        let decayed = eigen.eigenvalues.map(|value| (-diffusivity * time * value.max(0.0)).exp());
+        let decayed = eigen.eigenvalues.map(|value| libm::exp(-diffusivity * time * value.max(0.0)));
         let shares = &eigen.eigenvectors * DMatrix::from_diagonal(&decayed) * eigen.eigenvectors.transpose();
         let scaled = |i: usize, j: usize| (shares[(i, j)] * (self.width(j) / self.width(i)).sqrt()).max(0.0);
         LateralMixing { shares: DMatrix::from_fn(n, n, scaled) }

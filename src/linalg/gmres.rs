@@ -110,7 +110,7 @@ impl Gmres {
                 let (p, q) = (column[i], column[i + 1]);
                 (column[i], column[i + 1]) = (c * p + s * q, c * q - s * p);
             }
-            let diagonal = column[k].hypot(length);
+            let diagonal = libm::hypot(column[k], length);
             if !(diagonal > 0.0 && diagonal.is_finite()) {
                 return k;
             }

@@ -36,7 +36,7 @@ impl Lagrange {
 
     /// Chebyshev points of the interval [−1, 1].
     fn places() -> [f64; POINTS] {
-        std::array::from_fn(|k| -((k as f64 + 0.5) * PI / POINTS as f64).cos())
+        std::array::from_fn(|k| -libm::cos((k as f64 + 0.5) * PI / POINTS as f64))
     }
 
     /// The points.

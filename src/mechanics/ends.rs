@@ -41,7 +41,7 @@ impl BodySystem {
 fn dashpots(points: &[EdgePoint; 2], [along, across]: [f64; 2]) -> ElementMatrix {
     let mut matrix = [[0.0; 8]; 8];
     for p in points {
-        let length = p.normal[0].hypot(p.normal[1]);
+        let length = libm::hypot(p.normal[0], p.normal[1]);
         let n = p.normal.map(|component| component / length);
         for (row, line) in matrix.iter_mut().enumerate() {
             for (column, value) in line.iter_mut().enumerate() {

@@ -131,7 +131,7 @@ struct LinearFit {
 impl LinearFit {
     fn new(origin: [f64; 2], samples: &[CellSample; INNER]) -> Self {
         let row = |k: usize| samples[k].0;
-        let size = (0..INNER).map(|k| (row(k)[0] - origin[0]).hypot(row(k)[1] - origin[1])).fold(0.0, f64::max);
+        let size = (0..INNER).map(|k| libm::hypot(row(k)[0] - origin[0], row(k)[1] - origin[1])).fold(0.0, f64::max);
         let basis = Matrix4x3::from_fn(|k, j| if j == 0 { size } else { row(k)[j - 1] - origin[j - 1] });
         let values = Matrix4::from_fn(|k, j| samples[k].1[j]);
         let mut coefficients = basis.svd(true, true).solve(&values, f64::EPSILON * size).unwrap_or_default();

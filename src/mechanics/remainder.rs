@@ -57,7 +57,7 @@ pub(super) fn nodal(
         }
         n => (nodes[i] - nodes[j]).abs() / n as f64,
     };
-    -half_plane.kernel * (digamma(n as f64 + 0.5) + spacing.ln())
+    -half_plane.kernel * (digamma(n as f64 + 0.5) + libm::log(spacing))
 }
 
 /// Takes from `rest`, the compliance less that of a half-plane, the error of finite elements between near nodes: there it

@@ -41,7 +41,7 @@ pub fn half(lines: usize) -> Vec<GaussLine> {
 
 /// Node `i` from above by Newton's method (Abramowitz & Stegun, 25.4.29), from Tricomi's start.
 fn node(lines: usize, i: usize) -> GaussLine {
-    let mut x = (PI * (i as f64 + 0.75) / (lines as f64 + 0.5)).cos();
+    let mut x = libm::cos(PI * (i as f64 + 0.75) / (lines as f64 + 0.5));
     for _ in 0..MOST_STEPS {
         let (value, slope) = legendre(lines, x);
         let step = value / slope;

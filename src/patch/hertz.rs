@@ -73,7 +73,7 @@ impl Hertz {
             return Ellipse::default();
         }
         let cube = 3.0 * load * self.radius * self.aspect * self.curvature / (PI * self.modulus);
-        let a = cube.cbrt();
+        let a = libm::cbrt(cube);
         let b = a / self.aspect;
         let approach = 0.5 * a * a * self.approach / (self.radius * self.curvature);
         Ellipse { a, b, peak: 0.5 * a * self.modulus / (self.radius * self.curvature), approach }
@@ -99,11 +99,11 @@ pub fn approach([a, b]: [f64; 2], load: f64, contact_modulus: f64) -> f64 {
 /// the error at least to a third.
 fn aspect(radii: f64) -> f64 {
     let miss = |logarithm: f64| {
-        let square = (2.0 * logarithm).exp();
+        let square = libm::exp(2.0 * logarithm);
         let share = elliptic::complete(square, 0.0, 1.0) / elliptic::complete(square, 1.0, 0.0);
-        (square * share / radii).ln()
+        libm::log(square * share / radii)
     };
-    let mut logarithm = radii.ln() / SLOPES[0];
+    let mut logarithm = libm::log(radii) / SLOPES[0];
     let (mut error, mut slope) = (miss(logarithm), SLOPES[0]);
     for _ in 0..MOST_STEPS {
         let step = -error / slope;
@@ -115,7 +115,7 @@ fn aspect(radii: f64) -> f64 {
         error = miss(logarithm);
         slope = ((error - before) / step).clamp(SLOPES[0], SLOPES[1]);
     }
-    logarithm.exp()
+    libm::exp(logarithm)
 }
 
 #[cfg(test)]

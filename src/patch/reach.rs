@@ -18,7 +18,8 @@ pub fn common_length(stiffness: f64, lines: impl Iterator<Item = [f64; 2]>) -> f
     let longest = lines.iter().fold(0.0, |longest: f64, [_, half_length]| longest.max(*half_length));
     // `Σ w/(t + o) = 1/wanted` with `t = ln(2L/longest)`, `o = ln(longest/a_k) ≥ 0`.
     let wanted = 1.0 / stiffness;
-    let offsets: Vec<_> = lines.iter().map(|[weight, half_length]| (weight, (longest / half_length).ln())).collect();
+    let offsets: Vec<_> =
+        lines.iter().map(|[weight, half_length]| (weight, libm::log(longest / half_length))).collect();
     // The harmonic mean of `t + o` is concave: from above, Newton's method comes below the root and then rises to it.
     let mut t = wanted * lines.iter().map(|[weight, _]| weight).sum::<f64>();
     for _ in 0..MOST_STEPS {
@@ -30,7 +31,7 @@ pub fn common_length(stiffness: f64, lines: impl Iterator<Item = [f64; 2]>) -> f
             break;
         }
     }
-    0.5 * longest * t.exp()
+    0.5 * longest * libm::exp(t)
 }
 
 /// Lengths `L_k` \[m] in proportion to the half-lengths of the lines, with which all are equally stiff, but none shorter
@@ -40,10 +41,10 @@ pub fn proportional_lengths(stiffness: f64, lines: &[[f64; 2]], least: f64) -> V
     let common = common_length(stiffness, lines.iter().copied());
     let least = least.min(common);
     let length = |ratio: f64, half_length: f64| (ratio * half_length).max(least);
-    let stiff = |ratio: f64| -> f64 { lines.iter().map(|[w, a]| w / (2.0 * length(ratio, *a) / a).ln()).sum() };
+    let stiff = |ratio: f64| -> f64 { lines.iter().map(|[w, a]| w / libm::log(2.0 * length(ratio, *a) / a)).sum() };
     // The ratio lies between a half, with which the longest line is rigid, and that of equally stiff lines.
     let weights: f64 = lines.iter().map(|[weight, _]| weight).sum();
-    let (mut low, mut high) = (0.5, 0.5 * (weights / stiffness).exp());
+    let (mut low, mut high) = (0.5, 0.5 * libm::exp(weights / stiffness));
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         if stiff(middle) > stiffness { low = middle } else { high = middle }

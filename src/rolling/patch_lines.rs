@@ -15,7 +15,7 @@ pub fn apart(config: &Config) -> LineKernel {
     let half_plane = Isotropic::from(&config.material).half_plane();
     let [tangential, rigid, yielding] = REACHES;
     let normal = if config.rail.support_stiffness > 0.0 { yielding } else { rigid };
-    let along = |reach: f64| Logarithm { factor: half_plane.kernel, reach: reach.ln() };
+    let along = |reach: f64| Logarithm { factor: half_plane.kernel, reach: libm::log(reach) };
     LineKernel { tangential: along(tangential), normal: along(normal), coupling: half_plane.coupling }
 }
 

@@ -67,7 +67,7 @@ impl RigidWheel {
 
     /// Force of gravity along the track, positive in x [N/m].
     pub fn gravity(&self, target: &Drive) -> f64 {
-        -GRAVITY * self.inertia[0] * target.slope / target.slope.hypot(1.0)
+        -GRAVITY * self.inertia[0] * target.slope / libm::hypot(target.slope, 1.0)
     }
 
     /// Velocity V [m/s] and angular velocity Ω [rad/s] expected after a step `dt` \[s].

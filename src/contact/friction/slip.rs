@@ -19,7 +19,7 @@ impl SlipDependence {
     pub fn factor(self, slip: f64) -> f64 {
         match self {
             Self::Constant => 1.0,
-            Self::Exponential { remaining, decay } => remaining + (1.0 - remaining) * (-decay * slip.abs()).exp(),
+            Self::Exponential { remaining, decay } => remaining + (1.0 - remaining) * libm::exp(-decay * slip.abs()),
         }
     }
 
@@ -27,7 +27,7 @@ impl SlipDependence {
     pub fn fall(self, slip: f64) -> f64 {
         match self {
             Self::Constant => 0.0,
-            Self::Exponential { remaining, decay } => (1.0 - remaining) * decay * (-decay * slip.abs()).exp(),
+            Self::Exponential { remaining, decay } => (1.0 - remaining) * decay * libm::exp(-decay * slip.abs()),
         }
     }
 

@@ -90,8 +90,8 @@ impl Memory {
     /// steps.
     fn weights(&self, slip: f64) -> [f64; 2] {
         let z = 0.5 * self.reach * (self.slip + slip);
-        let kept = (-z).exp();
-        let mean = if z > 0.0 { -(-z).exp_m1() / z } else { 1.0 };
+        let kept = libm::exp(-z);
+        let mean = if z > 0.0 { -libm::expm1(-z) / z } else { 1.0 };
         [1.0 - mean, (mean - kept) * self.local + kept * self.coefficient]
     }
 }

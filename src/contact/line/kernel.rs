@@ -67,11 +67,11 @@ pub fn logarithms(nodes: &[f64], spacing: f64) -> DMatrix<f64> {
         0.5 * (beside[0].or(beside[1]).unwrap_or(spacing) + beside[1].or(beside[0]).unwrap_or(spacing))
     };
     // `ψ(n + ½) − ln n`, and `ψ(½)`.
-    let discrete = |apart: usize| digamma(apart as f64 + 0.5) - (apart.max(1) as f64).ln();
+    let discrete = |apart: usize| digamma(apart as f64 + 0.5) - libm::log(apart.max(1) as f64);
     let discrete: Vec<f64> = (0..nodes.len()).map(discrete).collect();
     DMatrix::from_fn(nodes.len(), nodes.len(), |i, j| {
         let distance = if i == j { width(i) } else { (nodes[i] - nodes[j]).abs() };
-        -distance.ln() - discrete[i.abs_diff(j)]
+        -libm::log(distance) - discrete[i.abs_diff(j)]
     })
 }
 

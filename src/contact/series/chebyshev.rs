@@ -49,7 +49,7 @@ fn powers(t: f64, z: &mut [f64]) {
 /// Stand-in for `−Z_0/0`.
 fn zeroth(t: f64) -> f64 {
     let t = t.abs();
-    if t <= 1.0 { -LN_2 } else { (0.5 * (t + (t * t - 1.0).sqrt())).ln() }
+    if t <= 1.0 { -LN_2 } else { libm::log(0.5 * (t + (t * t - 1.0).sqrt())) }
 }
 
 /// `Z_1 … Z_count` at t: the Cauchy integrals of the terms over π.
@@ -123,7 +123,7 @@ impl Arch {
             value = 0.0;
             for (k, f) in self.terms[..self.count].iter().enumerate() {
                 let n = (k + 1) as f64;
-                let (sin, cos) = (n * angle).sin_cos();
+                let (sin, cos) = libm::sincos(n * angle);
                 value += f * sin;
                 slope += n * f * cos;
                 bend -= n * n * f * sin;
@@ -200,7 +200,7 @@ fn logarithm_of<const N: usize>(arch: &Arch, x: &[f64; N]) -> [f64; N] {
         orders[k] = (f[k - 1] - if k + 1 < TERMS { f[k + 1] } else { 0.0 }) * SHARES[k];
     }
     orders[TERMS] = f[TERMS - 1] * SHARES[TERMS];
-    let (powers, size) = (Powers::at(&arch.places(x)), arch.half_width.ln());
+    let (powers, size) = (Powers::at(&arch.places(x)), libm::log(arch.half_width));
     let (mut sums, zeroth) = (sum(&powers, &orders[..=arch.count]), powers.zeroth());
     let scale = FRAC_PI_2 * arch.half_width;
     for i in 0..N {
@@ -238,7 +238,7 @@ impl<const N: usize> Powers<N> {
         let mut zeroth = [-LN_2; N];
         for (zeroth, (next, end)) in zeroth.iter_mut().zip(self.next.iter().zip(&self.end)) {
             if *next == 0.0 {
-                *zeroth = -(2.0 * end.abs()).ln();
+                *zeroth = -libm::log(2.0 * end.abs());
             }
         }
         zeroth

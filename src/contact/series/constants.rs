@@ -29,12 +29,12 @@ impl LayerTables {
         let angle = |m: usize| m as f64 * PI / PARTS as f64;
         let zero = |m: usize| angle(m) + 0.5 * angle(1);
         let mean = |n: usize| if n == 0 { 1.0 } else { 2.0 } / PARTS as f64;
-        let weight = |k: usize, m: usize| 2.0 / PARTS as f64 * ((k + 1) as f64 * angle(m + 1)).sin();
+        let weight = |k: usize, m: usize| 2.0 / PARTS as f64 * libm::sin((k + 1) as f64 * angle(m + 1));
         Self {
-            places: std::array::from_fn(|m| angle(m).cos()),
+            places: std::array::from_fn(|m| libm::cos(angle(m))),
             sines: std::array::from_fn(|k| std::array::from_fn(|m| weight(k, m))),
-            zeros: std::array::from_fn(|m| zero(m).cos()),
-            zeros_terms: std::array::from_fn(|n| std::array::from_fn(|m| mean(n) * (n as f64 * zero(m)).cos())),
+            zeros: std::array::from_fn(|m| libm::cos(zero(m))),
+            zeros_terms: std::array::from_fn(|n| std::array::from_fn(|m| mean(n) * libm::cos(n as f64 * zero(m)))),
         }
     }
 }

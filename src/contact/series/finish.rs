@@ -154,14 +154,18 @@ fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
     let Traction { pressure, shear, slip, friction: SolvedFriction { dissipation, .. }, .. } = traction;
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(Piecewise::clear);
     let ([low, high], part) = (line.tractions.pressure.ends(), line.slipping_ends());
+    let least = 1e-9 * (high - low);
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(|profile| profile.push(low, 0.0));
     let stretches = [(low, part[0], false), (part[0], part[1], true), (part[1], high, false)];
-    for (from, to, slips) in stretches.into_iter().filter(|(from, to, _)| to - from > 1e-9 * (high - low)) {
+    for (from, to, slips) in stretches.into_iter().filter(|(from, to, _)| to - from > least) {
         let mut places = line.constants.tables.profile.map(|share| from + share * (to - from));
         places[PROFILE - 1] = to;
-        let (p, q) = (line.tractions.pressure.density(&places), line.tractions.shear(&places));
+        let (mut p, mut q) = (line.tractions.pressure.density(&places), line.tractions.shear(&places));
         let mut s = if slips { line.slip(&places, &line.surface, true) } else { [0.0; PROFILE] };
-        s[PROFILE - 1] = 0.0;
+        // Series vanish where their stretches end; the square root of their round-off there has eight digits only.
+        let last = PROFILE - 1;
+        p[last] = if high - to > least { p[last] } else { 0.0 };
+        (q[last], s[last]) = (line.tractions.slide * p[last], 0.0);
         for (i, &x) in places.iter().enumerate() {
             pressure.push(x, p[i]);
             shear.push(x, q[i]);

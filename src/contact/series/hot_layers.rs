@@ -66,7 +66,7 @@ impl LayerProfile {
         let sines = self.sines.density(x);
         std::array::from_fn(|i| {
             let t = (x[i] - self.sines.centre) / self.sines.half_width;
-            self.base + self.turn * t.clamp(-1.0, 1.0).acos() + sines[i]
+            self.base + self.turn * libm::acos(t.clamp(-1.0, 1.0)) + sines[i]
         })
     }
 
@@ -107,7 +107,7 @@ impl SeriesLayer {
         let sums = powers(&sines.terms, &base);
         std::array::from_fn(|i| {
             // ½ (z + √(z² − 1)) is ½ over the base of the powers.
-            let ends = sines.half_width.ln() - 0.5 * (4.0 * base[i].norm_sqr()).ln() - self.kernel.reach;
+            let ends = libm::log(sines.half_width) - 0.5 * libm::log(4.0 * base[i].norm_sqr()) - self.kernel.reach;
             self.kernel.factor * PI * ((sums[i] * base[i]).re - turn * ends)
         })
     }

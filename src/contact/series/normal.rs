@@ -65,7 +65,7 @@ impl SeriesLine<'_> {
             + self.warm(&[at], |layers, x| layers.gap.at(x))[0];
         let own = -2.0 * kernel.factor * (pressure.logarithm(&[at])[0] - kernel.reach * pressure.total());
         let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid[1] + own;
-        MiddleGap { gap, own: -2.0 * kernel.factor * ((0.5 * pressure.half_width).ln() - kernel.reach) }
+        MiddleGap { gap, own: -2.0 * kernel.factor * (libm::log(0.5 * pressure.half_width) - kernel.reach) }
     }
 
     /// Moves the patch, and scales it to its load times `factor`; returns the largest relative change.

@@ -44,7 +44,7 @@ impl PatchPast {
     /// Factor with which the line's own displacement u is carried on by a line with another share s of the width and
     /// another reach \[1]: its energy stays, which is `½ s u²/K` with `K ∝ ln(2L/a)` where all sticks.
     fn carried(&self, [share, reach]: [f64; 2]) -> f64 {
-        let logarithm = |reach: f64| reach - (0.5 * self.tractions.pressure.half_width).ln();
+        let logarithm = |reach: f64| reach - libm::log(0.5 * self.tractions.pressure.half_width);
         let square = self.share * logarithm(reach) / (share * logarithm(self.reach));
         if square > 0.0 && square.is_finite() { square.sqrt() } else { 1.0 }
     }

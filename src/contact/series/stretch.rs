@@ -82,7 +82,7 @@ impl SeriesLine<'_> {
         let factors = SlipFactors {
             convection: (self.rigid[0] + self.rim_velocity()) * kernel.factor * PI,
             rate: -2.0 * kernel.factor * self.problem.line.time.a0 * half,
-            size: half.ln() - kernel.reach,
+            size: libm::log(half) - kernel.reach,
             upstream: self.upstream(),
         };
         write_columns(tables, points, &x, &self.convected(), &factors, &mut columns);

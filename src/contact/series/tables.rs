@@ -49,7 +49,7 @@ pub struct Tables {
 impl Tables {
     /// All constants.
     pub fn new() -> Self {
-        let zeros = |n: usize, i: usize| ((i as f64 + 0.5) * PI / n as f64).cos();
+        let zeros = |n: usize, i: usize| libm::cos((i as f64 + 0.5) * PI / n as f64);
         let closed: [f64; SMOOTH] = std::array::from_fn(|i| zeros(SMOOTH, i));
         let stick: [f64; STICK_ROOM] = std::array::from_fn(|i| zeros(STICK, i.min(STICK - 1)));
         let by_term = |of: fn(f64, usize) -> [f64; TERMS]| {
@@ -57,19 +57,19 @@ impl Tables {
             std::array::from_fn(|k| at_places.map(|terms| terms[k]))
         };
         let angle = |q: usize| (q + 1) as f64 * PI / (QUADRATURE + 1) as f64;
-        let weights = std::array::from_fn(|q| PI / (QUADRATURE + 1) as f64 * angle(q).sin());
+        let weights = std::array::from_fn(|q| PI / (QUADRATURE + 1) as f64 * libm::sin(angle(q)));
         Self {
             closed,
-            closed_terms: std::array::from_fn(|n| closed.map(|t| (n as f64 * t.acos()).cos())),
+            closed_terms: std::array::from_fn(|n| closed.map(|t| libm::cos(n as f64 * libm::acos(t)))),
             stick,
             stick_cauchy: by_term(cauchy_terms),
             stick_logarithm: by_term(logarithm_terms),
-            places: std::array::from_fn(|q| angle(q).cos()),
+            places: std::array::from_fn(|q| libm::cos(angle(q))),
             weights,
             moments: std::array::from_fn(|k| {
-                std::array::from_fn(|q: usize| weights[q] * ((k + 1) as f64 * angle(q)).sin())
+                std::array::from_fn(|q: usize| weights[q] * libm::sin((k + 1) as f64 * angle(q)))
             }),
-            profile: std::array::from_fn(|i| 0.5 - 0.5 * ((i + 1) as f64 * PI / PROFILE as f64).cos()),
+            profile: std::array::from_fn(|i| 0.5 - 0.5 * libm::cos((i + 1) as f64 * PI / PROFILE as f64)),
         }
     }
 }

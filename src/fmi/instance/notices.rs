@@ -210,7 +210,7 @@ fn of_load(settings: &Settings, config: &Config) -> Option<String> {
     let (inputs, nominal) = (settings.inputs(config, true), config.model.nominal_load);
     let load = inputs.drive.load;
     let spreads = config.thermal.enabled && !config.contact.shape.is_line() && !inputs.vertical.prescribes_motion();
-    let warms = (nominal / load).cbrt();
+    let warms = libm::cbrt(nominal / load);
     let wrong = spreads && load > 0.0 && (warms - 1.0).abs() > WARMS_OTHERWISE;
     wrong.then(|| {
         format!(

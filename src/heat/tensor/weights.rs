@@ -141,7 +141,7 @@ impl ObservationWeights {
 
 /// Place of a depth \[m] among the prepared ones: the one above it and the share of the next.
 fn core_place(depth: f64, half_width: f64) -> (usize, f64) {
-    let place = (depth / (CORE_DEPTH * half_width)).ln() / CORE_GROWTH.ln();
+    let place = libm::log(depth / (CORE_DEPTH * half_width)) / libm::log(CORE_GROWTH);
     let place = place.clamp(0.0, f64::from(CORE_DEPTHS - 1));
     let above = (place.floor() as usize).min(CORE_DEPTHS as usize - 2);
     (above, place - above as f64)

@@ -106,7 +106,7 @@ impl<'a> Control<'a> {
         self.failed = 0.0;
         self.memory.noise *= FADING;
         let counted = if found.yields || found.hottest > self.tuning.austenitisation { 1.0 } else { 0.0 };
-        self.memory.effort = counted + self.memory.effort * (-dt / PERSISTENCE.0).exp();
+        self.memory.effort = counted + self.memory.effort * libm::exp(-dt / PERSISTENCE.0);
         let quiet = found.error <= GROWTH * tolerance;
         if self.memory.suspect > 0.0 {
             self.memory.quiet = if quiet { self.memory.quiet + 1 } else { 0 };

@@ -31,7 +31,7 @@ impl Smoothing {
         if depth <= NOTICED * spacing || values.len() != x.len() {
             return;
         }
-        let place = (depth.ln() / STEP.ln()).round() as i32;
+        let place = (libm::log(depth) / libm::log(STEP)).round() as i32;
         if self.place != Some(place) || self.weights.len() != x.len() * x.len() {
             self.prepare(x, STEP.powi(place));
             self.place = Some(place);
@@ -72,7 +72,7 @@ impl Smoothing {
             let ends = if mirrored { at..n - at } else { at..n };
             for i in ends {
                 let s = x[i] - x[at];
-                let [odd, even] = [(s / d).atan() / PI, 0.5 * d / PI * (s.powi(2) + d * d).ln()];
+                let [odd, even] = [libm::atan(s / d) / PI, 0.5 * d / PI * libm::log(s.powi(2) + d * d)];
                 self.primitives[at * n + i] = [odd, even];
                 self.primitives[i * n + at] = [-odd, even];
                 if mirrored {

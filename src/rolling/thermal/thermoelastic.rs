@@ -62,7 +62,7 @@ fn bounded(linear: f64, reference: f64) -> f64 {
         return linear;
     }
     let left = reference + least;
-    least - left * (1.0 - ((linear - least) / left).exp())
+    least - left * (1.0 - libm::exp((linear - least) / left))
 }
 
 #[cfg(test)]

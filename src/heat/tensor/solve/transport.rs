@@ -207,7 +207,7 @@ impl UpwindParameter {
         let magic = if peclet < 0.05 {
             peclet / 3.0 * (1.0 - peclet * peclet / 15.0)
         } else {
-            (if peclet < SATURATED { 1.0 / peclet.tanh() } else { 1.0 }) - 1.0 / peclet
+            (if peclet < SATURATED { 1.0 / libm::tanh(peclet) } else { 1.0 }) - 1.0 / peclet
         };
         let steady = 0.5 * magic;
         if steady == 0.0 {

@@ -145,7 +145,7 @@ impl Zone<'_> {
         pressure: &Piecewise,
         out: &mut [[f64; 3]],
     ) -> Result<(), HeatError> {
-        let law = |p: f64| thermal.conductance * (p.max(0.0) / thermal.reference_pressure).powf(PRESSURE_EXPONENT);
+        let law = |p: f64| thermal.conductance * libm::pow(p.max(0.0) / thermal.reference_pressure, PRESSURE_EXPONENT);
         check("contact pressure", pressure)?;
         for (x, p) in pressure.segments() {
             let inside = [x[0].max(patch.low), x[1].min(patch.high)];

@@ -44,7 +44,7 @@ impl Radiation {
             *heat += flux * length;
         }
         let cooled = dt * slope / (body.heat_capacity * modes.section);
-        let share = if cooled > 0.0 { -(-cooled).exp_m1() / cooled } else { 1.0 };
+        let share = if cooled > 0.0 { -libm::expm1(-cooled) / cooled } else { 1.0 };
         load.iter_mut().for_each(|load| *load *= share);
         *heat *= share;
     }
