@@ -7,9 +7,9 @@ mod slave;
 use slave::*;
 use std::collections::BTreeMap;
 use std::ffi::{c_int, c_void};
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::ptr;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicI32, Ordering};
 use wheelrail::fmi::v2::variables::variables;
 
@@ -122,8 +122,9 @@ fn all_calls() -> Depths {
     let rows = text_of("s1002_uic60_3mm.csv").replace('\n', ";");
     type Case<'a> = (&'a str, [f64; 2], &'a dyn Fn(&Slave));
     let cases: [Case; 4] = [
-        ("locked and melting", [5e-3, 60.0], &|slave| {
+        ("locked and melting", [5e-3, 20.0], &|slave| {
             slave.set_string("preset", "railway_dry");
+            slave.coarsen();
             slave.set_real("initial.creepage", 2.0 - 1e-9);
             slave.set_real("initial.velocity", 30.0);
         }),
@@ -242,7 +243,6 @@ impl Host {
 
 /// What the logger has seen of the environment: traps and rounding.
 static SEEN: [AtomicI32; 2] = [AtomicI32::new(-1), AtomicI32::new(-1)];
-static ALONE: Mutex<()> = Mutex::new(());
 
 unsafe extern "C" fn look(_: *mut c_void, _: *const i8, _: c_int, _: *const i8, _: *const i8) {
     // SAFETY: reads only.
@@ -254,6 +254,8 @@ unsafe extern "C" fn look(_: *mut c_void, _: *const i8, _: c_int, _: *const i8, 
 fn life(dll: &libfmi::Fmi2Dll, host: Host, full: bool) -> Vec<Vec<u64>> {
     let times: Vec<f64> = (0..8).map(|k| 1e-3 * f64::from(k)).collect();
     let slave = host.call("fmi2Instantiate", || Slave::try_new(dll, &Arguments::default())).ok().unwrap();
+    // Freed under the environment of the master, once.
+    let slave = ManuallyDrop::new(slave);
     host.call("fmi2Set…", || slave.coarsen());
     if full {
         assert_eq!(slave.set_integer("solver.response", 2), fmi2OK);
@@ -283,8 +285,6 @@ fn life(dll: &libfmi::Fmi2Dll, host: Host, full: bool) -> Vec<Vec<u64>> {
     assert_eq!(host.call("fmi2Terminate", || slave.terminate()), fmi2OK);
     assert_eq!(host.call("fmi2Reset", || slave.reset()), fmi2OK);
     host.call("fmi2FreeInstance", || unsafe { dll.fmi2FreeInstance(slave.component) });
-    // Freed once more, which is ignored.
-    drop(slave);
     read
 }
 
@@ -307,7 +307,6 @@ fn hosts_that_trap_round_and_flush_get_the_usual_results_and_their_environment_b
 
 #[test]
 fn the_logger_of_the_host_runs_under_the_environment_of_the_host() {
-    let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let dll = load();
     // SAFETY: as in `slave`: for these arguments the calling convention is that of the variadic function.
     let logger = unsafe { std::mem::transmute::<*const c_void, libfmi::fmi2CallbackLogger>(look as *const c_void) };

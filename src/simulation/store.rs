@@ -125,7 +125,8 @@ impl BasisStore {
         };
         write().map_err(|error| {
             let folder = directory.display();
-            format!("the computed basis cannot be kept in {folder} for the next start: {error}; name another directory in {CACHE_VARIABLE}")
+            let remedy = format!("name another directory in {CACHE_VARIABLE}");
+            format!("the computed basis cannot be kept in {folder} for the next start: {error}; {remedy}")
         })
     }
 }

@@ -27,8 +27,8 @@ mod registers {
         /// Makes this the environment of the thread, and returns the one before.
         pub fn exchange(self) -> Environment {
             let mut before = Environment::USUAL;
-            // SAFETY: both places are as large as what the instructions store and load: 28 and 4 bytes. The registers of
-            // the older unit are empty between functions and stay so. No computation of ours runs under another
+            // SAFETY: both places are as large as what the instructions store and load: 28 and 4 bytes. The registers
+            // of the older unit are empty between functions and stay so. No computation of ours runs under another
             // environment than the usual one: see `Host`.
             unsafe {
                 asm!(

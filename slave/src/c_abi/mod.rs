@@ -1,12 +1,12 @@
 //! The C interface: the 34 functions of FMI 2.0 co-simulation for any slave with [`ScalarAccess`](crate::ScalarAccess),
 //! and the only `unsafe` code.
 //!
-//! Each function checks its pointers, copies what it is given, calls the [`Instance`](crate::Instance) behind a barrier
-//! that turns panics into `fmi2Fatal`, and reports errors in one place. Enumerations and booleans arrive as C integers,
-//! whatever their value. A component that `fmi2Instantiate` has not returned, or `fmi2FreeInstance` has freed, is
-//! refused and never followed. The floating-point environment of the master is put aside meanwhile, and the first
-//! computations of an instance, which need much stack, run beside its thread. [`export_fmi2!`](crate::export_fmi2) gives the functions their symbols for one type of
-//! slave.
+//! Each function checks its pointers, copies what it is given, calls the [`Instance`](crate::Instance) behind a
+//! barrier that turns panics into `fmi2Fatal`, and reports errors in one place. Enumerations and booleans arrive as C
+//! integers, whatever their value. A component that `fmi2Instantiate` has not returned, or `fmi2FreeInstance` has
+//! freed, is refused and never followed. The floating-point environment of the master is put aside meanwhile, and the
+//! first computations of an instance, which need much stack, run beside its thread.
+//! [`export_fmi2!`](crate::export_fmi2) gives the functions their symbols for one type of slave.
 //!
 //! # Safety
 //!

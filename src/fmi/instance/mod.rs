@@ -86,7 +86,7 @@ impl Slave for WheelSlave {
     }
 
     fn initialize(&mut self, life: &Life) -> Outcome<String> {
-        self.claim_file(&self.config.clone(), life)?;
+        saving::claim_file(&mut self.claim, &self.config, life)?;
         self.simulation(life)?;
         self.notices.of_settings(&self.settings, &self.config, life);
         self.settings.inputs = self.settings.given(&self.config, true).into_owned();
@@ -95,7 +95,7 @@ impl Slave for WheelSlave {
     }
 
     fn terminate(&mut self, life: &Life) -> Outcome {
-        self.save_profile(life)
+        saving::save_profile(&mut self.claim, &self.config, self.simulation.as_ref(), life)
     }
 
     fn step(&mut self, start: f64, h: f64, life: &Life) -> Outcome {
@@ -139,7 +139,7 @@ impl Slave for WheelSlave {
         self.resume(state.checkpoint.as_ref(), &config, life)?;
         // A state of another wheel may name its file: no reason not to continue from there, but to say so in time.
         if config.files != self.config.files
-            && let Err(refusal) = self.claim_file(&config, life)
+            && let Err(refusal) = saving::claim_file(&mut self.claim, &config, life)
         {
             life.log().report(Status::Warning, &refusal.message);
         }
@@ -207,7 +207,7 @@ impl WheelSlave {
         if !early && config != self.config {
             config.validate().map_err(|error| CallError::error(error.to_string()))?;
             if config.files != self.config.files {
-                self.claim_file(&config, life)?;
+                saving::claim_file(&mut self.claim, &config, life)?;
             }
             if let Some(simulation) = &mut self.simulation {
                 simulation.retune(&config.tuning);

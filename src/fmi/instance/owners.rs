@@ -9,7 +9,7 @@ use std::time::SystemTime;
 const REMEMBERED: usize = 100;
 
 /// A file that somebody writes or has written.
-struct Entry {
+struct Written {
     place: PathBuf,
     /// Name of the wheel that is going to write it.
     owner: Option<String>,
@@ -17,9 +17,9 @@ struct Entry {
     writer: Option<String>,
 }
 
-static FILES: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
+static FILES: Mutex<Vec<Written>> = Mutex::new(Vec::new());
 
-fn files() -> MutexGuard<'static, Vec<Entry>> {
+fn files() -> MutexGuard<'static, Vec<Written>> {
     FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -42,13 +42,13 @@ pub(super) struct Claim {
 }
 
 impl Claim {
-    /// Takes a file for `owner`, with the name of another wheel that wrote it last, if one did; the error is the name of
-    /// the one that owns it now.
+    /// Takes a file for `owner`, with the name of another wheel that wrote it last, if one did; the error is the name
+    /// of the one that owns it now.
     pub fn take(place: PathBuf, owner: &str) -> Result<(Self, Option<String>), String> {
         let mut files = files();
         let known = files.iter().position(|entry| same(&entry.place, &place));
         let index = known.unwrap_or_else(|| {
-            files.push(Entry { place: place.clone(), owner: None, writer: None });
+            files.push(Written { place: place.clone(), owner: None, writer: None });
             files.len() - 1
         });
         let entry = &mut files[index];

@@ -1,9 +1,9 @@
 //! The profile of the wheel that a run leaves behind.
 
-use super::WheelSlave;
 use super::owners::Claim;
 use crate::config::Config;
 use crate::files::{self, NewFile};
+use crate::simulation::Simulation;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use wheelrail_slave::{CallError, Life, Outcome, Status};
@@ -34,56 +34,59 @@ fn file_to_save(config: &Config) -> Outcome<Option<PathBuf>> {
     Ok(Some(place))
 }
 
-impl WheelSlave {
-    /// Takes the file to which `config` wants the profile of the wheel written for this wheel alone, after a trial that
-    /// does not touch it. Two wheels of a process do not write the same file, and who is going to replace what another
-    /// one has written hears of it.
-    pub(super) fn claim_file(&mut self, config: &Config, life: &Life) -> Outcome {
-        let Some(place) = file_to_save(config)? else {
-            self.claim = None;
-            return Ok(());
-        };
-        if self.claim.as_ref().is_some_and(|claim| claim.holds(&place)) {
-            return Ok(());
-        }
-        drop(NewFile::create(&place).map_err(|error| cannot(config, &error))?);
-        let file = place.display().to_string();
-        let (claim, writer) = Claim::take(place, life.name()).map_err(|other| {
-            let why = format!(
-                "is {file}, to which the wheel \"{other}\" of this process saves its profile; give each wheel a path of \
-                 its own, or free that one before this one is initialized"
-            );
-            refused(config, &why)
-        })?;
-        if let Some(writer) = writer {
-            let message = format!(
-                "wheel.profile_save: at its end this run replaces {file}, to which the wheel \"{writer}\" of this process \
-                 has saved its profile; give another path to keep both"
-            );
-            life.log().report(Status::Warning, &message);
-        }
-        self.claim = Some(claim);
-        Ok(())
+/// Takes the file to which `config` wants the profile of the wheel written for this wheel alone, after a trial that
+/// does not touch it. Two wheels of a process do not write the same file, and who is going to replace what another
+/// one has written hears of it.
+pub(super) fn claim_file(held: &mut Option<Claim>, config: &Config, life: &Life) -> Outcome {
+    let Some(place) = file_to_save(config)? else {
+        *held = None;
+        return Ok(());
+    };
+    if held.as_ref().is_some_and(|claim| claim.holds(&place)) {
+        return Ok(());
     }
+    drop(NewFile::create(&place).map_err(|error| cannot(config, &error))?);
+    let file = place.display().to_string();
+    let (claim, writer) = Claim::take(place, life.name()).map_err(|other| {
+        let why = format!(
+            "is {file}, to which wheel \"{other}\" of this process saves its profile; give each wheel a path of its \
+             own, or free that one before this one is initialized"
+        );
+        refused(config, &why)
+    })?;
+    if let Some(writer) = writer {
+        let message = format!(
+            "wheel.profile_save: at its end this run replaces {file}, to which wheel \"{writer}\" of this process \
+             has saved its profile; give another path to keep both"
+        );
+        life.log().report(Status::Warning, &message);
+    }
+    *held = Some(claim);
+    Ok(())
+}
 
-    /// Writes the profile of the wheel, if it is wanted, and gives the file back.
-    pub(super) fn save_profile(&mut self, life: &Life) -> Outcome {
-        self.claim_file(&self.config.clone(), life)?;
-        let (Some(claim), Some(simulation)) = (&mut self.claim, &self.simulation) else { return Ok(()) };
-        if claim.is_changed() {
-            let file = claim.place().display();
-            let why = format!(
-                "has been written by somebody else since this run began ({file}), who would lose it; set \
-                 another path and terminate again"
-            );
-            return Err(refused(&self.config, &why));
-        }
-        write(claim.place(), &simulation.wheel_profile_file()).map_err(|error| cannot(&self.config, &error))?;
-        claim.written();
-        life.log().report(Status::Ok, &format!("profile of the wheel written to {}", claim.place().display()));
-        self.claim = None;
-        Ok(())
+/// Writes the profile of the wheel, if it is wanted, and gives the file back.
+pub(super) fn save_profile(
+    held: &mut Option<Claim>,
+    config: &Config,
+    simulation: Option<&Simulation>,
+    life: &Life,
+) -> Outcome {
+    claim_file(held, config, life)?;
+    let (Some(claim), Some(simulation)) = (&mut *held, simulation) else { return Ok(()) };
+    let file = claim.place().display().to_string();
+    if claim.is_changed() {
+        let why = format!(
+            "has been written by somebody else since this run began ({file}), who would lose it; set another path and \
+             terminate again"
+        );
+        return Err(refused(config, &why));
     }
+    write(claim.place(), &simulation.wheel_profile_file()).map_err(|error| cannot(config, &error))?;
+    claim.written();
+    life.log().report(Status::Ok, &format!("profile of the wheel written to {file}"));
+    *held = None;
+    Ok(())
 }
 
 fn write(place: &Path, text: &str) -> io::Result<()> {
