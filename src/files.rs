@@ -1,11 +1,16 @@
-//! Files that others name: only regular ones of bounded size are read, so that no pipe, device or forgotten terabyte
-//! holds up who reads it.
+//! Files that others name. Only regular ones of bounded size are read, so that no pipe, device or forgotten terabyte
+//! holds up who reads it. Files are written beside their place and moved there when they are whole, so that a full disk
+//! or an end half-way costs the new file only.
+
+mod new;
+
+pub use new::{NewFile, clear, place};
 
 pub mod table;
 
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{self, Path, PathBuf};
 
 /// Largest file that is read \[bytes]: 256 MiB, some eight million samples of a profile.
 pub const LARGEST: u64 = 256 << 20;
@@ -25,6 +30,35 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// Content of such a file as text.
 pub fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error.utf8_error()))
+}
+
+/// A file that a user has named and that cannot be read.
+#[derive(Debug)]
+pub struct Unread {
+    /// File that is there, or the name of one that is not.
+    pub path: String,
+    /// Reason.
+    pub reason: String,
+    /// Places where it was looked for, as absolute paths.
+    pub tried: String,
+}
+
+/// Place and text of a file that a user names. A relative path begins in the working directory, where the user is; what
+/// is not there is looked for in `folder`, which holds files that were delivered.
+pub fn read_named(name: &str, folder: Option<&Path>) -> Result<(PathBuf, String), Unread> {
+    let absolute = |path: &Path| path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut places = vec![absolute(Path::new(name))];
+    places.extend(folder.map(|folder| absolute(&folder.join(name))));
+    places.dedup();
+    let tried = places.iter().map(|place| place.display().to_string()).collect::<Vec<_>>().join(" and ");
+    let missing = io::Error::from(io::ErrorKind::NotFound).to_string();
+    let Some(found) = places.into_iter().find(|place| fs::symlink_metadata(place).is_ok()) else {
+        return Err(Unread { path: name.to_owned(), reason: missing, tried });
+    };
+    match read_text(&found) {
+        Ok(text) => Ok((found, text)),
+        Err(error) => Err(Unread { path: found.display().to_string(), reason: error.to_string(), tried }),
+    }
 }
 
 /// Refuses anything that is no file of bounded length.

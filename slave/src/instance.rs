@@ -120,6 +120,11 @@ impl<S: Slave> Instance<S> {
         self.life.aside = aside;
     }
 
+    /// Takes the name by which the master knows the instance.
+    pub fn take_name(&mut self, name: String) {
+        self.life.name = name;
+    }
+
     /// Phase, communication point and log.
     pub fn life(&self) -> &Life {
         &self.life

@@ -13,6 +13,7 @@ const STOP_TOLERANCE: f64 = 0.1;
 /// Phase, communication point and log of an instance.
 pub struct Life {
     pub(crate) log: Log,
+    pub(crate) name: String,
     pub(crate) aside: Aside,
     pub(crate) phase: Phase,
     pub(crate) time: f64,
@@ -23,10 +24,11 @@ pub struct Life {
 impl Life {
     /// Life of an instance that has just been made.
     pub(crate) fn new(log: Log) -> Life {
-        Life { log, aside: here, phase: Phase::Instantiated, time: 0.0, stop: None, last_step: Status::Ok }
+        let name = String::new();
+        Life { log, name, aside: here, phase: Phase::Instantiated, time: 0.0, stop: None, last_step: Status::Ok }
     }
 
-    /// Returns to the state after instantiation; log and thread stay.
+    /// Returns to the state after instantiation; log, name and thread stay.
     pub(crate) fn reset(&mut self) {
         (self.phase, self.time, self.stop, self.last_step) = (Phase::Instantiated, 0.0, None, Status::Ok);
     }
@@ -34,6 +36,11 @@ impl Life {
     /// Receiver of messages.
     pub fn log(&self) -> &Log {
         &self.log
+    }
+
+    /// Name by which the master knows the instance; empty if it has none.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Thread of long computations.

@@ -10,6 +10,7 @@ use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
+use wheelrail::files;
 use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Value, Variable};
 
@@ -48,6 +49,7 @@ impl Simulate {
     /// Takes all steps; results go to the CSV, a summary to standard error.
     pub fn run(self) -> Result<(), Failure> {
         let columns = columns(&self.outputs)?;
+        self.refuse_lost_files()?;
         let saved = self.wheel_profile.iter().map(|file| Setting::new("wheel.profile_save", file));
         let mut run = Run::start(&self.setup, &self.course, &saved.collect::<Result<Vec<_>, _>>()?)?;
         let mut csv = Csv::create(self.out.as_deref())?;
@@ -79,6 +81,25 @@ impl Simulate {
         csv.finish()?;
         run.finish()?;
         summary.print(&mut run)
+    }
+}
+
+impl Simulate {
+    /// Refuses to write the results over the scenario or under the profile of the wheel.
+    fn refuse_lost_files(&self) -> Result<(), Failure> {
+        let Some(out) = &self.out else { return Ok(()) };
+        let others = [
+            ("--scenario", self.course.scenario.clone()),
+            ("--wheel-profile", self.wheel_profile.as_ref().map(PathBuf::from)),
+        ];
+        let lost = |path: &Option<PathBuf>| path.as_ref().is_some_and(|path| files::place(path) == files::place(out));
+        match others.into_iter().find(|(_, path)| lost(path)) {
+            Some((option, _)) => {
+                let file = out.display();
+                Err(Failure::Usage(format!("--out and {option} are one file, {file}; give each a path of its own")))
+            }
+            None => Ok(()),
+        }
     }
 }
 

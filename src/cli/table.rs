@@ -2,9 +2,9 @@
 
 use super::Failure;
 use super::setup::failed;
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
+use wheelrail::files::NewFile;
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::units::UNITS;
 use wheelrail::fmi::v2::access::type_of;
@@ -24,15 +24,37 @@ pub fn read(instance: &mut Instance, variables: &[&Variable]) -> Result<Vec<Valu
     Ok(values.into_iter().flatten().collect())
 }
 
+/// Place of results: a file that is moved to its place at the end, or standard output.
+enum Sink {
+    File(NewFile),
+    Standard(io::StdoutLock<'static>),
+}
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Sink::File(file) => file.write(bytes),
+            Sink::Standard(output) => output.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Sink::File(file) => file.flush(),
+            Sink::Standard(output) => output.flush(),
+        }
+    }
+}
+
 /// A CSV file, or standard output, with a header of names. Numbers read back exactly.
-pub struct Csv(csv::Writer<Box<dyn Write>>);
+pub struct Csv(csv::Writer<Sink>);
 
 impl Csv {
     /// A new file, or standard output where no path is given.
     pub fn create(out: Option<&Path>) -> Result<Csv, Failure> {
-        let sink: Box<dyn Write> = match out {
-            Some(path) => Box::new(create(path)?),
-            None => Box::new(io::stdout().lock()),
+        let sink = match out {
+            Some(path) => Sink::File(create(path)?),
+            None => Sink::Standard(io::stdout().lock()),
         };
         Ok(Csv(csv::Writer::from_writer(sink)))
     }
@@ -49,19 +71,22 @@ impl Csv {
         Ok(self.0.write_record(first.into_iter().chain(cells))?)
     }
 
-    /// Writes what is still buffered.
-    pub fn finish(mut self) -> Result<(), Failure> {
-        Ok(self.0.flush()?)
+    /// Writes what is still buffered, and puts a file in its place.
+    pub fn finish(self) -> Result<(), Failure> {
+        match self.0.into_inner().map_err(csv::IntoInnerError::into_error)? {
+            Sink::File(file) => Ok(file.finish()?),
+            Sink::Standard(mut output) => Ok(output.flush()?),
+        }
     }
 }
 
 /// A new file; its directory is made if it is missing.
-pub fn create(path: &Path) -> Result<File, Failure> {
-    let failed = |error: io::Error| Failure::Run(format!("{} cannot be written: {error}", path.display()));
+pub fn create(path: &Path) -> Result<NewFile, Failure> {
     if let Some(parent) = path.parent() {
+        let failed = |error| Failure::Run(format!("{} cannot be written: {error}", path.display()));
         std::fs::create_dir_all(parent).map_err(failed)?;
     }
-    File::create(path).map_err(failed)
+    Ok(NewFile::create(path)?)
 }
 
 /// Unit for people.

@@ -8,8 +8,9 @@ use super::table::create;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 use std::fmt::Write as _;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
+use wheelrail::files::NewFile;
 
 /// Cell type of quadrilaterals.
 const QUAD: u8 = 9;
@@ -116,7 +117,7 @@ pub fn write_series(path: &Path, comment: &str, frames: &[(f64, Vec<String>)]) -
     })
 }
 
-type Xml = Writer<BufWriter<std::fs::File>>;
+type Xml = Writer<NewFile>;
 
 fn document(
     path: &Path,
@@ -124,16 +125,15 @@ fn document(
     comment: &str,
     content: impl FnOnce(&mut Xml) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    let mut xml = Writer::new_with_indent(BufWriter::new(create(path)?), b' ', 1);
+    let mut xml = Writer::new_with_indent(create(path)?, b' ', 1);
     let written = xml.write_event(Event::Decl(BytesDecl::new("1.0", None, None))).and_then(|()| {
         xml.write_event(Event::Comment(BytesText::new(comment)))?;
         let attributes =
             [("type", kind), ("version", "1.0"), ("byte_order", "LittleEndian"), ("header_type", "UInt64")];
         let root = xml.create_element("VTKFile").with_attributes(attributes);
-        root.write_inner_content(content)?;
-        xml.get_mut().flush()
+        root.write_inner_content(content).map(drop)
     });
-    written.map_err(|error| Failure::Run(format!("{} cannot be written: {error}", path.display())))
+    Ok(written.and_then(|()| xml.into_inner().finish())?)
 }
 
 /// A type of numbers in arrays.

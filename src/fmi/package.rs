@@ -4,8 +4,8 @@ use super::MODEL_IDENTIFIER;
 use super::documentation::index_html;
 use super::pages::{PICTURES, pages};
 use super::v2::description::{Extent, model_description};
-use crate::files;
-use std::fs::{self, File};
+use crate::files::{self, NewFile};
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -225,8 +225,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     bases.dedup();
     entries.extend(bases.into_iter().map(|(name, bytes)| (format!("resources/basis/{name}"), bytes)));
 
-    let file = File::create(out).map_err(|source| PackageError::File { path: out.to_owned(), source })?;
-    let mut archive = ZipWriter::new(io::BufWriter::new(file));
+    let mut archive = ZipWriter::new(NewFile::create(out)?);
     let plain = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default())
@@ -236,8 +235,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
         archive.start_file(name, if executable { plain.unix_permissions(0o755) } else { plain })?;
         archive.write_all(&bytes)?;
     }
-    archive.finish()?.flush()?;
-    Ok(())
+    Ok(archive.finish()?.finish()?)
 }
 
 #[cfg(test)]

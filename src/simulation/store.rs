@@ -1,11 +1,12 @@
 //! Where computed bases are kept: beside the presets in the FMU, in the cache of the user, or where a caller says.
 
 use crate::config::Config;
-use crate::files;
+use crate::files::{self, NewFile};
 use crate::mechanics::{self, Basis};
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
-use std::{env, fs, io, process, thread};
+use std::time::{Duration, SystemTime};
+use std::{env, fs, io};
 
 /// Names the directory that takes the place of the user's cache; empty: no cache.
 pub const CACHE_VARIABLE: &str = "WHEELRAIL_CACHE";
@@ -13,12 +14,16 @@ pub const CACHE_VARIABLE: &str = "WHEELRAIL_CACHE";
 const FOLDER: &str = "basis";
 /// Number of bases kept in the cache of a user, about 1 MB each; the oldest give way.
 const KEPT_BASES: usize = 200;
+/// Age from which an unfinished basis is one that nobody finishes: to write one takes milliseconds.
+const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// Places of stored bases. Those to be read only come first; one more may be written, too.
 #[derive(Clone, Debug, Default)]
 pub struct BasisStore {
     packed: Vec<PathBuf>,
     cache: Option<PathBuf>,
+    /// Why there is no cache, unless nobody wants one.
+    no_cache: Option<String>,
     /// Largest number of bases in the cache.
     capacity: Option<usize>,
     /// Directory of presets and profiles.
@@ -46,24 +51,27 @@ impl BasisStore {
 
     /// Reads and keeps bases in `<directory>/basis`.
     pub fn within(directory: &Path) -> Self {
-        Self { packed: Vec::new(), cache: Some(directory.join(FOLDER)), capacity: None, resources: None }
+        Self { cache: Some(directory.join(FOLDER)), ..Self::default() }
     }
 
     /// Keeps bases in the user's cache: `$WHEELRAIL_CACHE/basis`, else `wheelrail/basis` in `$XDG_CACHE_HOME` or
-    /// `~/.cache` (Windows: `%LOCALAPPDATA%`). Where the cache directory does not exist, nothing is kept.
+    /// `~/.cache` (Windows: `%LOCALAPPDATA%`). Directories that do not exist are made when a basis is kept. Nothing is
+    /// kept where the variable is empty, which is a wish, and where the user has no home, which [`BasisStore::keep`]
+    /// tells.
     pub fn of_user() -> Self {
         let variable = |name| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        let own = env::var_os(CACHE_VARIABLE).map(PathBuf::from);
-        let usual = || {
-            let home = || variable("HOME").map(|home| home.join(".cache"));
-            let cache = if cfg!(windows) { variable("LOCALAPPDATA") } else { variable("XDG_CACHE_HOME").or_else(home) };
-            cache.filter(|directory| directory.is_dir()).map(|directory| directory.join("wheelrail"))
-        };
-        let (directory, capacity) = match own {
-            Some(own) => (Some(own).filter(|directory| directory.is_dir()), None),
-            None => (usual(), Some(KEPT_BASES)),
-        };
-        Self { packed: Vec::new(), cache: directory.map(|directory| directory.join(FOLDER)), capacity, resources: None }
+        if let Some(own) = env::var_os(CACHE_VARIABLE) {
+            return if own.is_empty() { Self::none() } else { Self::within(Path::new(&own)) };
+        }
+        let home = || variable("HOME").filter(|home| home.is_dir()).map(|home| home.join(".cache"));
+        let usual = if cfg!(windows) { variable("LOCALAPPDATA") } else { variable("XDG_CACHE_HOME").or_else(home) };
+        match usual {
+            Some(usual) => Self { capacity: Some(KEPT_BASES), ..Self::within(&usual.join("wheelrail")) },
+            None => Self {
+                no_cache: Some(format!("the user has no home directory; name one that keeps it in {CACHE_VARIABLE}")),
+                ..Self::none()
+            },
+        }
     }
 
     /// Reads bases in `<directory>/basis`, too, and before all others; files of profiles are looked for in `directory`.
@@ -103,18 +111,29 @@ impl BasisStore {
     /// Keeps the file of a basis in the cache, if there is one; others may be reading and writing there. An error means
     /// no more than that the basis must be computed again next time.
     pub fn keep(&self, config: &Config, bytes: &[u8]) -> Result<(), String> {
-        let Some(directory) = &self.cache else { return Ok(()) };
+        let Some(directory) = &self.cache else {
+            let told = |why: &String| Err(format!("the computed basis is not kept for the next start: {why}"));
+            return self.no_cache.as_ref().map_or(Ok(()), told);
+        };
         let write = || -> io::Result<()> {
             fs::create_dir_all(directory)?;
-            let path = directory.join(basis_file_name(config));
-            let unfinished = path.with_extension(format!("{}-{:?}", process::id(), thread::current().id()));
-            fs::write(&unfinished, bytes).and_then(|()| fs::rename(&unfinished, path)).inspect_err(|_| {
-                let _ = fs::remove_file(&unfinished);
-            })?;
+            files::clear(directory, ABANDONED, is_unfinished);
+            let mut file = NewFile::create(&directory.join(basis_file_name(config)))?;
+            file.write_all(bytes)?;
+            file.finish()?;
             self.capacity.map_or(Ok(()), |capacity| shrink(directory, capacity))
         };
-        write().map_err(|error| format!("the computed basis cannot be kept in {}: {error}", directory.display()))
+        write().map_err(|error| {
+            let folder = directory.display();
+            let remedy = format!("name another directory in {CACHE_VARIABLE}");
+            format!("the computed basis cannot be kept in {folder} for the next start: {error}; {remedy}")
+        })
     }
+}
+
+/// True for what a writer leaves that is killed in the write, of any version: the key of a basis without its ending.
+fn is_unfinished(name: &str) -> bool {
+    name.split_once('.').is_some_and(|(key, end)| uuid::Uuid::try_parse(key).is_ok() && end != "bin")
 }
 
 /// Removes the oldest files until `capacity` are left.
@@ -134,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_full_cache_gives_up_its_oldest_bases() {
-        let directory = env::temp_dir().join(format!("wheelrail cache {}", process::id()));
+        let directory = env::temp_dir().join(format!("wheelrail cache {}", std::process::id()));
         fs::create_dir_all(&directory).unwrap();
         for (i, name) in ["a.bin", "b.bin", "other", "c.bin"].into_iter().enumerate() {
             fs::write(directory.join(name), "").unwrap();

@@ -50,7 +50,8 @@ impl Surfaces {
         Self { radius, ..Self::default() }
     }
 
-    /// Surfaces that the parameters describe; files of profiles are looked for in `folder`.
+    /// Surfaces that the parameters describe; files of profiles are looked for in the working
+    /// directory, then in `folder`.
     ///
     /// # Errors
     /// A profile without meaning, with the name of its parameter.

@@ -1,10 +1,12 @@
 //! Components: the owners of instances, behind the pointers that a master holds.
 
+use super::environment::Host;
 use super::states::States;
 use super::types::fmi2Component;
 use crate::instance::{Instance, Slave};
 use std::any::{Any, TypeId};
 use std::ffi::CString;
+use std::rc::Rc;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// An instance with everything that its master may hold of it.
@@ -13,6 +15,8 @@ pub struct Component<S: Slave> {
     pub instance: Instance<S>,
     /// Strings that the master may read until its next call of a function that returns strings.
     pub strings: Vec<CString>,
+    /// Floating-point environment of the master.
+    pub host: Rc<Host>,
     /// Saved states.
     pub states: States<S::State>,
 }
@@ -26,8 +30,8 @@ fn living() -> MutexGuard<'static, Vec<(usize, TypeId)>> {
 
 impl<S: Slave> Component<S> {
     /// A component with a new instance.
-    pub fn new(instance: Instance<S>) -> Self {
-        Self { instance, strings: Vec::new(), states: States::default() }
+    pub fn new(instance: Instance<S>, host: Rc<Host>) -> Self {
+        Self { instance, host, strings: Vec::new(), states: States::default() }
     }
 
     /// Address by which the master knows the component from now on.

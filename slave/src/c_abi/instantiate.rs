@@ -1,9 +1,12 @@
 //! Birth and death of a component.
 
 use super::component::{Component, panic_text};
+use super::environment::Host;
 use super::logger::sink;
 use super::marshal::{boolean, co_simulation, text};
+use super::thread::beside;
 use super::types::{CallbackFunctions, fmi2Boolean, fmi2Component, fmi2String};
+use crate::aside;
 use crate::instance::{Instance, ScalarAccess};
 use crate::log::{CallError, Log, Outcome, Status};
 use crate::uri::path_of;
@@ -11,6 +14,7 @@ use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::ptr;
+use std::rc::Rc;
 
 /// Arguments of `fmi2Instantiate` but for the functions.
 struct Request {
@@ -36,7 +40,7 @@ fn resources(location: Option<String>, log: &Log) -> Option<PathBuf> {
 
 impl Request {
     /// The instance, or the reason why there is none.
-    unsafe fn instance<S: ScalarAccess>(&self, functions: &CallbackFunctions) -> Outcome<Instance<S>> {
+    unsafe fn instance<S: ScalarAccess>(&self, functions: &CallbackFunctions, host: &Rc<Host>) -> Outcome<Instance<S>> {
         // SAFETY: see the module: NULL or strings.
         let (name, theirs) = unsafe { (text(self.name, "instanceName"), text(self.guid, "fmuGUID")) };
         let name = name?;
@@ -45,9 +49,10 @@ impl Request {
         }
         co_simulation(self.kind)?;
         boolean(self.visible, "visible")?;
-        let log = Log::new(sink(&name, functions), boolean(self.logging, "loggingOn")?);
+        let log = Log::new(sink(&name, functions, host.clone()), boolean(self.logging, "loggingOn")?);
         let theirs = theirs?;
-        let ours = S::guid();
+        // The tables behind it are made at the first time, on more stack than a master may have.
+        let ours = aside::run(beside, &mut |_, _| {}, |_| S::guid())?;
         if theirs != ours {
             return Err(CallError::error(format!("fmuGUID = \"{theirs}\" is not that of this FMU: \"{ours}\"")));
         }
@@ -58,10 +63,9 @@ impl Request {
             None
         });
         let resources = resources(location, &log);
-        #[allow(unused_mut)]
         let mut instance = Instance::new(resources, log)?;
-        #[cfg(unix)]
-        instance.compute_on(super::thread::beside);
+        instance.compute_on(beside);
+        instance.take_name(name);
         Ok(instance)
     }
 }
@@ -89,16 +93,22 @@ pub unsafe fn fmi2Instantiate<S: ScalarAccess>(
         visible,
         logging: loggingOn,
     };
-    // SAFETY: see the module.
-    let error = match catch_unwind(AssertUnwindSafe(|| unsafe { request.instance::<S>(functions) })) {
-        Ok(Ok(instance)) => return Component::new(instance).hand_out(),
-        Ok(Err(error)) => error,
-        Err(panic) => CallError { status: Status::Fatal, message: format!("internal error: {}", panic_text(panic)) },
-    };
-    // SAFETY: see the module: NULL or a string.
-    let name = unsafe { text(instanceName, "instanceName") }.unwrap_or_else(|_| "unnamed".to_owned());
-    Log::new(sink(&name, functions), false).report(error.status, &format!("fmi2Instantiate: {}", error.message));
-    ptr::null_mut()
+    let host = Host::new();
+    host.put_aside(|| {
+        // SAFETY: see the module.
+        let error = match catch_unwind(AssertUnwindSafe(|| unsafe { request.instance::<S>(functions, &host) })) {
+            Ok(Ok(instance)) => return Component::new(instance, host.clone()).hand_out(),
+            Ok(Err(error)) => error,
+            Err(panic) => {
+                CallError { status: Status::Fatal, message: format!("internal error: {}", panic_text(panic)) }
+            }
+        };
+        // SAFETY: see the module: NULL or a string.
+        let name = unsafe { text(instanceName, "instanceName") }.unwrap_or_else(|_| "unnamed".to_owned());
+        let log = Log::new(sink(&name, functions, host.clone()), false);
+        log.report(error.status, &format!("fmi2Instantiate: {}", error.message));
+        ptr::null_mut()
+    })
 }
 
 /// Frees an instance with all its states; a pointer that is no instance, or no longer, is left alone.
@@ -106,6 +116,8 @@ pub unsafe fn fmi2FreeInstance<S: ScalarAccess>(c: fmi2Component) {
     if let Some(component) = Component::<S>::take_back(c) {
         // SAFETY: `component` came from `Box::into_raw` in `hand_out` and is known no more.
         let component = unsafe { Box::from_raw(component) };
-        let _ = catch_unwind(AssertUnwindSafe(|| drop(component)));
+        component.host.clone().put_aside(|| {
+            let _ = catch_unwind(AssertUnwindSafe(|| drop(component)));
+        });
     }
 }

@@ -1,9 +1,12 @@
 //! A thread that has ended, with all that was left in it, when its computation is done.
 //!
-//! Threads of the standard library will not do: to start one leaves a destructor in the thread that starts it.
+//! On Unix threads of the standard library will not do: to start one leaves a destructor in the thread that starts it.
+//! The thread has its own stack, whatever stack the master has, and the usual floating-point environment.
 
+use super::environment::Environment;
 use crate::aside::{Report, here};
 use std::any::Any;
+#[cfg(unix)]
 use std::ffi::c_void;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -39,16 +42,21 @@ impl Job<'_> {
     }
 }
 
-/// Entry of the thread.
-extern "C" fn enter(job: *mut c_void) -> *mut c_void {
-    // SAFETY: `beside` hands over its job and does not touch it until this thread has been joined.
-    unsafe { &mut *job.cast::<Job>() }.run();
-    ptr::null_mut()
+/// Carries out the job on the thread that has been started for it.
+///
+/// # Safety
+/// Nobody else touches the job before the thread has been joined.
+unsafe fn enter(job: *mut Job) {
+    Environment::USUAL.exchange();
+    // SAFETY: the condition of this function.
+    unsafe { &mut *job }.run();
 }
 
 /// A thread that is waited for before anything it uses can go.
+#[cfg(unix)]
 struct Running(libc::pthread_t);
 
+#[cfg(unix)]
 impl Drop for Running {
     fn drop(&mut self) {
         // SAFETY: a thread that `start` has started, joined here only.
@@ -57,7 +65,13 @@ impl Drop for Running {
 }
 
 /// Starts a thread on the job; `None` if the system grants none.
+#[cfg(unix)]
 fn start(job: *mut Job) -> Option<Running> {
+    extern "C" fn run(job: *mut c_void) -> *mut c_void {
+        // SAFETY: `beside` hands over its job and does not touch it until this thread has been joined.
+        unsafe { enter(job.cast()) };
+        ptr::null_mut()
+    }
     // SAFETY: attributes are initialised before they are used and destroyed once; a thread identity is a plain number
     // or address, for which zeros are a value, and read only after the call has set it.
     unsafe {
@@ -66,10 +80,32 @@ fn start(job: *mut Job) -> Option<Running> {
             return None;
         }
         libc::pthread_attr_setstacksize(&mut attributes, STACK);
-        let refused = libc::pthread_create(&mut thread, &attributes, enter, job.cast());
+        let refused = libc::pthread_create(&mut thread, &attributes, run, job.cast());
         libc::pthread_attr_destroy(&mut attributes);
         (refused == 0).then(|| Running(thread))
     }
+}
+
+/// A thread that is waited for before anything it uses can go.
+#[cfg(not(unix))]
+struct Running(Option<std::thread::JoinHandle<()>>);
+
+#[cfg(not(unix))]
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.take().map(std::thread::JoinHandle::join);
+    }
+}
+
+/// Starts a thread on the job; `None` if the system grants none.
+#[cfg(not(unix))]
+fn start(job: *mut Job) -> Option<Running> {
+    let address = job.expose_provenance();
+    let run = move || {
+        // SAFETY: `beside` hands over its job and does not touch it until this thread has been joined.
+        unsafe { enter(ptr::with_exposed_provenance_mut(address)) }
+    };
+    std::thread::Builder::new().stack_size(STACK).spawn(run).ok().map(|thread| Running(Some(thread)))
 }
 
 /// An [`Aside`](crate::aside::Aside) on a thread of the operating system.

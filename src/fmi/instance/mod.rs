@@ -6,6 +6,7 @@
 pub mod derivatives;
 mod experiment;
 mod notices;
+mod owners;
 mod partners;
 mod running;
 mod saving;
@@ -17,10 +18,11 @@ use super::variable::{Causality, Value, Variable};
 use crate::config::Config;
 use crate::simulation::{Inputs, LONGEST_STEP, Model, Simulation, advice};
 use notices::Notices;
+use owners::Claim;
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
-use wheelrail_slave::{CallError, Life, Outcome, Slave, Snapshot};
+use wheelrail_slave::{CallError, Life, Outcome, Slave, Snapshot, Status};
 
 /// A wheel between its instantiation and its end.
 pub type Instance = wheelrail_slave::Instance<WheelSlave>;
@@ -47,6 +49,8 @@ pub struct WheelSlave {
     hopeless: bool,
     /// Warnings of this run.
     notices: Notices,
+    /// The file that the run leaves behind.
+    claim: Option<Claim>,
 }
 
 impl Slave for WheelSlave {
@@ -65,6 +69,7 @@ impl Slave for WheelSlave {
             failure: None,
             hopeless: false,
             notices: Notices::default(),
+            claim: None,
         })
     }
 
@@ -81,7 +86,7 @@ impl Slave for WheelSlave {
     }
 
     fn initialize(&mut self, life: &Life) -> Outcome<String> {
-        saving::try_to_save(&self.config)?;
+        saving::claim_file(&mut self.claim, &self.config, life)?;
         self.simulation(life)?;
         self.notices.of_settings(&self.settings, &self.config, life);
         if let Some(simulation) = &self.simulation {
@@ -96,7 +101,7 @@ impl Slave for WheelSlave {
         if let Some(simulation) = &self.simulation {
             self.notices.of_way(simulation, life.log());
         }
-        saving::save_profile(&self.config, self.simulation.as_ref(), life.log())
+        saving::save_profile(&mut self.claim, &self.config, self.simulation.as_ref(), life)
     }
 
     fn step(&mut self, start: f64, h: f64, life: &Life) -> Outcome {
@@ -138,6 +143,12 @@ impl Slave for WheelSlave {
     fn restore(&mut self, state: &WheelState, life: &Life) -> Outcome {
         let config = state.settings.config();
         self.resume(state.checkpoint.as_ref(), &config, life)?;
+        // A state of another wheel may name its file: no reason not to continue from there, but to say so in time.
+        if config.files != self.config.files
+            && let Err(refusal) = saving::claim_file(&mut self.claim, &config, life)
+        {
+            life.log().report(Status::Warning, &refusal.message);
+        }
         (self.settings, self.config) = (state.settings.clone(), config);
         // A master may restore and repeat a discarded step for ever: the failure is remembered.
         self.hopeless = false;
@@ -202,7 +213,7 @@ impl WheelSlave {
         if !early && config != self.config {
             config.validate().map_err(|error| CallError::error(error.to_string()))?;
             if config.files != self.config.files {
-                saving::try_to_save(&config)?;
+                saving::claim_file(&mut self.claim, &config, life)?;
             }
             if let Some(simulation) = &mut self.simulation {
                 simulation.retune(&config.tuning);

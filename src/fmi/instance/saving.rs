@@ -1,68 +1,100 @@
 //! The profile of the wheel that a run leaves behind.
 
+use super::owners::Claim;
 use crate::config::Config;
+use crate::files::{self, NewFile};
 use crate::simulation::Simulation;
-use std::fs::{self, File};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use wheelrail_slave::{CallError, Log, Outcome, Status};
+use wheelrail_slave::{CallError, Life, Outcome, Status};
 
 /// End of the name of a profile, by which `wheel.profile` knows a file.
 const ENDING: &str = ".csv";
 
-/// Path to which the profile of the wheel is to be written, if anywhere; refuses one that could not be written or read
-/// again.
+fn refused(config: &Config, why: &str) -> CallError {
+    CallError::error(format!("wheel.profile_save = \"{}\" {why}", config.files.profile_save.trim()))
+}
+
+/// Place to which the profile of the wheel is to be written, if anywhere; refuses one that could not be written or read
+/// again. A relative path begins in the working directory; what a link leads to is written, not the link.
 fn file_to_save(config: &Config) -> Outcome<Option<PathBuf>> {
     let name = config.files.profile_save.trim();
     if name.is_empty() {
         return Ok(None);
     }
-    let refused = |why: &str| CallError::error(format!("wheel.profile_save = \"{name}\" {why}"));
-    let path = PathBuf::from(name);
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !name.to_lowercase().ends_with(ENDING) {
-        return Err(refused("must end in .csv, by which wheel.profile knows a file"));
+        return Err(refused(config, "must end in .csv, by which wheel.profile knows a file"));
     }
-    if !folder.is_dir() || path.exists() && !path.is_file() {
-        return Err(refused("is no file in a folder that exists; make the folder or give another path"));
+    let place = files::place(Path::new(name));
+    if !place.parent().is_some_and(Path::is_dir) || place.exists() && !place.is_file() {
+        let why =
+            format!("is no file in a folder that exists ({}); make the folder or give another path", place.display());
+        return Err(refused(config, &why));
     }
-    // What a link leads to is written, not the link.
-    Ok(Some(fs::canonicalize(&path).unwrap_or(path)))
+    Ok(Some(place))
 }
 
-/// Writes beside the file and hands over the place there: at any time the file is the old one or the new one.
-fn write_beside(path: &Path, content: Option<&str>) -> io::Result<()> {
-    if fs::metadata(path).is_ok_and(|about| about.permissions().readonly()) {
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only"));
+/// Takes the file to which `config` wants the profile of the wheel written for this wheel alone, after a trial that
+/// does not touch it. Two wheels of a process do not write the same file, and who is going to replace what another
+/// one has written hears of it.
+pub(super) fn claim_file(held: &mut Option<Claim>, config: &Config, life: &Life) -> Outcome {
+    let Some(place) = file_to_save(config)? else {
+        *held = None;
+        return Ok(());
+    };
+    if held.as_ref().is_some_and(|claim| claim.holds(&place)) {
+        return Ok(());
     }
-    // A name that two wheels of this process, or of two, do not share: the address of a local value.
-    let own = 0_u8;
-    let beside = path.with_extension(format!("csv-{}-{:x}", std::process::id(), (&raw const own).addr()));
-    let text = content.unwrap_or_default();
-    let written = File::create_new(&beside).and_then(|mut file| io::Write::write_all(&mut file, text.as_bytes()));
-    let moved = written.and_then(|()| if content.is_some() { fs::rename(&beside, path) } else { Ok(()) });
-    if content.is_none() || moved.is_err() {
-        // The trial is over, or has failed: nothing stays.
-        let _ = fs::remove_file(&beside);
+    drop(NewFile::create(&place).map_err(|error| cannot(config, &error))?);
+    let file = place.display().to_string();
+    let (claim, writer) = Claim::take(place, life.name()).map_err(|other| {
+        let why = format!(
+            "is {file}, to which wheel \"{other}\" of this process saves its profile; give each wheel a path of its \
+             own, or free that one before this one is initialized"
+        );
+        refused(config, &why)
+    })?;
+    if let Some(writer) = writer {
+        let message = format!(
+            "wheel.profile_save: at its end this run replaces {file}, to which wheel \"{writer}\" of this process \
+             has saved its profile; give another path to keep both"
+        );
+        life.log().report(Status::Warning, &message);
     }
-    moved
-}
-
-fn cannot(path: &Path, error: &io::Error) -> CallError {
-    let name = path.display();
-    CallError::error(format!("wheel.profile_save = \"{name}\" cannot be written ({error}); give another path"))
-}
-
-/// Tries, without touching the file, if the profile of the wheel can be written where `config` asks for it.
-pub(super) fn try_to_save(config: &Config) -> Outcome {
-    let Some(path) = file_to_save(config)? else { return Ok(()) };
-    write_beside(&path, None).map_err(|error| cannot(&path, &error))
-}
-
-/// Writes the profile of the wheel, if `config` asks for it.
-pub(super) fn save_profile(config: &Config, simulation: Option<&Simulation>, log: &Log) -> Outcome {
-    let (Some(path), Some(simulation)) = (file_to_save(config)?, simulation) else { return Ok(()) };
-    write_beside(&path, Some(&simulation.wheel_profile_file())).map_err(|error| cannot(&path, &error))?;
-    log.report(Status::Ok, &format!("profile of the wheel written to {}", path.display()));
+    *held = Some(claim);
     Ok(())
+}
+
+/// Writes the profile of the wheel, if it is wanted, and gives the file back.
+pub(super) fn save_profile(
+    held: &mut Option<Claim>,
+    config: &Config,
+    simulation: Option<&Simulation>,
+    life: &Life,
+) -> Outcome {
+    claim_file(held, config, life)?;
+    let (Some(claim), Some(simulation)) = (&mut *held, simulation) else { return Ok(()) };
+    let file = claim.place().display().to_string();
+    if claim.is_changed() {
+        let why = format!(
+            "has been written by somebody else since this run began ({file}), who would lose it; set another path and \
+             terminate again"
+        );
+        return Err(refused(config, &why));
+    }
+    write(claim.place(), &simulation.wheel_profile_file()).map_err(|error| cannot(config, &error))?;
+    claim.written();
+    life.log().report(Status::Ok, &format!("profile of the wheel written to {file}"));
+    *held = None;
+    Ok(())
+}
+
+fn write(place: &Path, text: &str) -> io::Result<()> {
+    let mut file = NewFile::create(place)?;
+    file.write_all(text.as_bytes())?;
+    file.finish()
+}
+
+fn cannot(config: &Config, error: &io::Error) -> CallError {
+    refused(config, &format!("does not do: {error}; give another path"))
 }

@@ -5,6 +5,7 @@ use super::description;
 use super::variables::find;
 use crate::config::retired::{self, Retired};
 use crate::fmi::instance::WheelSlave;
+use crate::fmi::table;
 use crate::fmi::variable::{Kind, Value, Variable};
 use wheelrail_slave::{CallError, Life, Outcome, Reference, Scalar, ScalarAccess, Type};
 
@@ -70,6 +71,8 @@ impl ScalarAccess for WheelSlave {
     type Value = Value;
 
     fn guid() -> String {
+        // Together with the description all tables are made, so that no later call needs stack for them.
+        (find(0), table::find(0));
         description::guid()
     }
 

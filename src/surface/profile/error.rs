@@ -79,14 +79,17 @@ pub enum ProfileError {
         instead: &'static str,
     },
     /// A file that cannot be read.
-    #[error("profile: file {path} cannot be read ({reason}); give a path that is absolute or relative to {folder}")]
+    #[error(
+        "profile: file {path} cannot be read ({reason}); looked for {tried}; give a path that is absolute or relative to \
+         the working directory"
+    )]
     Unreadable {
-        /// Path after it was joined to the folder.
+        /// File that is there, or the name of one that is not.
         path: String,
         /// Reason.
         reason: String,
-        /// Folder in which relative paths begin.
-        folder: String,
+        /// Places where it was looked for.
+        tried: String,
     },
     /// A file whose content is no profile.
     #[error("profile: file {path}, line {line}: {problem}")]

@@ -45,7 +45,7 @@ impl Profile {
     /// Reads a profile.
     ///
     /// An empty text is a smooth surface. A text that ends in `.csv` is a file with the columns `position,height` \[m];
-    /// its path is relative to `folder` unless it is absolute. Any other text is a sum of features such as
+    /// its path is absolute or begins in the working directory, or else in `folder`. Any other text is a sum of features such as
     /// `sinusoid(amplitude = 5e-6, wavelength = 0.05) + hole(position = 2, length = 5e-3, depth = 1e-3)`, every number
     /// in SI units.
     ///

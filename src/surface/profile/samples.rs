@@ -5,7 +5,7 @@ use crate::config::display_number;
 use crate::files;
 use crate::files::table::{Table, TableError};
 use crate::piecewise::Piecewise;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Heights over positions: linear between samples, constant before the first and after the last.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,14 +37,10 @@ impl HeightSamples {
         Self { points }
     }
 
-    /// Reads a file; `factor` multiplies its heights.
+    /// Reads a file, from the working directory or else from `folder`; `factor` multiplies its heights.
     pub fn read(path: &str, folder: Option<&Path>, factor: f64) -> Result<Self, ProfileError> {
-        let found = folder.map_or_else(|| PathBuf::from(path), |folder| folder.join(path));
-        let text = files::read_text(&found).map_err(|error| ProfileError::Unreadable {
-            path: found.display().to_string(),
-            reason: error.to_string(),
-            folder: folder.map_or_else(|| "the working directory".to_owned(), |folder| folder.display().to_string()),
-        })?;
+        let unreadable = |files::Unread { path, reason, tried }| ProfileError::Unreadable { path, reason, tried };
+        let (found, text) = files::read_named(path, folder).map_err(unreadable)?;
         Self::from_csv(&text, &found.display().to_string(), factor)
     }
 
