@@ -173,7 +173,10 @@ fn a_start_on_yielding_steel_has_its_energy_from_the_beginning() {
         let mut simulation = Simulation::new(model, &inputs).unwrap();
         simulation.advance(&inputs, step).unwrap();
         let outputs = simulation.outputs();
-        println!("{name}, {load} N, {step} s: {:.3} yields, residual {:+.1e}", outputs.yielded, outputs.energy_residual);
+        println!(
+            "{name}, {load} N, {step} s: {:.3} yields, residual {:+.1e}",
+            outputs.yielded, outputs.energy_residual
+        );
         assert!(outputs.yielded > 0.1 && outputs.energy_residual.abs() < 0.02, "{}", outputs.energy_residual);
     }
 }
