@@ -154,6 +154,33 @@ fn an_overloaded_rolling_contact_bears_the_limit_and_keeps_no_dent() {
     }
 }
 
+/// Steel that yields at the start stores what springs back there, as it does in every step. The start is softer than
+/// the steps by hundredths of the pressure, and so is its energy.
+#[test]
+fn a_start_on_yielding_steel_has_its_energy_from_the_beginning() {
+    for (name, load, step) in [
+        ("railway_s1002_3mm", 1.9e5, 1e-3),
+        ("railway_s1002_3mm", 1.9e5, 1e-4),
+        ("railway_s1002_3mm", 3e5, 1e-3),
+        ("railway_ellipse", 3e5, 1e-3),
+    ] {
+        let mut config = preset(name, 10);
+        config.initial.velocity = 20.0;
+        let model = model(config);
+        let mut inputs = Inputs::rolling(model.config());
+        (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+        (inputs.drive.velocity, inputs.drive.omega, inputs.drive.load) = (20.0, 43.4, load);
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        simulation.advance(&inputs, step).unwrap();
+        let outputs = simulation.outputs();
+        println!(
+            "{name}, {load} N, {step} s: {:.3} yields, residual {:+.1e}",
+            outputs.yielded, outputs.energy_residual
+        );
+        assert!(outputs.yielded > 0.1 && outputs.energy_residual.abs() < 0.02, "{}", outputs.energy_residual);
+    }
+}
+
 /// A flat comes under the contact once a turn: the wheel sinks into it, and the energy balance stays closed.
 #[test]
 fn a_flattened_wheel_sinks_with_every_turn_and_rolls_without_loss() {

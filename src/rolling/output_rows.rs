@@ -221,9 +221,10 @@ outputs! {
          sticks and without contact; what friction that depends on slip follows";
     610 temperature_wheel_max: real "temperature.wheel_max", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest surface temperature of the wheel in the contact zone (temperatures are absolute; 0 without \
-         thermal.enabled)";
+         thermal.enabled). Where friction melts steel it may be up to 50 K above material.liquidus: a molten film carries \
+         no friction from 40 K above it on, and steps that would pass 50 K are refused";
     611 temperature_rail_max: real "temperature.rail_max", in "K" as "degC", from 0.0, nominal 300.0,
-        "Highest surface temperature of the rail in the contact zone";
+        "Highest surface temperature of the rail in the contact zone; of molten steel as for temperature.wheel_max";
     612 temperature_wheel_mean: real "temperature.wheel_mean", in "K" as "degC", from 0.0, nominal 300.0,
         "Mean surface temperature of the wheel over the contact patch";
     613 temperature_rail_mean: real "temperature.rail_mean", in "K" as "degC", from 0.0, nominal 300.0,

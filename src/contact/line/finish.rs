@@ -58,8 +58,8 @@ pub fn finish(line: ContactLine) {
     traction.resultant = observe::resultant(wheel, slopes, traction);
     traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();
     observe::overlap(grid, state, overlap, traction);
-    let (moving, limits) = (if problem.time.is_stationary() { 0.0 } else { 1.0 }, &given.strength.limit);
-    traction.yielding.springing_work = moving * observe::springing_work(grid, overlap, limits, traction);
+    let limits = &given.strength.limit;
+    traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, traction);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
     observe::read_off(grid, (power, limit), state, slip, traction);
