@@ -32,7 +32,7 @@ BAD = [
     ("leaves.csv", ",condition", "", "leaves.csv:1: column 'condition' is missing"),
     ("leaves.csv", "400,wet", "400,icy", "leaves.csv:3: condition 'icy' is none of dry, wet, contaminated"),
     ("leaves.csv", "400,wet", "-400,wet", "leaves.csv:3: position -400 m is not beyond 0 m"),
-    ("leaves.csv", "400,wet,0", "400,wet,0.5", r"leaves.csv:3: slope = 0.5 is outside -0.2 to 0.2$"),
+    ("leaves.csv", "400,wet,0", "400,wet,0.5", r"leaves.csv:3: slope = 0.5 is outside -0.2 to 0.2; if 0.5 % are meant, write 0.005$"),
     ("leaves.csv", "400,wet,0,0", "400,wet,0", "leaves.csv:3: 3 entries, line 1 has 4"),
     ("leaves.csv", "400,wet", "far,wet", "leaves.csv:3: position is 'far', not a number"),
 ]

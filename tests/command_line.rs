@@ -221,7 +221,7 @@ fn settings_take_the_place_of_the_preset_and_of_start_values_of_inputs() {
 #[test]
 fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
     let scenario = file("wrong", "time,drive.load\n0,1e5\n1,-5\n");
-    let cases: [(&[&str], &[&str]); 19] = [
+    let cases: [(&[&str], &[&str]); 20] = [
         (&["simulate", "--set", "drive.laod=1"], &["drive.laod", "drive.load"]),
         (&["simulate", "--set", "drive.load"], &["drive.load", "NAME=VALUE"]),
         (&["simulate", "--set", "drive.load=-1"], &["drive.load = -1", "0 to 1e9 N"]),
@@ -233,6 +233,7 @@ fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
             &["wheel.hub_radius = 0.45", "0.0092 to 0.414 m with wheel.radius"],
         ),
         (&["simulate", "--preset", "tram"], &["\"tram\"", "railway", "paper_d"]),
+        (&["simulate", "--preset", "railway_elipse"], &["is unknown; did you mean \"railway_ellipse\"?"]),
         (&["simulate", "--step", "-1"], &["--step = -1", "more than 0"]),
         (&["simulate", "--stop", "-1"], &["--stop = -1", "at least 0"]),
         (&["simulate", "--every", "0"], &["--every", "0"]),
@@ -255,6 +256,96 @@ fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
         assert!(words.iter().all(|word| messages.contains(word)), "{arguments:?}: {messages}");
         assert!(output.stdout.is_empty(), "{arguments:?} wrote to standard output");
     }
+}
+
+/// Warnings of a short run with some settings.
+fn warnings(settings: &[&str], more: &[&str]) -> Vec<String> {
+    let set = settings.iter().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<_> =
+        ["simulate", "--set", "initial.velocity=20", "--set", "thermal.enabled=false"].into_iter().chain(set).collect();
+    let output = wheelrail(&[&arguments, more].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let messages = String::from_utf8(output.stderr).unwrap();
+    messages.lines().filter(|line| line.starts_with("warning: ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn profiles_beside_the_way_and_gaps_in_them_are_told_with_both_ranges() {
+    let folder = directory("beside");
+    let profile = |name: &str, place: &dyn Fn(usize) -> f64| {
+        let rows: String = (0..40).map(|k| format!("{:?},{:?}\n", place(k), 1e-7 * (k % 3) as f64)).collect();
+        let path = folder.join(name);
+        fs::write(&path, format!("position,height\n{rows}")).unwrap();
+        format!("rail.profile={}", path.to_str().unwrap())
+    };
+    let at = |begin: f64| move |k: usize| begin + 0.01 * k as f64;
+    for (name, text, velocity, words) in [
+        (
+            "chainage",
+            profile("chainage.csv", &at(12000.0)),
+            20.0,
+            &["from 12000 to 12000.4 m", "position = -12000)"][..],
+        ),
+        ("ahead", profile("ahead.csv", &at(5.0)), 20.0, &["from 5 to 5.39 m", "has been between 0 and 0.1", "= -5)"]),
+        ("backwards", profile("backwards.csv", &at(-9.0)), -20.0, &["from -9 to -8.61 m", "-0.1", "= 8.61)"]),
+        ("behind", profile("behind.csv", &at(-5.0)), 20.0, &["passed the last sample", "-5.000 to -4.610 m"]),
+        ("met", profile("met.csv", &at(-0.1)), 20.0, &[]),
+        (
+            "gap",
+            profile("gap.csv", &|k| at(-0.2)(k) + if k > 20 { 0.1 } else { 0.0 }),
+            20.0,
+            &["no samples between 0 and 0.11 m", "0.01 m apart"],
+        ),
+        (
+            "hole",
+            "rail.profile=hole(position = 50, length = 0.005, depth = 0.0001)".to_owned(),
+            20.0,
+            &["no effect", "0.1"],
+        ),
+    ] {
+        let velocity = format!("initial.velocity={velocity}");
+        let found = warnings(&[&velocity, &text], &["--stop", "0.005", "--step", "0.0002"]);
+        println!("{name}: {found:?}");
+        assert!(words.is_empty() == found.is_empty(), "{name}: {found:?}");
+        assert!(words.iter().all(|word| found.iter().any(|text| text.contains(word))), "{name}: {found:?}");
+        assert!(found.len() <= 1, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_width_that_is_that_of_the_wheel_is_told_and_that_of_a_wheelset_is_not() {
+    let found = warnings(&["model.contact_width=0.135"], &["--stop", "0.001"]);
+    println!("{found:?}");
+    let words =
+        ["model.contact_width = 0.135 m", "0.32 times the pressure", "the width is 0.014 m", "thermal.rim_width"];
+    assert!(found.len() == 1 && words.iter().all(|word| found[0].contains(word)), "{found:?}");
+    let wheelset = ["model.contact_width=0.028", "model.nominal_load=200000"];
+    assert_eq!(warnings(&wheelset, &["--stop", "0.001"]), Vec::<String>::new());
+}
+
+#[test]
+fn a_pulse_within_a_step_keeps_its_impulse_and_what_is_not_seen_is_told() {
+    let pulse = file("pulse", "time,drive.force\n0,0\n0.0051,0\n0.0051,5e4\n0.0058,5e4\n0.0058,0\n");
+    let last = |step: &str| {
+        let arguments =
+            ["simulate", "--set", "initial.velocity=20", "--set", "thermal.enabled=false", "--stop", "0.01"];
+        let run = Table::parse(&succeed(&[&arguments[..], &["--scenario", &pulse, "--step", step]].concat()));
+        run.last("wheel.velocity") - 20.0
+    };
+    let (exact, found) = (last("1e-4"), ["1e-3", "2e-3", "1e-2"].map(last));
+    println!("{exact:e}: {found:?}");
+    assert!(exact > 1e-3);
+    found.iter().for_each(|found| assert_close(*found, exact, 0.01, "change of speed"));
+    let rows: String = (0..=100).map(|k| format!("{},{:e}\n", 1e-4 * k as f64, 1e-5 * f64::sin(k as f64))).collect();
+    let fine = file("fine", &format!("time,rail.elevation\n{rows}"));
+    let found = warnings(&[], &["--scenario", &fine, "--stop", "0.01"]);
+    assert!(
+        found.iter().any(|text| text.contains("90 of 101 rows lie within communication steps of 0.001 s")),
+        "{found:?}"
+    );
+    let late = file("late", "time,drive.load\n100,1e5\n101,1e5\n");
+    let found = warnings(&[], &["--scenario", &late, "--stop", "0.001"]);
+    assert!(found[0].contains("from 100 to 101 s lie outside of the run from 0 to 0.001 s"), "{found:?}");
 }
 
 #[test]

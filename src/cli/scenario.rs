@@ -338,6 +338,23 @@ mod tests {
     }
 
     #[test]
+    fn a_jump_at_any_whole_millisecond_acts_at_its_time_for_every_step() {
+        for (jump, step) in (1..=200).flat_map(|k| [5e-4, 1e-3, 2e-3, 1e-2, 0.1].map(|step| (f64::from(k) / 1e3, step)))
+        {
+            let s = scenario(&format!("time,drive.force\n0,0\n{jump:?},0\n{jump:?},5e4\n1,5e4\n")).unwrap();
+            let Values::Real(force) = &s.columns()[0].values else { panic!("a real input") };
+            for k in 0..(0.3 / step) as usize {
+                let mut begin = k as f64 * step;
+                for end in s.parts(begin, begin + step) {
+                    let expected = if begin > jump - 1e-9 { 5e4 } else { 0.0 };
+                    assert_eq!(s.line(&s.columns()[0], force, begin, end), [expected; 2], "{jump} in {step}, {begin}");
+                    begin = end;
+                }
+            }
+        }
+    }
+
+    #[test]
     fn choices_hold_until_the_next_row() {
         let s = scenario("control.rotation,time\n2,0\nvelocity,0.3\nmoment,0.5\n").unwrap();
         let Values::Choice(c) = &s.columns()[0].values else { panic!("a choice") };

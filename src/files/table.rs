@@ -13,7 +13,7 @@ pub struct Table<'a> {
 }
 
 /// Cells of a line.
-pub struct Row<'a> {
+pub struct TableRow<'a> {
     /// Number of the line in the text, from 1.
     pub line: usize,
     cells: Vec<&'a str>,
@@ -69,11 +69,11 @@ impl<'a> Table<'a> {
     }
 
     /// Rows one after the other; one with other cells than names is refused.
-    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, TableError>> {
+    pub fn rows(&self) -> impl Iterator<Item = Result<TableRow<'a>, TableError>> {
         self.rest.iter().map(move |&(line, text)| {
             let cells = cells(text).map_err(|why| TableError::new(line, why))?;
             if cells.len() == self.names.len() {
-                return Ok(Row { line, cells });
+                return Ok(TableRow { line, cells });
             }
             let advice = match cells.len() > self.names.len() {
                 true => "commas separate cells, numbers have decimal points: 1.5, not 1,5",
@@ -85,7 +85,7 @@ impl<'a> Table<'a> {
     }
 }
 
-impl<'a> Row<'a> {
+impl<'a> TableRow<'a> {
     /// Text of a cell by the number of its column, from 0.
     pub fn text(&self, column: usize) -> &'a str {
         self.cells.get(column).copied().unwrap_or_default()
@@ -138,7 +138,7 @@ mod tests {
     fn numbers(text: &str) -> Result<Vec<Vec<f64>>, String> {
         let table = Table::read(text).map_err(|error| error.to_string())?;
         let (names, _) = table.names();
-        let row = |row: Row| (0..names.len()).map(|k| row.number(k, names[k], "m")).collect::<Result<Vec<_>, _>>();
+        let row = |row: TableRow| (0..names.len()).map(|k| row.number(k, names[k], "m")).collect::<Result<Vec<_>, _>>();
         table.rows().map(|found| found.and_then(row).map_err(|error| error.to_string())).collect()
     }
 

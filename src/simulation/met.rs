@@ -22,8 +22,7 @@ impl Simulation {
             })
         };
         let gaps = [("rail.profile", &surfaces.rail), ("wheel.profile", &surfaces.wheel)].into_iter().filter_map(gap);
-        let far = self.sense();
-        let ahead = surfaces.rail.sample_ends().filter(|[first, last]| f64::min(far * first, far * last) > FAR);
+        let ahead = surfaces.rail.sample_ends().filter(|ends| self.are_far(*ends));
         gaps.chain(ahead.map(|ends| self.far(ends, [0.0; 2]))).collect()
     }
 
@@ -31,7 +30,10 @@ impl Simulation {
     pub fn doubt_of_way(&self, way: [f64; 2]) -> Option<String> {
         let rail = &self.model().rolling.contact.surfaces.rail;
         let reach = self.model().rolling.reach;
-        let unmet = !rail.is_smooth() && !rail.meets(way[0] - reach, way[1] + reach);
+        // Of samples far ahead and behind the start a word was said there.
+        let said = rail.sample_ends().any(|ends| self.are_far(ends))
+            || rail.end(self.sense() > 0.0).is_some_and(|end| self.sense() * end < 0.0);
+        let unmet = !said && !rail.is_smooth() && !rail.meets(way[0] - reach, way[1] + reach);
         let nearest = || rail.sample_ends().next();
         unmet.then(|| match nearest() {
             Some(ends) => self.far(ends, way),
@@ -42,6 +44,11 @@ impl Simulation {
                 display_number(way[1])
             ),
         })
+    }
+
+    /// Samples so far ahead of the start that they are hardly meant.
+    fn are_far(&self, ends: [f64; 2]) -> bool {
+        ends.iter().all(|end| self.sense() * end > FAR)
     }
 
     /// Words about samples beside the way of a run.
