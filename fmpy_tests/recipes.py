@@ -97,8 +97,14 @@ WHEEL = (
         "cd try && python -m wheelrail ssp examples/train/low_adhesion.json --coach {root}/target/release",
         ("python -m wheelrail ssp examples/train/low_adhesion.json",), "written",
     ),
+    Recipe("python -m wheelrail ssp --help", ("python -m wheelrail train|sweep|ssp SCENARIO",), "--coach"),
+    Recipe("fmpy validate {fmu}", ("fmpy validate",), "No problems found"),
     Recipe("python -m wheelrail schema scenario", says='"properties"'),
     Recipe("python -m wheelrail force run.csv", says="mean"),
+    Recipe(
+        "for command in force spectrum octaves flat; do python -m wheelrail $command run.csv --out {out} || exit 1; done",
+        ("python -m wheelrail force | spectrum | octaves | flat | filter",),
+    ),
     Recipe("python -m wheelrail spectrum run.csv"),
     Recipe("python -m wheelrail octaves rail.csv --over position --column height", ("python -m wheelrail octaves rail.csv",)),
     Recipe("python -m wheelrail flat run.csv"),
@@ -119,7 +125,7 @@ PROGRAM = (
         ("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv",), "creepage",
     ),  # fmt: skip
     Recipe("wheelrail export --creepage 2e-3 --out fields && ls fields", ("wheelrail export --creepage 2e-3 --out fields",), "fields.vtm"),
-    Recipe("wheelrail export --scenario brake.csv --every 0.35 --out film && ls film",
+    Recipe("wheelrail export --scenario brake.csv --every 5e-3 --set mesh.elements_per_half_width=5 --out film && ls film",
         ("wheelrail export --scenario brake.csv --every 0.05 --out film",), "fields.pvd",
     ),  # fmt: skip
     Recipe("wheelrail pack --library {root}/target/release/libwheelrail.so --reference {root}/examples/reference --out packed.fmu",
