@@ -142,7 +142,7 @@ NOT_RUN = {
     "compares the whole thesis, which a part of it does in every run": ("make thesis", "make thesis FULL=1"),
     "this test runs within it, or it compiles everything once more": (
         ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
-        "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make docs", "make clean", "make fmu PROFILES=no",
+        "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
         "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",
         "cargo test --release -p wheelrail-thesis -- --nocapture", "cargo test --release -p wheelrail-thesis --test all NAME::",
