@@ -16,7 +16,7 @@ PROGRAM = re.compile(
     r"(?:[A-Z][A-Z_]*=\S+ )*(?:\.venv/bin/|target/release/)?"
     r"(?:make|cargo|pip|python3?|wheelrail|wheelrail-train|fmpy|dask|octave) +[\w./'<{\[-]"
     r"|\.ci/run$|packaging/build\b|(?:\.venv/bin/)?pytest +(?:-|\S+/)"
-    r"|(?:tools|docs)/(?!test_)[\w/-]+\.py|(?:packaging|examples)/[\w/-]+\.py +(?:--?\w|[a-z])"
+    r"|(?:tools|docs)/(?!test_(?!times))[\w/-]+\.py|(?:packaging|examples)/[\w/-]+\.py +(?:--?\w|[a-z])"
 )
 # Pages that tell what was.
 PAST = ("CHANGELOG.md", "docs/history/")

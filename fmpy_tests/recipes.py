@@ -64,7 +64,7 @@ CHECKOUT = (
         ("python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20",),
     ),
     Recipe("python3 packaging/release.py v{version}", ("python3 packaging/release.py v0.4.0",), "{version}"),
-    Recipe(".venv/bin/python packaging/wheel.py --sdist --out {out}", ("python3 packaging/wheel.py --sdist [--out FOLDER]",), ".tar.gz"),
+    Recipe(".venv/bin/python packaging/wheel.py --sdist --out {out}", (".venv/bin/python packaging/wheel.py --sdist [--out FOLDER]",), ".tar.gz"),
     Recipe(".venv/bin/python packaging/wheel.py {fmu} --out {out}", (".venv/bin/python packaging/wheel.py FMU [--out FOLDER]",), ".whl"),
     Recipe(
         "python3 tools/same_results.py target/release/wheelrail target/release/wheelrail --only brake --jobs 1",
