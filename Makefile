@@ -1,4 +1,5 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV, picture and page (report.html) in results/
+# make help      these lines
 # make test      every test, Rust and fmpy
 # make quick     what tells most after an edit: architecture, documents, unit tests and fast programs
 # make loop TEST=brake  one test program after an edit; ARGS=name runs the tests of that name in it
@@ -38,6 +39,10 @@
 # make site      these pages with search, formulas set, and the API of Python and Rust: target/site/index.html
 # make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
 # make clean     remove everything that was built
+#                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
+#                random-parameters, make ellipse ARGS=--help lists them; OUT=folder puts results elsewhere than in results/
+#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces and ellipse; other short
+#                ones: make demo ARGS=--speed-kmh=20, make flat ARGS="--once --slide 0.1 --roll 0.2"
 
 PYTHON ?= python3
 CARGO ?= cargo
@@ -69,6 +74,7 @@ NOTEBOOK := $(VENV)/.notebook
 # The report page is tried in a browser where there is one.
 BROWSER := $(if $(shell command -v chromium chromium-browser google-chrome 2> /dev/null),$(VENV)/.browser)
 RECORDS := $(VENV)/.records
+OUT ?= results
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
@@ -78,11 +84,14 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
-	$(PY) examples/ex01_braking_stop.py --fmu $(FMU) --out results
+	$(PY) examples/ex01_braking_stop.py --fmu $(FMU) --out $(OUT) $(ARGS)
+
+help:
+	@sed -n '/^#/!q; s/^# //p' $(firstword $(MAKEFILE_LIST))
 
 test: test-tools test-rust test-fmpy
 
@@ -141,34 +150,34 @@ python-dist: $(FMU_ALL) $(INSTALLED)
 	$(PY) packaging/wheel.py --sdist --out target/dist
 
 masters: $(FMU) $(INSTALLED)
-	$(PY) examples/ex02_masters.py --fmu $(FMU) --out results
+	$(PY) examples/ex02_masters.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 suspension: $(FMU) $(INSTALLED)
-	$(PY) examples/ex07_suspension.py --fmu $(FMU) --out results
+	$(PY) examples/ex07_suspension.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 creep-curve: $(FMU) $(INSTALLED)
-	$(PY) examples/ex08_creep_curve.py --fmu $(FMU) --out results
+	$(PY) examples/ex08_creep_curve.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 train: $(FMU) $(INSTALLED)
-	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out results $(if $(FORCE),--force)
+	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out $(OUT) $(if $(FORCE),--force) $(ARGS)
 
 sweep: $(FMU) $(TRAIN)
-	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out results $(if $(FORCE),--force) $(if $(SCHEDULER),--scheduler $(SCHEDULER))
+	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out $(OUT) $(if $(FORCE),--force) $(if $(SCHEDULER),--scheduler $(SCHEDULER)) $(ARGS)
 
 eight-wheels: $(FMU) $(INSTALLED)
 	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU) $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
 
 flat: $(FMU) $(INSTALLED)
-	$(PY) examples/ex06_flat.py --fmu $(FMU) --out results
+	$(PY) examples/ex06_flat.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 own-vehicle: $(FMU) $(INSTALLED)
-	$(PY) examples/ex12_own_vehicle.py --fmu $(FMU) --out results
+	$(PY) examples/ex12_own_vehicle.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 surfaces: $(FMU) $(INSTALLED)
-	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out results
+	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 ellipse: $(FMU) $(INSTALLED)
-	$(PY) examples/ex13_ellipse.py --fmu $(FMU) --out results
+	$(PY) examples/ex13_ellipse.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 # The second study is made whatever the first one finds; a limit that either of them finds broken ends both with an error.
 LOCKED := $(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
@@ -189,10 +198,10 @@ bench-ordinary:
 	$(CARGO) bench --locked --bench ordinary -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS)
 
 endurance:
-	$(CARGO) run --release --locked --example ex03_endurance
+	$(CARGO) run --release --locked --example ex03_endurance -- $(ARGS)
 
 random-parameters:
-	$(CARGO) run --release --locked --example ex04_random_parameters
+	$(CARGO) run --release --locked --example ex04_random_parameters -- $(ARGS)
 
 random-temperatures:
 	WHEELRAIL_TEMPERATURE_SETS=500 $(CARGO) test --release --locked --test temperature_bounds -- --nocapture

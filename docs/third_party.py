@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Writes docs/LICENSE-THIRD-PARTY: crates that are linked into the library, with their licence texts (each text once)."""
 
 import json

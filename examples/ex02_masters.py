@@ -297,6 +297,7 @@ ENERGIES = (1e-1, 1e-2)  # J, that a step may create
 LIMIT_SPEEDS = (10.0, 5.0, 2.0, 1.0)  # m/s
 EXPLICIT = ("Jacobi", "Gauss-Seidel")
 SHOWN = 1e-3  # s, step of the runs whose force is drawn
+BRIEF = {"STEPS": (4e-3, 2e-3), "REFERENCE_STEP": 5e-4, "ENERGIES": (1e-1,), "LIMIT_SPEEDS": (10.0, 5.0)}
 
 
 def accuracy(fmu, reference):
@@ -404,11 +405,13 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fmu", type=Path, default=Path("target/wheelrail.fmu"), help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
+    parser.add_argument("--brief", action="store_true", help="two steps and two speeds, in seconds")
     return parser.parse_args()
 
 
 def run(options):
     """The comparison."""
+    globals().update(BRIEF if options.brief else {})
     with Fmu(options.fmu) as fmu:
         reference = monolithic(fmu, REFERENCE_STEP)
         found = accuracy(fmu, reference)

@@ -1,4 +1,4 @@
-"""Example 10: irregular surfaces. What force does this rail, this hole, this flat make?
+"""Example 11: irregular surfaces. What force does this rail, this hole, this flat make?
 
     make surfaces
 
@@ -42,6 +42,9 @@ ROUGH = "roughness(levels = [0, 2, 7, 2, 7, 0], longest = 0.125, seed = 3, lengt
 ROUGH_WAY, SHORTEST = 8.3, 0.035  # m; the way of the paper
 FLAT, FLAT_AT = 0.04, 0.1  # m
 PERIOD, SAMPLES = 8.0, 3200  # m of rail that is analysed, and samples of it
+SPEEDS = (30, 45, 60, 68, 75, 80, 84, 88, 92, 100, 110, 125, 150)  # km/h, over waves
+HOLE_SPEEDS, FLAT_SPEEDS = (50, 100, 150), range(20, 141, 10)  # km/h
+BRIEF = {"SPEEDS": (60, 92, 150), "HOLE_SPEEDS": (100,), "FLAT_SPEEDS": (60, 100), "ROUGH_WAY": 0.5}
 FILTERED = (0.1, 0.08, 0.063, 0.05, 0.04, 0.0315, 0.025, 0.02)  # m
 
 
@@ -109,15 +112,15 @@ def standing(fmu, wavelength, phase):
 
 def cases(fmu):
     """Everything to compute: key to function and arguments."""
-    speeds = np.array([30, 45, 60, 68, 75, 80, 84, 88, 92, 100, 110, 125, 150]) * KMH
+    speeds = np.array(SPEEDS) * KMH
     tasks = {("corrugation", speed): (corrugation, speed) for speed in speeds}
-    tasks |= {("hole", speed): (hole, speed) for speed in np.array([50, 100, 150]) * KMH}
+    tasks |= {("hole", speed): (hole, speed) for speed in np.array(HOLE_SPEEDS) * KMH}
     base = (100.0 * KMH, LOAD, 0.0)
     varied = {"speed": [(v * KMH, *base[1:]) for v in (50, 75, 100)]}
     varied["load"] = [(base[0], share * LOAD, 0.0) for share in (0.5, 1.0, 1.5)]
     varied["unsprung mass"] = [(*base[:2], mass) for mass in (0.0, 1e3, 2e3)]
     tasks |= {("rough", *case): (rough, *case) for group in varied.values() for case in group}
-    flats = np.arange(20, 141, 10) * KMH
+    flats = np.array(FLAT_SPEEDS) * KMH
     tasks |= {("flat", shape, speed): (flat, shape, speed) for shape in ("fresh", "rounded") for speed in flats}
     tasks |= {("spectrum",): (spectrum,)}
     for phase in (0.5 * np.pi, -0.5 * np.pi):
@@ -246,7 +249,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--fmu", default="target/wheelrail.fmu")
     parser.add_argument("--out", type=Path, default=Path("results"))
+    parser.add_argument("--brief", action="store_true", help="fewer speeds and a shorter rough rail, in seconds")
     options = parser.parse_args()
+    globals().update(BRIEF if options.brief else {})
     began = perf_counter()
     with Fmu(options.fmu) as fmu:
         with Wheel(fmu, PAPER) as wheel:

@@ -89,7 +89,7 @@ def plot(path, found):
 def run(options):
     """All presets, their figures and the picture."""
     with Fmu(options.fmu) as fmu:
-        found = {preset: braked(fmu, preset) for preset in PRESETS}
+        found = {preset: braked(fmu, preset, 0.1 * RAMP if options.brief else RAMP) for preset in PRESETS}
     report(found)
     options.out.mkdir(parents=True, exist_ok=True)
     plot(options.out / "ellipse.png", found)
@@ -101,6 +101,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fmu", type=Path, default=Path("target/wheelrail.fmu"), help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
+    parser.add_argument("--brief", action="store_true", help="the first tenth of the application, in seconds")
     return parser.parse_args()
 
 

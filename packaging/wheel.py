@@ -1,7 +1,7 @@
 """Builds the Python package from python/: a wheel with an FMU, examples and licences inside, and an sdist without an FMU.
 
-    python3 packaging/wheel.py FMU [--out FOLDER]     the wheel; `make python-wheel` and `make python-dist` call this
-    python3 packaging/wheel.py --sdist [--out FOLDER] the sdist, for platforms that the wheel does not run on
+    .venv/bin/python packaging/wheel.py FMU [--out FOLDER]      the wheel; `make python-wheel` and `make python-dist` call this
+    .venv/bin/python packaging/wheel.py --sdist [--out FOLDER]  the sdist, for platforms that the wheel does not run on
 
 The wheel bears the names of the platforms whose libraries are in the FMU, so that pip refuses it elsewhere.
 """

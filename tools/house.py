@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Counts of the source that say how well the house is built.
 
-    tools/house.py                 the figures, each with its worst cases
-    tools/house.py contact rolling the figures of these folders or files below src/
-    tools/house.py --all           every case, not only the worst
-    tools/house.py --json          figures alone, for comparing two commits
+    tools/house.py                  the figures, each with its worst cases
+    tools/house.py contact rolling  the figures of these folders or files below src/
+    tools/house.py --all            every case, not only the worst
+    tools/house.py --json           figures alone, for comparing two commits
 
 Unit tests (`#[cfg(test)]`) count for comments and lines of source only. Types are told apart by the file that
 defines them: two types of one name in two folders are two types, and one duplicate name.

@@ -73,6 +73,10 @@ macro_rules! outputs {
     (@type profile) => { Vec<f64> };
     (@type deferred) => { Vec<f64> };
     (@type lines) => { Vec<f64> };
+    (@mark real) => { 1.0 };
+    (@mark count) => { 1 };
+    (@mark flag) => { true };
+    (@mark $several:ident) => { vec![1.0] };
     (@read real $field:ident) => { Read::Real(|outputs| outputs.$field) };
     (@read count $field:ident) => { Read::Count(|outputs| outputs.$field) };
     (@read flag $field:ident) => { Read::Flag(|outputs| outputs.$field) };
@@ -107,6 +111,12 @@ macro_rules! outputs {
         }
 
         impl Outputs {
+            /// Outputs none of which is what its default is.
+            #[cfg(test)]
+            pub fn marked() -> Self {
+                Self { $( $field: outputs!(@mark $sort) ),* }
+            }
+
             /// The row of every output.
             pub const ROWS: [OutputRow; [$( $number ),*].len()] = [$(
                 OutputRow {

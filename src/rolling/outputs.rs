@@ -21,6 +21,12 @@ use crate::surface::WearLaw;
 /// area of the contact or, of friction and slip, over the load. Profiles are those of the line with the largest
 /// pressure.
 pub fn observe(model: &RollingModel, state: &State) -> Outputs {
+    observe_over(model, state, Outputs::default())
+}
+
+/// Observables of a state. `others` gives what none of the functions below names: nothing but what [`complete`] fills,
+/// which a test of [`crate::simulation`] tells from two kinds of `others`.
+pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
     let width = model.wheel.width;
     let none = Line::default();
     let pressed = state.line_of_largest(|line| line.contact.traction.pressure_max).unwrap_or(&none);
@@ -100,7 +106,7 @@ pub fn observe(model: &RollingModel, state: &State) -> Outputs {
         profile_shear: sampled(&traction.shear, &points),
         profile_slip: sampled(&traction.slip, &points),
         profile_x: points,
-        ..across::outputs(model, state, surface_outputs(model, state, pressed))
+        ..across::outputs(model, state, surface_outputs(model, state, pressed, others))
     }
 }
 
@@ -134,21 +140,20 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
     values
 }
 
-/// Outputs about the material that the surfaces have lost and about heat; all others are zero. Profiles are those of
-/// the line `shown`.
-fn surface_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs {
+/// Outputs about the material that the surfaces have lost and about heat. Profiles are those of the line `shown`.
+fn surface_outputs(model: &RollingModel, state: &State, shown: &Line, others: Outputs) -> Outputs {
     Outputs {
         flattening: state.largest(|line| line.flattening[0].deepest_dent()),
         flattening_rail: state.largest(|line| line.flattening[1].deepest_dent()),
         worn_mass: state.sum(|line| line.worn) * model.wheel.width,
         worn_depth: state.largest(|line| line.flattening[0].worn().deepest()),
         worn_depth_rail: state.largest(|line| line.flattening[1].worn().deepest()),
-        ..thermal_outputs(model, state, shown)
+        ..thermal_outputs(model, state, shown, others)
     }
 }
 
-/// The outputs about heat, everything else zero.
-fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs {
+/// Outputs about heat. Without heat, or with nothing under pressure, they are zero.
+fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line, others: Outputs) -> Outputs {
     let (Some(heat), Some(thermal)) = (&model.thermal, &shown.thermal) else {
         let cold = vec![0.0; PROFILE_POINTS];
         return Outputs {
@@ -182,12 +187,12 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line) -> Outputs
         profile_temperature_rail: absolute(&thermal.surface[1]),
         profile_peak: heat.peaks(thermal),
         profile_depth: profile_depths(),
-        ..flow_outputs(model, state)
+        ..flow_outputs(model, state, others)
     }
 }
 
-/// Outputs about heat that flows, everything else zero.
-fn flow_outputs(model: &RollingModel, state: &State) -> Outputs {
+/// Outputs about heat that flows.
+fn flow_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
     let width = model.wheel.width;
     let flow = |of: &dyn Fn(&HeatFlows) -> f64| {
         width * state.sum(|line| line.thermal.as_ref().map_or(0.0, |thermal| of(&thermal.flows)))
@@ -203,12 +208,12 @@ fn flow_outputs(model: &RollingModel, state: &State) -> Outputs {
         heat_to_air: flow(&|flows| flows.wheel_to_air),
         rail_heat,
         heat_per_metre: rail_heat,
-        ..damage_outputs(state)
+        ..damage_outputs(state, others)
     }
 }
 
-/// Outputs about the structure of the steel, of the line with the hottest tread so far, everything else zero.
-fn damage_outputs(state: &State) -> Outputs {
+/// Outputs about the structure of the steel, of the line with the hottest tread so far.
+fn damage_outputs(state: &State, others: Outputs) -> Outputs {
     let peak = |line: &Line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.damage.peak);
     let Some(thermal) = state.line_of_largest(peak).and_then(|line| line.thermal.as_ref()) else {
         return Outputs::default();
@@ -223,7 +228,7 @@ fn damage_outputs(state: &State) -> Outputs {
         martensite_depth: found.martensite_depth,
         flats: damage.places,
         rail_peak: damage.rail_peak,
-        ..Outputs::default()
+        ..others
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::config::{ContactMethod, ContactShape};
+use crate::rolling::outputs::{complete, observe_over};
 use std::path::Path;
 
 /// Linear problems of the contact that 200 steps of 0.1 ms solve by alternation or line by line, and all equations
@@ -48,4 +49,49 @@ fn ordinary_steps_of_an_ellipse_are_solved_line_by_line() {
         println!("{profile}: {one_by_one} line by line, {together} together");
         assert!(together == 0 && (200..700).contains(&one_by_one), "{profile}: {one_by_one}, {together}");
     }
+}
+
+/// Names of the outputs whose value nobody gives: those that follow what the outputs were filled with before.
+fn forgotten(model: &Model, state: &State) -> Vec<&'static str> {
+    let [plain, marked] = [Outputs::default(), Outputs::marked()].map(|others| {
+        let mut outputs = observe_over(&model.rolling, state, others);
+        complete(&model.rolling, state, &mut outputs);
+        outputs
+    });
+    let differ = |read: Read| match read {
+        Read::Real(of) => of(&plain).to_bits() != of(&marked).to_bits(),
+        Read::Count(of) => of(&plain) != of(&marked),
+        Read::Flag(of) => of(&plain) != of(&marked),
+        Read::Profile(of) | Read::Deferred(of) => of(&plain) != of(&marked) || of(&plain).is_empty(),
+    };
+    Outputs::ROWS.iter().filter(|row| differ(row.read)).map(|row| row.name).collect()
+}
+
+#[test]
+fn every_output_is_given_a_value() {
+    let store = BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
+    for shape in [ContactShape::Line, ContactShape::Ellipse] {
+        let mut config = Config::default();
+        config.contact.shape = shape;
+        let model = Model::prepare(config, &store, &mut |_, _| {}).unwrap();
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(Arc::clone(&model), &inputs).unwrap();
+        inputs.drive.moment = -5000.0;
+        (0..5).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
+        let forgotten = forgotten(&model, simulation.state());
+        println!("{shape:?}: {} outputs, forgotten {forgotten:?}", Outputs::ROWS.len());
+        assert!(forgotten.is_empty(), "give their values in `observe` or what it calls: {forgotten:?}");
+    }
+}
+
+#[test]
+fn marks_of_outputs_are_none_of_their_defaults() {
+    let (plain, marked) = (Outputs::default(), Outputs::marked());
+    let same = |read: Read| match read {
+        Read::Real(of) => of(&plain) == of(&marked),
+        Read::Count(of) => of(&plain) == of(&marked),
+        Read::Flag(of) => of(&plain) == of(&marked),
+        Read::Profile(of) | Read::Deferred(of) => of(&plain) == of(&marked),
+    };
+    assert!(Outputs::ROWS.iter().all(|row| !same(row.read)));
 }

@@ -1,0 +1,166 @@
+"""How every documented command is run: as it stands, or in a shorter version, at the place where people type it.
+
+A recipe is what is typed, and as which texts it stands in the pages; without texts as what is typed. Braces are filled in:
+{out} is an empty folder, {fmu} the packed FMU, {small} a scenario of a slow train, {version} the version of the package.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """What is typed, what it stands for, and what its output must contain."""
+
+    typed: str
+    texts: tuple = ()
+    says: str = ""
+
+    @property
+    def documented(self):
+        """Texts of the pages that this recipe runs."""
+        return self.texts or (self.typed,)
+
+
+def short(target, arguments, says="written"):
+    """A target whose program gets options by ARGS and a folder by OUT."""
+    return Recipe(f'make {target} ARGS="{arguments}" OUT={{out}}', (f"make {target}",), says)
+
+
+# In a checkout whose FMU is packed.
+CHECKOUT = (
+    Recipe("make help", says="make clean"),
+    Recipe('make demo ARGS="--speed-kmh=20" OUT={out}', ("make demo", "make demo ARGS=--speed-kmh=20"), "written"),
+    short("creep-curve", "--brief"),
+    short("ellipse", "--brief"),
+    Recipe("make ellipse ARGS=--help", says="--brief"),
+    short("masters", "--brief"),
+    short("suspension", "--brief"),
+    short("own-vehicle", "--brief"),
+    short("surfaces", "--brief"),
+    Recipe(
+        'make flat ARGS="--once --slide 0.1 --roll 0.2" OUT={out}', ("make flat", 'make flat ARGS="--once --slide 0.1 --roll 0.2"'), "written"
+    ),
+    short("eight-wheels", "--seconds 0.1", "threads"),
+    Recipe(
+        'make eight-wheels ARGS="--seconds 0.1 --set preset=railway_ellipse"',
+        ('make eight-wheels ARGS="--set preset=railway_ellipse"',), "threads",
+    ),
+    Recipe('make eight-wheels BEFORE={fmu} ARGS="--seconds 0.1"', ("make eight-wheels BEFORE=older.fmu",), "threads"),
+    Recipe(
+        "make train SCENARIO={small} OUT={out} FORCE=1",
+        ("make train", "make train SCENARIO=my/scenario.json", "make train SCENARIO=my/scenario.json FORCE=1"), "stopping distance",
+    ),
+    Recipe("make sweep SCENARIO={small} OUT={out}", ("make sweep",), "written"),
+    Recipe("make ssp SCENARIO=examples/train/low_adhesion.json", ("make ssp", "make ssp SCENARIO=my/scenario.json"), "written"),
+    Recipe("make fmu", says="Nothing to be done"),
+    Recipe("make python-wheel", says=".whl"),
+    Recipe("make house", ("make house", "tools/house.py"), "lines"),
+    Recipe("tools/house.py --all"),
+    Recipe("tools/house.py --json", says="{{"),
+    Recipe("tools/house.py contact"),
+    Recipe("tools/house.py contact rolling"),
+    Recipe(
+        "python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3 --meshes 10 --stop 0.05 --out {out}",
+        ("python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20",),
+    ),
+    Recipe("python3 packaging/release.py v{version}", ("python3 packaging/release.py v0.4.0",), "{version}"),
+    Recipe(".venv/bin/python packaging/wheel.py --sdist --out {out}", (".venv/bin/python packaging/wheel.py --sdist [--out FOLDER]",), ".tar.gz"),
+    Recipe(".venv/bin/python packaging/wheel.py {fmu} --out {out}", (".venv/bin/python packaging/wheel.py FMU [--out FOLDER]",), ".whl"),
+    Recipe(
+        "python3 tools/same_results.py target/release/wheelrail target/release/wheelrail --only brake --jobs 1",
+        ("python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]",), "same",
+    ),
+    Recipe(".venv/bin/python examples/ex00_minimal.py", says="temperature.wheel_max"),
+    Recipe(".venv/bin/python examples/trials/brakes.py {out}", ("python examples/trials/brakes.py [DIRECTORY]",), "| lines |"),
+    Recipe(".venv/bin/python examples/trials/damage.py {out}", ("python examples/trials/damage.py [DIRECTORY]",), "| lines |"),
+    Recipe(".venv/bin/python examples/trials/vehicle.py {out}", ("python examples/trials/vehicle.py [DIRECTORY]",), "| lines |"),
+    Recipe(".venv/bin/fmpy validate {fmu}", ("fmpy validate",), "No problems found"),
+    Recipe(".venv/bin/python -m pytest -s fmpy_tests/test_creep_curve.py", (".venv/bin/python -m pytest -s",), "1 passed"),
+)
+
+# In an empty folder with an environment into which the wheel alone was installed, in this order.
+WHEEL = (
+    Recipe(
+        "python -m wheelrail.examples try", ("python -m wheelrail.examples try", "python -m wheelrail.examples FOLDER"), "ex00_minimal.py"
+    ),
+    Recipe("cd try && python examples/ex00_minimal.py", ("python examples/ex00_minimal.py",), "temperature.wheel_max"),
+    Recipe("python -m wheelrail train {small} --force", ("python -m wheelrail train examples/train/low_adhesion.json",), "stopping distance"),
+    Recipe("python -m wheelrail force results/low_adhesion/train_wsp_on.csv --column force_1", says="mean"),
+    Recipe(
+        "python -m wheelrail train {small} --rigid --force", (".venv/bin/python -m wheelrail train SCENARIO --rigid",), "stopping distance"
+    ),
+    Recipe("python -m wheelrail sweep {small} --rigid", ("python -m wheelrail sweep examples/train/low_adhesion.json",), "written"),
+    Recipe(
+        "cd try && python -m wheelrail ssp examples/train/low_adhesion.json --coach {root}/target/release",
+        ("python -m wheelrail ssp examples/train/low_adhesion.json",), "written",
+    ),
+    Recipe("python -m wheelrail ssp --help", ("python -m wheelrail train|sweep|ssp SCENARIO",), "--coach"),
+    Recipe("python -m wheelrail schema scenario", says='"properties"'),
+    Recipe("python -m wheelrail force run.csv", says="mean"),
+    Recipe(
+        "for command in force spectrum octaves flat; do python -m wheelrail $command run.csv --out {out} || exit 1; done",
+        ("python -m wheelrail force | spectrum | octaves | flat | filter",),
+    ),
+    Recipe("python -m wheelrail spectrum run.csv"),
+    Recipe("python -m wheelrail octaves rail.csv --over position --column height", ("python -m wheelrail octaves rail.csv",)),
+    Recipe("python -m wheelrail flat run.csv"),
+    Recipe("python -m wheelrail filter", says="CNOSSOS"),
+    Recipe("python -m wheelrail report run.nc", says="run.html"),
+    Recipe("python -m wheelrail report run.csv --out page.html", (".venv/bin/python -m wheelrail report RUN [--out FILE.html]",), "page.html"),
+)
+
+# In a folder with the file brake.csv and the presets, the program `wheelrail` on the path.
+PROGRAM = (
+    Recipe("wheelrail simulate --scenario brake.csv --stop 5 --out run.csv", says="energy residual"),
+    Recipe(
+        "wheelrail simulate --stop 0.1 --wheel-profile out.csv --out run.csv",
+        ("wheelrail simulate --wheel-profile out.csv", "wheelrail simulate … --wheel-profile out.csv"),
+    ),
+    Recipe("wheelrail steady --velocity 27.8 --table", says="creepage"),
+    Recipe("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv && head -2 curve.csv",
+        ("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv",), "creepage",
+    ),  # fmt: skip
+    Recipe("wheelrail export --creepage 2e-3 --set mesh.elements_per_half_width=5 --out fields && ls fields", ("wheelrail export --creepage 2e-3 --out fields",), "fields.vtm"),
+    Recipe("wheelrail export --scenario brake.csv --every 5e-3 --set mesh.elements_per_half_width=5 --out film && ls film",
+        ("wheelrail export --scenario brake.csv --every 0.05 --out film",), "fields.pvd",
+    ),  # fmt: skip
+    Recipe("wheelrail pack --library {root}/target/release/libwheelrail.so --reference {root}/examples/reference --out packed.fmu",
+        ("wheelrail pack",), "packed.fmu",
+    ),  # fmt: skip
+)
+
+# What is not run here, and why. Targets, files, options, tests and packages that these name exist all the same: see the test.
+NOT_RUN = {
+    "computes for minutes and has no short version; what it measures is compared elsewhere": (
+        "make random-temperatures", "make leak-check", "make bench", "make bench-ordinary", "make bench-ordinary BEFORE=…",
+        "make bench-ordinary BEFORE=older/libwheelrail.so", "make bench-ordinary BEFORE=path/libwheelrail.so",
+        'make bench-ordinary BEFORE=older.fmu ARGS="--cases varying-30,lock-up --repeats 5 --json results/ordinary.json"',
+        'make bench-ordinary BEFORE=older.fmu ARGS="--set solver.contact=auto --set mesh.elements_per_half_width=10"',
+        "make locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels", "make endurance", "make random-parameters",
+        "cargo run --release --example ex03_endurance -- --steps 1000000", "cargo bench",
+    ),
+    "compares the whole thesis, which a part of it does in every run": ("make thesis", "make thesis FULL=1"),
+    "this test runs within it, or it compiles everything once more": (
+        ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
+        "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
+        "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
+        "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",
+        "cargo test --release -p wheelrail-thesis -- --nocapture", "cargo test --release -p wheelrail-thesis --test all NAME::",
+        "cargo run --release --example", "tools/test_times.py", "tools/test_times.py --each --test brake",
+        "tools/test_times.py --python .venv/bin/python --out target/test-times.md", "tools/test_times.py --test heat_steps",
+    ),
+    "writes into the checkout what other tests compare with what is there": (
+        "make describe", "make reference", "python3 examples/reference/make.py --binary target/release/wheelrail",
+        ".venv/bin/python docs/model_png.py", "docs/third_party.py",
+    ),
+    "needs compilers for Windows, wine, another machine or packages from the network": (
+        "make fmu-all", "make platforms-check", "make python-dist", "make site", "make sweep SCHEDULER=tcp://cluster:8786",
+        "make sweep SCHEDULER=tcp://host:8786", "dask scheduler", "dask worker tcp://cluster:8786",
+        "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail pack --binary linux64=target/release/libwheelrail.so",
+        "wheelrail pack --binary win64=path/to/wheelrail.dll --binary darwin64=path/to/libwheelrail.dylib",
+        "pip install ./python", "pip install './python[records]'", "pip install 'wheelrail[records]'", "pip install 'wheelrail[report]'",
+        "pip install exudyn", "pip install wheelrail", "python -m pip install 'wheelrail[sweep]'",
+    ),
+    "the fixture does it: it makes the environment of the other recipes": ("python -m venv venv", "pip install wheelrail-….whl"),
+    "stands for any of the others": ("make TARGET",),
+}  # fmt: skip
