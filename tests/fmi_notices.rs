@@ -190,3 +190,84 @@ fn rows_of_a_patch_of_another_shape_are_told() {
         assert_eq!(about, told, "{shape}: {found:?}");
     }
 }
+
+const LINE: i32 = 1;
+const ELLIPSE: i32 = 2;
+const ROWS: i32 = 3;
+/// An ellipse on eleven rows under 100 kN.
+const TABLE: &str = "position,half_length,load_share; -5e-3,2.98e-3,0.174; -4e-3,4.91e-3,0.471; -3e-3,5.97e-3,0.698; \
+                     -2e-3,6.63e-3,0.860; -1e-3,7.03e-3,0.967; 0,7.16e-3,1; 1e-3,7.03e-3,0.967; 2e-3,6.63e-3,0.860; \
+                     3e-3,5.97e-3,0.698; 4e-3,4.91e-3,0.471; 5e-3,2.98e-3,0.174";
+
+/// Warnings at the start, largest pressure \[Pa] and half-length \[m] of a patch of the `shape` with settings.
+fn start(shape: i32, settings: &[(&str, f64)]) -> (Vec<String>, [f64; 2]) {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    assert_eq!(slave.set_integer("contact.shape", shape), fmi2OK);
+    if shape == ROWS {
+        assert_eq!(slave.set_string("contact.rows", TABLE), fmi2OK);
+    }
+    for (name, value) in settings {
+        assert_eq!(slave.set_real(name, *value), fmi2OK, "{name}");
+    }
+    slave.initialize();
+    let texts = slave.messages().into_iter().map(|message| message.text).collect();
+    (texts, ["contact.pressure_max", "contact.half_width"].map(|name| slave.real(name)))
+}
+
+/// Every advice about the load and the patch is obeyed: its warning is gone, no other one comes, and pressure and length
+/// are those of Hertz under the load, the root of the load over 100 kN times those under it, the third one of patches.
+#[test]
+fn advice_about_the_load_of_a_patch_is_right_when_it_is_obeyed() {
+    let little = |load: f64| move |settings: &mut Vec<(&str, f64)>| settings.push(("model.nominal_load", load));
+    let ratio =
+        |ratio: f64| move |settings: &mut Vec<(&str, f64)>| settings.push(("thermal.smallest_load_ratio", ratio));
+    type Obey<'a> = &'a dyn Fn(&mut Vec<(&'static str, f64)>);
+    let cases: [(i32, f64, &[&str], &[Obey]); 9] = [
+        (ELLIPSE, 5e4, &["take up heat", "set model.nominal_load to the mean load"], &[&little(5e4)]),
+        (ROWS, 5e4, &["take up heat", "set model.nominal_load to the mean load"], &[&little(5e4)]),
+        (ROWS, 1.9e5, &["take up heat", "set model.nominal_load to the mean load"], &[&little(1.9e5)]),
+        (ELLIPSE, 2e5 + 1e4, &["raise model.nominal_load and set drive.load"], &[&little(2.1e5)]),
+        (ROWS, 2e5 + 1e4, &["raise model.nominal_load and set drive.load"], &[&little(2.1e5)]),
+        (ELLIPSE, 5e3, &["below a tenth of model.nominal_load", "set model.nominal_load to the load"], &[&little(5e3)]),
+        (ROWS, 5e3, &["below a tenth of model.nominal_load", "set model.nominal_load to the load"], &[&little(5e3)]),
+        (ROWS, 2e3, &["smallest_load_ratio cannot be below 0.05", "lower model.nominal_load"], &[&little(2e3)]),
+        (LINE, 4e4, &["lower thermal.smallest_load_ratio to 0.39 or less"], &[&ratio(0.39), &little(4e4)]),
+    ];
+    let common = [("material.yield_strength", 2e9), ("thermal.smallest_load_ratio", 0.5)];
+    for (shape, load, words, ways) in cases {
+        let (_, reference) = start(shape, &common);
+        let root = if shape == LINE { (load / 1e5).sqrt() } else { (load / 1e5).cbrt() };
+        let mut settings = common.to_vec();
+        settings.push(("drive.load", load));
+        let (found, before) = start(shape, &settings);
+        assert!(found.iter().any(|text| words.iter().all(|word| text.contains(word))), "{shape} {load}: {found:?}");
+        for obey in ways {
+            let mut settings = settings.clone();
+            obey(&mut settings);
+            if shape == ROWS {
+                settings.push(("contact.rows_load", 1e5));
+            }
+            let (left, after) = start(shape, &settings);
+            let errors = |found: [f64; 2]| [0, 1].map(|k| found[k] / reference[k] / root - 1.0);
+            println!(
+                "shape {shape}, {load} N: pressure and length {:.1e?}, obeyed {:.1e?}",
+                errors(before),
+                errors(after)
+            );
+            assert!(left.is_empty(), "{shape} {load}: {left:?}");
+            assert!(errors(after).iter().all(|error| error.abs() < 0.01));
+        }
+    }
+}
+
+#[test]
+fn rows_whose_load_is_not_said_are_told_and_a_said_one_is_taken() {
+    let words = "contact.rows counts as the patch under contact.rows_load = 100000 N";
+    let told = |settings: &[(&str, f64)]| start(ROWS, settings).0.iter().filter(|text| text.contains(words)).count();
+    assert_eq!(told(&[]), 0);
+    assert_eq!(told(&[("model.nominal_load", 5e4)]), 1);
+    assert_eq!(told(&[("model.nominal_load", 5e4), ("contact.rows_load", 5e4)]), 0);
+    let idle = start(ELLIPSE, &[("contact.rows_load", 5e4)]).0;
+    assert!(idle.iter().any(|text| text.contains("contact.rows_load has no effect")), "{idle:?}");
+}

@@ -196,3 +196,18 @@ fn lines_that_move_with_the_width_of_the_patch_keep_the_heat() {
         assert!((0.0..=100.0).contains(&found), "{found}");
     }
 }
+
+/// Between two lines of the width w whose middles lie d apart, a difference decays with the rate 2α/(wd).
+#[test]
+fn heat_crosses_a_gap_by_the_way_from_line_to_line_and_leaves_nothing_in_it() {
+    let (width, diffusivity, time) = (1e-3, 1.36e-5, 0.05);
+    for gap in [0.0, 1e-3, 27e-3] {
+        let cells = LateralCells::side_by_side(&[width; 2]).unwrap().apart(&[0.0, gap]);
+        let mixing = cells.conduction(diffusivity, time);
+        let decayed = (-2.0 * diffusivity * time / (width * (width + gap))).exp();
+        let errors = [mixing.share(0, 1) - 0.5 * (1.0 - decayed), mixing.share(1, 1) - 0.5 * (1.0 + decayed)];
+        println!("gap {gap} m: {decayed:.3} of a difference left, errors {errors:?}");
+        assert!(errors.iter().all(|error| error.abs() < 1e-14));
+        assert!((cells.width(0) + cells.width(1) - 2.0 * width).abs() < 1e-18);
+    }
+}

@@ -221,3 +221,188 @@ fn a_file_of_rows_is_read_beside_the_presets_and_a_missing_one_is_named() {
     let error = senseless.validate().unwrap_err().to_string();
     assert!(error.contains("contact.rows has 0 rows"), "{error}");
 }
+
+/// Inputs of a wheel that rolls at 20 m/s with a driving creepage of 0.3 % under a load \[N].
+fn driven(model: &Model, load: f64) -> Inputs {
+    let mut inputs = prescribed(model, 20.0, -0.003);
+    inputs.drive.load = load;
+    inputs
+}
+
+/// Largest pressure under a load is that under 100 kN times the third root of both loads, whatever the nominal load.
+#[test]
+fn rows_under_any_load_and_nominal_load_are_those_of_hertz_s_third_root() {
+    let cases = [
+        [100e3, 100e3],
+        [100e3, 50e3],
+        [50e3, 50e3],
+        [100e3, 190e3],
+        [190e3, 190e3],
+        [20e3, 20e3],
+        [5e3, 5e3],
+        [60e3, 50e3],
+    ];
+    for name in ["railway_s1002_3mm", "railway_s1002_0mm"] {
+        let mut reference: Option<[f64; 2]> = None;
+        for [nominal, load] in cases {
+            let mut config = preset(name, 10);
+            // Steel that yields has no more than its own pressure.
+            (config.model.nominal_load, config.physics.yielding) = (nominal, false);
+            config.material.yield_strength = 900e6;
+            let model = model(config);
+            let simulation = Simulation::new(model.clone(), &driven(&model, load)).unwrap();
+            let (found, limits) = (simulation.outputs(), simulation.exceeded_limits().collect::<Vec<_>>());
+            let size = [found.contact_pressure_max, found.contact_width];
+            let scale = (load / 1e5).cbrt();
+            let errors = [0, 1].map(|k| size[k] / reference.get_or_insert(size)[k] / scale - 1.0);
+            let force = found.contact_force_x / (0.3 * found.contact_force_y);
+            println!(
+                "{name}, {load} N, nominal {nominal} N: {:.0} MPa ({:+.1e}), width {:+.1e}, force {force:.4}, {limits:?}",
+                1e-6 * size[0],
+                errors[0],
+                errors[1]
+            );
+            assert!(errors.iter().all(|error| error.abs() < 3e-3) && limits.is_empty());
+            assert!((found.contact_force_y / load - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_table_of_another_load_is_the_same_patch() {
+    let found = [1e5, 4e4].map(|rows_load: f64| {
+        let config = rows(rows_of_ellipse(&ellipse(7, false), 41), 7, false);
+        let scale = (rows_load / 1e5).cbrt();
+        let scaled = |line: &str| {
+            let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            format!("{:e},{:e},{}", scale * cells[0], scale * cells[1], cells[2])
+        };
+        let (head, lines) = config.contact.rows.split_once('\n').unwrap();
+        let table = lines.lines().map(scaled).collect::<Vec<_>>().join(";");
+        let mut config = config.clone();
+        (config.contact.rows, config.contact.rows_load) = (format!("{head};{table}"), rows_load);
+        let model = model(config);
+        Simulation::new(model.clone(), &driven(&model, 7e4)).unwrap().outputs().clone()
+    });
+    let [a, b] = &found;
+    for (a, b) in [
+        (a.contact_force_x, b.contact_force_x),
+        (a.contact_pressure_max, b.contact_pressure_max),
+        (a.contact_approach, b.contact_approach),
+        (a.contact_width, b.contact_width),
+    ] {
+        println!("{a} {b}");
+        assert!((a / b - 1.0).abs() < 1e-6);
+    }
+}
+
+/// A table of rows that are 1 mm wide at positions \[mm], with half-lengths \[mm] and loads.
+fn table(rows: &[(f64, f64, f64)]) -> String {
+    let rows: Vec<_> = rows.iter().map(|(z, a, load)| format!("{z}e-3,{a}e-3,{load}")).collect();
+    format!("position,half_length,load_share;{}", rows.join(";"))
+}
+
+/// Tread and flange: rows from -5.5 to 5.5 mm with 60 % of the load, and from 32.5 to 35.5 mm with 40 %.
+fn tread_and_flange() -> Vec<(f64, f64, f64)> {
+    let tread = (0..12).map(|k| (f64::from(k) - 5.5, 5.5, 0.6 / 12.0));
+    let flange = (0..4).map(|k| (f64::from(k) + 32.5, 5.196, 0.4 / 4.0));
+    tread.chain(flange).collect()
+}
+
+/// Sides of lines \[mm]: their middle, width, load \[kN] and pressure \[MPa].
+fn seen(outputs: &Outputs) -> Vec<[f64; 4]> {
+    let line = |k: usize| {
+        let scaled = [1e3, 1e3, 1e-3, 1e-6];
+        let values = [&outputs.line_position, &outputs.line_width, &outputs.line_force_y, &outputs.line_pressure_max];
+        [0, 1, 2, 3].map(|i| scaled[i] * values[i][k])
+    };
+    (0..outputs.contact_line_count as usize).map(line).collect()
+}
+
+#[test]
+fn two_patches_of_one_table_keep_load_pressure_and_the_gap_between_them() {
+    for lines in [2, 7, 13] {
+        let model = model(rows(table(&tread_and_flange()), lines, false));
+        for load in [1e5, 5e4] {
+            let simulation = Simulation::new(model.clone(), &driven(&model, load)).unwrap();
+            let (found, scale) = (seen(simulation.outputs()), (load / 1e5).cbrt());
+            println!("{lines} lines, {load} N: {found:.3?}");
+            // About the centre of load, which is that of 0 and 34 mm.
+            let at = |z: f64| 13.6 + scale * (z - 13.6);
+            let [tread, flange] = [[at(-6.0), at(6.0)], [at(32.0), at(36.0)]];
+            let within = |line: &[f64; 4], [low, high]: [f64; 2]| {
+                line[0] - 0.5 * line[1] > low - 0.02 && line[0] + 0.5 * line[1] < high + 0.02
+            };
+            assert!(found.len() == lines && found.iter().all(|line| within(line, tread) != within(line, flange)));
+            for (patch, share, width) in [(tread, 0.6, 12.0), (flange, 0.4, 4.0)] {
+                let lines: Vec<_> = found.iter().filter(|line| within(line, patch)).collect();
+                let sum = |k: usize| lines.iter().map(|line| line[k]).sum::<f64>();
+                assert!((sum(2) / (1e-3 * load * share) - 1.0).abs() < 5e-3, "{}", sum(2));
+                assert!((sum(1) / (scale * width) - 1.0).abs() < 2e-3, "{}", sum(1));
+            }
+            let highest = found[lines - 1][3];
+            assert!((highest / (1225.0 * scale) - 1.0).abs() < 0.02, "{highest}");
+        }
+    }
+}
+
+/// Braking with everything varying keeps within friction and balances.
+#[test]
+fn two_patches_of_one_table_brake_with_balanced_heat_and_energy() {
+    let model = model(rows(table(&tread_and_flange()), 5, true));
+    let inputs = Inputs::rolling(model.config());
+    let seen = run(&model, inputs, (1e-3, 60), vary);
+    let last = &seen[60];
+    println!(
+        "heat {:.1e}, energy {:.1e}, hottest {:?}",
+        last.heat_residual,
+        last.energy_residual,
+        &last.line_temperature_wheel[..5]
+    );
+    assert!(last.heat_residual.abs() < 1e-6 && last.energy_residual.abs() < 5e-3);
+    for outputs in &seen {
+        assert!(outputs.contact_force_x.abs() <= 1.01 * outputs.friction * outputs.contact_force_y);
+    }
+}
+
+#[test]
+fn a_groove_parts_a_patch_and_no_line_lies_over_it() {
+    let ellipse = ellipse(7, false).hertz().under(1e5);
+    let half = |i: u32| (f64::from(i) - 10.0) / 10.5;
+    let row = |i: u32| {
+        let square = 1.0 - half(i) * half(i);
+        (1e3 * ellipse.b * half(i), 1e3 * ellipse.a * square.sqrt(), square)
+    };
+    let rows_without: Vec<_> = (0..21).filter(|i| *i != 10).map(row).collect();
+    let [mut low, mut high] = [f64::NEG_INFINITY, f64::INFINITY];
+    let model = model(rows(table(&rows_without), 6, false));
+    let outputs = Simulation::new(model.clone(), &driven(&model, 1e5)).unwrap().outputs().clone();
+    let found = seen(&outputs);
+    for [position, width, ..] in &found {
+        if *position < 0.0 {
+            low = low.max(*position);
+        } else {
+            high = high.min(*position);
+        }
+        assert!(*width < 1e3 * ellipse.b);
+    }
+    let width: f64 = found.iter().map(|line| line[1]).sum();
+    let peak = rows_without.iter().map(|(_, a, share)| share / a).fold(0.0, f64::max);
+    let sum: f64 = rows_without.iter().map(|row| row.2).sum();
+    let row_width = ellipse.b / 10.5;
+    let pressure = 2.0 / std::f64::consts::PI * 1e5 * peak / (1e-3 * row_width * sum);
+    println!("{found:.3?}, {:.4} of the largest pressure", outputs.contact_pressure_max / pressure);
+    assert!((width / (20e3 * row_width) - 1.0).abs() < 2e-3);
+    assert!(low < -0.5e3 * row_width && high > 0.5e3 * row_width);
+    assert!((outputs.contact_pressure_max / pressure - 1.0).abs() < 0.03);
+}
+
+#[test]
+fn more_patches_than_lines_are_refused_with_what_to_do() {
+    let config = rows(table(&tread_and_flange()), 1, false);
+    let error = config.validate().unwrap_err().to_string();
+    assert!(
+        ["number of patches in contact.rows = 2", "contact.lines = 1", "width"].iter().all(|w| error.contains(w)),
+        "{error}"
+    );
+}

@@ -1,10 +1,11 @@
 //! Ranges of parameters that depend on other parameters.
 
 use super::choices::ContactShape;
-use super::patch_rows::RowsError;
+use super::patch_rows::{PatchRows, RowsError};
 use super::table::{Config, Initial, Material, Rail};
 use super::value::{display_number, display_range};
 use crate::analytic;
+use crate::patch::EquivalentEllipse;
 
 /// Half-width of the contact that can still be meshed [m].
 const SMALLEST_HALF_WIDTH: f64 = 1e-6;
@@ -87,7 +88,6 @@ fn contact_zone(config: &Config) -> Dependent {
             half_widths.map(|a| analytic::hertz_load(a, radius, stiffness) * config.model.contact_width)
         }
         ContactShape::Ellipse => half_widths.map(|a| (a / config.hertz().under(1.0).a).powi(3)),
-        // They are as long as they are under any nominal load.
         ContactShape::Rows => return longest_row(config),
     };
     Dependent {
@@ -121,21 +121,42 @@ fn longest_row(config: &Config) -> Dependent {
         None => [0.0, f64::INFINITY],
     };
     Dependent {
-        name: "largest half_length of contact.rows",
+        name: "largest half_length of contact.rows under model.nominal_load",
         value: rows.map_or(0.0, |rows| rows.half_length()),
         unit: "m",
         low,
         high,
         others: format!(
-            "wheel.radius = {radius} m and rail.length = {length} m (the contact zone fits wheel and rail)"
+            "model.nominal_load = {} N, contact.rows_load = {} N, wheel.radius = {radius} m and rail.length = {length} m (the \
+             contact zone fits wheel and rail)",
+            display_number(config.model.nominal_load),
+            display_number(config.contact.rows_load)
         ),
     }
 }
 
-/// Rows of a patch that is neither a line across nor one along the direction of rolling.
-fn aspect_of_rows(config: &Config) -> Option<Dependent> {
-    let shape = config.patch_rows().ok()??.shape;
-    Some(Dependent {
+/// Rows of patches that are neither a line across nor one along the direction of rolling, and no more of them than
+/// lines.
+fn rows(config: &Config) -> Vec<Dependent> {
+    let Ok(Some(PatchRows { shapes, .. })) = config.patch_rows() else { return Vec::new() };
+    let lines = config.contact.lines;
+    let count = Dependent {
+        name: "number of patches in contact.rows",
+        value: shapes.len() as f64,
+        unit: "",
+        low: 1.0,
+        high: lines as f64,
+        others: format!(
+            "contact.lines = {lines} (gaps between rows part patches, and each needs a line of its own: raise contact.lines, or \
+             say with the column width that rows touch)"
+        ),
+    };
+    shapes.iter().map(aspect).chain([count]).collect()
+}
+
+/// The ratio of the half axes of a patch of rows.
+fn aspect(shape: &EquivalentEllipse) -> Dependent {
+    Dependent {
         name: "half axes' ratio a/b of contact.rows",
         value: shape.a / shape.b,
         unit: "1",
@@ -143,11 +164,11 @@ fn aspect_of_rows(config: &Config) -> Option<Dependent> {
         high: ASPECTS[1],
         others: format!(
             "the ellipse a = {} m along and b = {} m across the direction of rolling that has the second moments of area \
-             of the rows",
+             of a patch of rows",
             display_number(shape.a),
             display_number(shape.b)
         ),
-    })
+    }
 }
 
 /// Initial motions slower than the surface waves: |V| < c and |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the
@@ -354,7 +375,7 @@ pub fn ranges(config: &Config) -> Vec<Dependent> {
         retardation(config),
     ];
     all.extend(track(config));
-    all.extend(aspect_of_rows(config));
+    all.extend(rows(config));
     all
 }
 

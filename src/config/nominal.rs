@@ -31,7 +31,8 @@ impl Config {
         of(self.contact.wheel_lateral_radius) + of(self.contact.rail_lateral_radius)
     }
 
-    /// Rows of the patch under the nominal load; none where it has another shape.
+    /// Rows of the patch under the nominal load, in which those of `contact.rows` under `contact.rows_load` are scaled as
+    /// Hertz's patches are, lengths with the third root of the load; none where it has another shape.
     ///
     /// # Errors
     /// Rows without meaning, and a file that has not been read.
@@ -40,7 +41,10 @@ impl Config {
         match self.contact.shape {
             ContactShape::Line | ContactShape::Ellipse => Ok(None),
             ContactShape::Rows if patch_rows::is_file(text) => Err(RowsError::Unread(text.clone())),
-            ContactShape::Rows => PatchRows::parse(text, self.model.nominal_load).map(Some),
+            ContactShape::Rows => {
+                let given = PatchRows::parse(text, self.contact.rows_load)?;
+                Ok(Some(given.grown(libm::cbrt(self.model.nominal_load / self.contact.rows_load))))
+            }
         }
     }
 
@@ -49,7 +53,7 @@ impl Config {
     pub(super) fn check_rows(&self) -> Result<(), RowsError> {
         let text = &self.contact.rows;
         let read =
-            if text.is_empty() { self.patch_rows() } else { PatchRows::parse(text, self.model.nominal_load).map(Some) };
+            if text.is_empty() { self.patch_rows() } else { PatchRows::parse(text, self.contact.rows_load).map(Some) };
         if patch_rows::is_file(text) { Ok(()) } else { read.map(|_| ()) }
     }
 

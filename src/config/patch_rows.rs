@@ -4,12 +4,20 @@ use crate::patch::rows::{self, EquivalentEllipse, PatchRow};
 
 /// End of a text that names a file.
 const FILE: &str = ".csv";
-/// Columns, in metres and as shares.
+/// Columns that are needed, in metres and as shares.
 const COLUMNS: [&str; 3] = ["position", "half_length", "load_share"];
-/// Largest distance from the middle and largest half-length [m].
-const LARGEST: [f64; 2] = [0.5, 0.1];
+/// Column that may be left out where rows lie at one distance, in metres.
+const WIDTH: &str = "width";
+/// Largest distance from the middle, half-length and width [m].
+const LARGEST: [f64; 3] = [0.5, 0.1, 0.2];
 /// Largest number of rows.
 const MOST_ROWS: usize = 1000;
+/// Distances of rows without widths, over the smallest one: up to the first one rows touch, from the second one a gap
+/// lies between them [1].
+const TOUCHING: f64 = 1.6;
+const APART: f64 = 1.8;
+/// Distance of the sides of rows with widths up to which they touch, over the width of the narrower one [1].
+const SLACK: f64 = 0.01;
 
 /// Rows without meaning.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -46,13 +54,23 @@ pub enum RowsError {
     },
 }
 
-/// Patch that is described by rows side by side.
+/// Patches that are described by rows side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatchRows {
     /// The rows, at ascending positions.
     pub rows: Vec<PatchRow>,
-    /// Ellipse with their second moments of area.
-    pub shape: EquivalentEllipse,
+    /// Ellipse with the second moments of area of each patch, of which there are as many as gaps between rows and one.
+    pub shapes: Vec<EquivalentEllipse>,
+}
+
+/// A row as a table has it.
+struct Given {
+    /// Line of the text, from 1.
+    line: u64,
+    position: f64,
+    half_length: f64,
+    load_share: f64,
+    width: Option<f64>,
 }
 
 /// True if a text names a file.
@@ -62,8 +80,9 @@ pub fn is_file(text: &str) -> bool {
 
 impl PatchRows {
     /// Reads rows that together carry `load` \[N]: a table with the columns `position` and `half_length` \[m] and
-    /// `load_share`, any measure of the load of a row; only its ratios count. Rows touch: each reaches halfway to its
-    /// neighbours.
+    /// `load_share`, any measure of the load of a row; only its ratios count. With a column `width` \[m] rows are as wide as
+    /// it says; without one, those at about the same distance touch, each reaches halfway to its neighbours, and where the
+    /// distance is larger a gap is left.
     ///
     /// # Errors
     /// Tables without meaning: the error names line, column, value, allowed range and what to do.
@@ -74,39 +93,54 @@ impl PatchRows {
         if header.is_empty() {
             return Err(RowsError::Count(0));
         }
-        let mut columns = [0; 3];
-        for (column, name) in columns.iter_mut().zip(COLUMNS) {
-            let found = header.iter().position(|given| given.trim_start_matches('\u{feff}') == name);
-            let given = header.iter().collect::<Vec<_>>().join(",");
-            let problem = || format!("column {name} is missing; the header must be {}, not {given}", COLUMNS.join(","));
-            *column = found.ok_or_else(|| wrong(1, problem()))?;
-        }
-        let mut given: Vec<[f64; 3]> = Vec::new();
+        let columns = Columns::find(&header).map_err(|problem| wrong(1, problem))?;
+        let mut given: Vec<Given> = Vec::new();
         for record in reader.records() {
             let record =
                 record.map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
-            let before = given.last().map(|row| row[0]);
-            let row = row(&record, columns, before);
-            given.push(row.map_err(|problem| wrong(record.position().map_or(0, csv::Position::line), problem))?);
+            let line = record.position().map_or(0, csv::Position::line);
+            let before = given.last().map(|row| row.position);
+            given.push(columns.row(&record, line, before).map_err(|problem| wrong(line, problem))?);
+        }
+        if !(2..=MOST_ROWS).contains(&given.len()) {
+            return Err(RowsError::Count(given.len()));
         }
         Self::new(&given, load)
     }
 
-    fn new(given: &[[f64; 3]], load: f64) -> Result<Self, RowsError> {
-        let positions: Vec<f64> = given.iter().map(|row| row[0]).collect();
-        let sum: f64 = given.iter().map(|row| row[2]).sum();
-        let row = |(&[position, half_length, share], width): (&[f64; 3], f64)| PatchRow {
-            position,
+    fn new(given: &[Given], load: f64) -> Result<Self, RowsError> {
+        let widths: Option<Vec<f64>> = given.iter().map(|row| row.width).collect();
+        let sides = widths.map_or_else(|| sides_by_distance(given), |widths| sides_by_width(given, &widths))?;
+        let sum: f64 = given.iter().map(|row| row.load_share).sum();
+        let row = |(row, [width, gap]): (&Given, [f64; 2])| PatchRow {
+            position: row.position,
             width,
-            half_length,
-            line_load: load * share / (sum * width),
+            half_length: row.half_length,
+            line_load: load * row.load_share / (sum * width),
+            gap,
         };
-        let rows: Vec<_> = given.iter().zip(rows::widths(&positions)).map(row).collect();
-        let shape = rows::equivalent_ellipse(&rows).filter(|_| (2..=MOST_ROWS).contains(&rows.len()));
-        shape.map(|shape| Self { rows, shape }).ok_or(RowsError::Count(given.len()))
+        let rows: Vec<_> = given.iter().zip(sides).map(row).collect();
+        let shapes: Option<Vec<_>> = rows::patches(&rows).map(rows::equivalent_ellipse).collect();
+        shapes.map(|shapes| Self { rows, shapes }).ok_or(RowsError::Count(given.len()))
     }
 
-    /// Width of all rows \[m].
+    /// The patches with `scale` times their lengths, about their common centre of load.
+    pub fn grown(&self, scale: f64) -> Self {
+        let centre = rows::centre_of_load(&self.rows);
+        let shift = (1.0 - scale) * centre;
+        let rows = rows::scaled(&self.rows, scale);
+        let shape = |shape: &EquivalentEllipse| EquivalentEllipse {
+            a: scale * shape.a,
+            b: scale * shape.b,
+            centre: scale * shape.centre + shift,
+        };
+        Self {
+            rows: rows.map(|row| PatchRow { position: row.position + shift, ..row }).collect(),
+            shapes: self.shapes.iter().map(shape).collect(),
+        }
+    }
+
+    /// Width of all rows, without the gaps between them \[m].
     pub fn width(&self) -> f64 {
         self.rows.iter().map(|row| row.width).sum()
     }
@@ -121,34 +155,143 @@ fn wrong(line: u64, problem: String) -> RowsError {
     RowsError::Text { line, problem }
 }
 
-/// Position, half-length and load share of a record behind the position `before`; the error is problem and remedy.
-fn row(record: &csv::StringRecord, columns: [usize; 3], before: Option<f64>) -> Result<[f64; 3], String> {
-    let mut numbers = [0.0; 3];
-    for ((number, column), name) in numbers.iter_mut().zip(columns).zip(COLUMNS) {
-        let given = record.get(column).unwrap_or_default();
-        let finite = given.parse().ok().filter(|value: &f64| value.is_finite());
-        *number =
-            finite.ok_or_else(|| format!("{name} = {given:?} is no finite number; correct or leave out the line"))?;
-    }
-    let [position, half_length, share] = numbers;
-    let [farthest, longest] = LARGEST;
-    if position.abs() > farthest {
-        return Err(format!("position = {position} m is outside -{farthest} to {farthest} m; columns are in metres"));
-    }
-    if !(half_length > 0.0 && half_length <= longest) {
-        return Err(format!(
-            "half_length = {half_length} m is outside 0 (excluded) to {longest} m; columns are in metres, and rows without \
-             contact are left out"
-        ));
-    }
-    if share <= 0.0 {
-        return Err(format!("load_share = {share} must be positive; leave out rows without load"));
-    }
-    match before.filter(|before| *before >= position) {
-        Some(before) => {
-            Err(format!("position = {position} m must be larger than {before} m before it; sort the lines"))
+/// Width of every row and the free one before it \[m] where the table has widths.
+fn sides_by_width(given: &[Given], widths: &[f64]) -> Result<Vec<[f64; 2]>, RowsError> {
+    let mut sides = vec![[widths[0], 0.0]];
+    for (rows, width) in given.windows(2).zip(widths.windows(2)) {
+        let gap = rows[1].position - rows[0].position - 0.5 * (width[0] + width[1]);
+        let slack = SLACK * width[0].min(width[1]);
+        if gap < -slack {
+            let problem = format!(
+                "rows at position = {} m and {} m with width = {} m and {} m overlap by {:.1e} m; each is its width about its \
+                 position: correct them",
+                rows[0].position, rows[1].position, width[0], width[1], -gap
+            );
+            return Err(wrong(rows[1].line, problem));
         }
-        None => Ok(numbers),
+        sides.push([width[1], if gap > slack { gap } else { 0.0 }]);
+    }
+    Ok(sides)
+}
+
+/// Width of every row and the free one before it \[m] where the distances of the rows tell them: rows at about the
+/// smallest distance touch, and most are such; others are at least nearly twice as far apart, as if a row were missing.
+fn sides_by_distance(given: &[Given]) -> Result<Vec<[f64; 2]>, RowsError> {
+    let positions: Vec<f64> = given.iter().map(|row| row.position).collect();
+    let distances: Vec<f64> = positions.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let common = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    let touches = |distance: f64| distance <= TOUCHING * common;
+    let touching = distances.iter().filter(|distance| touches(**distance)).count();
+    let unclear = |distance: f64| !touches(distance) && (distance < APART * common || 2 * touching <= distances.len());
+    if let Some((distance, row)) = distances.iter().zip(&given[1..]).find(|(distance, _)| unclear(**distance)) {
+        let problem = format!(
+            "position = {} m is {distance:.4e} m behind the row before it, where the smallest distance of two rows is \
+             {common:.4e} m: whether they touch is unclear; add the column {WIDTH} with the width of every row in m",
+            row.position
+        );
+        return Err(wrong(row.line, problem));
+    }
+    let mut sides = Vec::new();
+    let mut before: Option<(f64, f64)> = None;
+    for patch in positions.chunk_by(|low, high| touches(high - low)) {
+        let mut widths = rows::widths(patch);
+        if let [alone] = widths.as_mut_slice() {
+            *alone = common;
+        }
+        let (first, last) = ((patch[0], widths[0]), (patch[patch.len() - 1], widths[widths.len() - 1]));
+        let gap = before.map_or(0.0, |(position, width)| first.0 - position - 0.5 * (width + first.1));
+        sides.extend(widths.iter().enumerate().map(|(i, width)| [*width, if i == 0 { gap } else { 0.0 }]));
+        before = Some(last);
+    }
+    Ok(sides)
+}
+
+/// Places of the columns in a table.
+struct Columns {
+    needed: [usize; 3],
+    width: Option<usize>,
+    count: usize,
+}
+
+impl Columns {
+    /// Finds the columns by the header; the error is problem and remedy.
+    fn find(header: &csv::StringRecord) -> Result<Self, String> {
+        let of = |name: &str| {
+            let mut found = header.iter().enumerate().filter(|(_, given)| given.trim_start_matches('\u{feff}') == name);
+            let first = found.next().map(|(place, _)| place);
+            match found.next() {
+                Some(_) => Err(format!("column {name} is there twice; leave one of both out")),
+                None => Ok(first),
+            }
+        };
+        let mut needed = [0; 3];
+        for (place, name) in needed.iter_mut().zip(COLUMNS) {
+            let given = header.iter().collect::<Vec<_>>().join(",");
+            let missing = || {
+                let columns = COLUMNS.join(",");
+                format!("column {name} is missing; the header must be {columns}, and may have {WIDTH}, not {given}")
+            };
+            *place = of(name)?.ok_or_else(missing)?;
+        }
+        Ok(Self { needed, width: of(WIDTH)?, count: header.len() })
+    }
+
+    /// The row of a record behind the position `before`; the error is problem and remedy.
+    fn row(&self, record: &csv::StringRecord, line: u64, before: Option<f64>) -> Result<Given, String> {
+        if record.len() > self.count {
+            return Err(format!(
+                "{} cells stand under {} columns; numbers have a decimal point, and commas between them",
+                record.len(),
+                self.count
+            ));
+        }
+        let number = |name: &str, column: usize| {
+            let given = record.get(column).unwrap_or_default();
+            let finite = given.parse().ok().filter(|value: &f64| value.is_finite());
+            finite.ok_or_else(|| format!("{name} = {given:?} is no finite number; correct or leave out the line"))
+        };
+        let [position, half_length, load_share] = self.needed;
+        let row = Given {
+            line,
+            position: number(COLUMNS[0], position)?,
+            half_length: number(COLUMNS[1], half_length)?,
+            load_share: number(COLUMNS[2], load_share)?,
+            width: self.width.map(|column| number(WIDTH, column)).transpose()?,
+        };
+        row.check(before).map(|()| row)
+    }
+}
+
+impl Given {
+    /// Refuses a row outside the ranges, or not behind the position `before`; the error is problem and remedy.
+    fn check(&self, before: Option<f64>) -> Result<(), String> {
+        let Self { position, half_length, load_share, .. } = *self;
+        let [farthest, longest, widest] = LARGEST;
+        if position.abs() > farthest {
+            return Err(format!(
+                "position = {position} m is outside -{farthest} to {farthest} m; columns are in metres"
+            ));
+        }
+        if !(half_length > 0.0 && half_length <= longest) {
+            return Err(format!(
+                "half_length = {half_length} m is outside 0 (excluded) to {longest} m; columns are in metres, and rows \
+                 without contact are left out"
+            ));
+        }
+        if load_share <= 0.0 {
+            return Err(format!(
+                "load_share = {load_share} must be positive; leave out rows without load, where a gap is then left"
+            ));
+        }
+        if let Some(width) = self.width.filter(|width| !(*width > 0.0 && *width <= widest)) {
+            return Err(format!("width = {width} m is outside 0 (excluded) to {widest} m; columns are in metres"));
+        }
+        match before.filter(|before| *before >= position) {
+            Some(before) => {
+                Err(format!("position = {position} m must be larger than {before} m before it; sort the lines"))
+            }
+            None => Ok(()),
+        }
     }
 }
 
@@ -160,8 +303,8 @@ mod tests {
     fn rows_on_lines_or_between_semicolons_share_the_load_by_their_ratios() {
         let found = PatchRows::parse("position, half_length, load_share; -1e-3, 4e-3, 3; 1e-3, 5e-3, 1", 8e4).unwrap();
         let expected = [
-            PatchRow { position: -1e-3, width: 2e-3, half_length: 4e-3, line_load: 3e7 },
-            PatchRow { position: 1e-3, width: 2e-3, half_length: 5e-3, line_load: 1e7 },
+            PatchRow { position: -1e-3, width: 2e-3, half_length: 4e-3, line_load: 3e7, gap: 0.0 },
+            PatchRow { position: 1e-3, width: 2e-3, half_length: 5e-3, line_load: 1e7, gap: 0.0 },
         ];
         assert_eq!(found.rows, expected);
         assert_eq!((found.width(), found.half_length()), (4e-3, 5e-3));
@@ -187,7 +330,69 @@ mod tests {
             let message = PatchRows::parse(&text, 1e5).unwrap_err().to_string();
             assert!(words.iter().all(|word| message.contains(word)), "{message}");
         }
+        let with_widths = "position,half_length,load_share,width\n";
+        for (text, words) in [
+            (format!("{head}0,5e-3,1\n1e-3,5e-3,1\n3e-3,5e-3,1"), &["line 4", "unclear", "column width"][..]),
+            (format!("{head}0,5e-3,1\n1e-3,5e-3,1\n2e-3,5e-3,1\n3.7e-3,5e-3,1"), &["line 5", "unclear", "width"]),
+            (format!("{with_widths}0,5e-3,1,1e-3\n0.9e-3,5e-3,1,1e-3"), &["line 3", "overlap by 1.0e-4 m"]),
+            (format!("{with_widths}0,5e-3,1,1e-3\n1e-3,5e-3,1"), &["line 3", "width = \"\""]),
+            (format!("{with_widths}0,5e-3,1,1\n1e-3,5e-3,1,1"), &["line 2", "width = 1 m", "in metres"]),
+            (format!("{head}0,0,5e-3,1\n1,5,5e-3,1"), &["line 2", "4 cells", "3 columns", "decimal point"]),
+            (format!("position,{head}0,0,5e-3,1\n1,1,5e-3,1"), &["line 1", "position", "twice"]),
+        ] {
+            let message = PatchRows::parse(&text, 1e5).unwrap_err().to_string();
+            assert!(words.iter().all(|word| message.contains(word)), "{message}");
+        }
         let many: String = (0..1001).map(|i| format!("{:e},1e-3,1\n", 1e-5 * f64::from(i))).collect();
         assert_eq!(PatchRows::parse(&format!("{head}{many}"), 1e5), Err(RowsError::Count(1001)));
+    }
+
+    /// Table of rows at positions \[mm] with loads.
+    fn table(rows: &[(f64, f64)]) -> String {
+        let rows: String = rows.iter().map(|(z, load)| format!("{z}e-3,5e-3,{load}\n")).collect();
+        format!("position,half_length,load_share\n{rows}")
+    }
+
+    /// Widths and gaps \[mm].
+    fn sides(found: &PatchRows) -> Vec<[f64; 2]> {
+        let tenth = |length: f64| (1e7 * length).round() / 1e4;
+        found.rows.iter().map(|row| [tenth(row.width), tenth(row.gap)]).collect()
+    }
+
+    #[test]
+    fn a_missing_row_is_a_gap_and_rows_about_it_keep_load_and_width() {
+        let found = PatchRows::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
+        assert_eq!(sides(&found), [[1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 0.0]]);
+        assert_eq!(found.shapes.len(), 2);
+        let loads: Vec<f64> = found.rows.iter().map(|row| (row.width * row.line_load).round()).collect();
+        assert_eq!(loads, [1e4, 2e4, 3e4, 4e4]);
+        // A row alone is as wide as the others, and distances that nearly agree are not gaps.
+        let alone = PatchRows::parse(&table(&[(-2.0, 1.0), (-1.0, 1.0), (0.0, 1.0), (30.0, 1.0)]), 1e5).unwrap();
+        assert_eq!(sides(&alone)[3], [1.0, 29.0]);
+        let uneven = PatchRows::parse(&table(&[(0.0, 1.0), (0.4, 1.0), (1.0, 1.0)]), 1e5).unwrap();
+        assert_eq!(sides(&uneven), [[0.4, 0.0], [0.5, 0.0], [0.6, 0.0]]);
+    }
+
+    #[test]
+    fn rows_with_widths_are_as_wide_as_they_say_and_loads_are_those_of_rows() {
+        let text = "position,width,half_length,load_share; 0,1e-3,5e-3,1; 2e-3,3e-3,5e-3,1; 4e-3,1e-3,5e-3,2";
+        let found = PatchRows::parse(text, 8e4).unwrap();
+        assert_eq!(sides(&found), [[1.0, 0.0], [3.0, 0.0], [1.0, 0.0]]);
+        let line_loads: Vec<f64> = found.rows.iter().map(|row| (1e-3 * row.line_load).round()).collect();
+        assert_eq!(line_loads, [20e3, 6667.0, 40e3]);
+        let groove = PatchRows::parse(&text.replace("4e-3", "4.3e-3"), 8e4).unwrap();
+        assert_eq!((sides(&groove)[2], groove.shapes.len()), ([1.0, 0.3], 2));
+    }
+
+    #[test]
+    fn patches_grow_about_their_common_centre_of_load() {
+        let given = PatchRows::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
+        assert_eq!(given.grown(1.0), given);
+        let grown = given.grown(0.5_f64.cbrt());
+        assert!((rows::load(&grown.rows) / 5e4 - 1.0).abs() < 1e-14);
+        assert!((rows::centre_of_load(&grown.rows) / rows::centre_of_load(&given.rows) - 1.0).abs() < 1e-13);
+        let sides: Vec<f64> = [&given, &grown].map(|rows| rows.rows[2].position - rows.rows[2].gap).to_vec();
+        assert!((sides[1] - 0.7e-3 - 0.5_f64.cbrt() * (sides[0] - 0.7e-3)).abs() < 1e-15);
+        assert_eq!(grown.shapes.len(), 2);
     }
 }

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that layout,
 /// with which they are too soft.
-const LEAST: f64 = 0.1;
+pub const LEAST: f64 = 0.1;
 
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,19 +39,41 @@ pub struct PatchMaterial {
     pub poissons_ratio: f64,
 }
 
-/// A patch of contact lines, whose size follows from its load as that of an ellipse does: lengths with its third root.
+impl PatchMaterial {
+    /// Flexibilities of the lines of one patch, which is as large as the ellipse `shape`.
+    fn in_shear(self, rows: &[PatchRow], shape: &EquivalentEllipse) -> impl Iterator<Item = ShearFlexibility> {
+        let (Self { half_plane, shear_modulus, poissons_ratio }, &EquivalentEllipse { a, b, .. }) = (self, shape);
+        let lines = rows.iter().map(|row| [row.width, row.half_length]);
+        let reach = libm::log(mindlin::kernel_length([a, b], poissons_ratio, lines));
+        let factor = (1.0 - poissons_ratio) / (PI * shear_modulus) / k11(a / b);
+        let tangential = Logarithm { factor, reach };
+        std::iter::repeat_n(ShearFlexibility { tangential, coupling: half_plane.coupling * b / (a + b) }, rows.len())
+    }
+}
+
+/// Flexibility of a line under a shear force, and the strain of the surface under its pressure.
+#[derive(Clone, Copy, Debug)]
+struct ShearFlexibility {
+    tangential: Logarithm,
+    coupling: f64,
+}
+
+/// A patch of contact lines, or several ones side by side, whose size follows from its load as that of an ellipse does: lengths with its third root.
 ///
 /// Every line is a plane contact of the radius R of the wheel with a flexibility of its own. Of the normal one the
 /// factor κ is that with which the half-length belongs to the load of the line, `a² = 4κRP`. Its reach L is that with
 /// which a line answers to a small change of the approach δ as it has to, `dP/dδ = 3P/2δ`, and the height of the wheel
 /// over it that at which it carries P. So an ellipse has the pressures, the approach and the stiffness of Hertz's, and
 /// any other patch its own pressures, and approach and stiffness of the ellipse with its second moments of area.
+/// Several patches go down together, each keeps its share of the load, and all are as stiff as they are together.
 /// Derivation: `docs/theory/lines.md`.
 #[derive(Clone, Debug)]
 pub struct PatchLayout {
     /// Lines under the load `load`, at positions about the centre of load; on a symmetric patch, both of a pair stand for
     /// one of twice the width.
     rows: Vec<PatchRow>,
+    /// Free widths before them \[m].
+    gaps: Vec<f64>,
     symmetric: bool,
     /// Lateral position of the centre of load \[m].
     centre: f64,
@@ -64,9 +86,8 @@ pub struct PatchLayout {
     radius: f64,
     /// Width of the bodies \[m].
     width: f64,
-    /// Tangential flexibility under it.
-    tangential: Logarithm,
-    coupling: f64,
+    /// Flexibilities of every line under it beside the normal one.
+    shear: Vec<ShearFlexibility>,
 }
 
 impl PatchLayout {
@@ -82,47 +103,55 @@ impl PatchLayout {
             let share = (1.0 - line.ordinate.powi(2)).sqrt();
             let half_length = a * share;
             let line_load = 0.5 * PI * half_length * peak * share;
-            PatchRow { position: b * line.ordinate, width: b * line.weight, half_length, line_load }
+            PatchRow { position: b * line.ordinate, width: b * line.weight, half_length, line_load, gap: 0.0 }
         };
         let rows: Vec<_> = gauss::half(lines).iter().map(row).collect();
         // A single line, which is no rule for this pressure, carries the load on a smaller width.
         let scale = load / rows::load(&rows);
         let rows = rows.into_iter().map(|row| PatchRow { width: scale * row.width, ..row }).collect();
-        let layout = Self::of(rows, [a, b], material, [radius, width]);
+        let layout = Self::of(rows, &[EquivalentEllipse { a, b, centre: 0.0 }], material, [radius, width]);
         Self { symmetric: true, lateral: b, ..layout }
     }
 
-    /// A patch of rows, of which neighbours that differ least share a line where there are more than `lines`. `shape` is
-    /// the ellipse with its second moments of area; `radius` and `width` \[m] are those of wheel and bodies.
+    /// Patches of rows, of which neighbours that touch and differ least share a line where there are more than `lines`.
+    /// `shapes` are the ellipses with the second moments of area of each patch; `radius` and `width` \[m] are those of wheel
+    /// and bodies.
     pub fn rows(
-        (rows, shape): (Vec<PatchRow>, &EquivalentEllipse),
+        (rows, shapes): (Vec<PatchRow>, &[EquivalentEllipse]),
         material: PatchMaterial,
         (lines, radius, width): (usize, f64, f64),
     ) -> Self {
         let rows = rows::merged(rows, lines);
         let centre = rows::centre_of_load(&rows);
         let about = |row: PatchRow| PatchRow { position: row.position - centre, ..row };
-        let layout = Self::of(rows.into_iter().map(about).collect(), [shape.a, shape.b], material, [radius, width]);
+        let layout = Self::of(rows.into_iter().map(about).collect(), shapes, material, [radius, width]);
         Self { centre, ..layout }
     }
 
-    /// Lines at positions about the centre of load, in a patch as large as the ellipse with the half axes `a` and `b`.
-    fn of(rows: Vec<PatchRow>, [a, b]: [f64; 2], material: PatchMaterial, [radius, width]: [f64; 2]) -> Self {
-        let PatchMaterial { half_plane, shear_modulus, poissons_ratio } = material;
-        let (load, modulus) = (rows::load(&rows), 1.0 / (PI * half_plane.kernel));
-        let lines = rows.iter().map(|row| [row.width, row.half_length]);
-        let reach = libm::log(mindlin::kernel_length([a, b], poissons_ratio, lines));
-        let factor = (1.0 - poissons_ratio) / (PI * shear_modulus) / k11(a / b);
+    /// Lines at positions about the centre of load, in patches as large as the ellipses `shapes`.
+    fn of(
+        rows: Vec<PatchRow>,
+        shapes: &[EquivalentEllipse],
+        material: PatchMaterial,
+        [radius, width]: [f64; 2],
+    ) -> Self {
+        let (load, modulus) = (rows::load(&rows), 1.0 / (PI * material.half_plane.kernel));
+        // Patches side by side are springs in parallel, `dP/dδ = 3P/2δ` each.
+        let softness = |(rows, shape): (&[PatchRow], &EquivalentEllipse)| {
+            let load = rows::load(rows);
+            load / hertz::approach([shape.a, shape.b], load, modulus)
+        };
+        let patches = || rows::patches(&rows).zip(shapes);
         Self {
+            gaps: rows.iter().map(|row| row.gap).collect(),
             symmetric: false,
             centre: 0.0,
             load,
-            approach: hertz::approach([a, b], load, modulus),
+            approach: load / patches().map(softness).sum::<f64>(),
             lateral: 0.5 * rows.iter().map(|row| row.width).sum::<f64>(),
             radius,
             width,
-            tangential: Logarithm { factor, reach },
-            coupling: half_plane.coupling * b / (a + b),
+            shear: patches().flat_map(|(rows, shape)| material.in_shear(rows, shape)).collect(),
             rows,
         }
     }
@@ -135,6 +164,11 @@ impl PatchLayout {
     /// Lateral position of the centre of load, which is the same under all loads \[m].
     pub fn centre(&self) -> f64 {
         self.centre
+    }
+
+    /// Free widths between every line and the one before it under the load of the description \[m]; zero where they touch.
+    pub fn gaps(&self) -> &[f64] {
+        &self.gaps
     }
 
     /// Number of lines.
@@ -161,7 +195,8 @@ impl PatchLayout {
     pub fn moving(&self, load: f64) -> impl Iterator<Item = LineLayout> {
         let scale = libm::cbrt(self.load_of(load) / self.load);
         let approach = scale * scale * self.approach;
-        rows::scaled(&self.rows, scale).map(move |row| self.line(&row, scale, 1.5 * row.line_load / approach))
+        let lines = rows::scaled(&self.rows, scale).zip(&self.shear);
+        lines.map(move |(row, shear)| self.line((&row, shear), scale, 1.5 * row.line_load / approach))
     }
 
     /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
@@ -175,16 +210,16 @@ impl PatchLayout {
         let lines: Vec<_> = rows.iter().map(|row| [0.5 * row.width / factor(row), row.half_length]).collect();
         let stiffness = 1.5 * rows::load(&rows) / (scale * scale * self.approach);
         let lengths = reach::proportional_lengths(stiffness, &lines, 0.5 * longest);
-        let line = |(row, length): (&PatchRow, f64)| {
-            self.line(row, scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
+        let line = |((row, shear), length): ((&PatchRow, &ShearFlexibility), f64)| {
+            self.line((row, shear), scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
         };
-        rows.iter().zip(lengths).map(line).collect()
+        rows.iter().zip(&self.shear).zip(lengths).map(line).collect()
     }
 
     /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load
     /// per width with the approach [N/m²].
-    fn line(&self, row: &PatchRow, scale: f64, stiffness: f64) -> LineLayout {
-        let PatchRow { position, width, half_length, line_load } = *row;
+    fn line(&self, (row, shear): (&PatchRow, &ShearFlexibility), scale: f64, stiffness: f64) -> LineLayout {
+        let PatchRow { position, width, half_length, line_load, .. } = *row;
         let approach = scale * scale * self.approach;
         let factor = half_length * half_length / (4.0 * self.radius * line_load);
         // `dδ/dP = 2κ ln(2L/a)`, `δ = κP (2 ln(2L/a) + 1)`.
@@ -194,9 +229,9 @@ impl PatchLayout {
             share: width / self.width,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
-                tangential: Logarithm { reach: self.tangential.reach + libm::log(scale), ..self.tangential },
+                tangential: Logarithm { reach: shear.tangential.reach + libm::log(scale), ..shear.tangential },
                 normal: Logarithm { factor, reach: libm::log(0.5 * half_length) + logarithm },
-                coupling: self.coupling,
+                coupling: shear.coupling,
             },
             energy: line_load * (0.4 * approach - pressing * (logarithm + 0.25)),
         }

@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 /// each line and, beside the contact, for the rest of tread and rail head. Nothing passes the two outer faces.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LateralCells {
-    /// Faces \[m], ascending, one more than cells.
+    /// Faces \[m], ascending, one more than cells; gaps between cells do not count.
     faces: Vec<f64>,
-    /// Places of the temperatures \[m].
+    /// Places of the temperatures \[m], gaps counted.
     places: Vec<f64>,
 }
 
@@ -48,6 +48,17 @@ impl LateralCells {
             *middle = 0.0;
         }
         Ok(cells)
+    }
+
+    /// Cells with free widths `gaps` \[m] before them, which heat crosses and which keep none; missing ones are
+    /// zero.
+    pub fn apart(mut self, gaps: &[f64]) -> Self {
+        let mut shift = 0.0;
+        for (place, gap) in self.places.iter_mut().zip(gaps) {
+            shift += gap;
+            *place += shift;
+        }
+        self
     }
 
     /// Number of cells.

@@ -9,7 +9,8 @@ pub enum MechanicsError {
     /// A mesh with more unknowns than can be dealt with.
     #[error(
         "the mesh of the {body} would have {unknowns:.0} unknowns, more than {limit:.0}: {causes}; choose dimensions of \
-         similar size, lower mesh.elements_per_half_width or raise model.nominal_load"
+         similar size, lower mesh.elements_per_half_width or raise model.nominal_load and set \
+         drive.load, which follows it unless set"
     )]
     TooLarge {
         /// Which body: wheel or rail.

@@ -70,11 +70,11 @@ fn rail_unknowns(config: &Config, zone: ContactZone) -> Result<f64, MechanicsErr
 pub(super) fn unmeshable(body: &'static str, source: FemError) -> MechanicsError {
     let advice = match (&source, body) {
         (FemError::ZoneTooLarge { .. }, "wheel") => {
-            "lower model.nominal_load, or raise model.contact_width (with contact.shape = ellipse \
+            "lower model.nominal_load and set drive.load, or raise model.contact_width (with contact.shape = ellipse \
              contact.rail_lateral_radius), material.youngs_modulus or wheel.radius, or lower wheel.hub_radius"
         }
         (FemError::ZoneTooLarge { .. }, _) => {
-            "lower model.nominal_load, or raise model.contact_width (with contact.shape = ellipse \
+            "lower model.nominal_load and set drive.load, or raise model.contact_width (with contact.shape = ellipse \
              contact.rail_lateral_radius), material.youngs_modulus, rail.length or rail.height"
         }
         (_, "wheel") => "check wheel.radius and wheel.hub_radius",

@@ -1,4 +1,5 @@
-//! Patches that are no ellipse: rows side by side, each with its length and its load.
+//! Patches that are no ellipse: rows side by side, each with its length and its load. Where rows do not touch, a patch
+//! ends and the next one begins.
 
 use std::f64::consts::PI;
 
@@ -13,6 +14,8 @@ pub struct PatchRow {
     pub half_length: f64,
     /// Load per width [N/m].
     pub line_load: f64,
+    /// Free width between this row and the one before it \[m]; zero where they touch, and for the first row.
+    pub gap: f64,
 }
 
 /// Ellipse with the second moments of area of a patch.
@@ -38,22 +41,30 @@ pub fn widths(positions: &[f64]) -> Vec<f64> {
     (0..positions.len()).map(width).collect()
 }
 
+/// Rows that touch each other, patch by patch.
+pub fn patches(rows: &[PatchRow]) -> impl Iterator<Item = &[PatchRow]> {
+    rows.chunk_by(|_, next| next.gap == 0.0)
+}
+
 /// Load of all rows \[N].
 pub fn load(rows: &[PatchRow]) -> f64 {
     rows.iter().map(|row| row.width * row.line_load).sum()
 }
 
 /// Ellipse whose second moments of area, `πa³b/4` about the lateral axis and `πab³/4` about the direction of rolling,
-/// are those of the rows; none where a moment vanishes, as for fewer than two rows with area.
+/// are those of the rows; none where a moment vanishes, as without rows.
 ///
 /// Rows are samples of an outline, with the widths as weights of the quadrature: the area of a row counts at its
-/// middle.
+/// middle. That of a single row counts over its width.
 pub fn equivalent_ellipse(rows: &[PatchRow]) -> Option<EquivalentEllipse> {
     let sum = |part: &dyn Fn(&PatchRow) -> f64| -> f64 { rows.iter().map(|row| row.width * part(row)).sum() };
     let area = sum(&|row| 2.0 * row.half_length);
     let centre = sum(&|row| 2.0 * row.half_length * row.position) / area;
     let along = sum(&|row| 2.0 / 3.0 * row.half_length.powi(3));
-    let across = sum(&|row| 2.0 * row.half_length * (row.position - centre).powi(2));
+    let across = match rows {
+        [alone] => alone.half_length * alone.width.powi(3) / 6.0,
+        _ => sum(&|row| 2.0 * row.half_length * (row.position - centre).powi(2)),
+    };
     if !(along > 0.0 && across > 0.0) {
         return None;
     }
@@ -68,13 +79,14 @@ pub fn centre_of_load(rows: &[PatchRow]) -> f64 {
     rows.iter().map(|row| row.width * row.line_load * row.position).sum::<f64>() / load(rows)
 }
 
-/// At most `count` rows with the widths, areas and loads of all given ones, which lie in ascending order: neighbours
-/// become one, each time those two whose mean pressures `p` differ least, in the measure `(p₁ − p₂)² g₁g₂/(g₁ + g₂)` of
+/// At most `count` rows, but at least one for each patch, with the widths, areas and loads of all given ones, which lie in
+/// ascending order: neighbours that touch become one, each time those two whose mean pressures `p` differ least, in the measure `(p₁ − p₂)² g₁g₂/(g₁ + g₂)` of
 /// Ward with the weights `g = F p³`, `F` the load of a row. With these weights peaks of pressure keep lines of their own:
 /// on seven lines, two real patches keep their largest pressure to 0.7 %, with the weights `F` to 3.6 %.
 pub fn merged(mut rows: Vec<PatchRow>, count: usize) -> Vec<PatchRow> {
     while rows.len() > count.max(1) {
-        let differences = rows.windows(2).map(|pair| difference(pair[0], pair[1])).enumerate();
+        let touching = rows.windows(2).enumerate().filter(|(_, pair)| pair[1].gap == 0.0);
+        let differences = touching.map(|(i, pair)| (i, difference(pair[0], pair[1])));
         let Some((first, _)) = differences.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         let second = rows.remove(first + 1);
         rows[first] = together(rows[first], second);
@@ -101,6 +113,7 @@ fn together(first: PatchRow, second: PatchRow) -> PatchRow {
         width: first.width + second.width,
         half_length: mean(&|row| row.half_length),
         line_load,
+        gap: first.gap,
     }
 }
 
@@ -112,6 +125,7 @@ pub fn scaled(rows: &[PatchRow], scale: f64) -> impl Iterator<Item = PatchRow> {
         width: scale * row.width,
         half_length: scale * row.half_length,
         line_load: scale * scale * row.line_load,
+        gap: scale * row.gap,
     })
 }
 
@@ -127,7 +141,7 @@ mod tests {
             let share = (1.0 - line.ordinate.powi(2)).sqrt();
             let (half_length, pressure) = (a * share, peak * share);
             let line_load = 0.5 * PI * half_length * pressure;
-            PatchRow { position: centre + b * line.ordinate, width: b * line.weight, half_length, line_load }
+            PatchRow { position: centre + b * line.ordinate, width: b * line.weight, half_length, line_load, gap: 0.0 }
         };
         gauss::rule(lines).iter().map(row).collect()
     }
@@ -159,7 +173,6 @@ mod tests {
             assert!((found.half_length / exact.half_length - 1.0).abs() < 1e-14);
             assert!((found.line_load / exact.line_load - 1.0).abs() < 1e-14);
         }
-        assert_eq!(equivalent_ellipse(&rows[..1]), None);
         assert_eq!(equivalent_ellipse(&[]), None);
     }
 
@@ -170,6 +183,7 @@ mod tests {
             width: 1e-3,
             half_length: 5e-3,
             line_load: 1e6 * line_load,
+            gap: 0.0,
         };
         let rows: Vec<_> = (0..).zip([3.0, 3.1, 9.0, 3.2, 3.3, 6.0, 6.2]).map(row).collect();
         let merged_rows = merged(rows.clone(), 4);
@@ -224,6 +238,7 @@ mod tests {
             width,
             half_length: 1e-3 * half_length,
             line_load: 1e3 * line_load,
+            gap: 0.0,
         };
         let rows: Vec<_> = rows.iter().zip(positions.iter().zip(widths(&positions))).map(row).collect();
         let found = equivalent_ellipse(&rows).unwrap();
@@ -236,5 +251,28 @@ mod tests {
         assert_eq!(widths(&[0.0, 1.0, 3.0]), [1.0, 1.5, 2.0]);
         assert_eq!(widths(&[0.7]), [0.0]);
         assert!(widths(&[]).is_empty());
+    }
+
+    #[test]
+    fn rows_on_both_sides_of_a_gap_never_become_one() {
+        let row = |(position, gap): (f64, f64)| PatchRow {
+            position,
+            width: 1.0,
+            half_length: 1.0,
+            line_load: 1.0 + 0.1 * position,
+            gap,
+        };
+        let rows: Vec<_> = [(0.0, 0.0), (1.0, 0.0), (3.0, 1.0), (4.0, 0.0), (9.0, 4.0)].map(row).to_vec();
+        assert_eq!(patches(&rows).map(<[PatchRow]>::len).collect::<Vec<_>>(), [2, 2, 1]);
+        for count in 1..=5 {
+            let found = merged(rows.clone(), count);
+            assert_eq!(found.len(), count.max(3));
+            assert!((load(&found) / load(&rows) - 1.0).abs() < 1e-14);
+            assert_eq!(found.iter().map(|row| row.gap).sum::<f64>(), 5.0);
+        }
+        // A row alone is a rectangle.
+        let EquivalentEllipse { a, b, .. } = equivalent_ellipse(&rows[4..]).unwrap();
+        assert!((PI * a.powi(3) * b / 4.0 - 2.0 / 3.0).abs() < 1e-14);
+        assert!((PI * a * b.powi(3) / 4.0 - 1.0 / 6.0).abs() < 1e-14);
     }
 }

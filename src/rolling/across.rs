@@ -60,6 +60,7 @@ pub fn outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs 
     Outputs {
         contact_line_count: seen.len() as u64,
         line_position: all(&|seen| seen.position),
+        line_width: all(&|seen| seen.width),
         line_half_length: all(&|seen| seen.traction().half_width()),
         line_force_x: all(&|seen| seen.width * seen.traction().resultant[0]),
         line_force_y: all(&|seen| seen.width * seen.traction().resultant[1]),

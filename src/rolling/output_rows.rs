@@ -368,6 +368,8 @@ outputs! {
         "Highest surface temperature of the wheel on a line";
     23000 line_temperature_rail: lines "line.temperature_rail_max", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest surface temperature of the rail on a line";
+    23100 line_width: lines "line.width", in "m" as "mm", from 0.0, nominal 1e-3,
+        "Width of a line across the direction of rolling; contact.width is their sum, without gaps between rows";
     17000 profile_depth: profile "profile.depth", in "m" as "mm", from 0.0 to 1.0, nominal 5e-3,
         "Depth below the tread";
     18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,

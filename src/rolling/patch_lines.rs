@@ -30,6 +30,8 @@ pub enum PatchLines {
         symmetric: bool,
         /// Lateral position of the centre of load \[m].
         centre: f64,
+        /// Free widths before the lines \[m].
+        gaps: Vec<f64>,
     },
     /// Lines of a patch whose size follows from its load.
     Sized(PatchLayout),
@@ -64,7 +66,9 @@ impl PatchLines {
             (ContactShape::Line, _) => {
                 return Ok(Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0)));
             }
-            (_, Some(PatchRows { rows, shape })) => PatchLayout::rows((rows, &shape), material, (lines, radius, width)),
+            (_, Some(PatchRows { rows, shapes })) => {
+                PatchLayout::rows((rows, &shapes), material, (lines, radius, width))
+            }
             (_, None) => PatchLayout::ellipse((&config.hertz(), radius), material, (lines, width, load)),
         };
         Ok(match smooth {
@@ -73,6 +77,7 @@ impl PatchLines {
                 lines: patch.staying(load, longest_patch(config)),
                 symmetric: patch.is_symmetric(),
                 centre: patch.centre(),
+                gaps: patch.gaps().to_vec(),
             },
         })
     }
@@ -80,7 +85,7 @@ impl PatchLines {
     /// Lines with given shares of the width and one flexibility.
     pub fn constant(shares: &[f64], kernel: LineKernel) -> Self {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
-        Self::Constant { lines: shares.iter().map(layout).collect(), symmetric: false, centre: 0.0 }
+        Self::Constant { lines: shares.iter().map(layout).collect(), symmetric: false, centre: 0.0, gaps: Vec::new() }
     }
 
     /// Number of lines.
@@ -104,6 +109,14 @@ impl PatchLines {
         match self {
             Self::Constant { centre, .. } => *centre,
             Self::Sized(patch) => patch.centre(),
+        }
+    }
+
+    /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
+    pub fn gaps(&self) -> &[f64] {
+        match self {
+            Self::Constant { gaps, .. } => gaps,
+            Self::Sized(patch) => patch.gaps(),
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! Within a passage lines do not exchange heat: it goes 0.1 mm while a line is millimetres wide. Within a second it
 //! evens out over the patch, so that what has gone deep is the same under all lines. Into the bodies beside the patch
-//! it spreads as that of a contact of this width does, by the sections of the heat model.
+//! it spreads as that of a contact of this width does, by the sections of the heat model. Between patches with a gap it
+//! has the way from line to line, and steel in the gap stores none of it.
 
 use super::error::StepError;
 use super::line::Line;
@@ -27,7 +28,7 @@ pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) ->
     let widths: Vec<f64> = next.lines.iter().enumerate().map(width).collect();
     let cells = match in_the_middle(0, &next.lines[0]) {
         true => LateralCells::half(&widths, &[])?,
-        false => LateralCells::side_by_side(&widths)?,
+        false => LateralCells::side_by_side(&widths)?.apart(model.contact.patch.gaps()),
     };
     let diffusivity = model.narrowing(next).powi(2) * Isotropic::from(&model.config.material).diffusivity();
     let Some(mixing) = next.spreading.advance(dt, &cells, diffusivity) else { return Ok(()) };

@@ -194,7 +194,7 @@ fn cold(config: &Config) -> String {
 fn mechanics(error: &MechanicsError, config: &Config) -> String {
     match error {
         MechanicsError::Fem(FemError::ZoneTooLarge { .. }) => format!(
-            "the contact is too wide for the bodies; lower model.nominal_load (now {:?} N), or raise model.contact_width \
+            "the contact is too wide for the bodies; lower model.nominal_load (now {:?} N) and set drive.load, or raise model.contact_width \
              (now {:?} m; with contact.shape = ellipse contact.rail_lateral_radius), material.youngs_modulus (now {:?} Pa), rail.length (now {:?} m) or rail.height (now {:?} m), \
              or lower wheel.hub_radius (now {:?} m)",
             config.model.nominal_load,

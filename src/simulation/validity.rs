@@ -69,8 +69,8 @@ enum Bound {
 impl Bound {
     fn is_exceeded_by(self, value: f64) -> bool {
         match self {
-            Self::AtMost(bound) => value > bound,
-            Self::AtLeast(bound) => value > 0.0 && value < bound,
+            Self::AtMost(bound) => value > bound * (1.0 + ROUND_OFF),
+            Self::AtLeast(bound) => value > 0.0 && value < bound * (1.0 - ROUND_OFF),
         }
     }
 
@@ -81,6 +81,8 @@ impl Bound {
     }
 }
 
+/// Share of a bound by which a value may be beyond it: who sets a load at a bound is within it \[1].
+const ROUND_OFF: f64 = 1e-9;
 /// Elements per half-width of the patch below which traction profiles are no more than a hint.
 const FEWEST_ELEMENTS: f64 = 2.0;
 /// Elements, and internal steps, per wavelength of a surface below which it is not resolved.

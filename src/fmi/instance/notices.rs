@@ -6,6 +6,7 @@ use crate::fmi::presets;
 use crate::fmi::settings::{Settings, of_preset, start_value};
 use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Access, Causality, Kind, Reference, Value, Variable};
+use crate::simulation::SMALLEST_LAYOUT;
 use crate::simulation::mistaken_units::{cold, unusual};
 use crate::simulation::validity::Limit;
 use crate::simulation::{Inputs, Outputs, Simulation};
@@ -50,8 +51,10 @@ impl Notices {
             of_start_values(settings, config),
             of_creepage(settings, config),
             of_load(settings, config),
-            of_rows(settings, config),
             of_width(settings, config),
+            of_little_load(settings, config),
+            of_idle_rows(settings, config),
+            of_rows_load(settings, config),
         ];
         texts.into_iter().flatten().for_each(|text| life.log().report(Status::Warning, &text));
         for (reference, value) in &settings.parameters {
@@ -196,7 +199,7 @@ fn of_start_values(settings: &Settings, config: &Config) -> Option<String> {
 
 /// Warning of a creepage of zero, which may be meant. Who writes back start values writes `initial.given` as well.
 fn of_creepage(settings: &Settings, config: &Config) -> Option<String> {
-    let set = |name: &str| named(name).is_some_and(|row| settings.parameters.contains_key(&row.reference));
+    let set = |name: &str| is_set(settings, name);
     let doubtful = set("initial.creepage") && config.initial.creepage.is_none() && !set("initial.given");
     doubtful.then(|| {
         "initial.creepage = 0 is its declared start value and counts as not given: the run starts with the creepage that \
@@ -215,24 +218,65 @@ fn of_load(settings: &Settings, config: &Config) -> Option<String> {
     wrong.then(|| {
         format!(
             "drive.load = {} N, but wheel and rail take up heat as under a patch that belongs to model.nominal_load = {} N: as a \
-             whole they warm {warms:.2} times as much as they should, while the contact is right; set model.nominal_load to the \
-             mean load of the run",
+             whole they warm {warms:.2} times as much as they should; set model.nominal_load to the mean load of the run",
             display_number(load),
             display_number(nominal)
         )
     })
 }
 
-/// Warning of rows of a patch that has another shape.
-fn of_rows(settings: &Settings, config: &Config) -> Option<String> {
-    let set = named("contact.rows").is_some_and(|row| settings.parameters.contains_key(&row.reference));
-    let idle = set && !config.contact.rows.is_empty() && !config.contact.shape.has_rows();
-    idle.then(|| "contact.rows has no effect: contact.shape is another; set contact.shape = rows".to_owned())
+/// Warning of a load at the start under which lines of a patch are too wide, with the errors of the contact that
+/// `docs/patches.md` has.
+fn of_little_load(settings: &Settings, config: &Config) -> Option<String> {
+    let (inputs, nominal) = (settings.inputs(config, true), config.model.nominal_load);
+    let (load, least) = (inputs.drive.load, SMALLEST_LAYOUT * nominal);
+    let smooth = config.wheel.profile.is_empty() && config.rail.profile.is_empty();
+    let patch = smooth && !config.contact.shape.is_line() && !inputs.vertical.prescribes_motion();
+    (patch && load > 0.0 && load < least).then(|| {
+        format!(
+            "drive.load = {} N is below a tenth of model.nominal_load = {} N, and lines keep the places that they have under that \
+             tenth: the patch is {:.2} times as wide as it should be, pressure and length are too small, by 10 % at 5 %, by 20 % at \
+             2 % and by 25 % at 1 % of model.nominal_load, and creep forces are too large, there by up to .05, .11 and .13 of \
+             friction times load; set model.nominal_load to the load of the run",
+            display_number(load),
+            display_number(nominal),
+            libm::cbrt(least / load)
+        )
+    })
+}
+
+/// True if a master has written a parameter.
+fn is_set(settings: &Settings, name: &str) -> bool {
+    named(name).is_some_and(|row| settings.parameters.contains_key(&row.reference))
+}
+
+/// Warning of rows of a patch that has another shape, and of their load.
+fn of_idle_rows(settings: &Settings, config: &Config) -> Option<String> {
+    if config.contact.shape.has_rows() {
+        return None;
+    }
+    let idle = |name: &&str| is_set(settings, name) && (*name != "contact.rows" || !config.contact.rows.is_empty());
+    let name = ["contact.rows", "contact.rows_load"].into_iter().find(idle)?;
+    Some(format!("{name} has no effect: contact.shape is another; set contact.shape = rows"))
+}
+
+/// Warning of rows whose load is not said, under a nominal load for which they may be meant.
+fn of_rows_load(settings: &Settings, config: &Config) -> Option<String> {
+    let (rows_load, nominal) = (config.contact.rows_load, config.model.nominal_load);
+    let unsaid = is_set(settings, "contact.rows") && !is_set(settings, "contact.rows_load");
+    (config.contact.shape.has_rows() && unsaid && rows_load != nominal).then(|| {
+        format!(
+            "contact.rows counts as the patch under contact.rows_load = {} N, its default, and not under model.nominal_load = {} N: \
+             set contact.rows_load to the load of the table",
+            display_number(rows_load),
+            display_number(nominal)
+        )
+    })
 }
 
 /// Warning of a width that is not that of the patch.
 fn of_width(settings: &Settings, config: &Config) -> Option<String> {
-    let set = named("model.contact_width").is_some_and(|row| settings.parameters.contains_key(&row.reference));
+    let set = is_set(settings, "model.contact_width");
     let pressure = |config: &Config| (config.model.nominal_load / config.model.contact_width).sqrt();
     let (share, usual) = (pressure(config) / pressure(&settings.base), settings.base.model.contact_width);
     let doubtful = set && config.contact.shape.is_line() && !(1.0 / FAR_PRESSURE..FAR_PRESSURE).contains(&share);

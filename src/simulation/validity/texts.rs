@@ -4,6 +4,9 @@ use super::{FEWEST_PER_WAVE, Limit, NEAR_END, ZONE_LOAD};
 use crate::contact::FrictionLaw;
 use crate::simulation::Simulation;
 
+/// Smallest `thermal.smallest_load_ratio` that its range allows \[1].
+const LEAST_RATIO: f64 = 0.05;
+
 impl Simulation {
     /// Message of a limit for the present state, with both numbers and what to change.
     pub fn describe_limit(&self, limit: Limit) -> String {
@@ -11,7 +14,7 @@ impl Simulation {
         let bound = bound.number();
         match limit {
             Limit::Speed => speed(value, bound),
-            Limit::ThermalLoad => thermal_load(value, bound),
+            Limit::ThermalLoad => thermal_load(self, value, bound),
             Limit::Patch => patch(value, bound),
             Limit::Zone => zone(value, bound),
             Limit::Reach => reach(self, value, bound),
@@ -39,11 +42,21 @@ fn speed(value: f64, bound: f64) -> String {
     )
 }
 
-fn thermal_load(value: f64, bound: f64) -> String {
+fn thermal_load(simulation: &Simulation, value: f64, bound: f64) -> String {
+    let share = value / simulation.model().config().model.nominal_load;
+    // A little less than the load, which the contact carries to round-off.
+    let enough = (99.0 * share).floor() / 100.0;
+    let advice = if share >= LEAST_RATIO {
+        format!("lower thermal.smallest_load_ratio to {:.2} or less", enough.max(LEAST_RATIO))
+    } else {
+        format!(
+            "lower model.nominal_load to the mean load of the run and set drive.load, which follows it unless set; \
+             thermal.smallest_load_ratio cannot be below {LEAST_RATIO}"
+        )
+    };
     format!(
         "contact load {value:.0} N is below thermal.smallest_load_ratio x model.nominal_load = {bound:.0} N: the \
-         patch is shorter than the thermal mesh resolves, and temperatures are inexact; lower \
-         thermal.smallest_load_ratio"
+         patch is shorter than the thermal mesh resolves, and temperatures are inexact; {advice}"
     )
 }
 
@@ -77,7 +90,8 @@ fn yielding(value: f64, bound: f64) -> String {
     format!(
         "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
          stay elastic, and patch, forces and temperatures are not those of steel that flows; set \
-         physics.yielding, or check drive.load and the size of the patch (model.contact_width, or contact.rail_lateral_radius)",
+         physics.yielding, or check drive.load and the size of the patch (model.contact_width, contact.rail_lateral_radius, or \
+         contact.rows and contact.rows_load)",
         value * 1e-6,
         bound * 1e-6
     )
