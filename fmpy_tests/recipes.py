@@ -67,7 +67,7 @@ CHECKOUT = (
     Recipe(".venv/bin/python packaging/wheel.py --sdist --out {out}", (".venv/bin/python packaging/wheel.py --sdist [--out FOLDER]",), ".tar.gz"),
     Recipe(".venv/bin/python packaging/wheel.py {fmu} --out {out}", (".venv/bin/python packaging/wheel.py FMU [--out FOLDER]",), ".whl"),
     Recipe(
-        "python3 tools/same_results.py target/release/wheelrail target/release/wheelrail --only brake --jobs 1",
+        "python3 tools/same_results.py target/release/wheelrail target/release/wheelrail --only railway --jobs 1",
         ("python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]",), "same",
     ),
     Recipe(".venv/bin/python examples/ex00_minimal.py", says="temperature.wheel_max"),
