@@ -250,11 +250,7 @@ fn advice_about_the_load_of_a_patch_is_right_when_it_is_obeyed() {
             }
             let (left, after) = start(shape, &settings);
             let errors = |found: [f64; 2]| [0, 1].map(|k| found[k] / reference[k] / root - 1.0);
-            println!(
-                "shape {shape}, {load} N: pressure and length {:.1e?}, obeyed {:.1e?}",
-                errors(before),
-                errors(after)
-            );
+            println!("shape {shape}, {load} N: pressure and length {:?}, obeyed {:?}", errors(before), errors(after));
             assert!(left.is_empty(), "{shape} {load}: {left:?}");
             assert!(errors(after).iter().all(|error| error.abs() < 0.01));
         }

@@ -313,7 +313,7 @@ mod tests {
         #[test]
         fn a_printed_scenario_reads_back(loads in prop::collection::vec(0.0..1e9_f64, 1..20)) {
             let rows: Vec<_> = loads.iter().enumerate().map(|(time, load)| format!("{time},{load:?}")).collect();
-            let scenario = Scenario::parse(format!("time,drive.load\n{}\n", rows.join("\n"))).unwrap();
+            let scenario = Scenario::parse(&format!("time,drive.load\n{}\n", rows.join("\n"))).unwrap();
             let Values::Real(read) = &scenario.columns()[0].values else { panic!("a real input") };
             prop_assert_eq!(read, &loads);
         }

@@ -118,7 +118,7 @@ mod tests {
             ("friction.memory_length", 1.0, 0.0),
             ("thermal.wheel_excess", 20.0, 0.0),
             ("thermal.tread_point", 6.0, 0.0),
-            ("thermal.tread_point", -3.1416, 0.0),
+            ("thermal.tread_point", -3.2, 0.0),
             ("thermal.tread_point", 1234.5678, 0.0),
         ] {
             assert_eq!(unusual(name, kind(name), value, usual), None);

@@ -219,7 +219,7 @@ impl Simulation {
     fn blow_of_the_track(&self) -> f64 {
         let (outputs, rolling) = (self.outputs(), &self.model().rolling);
         let stiffness = outputs.contact_force_y / outputs.contact_approach;
-        if !(stiffness > 0.0) {
+        if stiffness.is_nan() || stiffness <= 0.0 {
             return 0.0;
         }
         let mass = rolling.wheel.inertia[1] * self.model().config().width();

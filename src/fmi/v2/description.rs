@@ -27,7 +27,7 @@ const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an e
     on the wheel. Plane model: no lateral force, no spin.";
 
 /// Date of the last change of the interface. A date of the build would make equal builds unequal.
-const GENERATED: &str = "2026-11-25T00:00:00Z";
+const GENERATED: &str = "2026-11-26T00:00:00Z";
 
 const COPYRIGHT: &str = "Copyright 2026 The wheelrail authors";
 
