@@ -22,7 +22,6 @@
 pub mod advice;
 mod foreign_state;
 mod lock;
-mod met;
 pub mod mistaken_units;
 mod patch_file;
 mod shared;
@@ -46,7 +45,6 @@ use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use tools::{Shelf, Tools};
 
-pub use crate::contact::layout::LEAST as SMALLEST_LAYOUT;
 pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;

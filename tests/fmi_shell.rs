@@ -1,4 +1,4 @@
-//! What masters have and a slave must live with: little stack, and a floating-point environment of their own.
+//! Masters with little stack, and with a floating-point environment of their own.
 #![cfg(all(target_os = "linux", target_env = "gnu", target_arch = "x86_64"))]
 #![allow(unsafe_code)]
 
@@ -241,7 +241,7 @@ impl Host {
     }
 }
 
-/// What the logger has seen of the environment: traps and rounding.
+/// Traps and rounding as the logger has seen them.
 static SEEN: [AtomicI32; 2] = [AtomicI32::new(-1), AtomicI32::new(-1)];
 
 unsafe extern "C" fn look(_: *mut c_void, _: *const i8, _: c_int, _: *const i8, _: *const i8) {

@@ -186,8 +186,8 @@ impl Scenario {
                 if MOTIONS.contains(&column.variable.name) { self.hidden(column, values, stop, step) } else { 0 };
             if hidden > 0 {
                 texts.push(format!(
-                    "{}: {hidden} of {} rows lie within communication steps of {} s and off the straight line through the ends \
-                     of their step, and are not seen; take a shorter --step",
+                    "{}: {hidden} of {} rows lie within communication steps of {} s and off the line through the ends of \
+                     their step, and are not seen; take a shorter --step",
                     column.variable.name,
                     values.len(),
                     display_number(step)

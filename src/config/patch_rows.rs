@@ -64,7 +64,7 @@ pub struct PatchRows {
 }
 
 /// A row as a table has it.
-struct Given {
+struct GivenRow {
     /// Line of the text, from 1.
     line: u64,
     position: f64,
@@ -94,7 +94,7 @@ impl PatchRows {
             return Err(RowsError::Count(0));
         }
         let columns = Columns::find(&header).map_err(|problem| wrong(1, problem))?;
-        let mut given: Vec<Given> = Vec::new();
+        let mut given: Vec<GivenRow> = Vec::new();
         for record in reader.records() {
             let record =
                 record.map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
@@ -108,11 +108,11 @@ impl PatchRows {
         Self::new(&given, load)
     }
 
-    fn new(given: &[Given], load: f64) -> Result<Self, RowsError> {
+    fn new(given: &[GivenRow], load: f64) -> Result<Self, RowsError> {
         let widths: Option<Vec<f64>> = given.iter().map(|row| row.width).collect();
         let sides = widths.map_or_else(|| sides_by_distance(given), |widths| sides_by_width(given, &widths))?;
         let sum: f64 = given.iter().map(|row| row.load_share).sum();
-        let row = |(row, [width, gap]): (&Given, [f64; 2])| PatchRow {
+        let row = |(row, [width, gap]): (&GivenRow, [f64; 2])| PatchRow {
             position: row.position,
             width,
             half_length: row.half_length,
@@ -156,7 +156,7 @@ fn wrong(line: u64, problem: String) -> RowsError {
 }
 
 /// Width of every row and the free one before it \[m] where the table has widths.
-fn sides_by_width(given: &[Given], widths: &[f64]) -> Result<Vec<[f64; 2]>, RowsError> {
+fn sides_by_width(given: &[GivenRow], widths: &[f64]) -> Result<Vec<[f64; 2]>, RowsError> {
     let mut sides = vec![[widths[0], 0.0]];
     for (rows, width) in given.windows(2).zip(widths.windows(2)) {
         let gap = rows[1].position - rows[0].position - 0.5 * (width[0] + width[1]);
@@ -176,7 +176,7 @@ fn sides_by_width(given: &[Given], widths: &[f64]) -> Result<Vec<[f64; 2]>, Rows
 
 /// Width of every row and the free one before it \[m] where the distances of the rows tell them: rows at about the
 /// smallest distance touch, and most are such; others are at least nearly twice as far apart, as if a row were missing.
-fn sides_by_distance(given: &[Given]) -> Result<Vec<[f64; 2]>, RowsError> {
+fn sides_by_distance(given: &[GivenRow]) -> Result<Vec<[f64; 2]>, RowsError> {
     let positions: Vec<f64> = given.iter().map(|row| row.position).collect();
     let distances: Vec<f64> = positions.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let common = distances.iter().copied().fold(f64::INFINITY, f64::min);
@@ -237,7 +237,7 @@ impl Columns {
     }
 
     /// The row of a record behind the position `before`; the error is problem and remedy.
-    fn row(&self, record: &csv::StringRecord, line: u64, before: Option<f64>) -> Result<Given, String> {
+    fn row(&self, record: &csv::StringRecord, line: u64, before: Option<f64>) -> Result<GivenRow, String> {
         if record.len() > self.count {
             return Err(format!(
                 "{} cells stand under {} columns; numbers have a decimal point, and commas between them",
@@ -251,7 +251,7 @@ impl Columns {
             finite.ok_or_else(|| format!("{name} = {given:?} is no finite number; correct or leave out the line"))
         };
         let [position, half_length, load_share] = self.needed;
-        let row = Given {
+        let row = GivenRow {
             line,
             position: number(COLUMNS[0], position)?,
             half_length: number(COLUMNS[1], half_length)?,
@@ -262,7 +262,7 @@ impl Columns {
     }
 }
 
-impl Given {
+impl GivenRow {
     /// Refuses a row outside the ranges, or not behind the position `before`; the error is problem and remedy.
     fn check(&self, before: Option<f64>) -> Result<(), String> {
         let Self { position, half_length, load_share, .. } = *self;

@@ -209,7 +209,7 @@ mod tests {
             let g = system.surface_compliance(&factor);
             assert!((&g - g.transpose()).amax() <= 1e-15 * g.amax());
             let last = Cholesky::with_last(&system.stiffness, &system.surface).unwrap();
-            assert!((&g - system.surface_compliance(&last)).amax() < 1e-11 * g.amax());
+            assert!((&g - system.surface_compliance(&last)).amax() < 1e-10 * g.amax());
             assert!(g.cholesky().is_some());
         }
     }

@@ -33,22 +33,22 @@ pub struct Rise {
 /// Share of the change of the last part of a rate that its error is \[1]: the third term of a series beside the second.
 const ERROR_OF_BEND: f64 = 2.0 / 3.0;
 
-/// Course of the height over a communication step: a cubic with given heights and rates at both ends.
-pub struct Course {
+/// HeightCourse of the height over a communication step: a cubic with given heights and rates at both ends.
+pub struct HeightCourse {
     /// Heights at both ends \[m].
     heights: [f64; 2],
     /// Rates at both ends \[m/s].
     rates: [f64; 2],
     /// Length of the step \[s].
     length: f64,
-    /// What the next step knows of this one.
+    /// Memory for the next step.
     rise: Rise,
 }
 
 impl Rise {
-    /// Course between two heights \[m] in the `length` \[s] of a step, ending with a rate [m/s] if one is given, which
+    /// HeightCourse between two heights \[m] in the `length` \[s] of a step, ending with a rate [m/s] if one is given, which
     /// is one other than 0.
-    pub fn course(&self, heights: [f64; 2], given: f64, length: f64) -> Course {
+    pub fn course(&self, heights: [f64; 2], given: f64, length: f64) -> HeightCourse {
         let mean = (heights[1] - heights[0]) / length;
         let before = if self.length > 0.0 { self.length } else { length };
         let carried = length <= LARGEST_RATIO * before;
@@ -59,11 +59,11 @@ impl Rise {
             (false, false) => (mean, bend.abs()),
         };
         let begin = if carried { self.rate } else { mean };
-        Course { heights, rates: [begin, rate], length, rise: Rise { rate, mean, length, bend, error } }
+        HeightCourse { heights, rates: [begin, rate], length, rise: Rise { rate, mean, length, bend, error } }
     }
 }
 
-impl Course {
+impl HeightCourse {
     /// Height \[m] at a fraction of the step.
     pub fn at(&self, fraction: f64) -> f64 {
         let Self { heights: [from, to], rates: [begin, end], length, .. } = self;
@@ -76,7 +76,7 @@ impl Course {
         from + t * (to - from) + length * t * rest * (rest * (begin - mean) - t * (end - mean))
     }
 
-    /// What the next step carries on.
+    /// Memory for the next step.
     pub fn rise(&self) -> Rise {
         self.rise
     }
@@ -141,8 +141,9 @@ mod tests {
     fn heights_and_rates_go_on_from_step_to_step() {
         let first = Rise::default().course([0.0, 1e-3], 0.0, 1e-3);
         let second = first.rise().course([1e-3, 1.5e-3], 0.2, 2e-3);
-        let slope =
-            |course: &Course, from: f64, to: f64| (course.at(to) - course.at(from)) / ((to - from) * course.length);
+        let slope = |course: &HeightCourse, from: f64, to: f64| {
+            (course.at(to) - course.at(from)) / ((to - from) * course.length)
+        };
         let rates = [slope(&first, 1.0 - 1e-7, 1.0), slope(&second, 0.0, 1e-7), slope(&second, 1.0 - 1e-7, 1.0)];
         println!("{rates:?}");
         assert!((rates[0] - rates[1]).abs() < 1e-5 && (rates[2] - 0.2).abs() < 1e-5);

@@ -37,9 +37,9 @@ pub enum Origin {
 /// Outputs at both ends of a difference quotient.
 pub struct Difference {
     /// Outputs a little before the present ones.
-    pub low: Outputs,
+    pub low: Box<Outputs>,
     /// Outputs a little behind them.
-    pub high: Outputs,
+    pub high: Box<Outputs>,
     /// Distance of the ends in units of the direction.
     pub width: f64,
 }
@@ -93,7 +93,7 @@ pub fn difference(
     let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
     let scales = scales(model, inputs, state);
     let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
-    let present = observe_all(model, state);
+    let present = Box::new(observe_all(model, state));
     if size == 0.0 {
         return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
     }
@@ -106,7 +106,7 @@ pub fn difference(
             let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
             let end = repeat(model, tuning, origin, &inputs, workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
-            end.ok().filter(|end| same_branch(model, end, state)).map(|end| observe_all(model, &end))
+            end.ok().filter(|end| same_branch(model, end, state)).map(|end| Box::new(observe_all(model, &end)))
         });
         match (ends[0].take(), ends[1].take()) {
             (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),

@@ -118,7 +118,12 @@ impl BasisStore {
         let write = || -> io::Result<()> {
             fs::create_dir_all(directory)?;
             files::clear(directory, ABANDONED, is_unfinished);
-            let mut file = NewFile::create(&directory.join(basis_file_name(config)))?;
+            let path = directory.join(basis_file_name(config));
+            // A basis takes the place of a pipe or link; written to, a pipe would wait for a reader.
+            if fs::symlink_metadata(&path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+                fs::remove_file(&path)?;
+            }
+            let mut file = NewFile::create(&path)?;
             file.write_all(bytes)?;
             file.finish()?;
             self.capacity.map_or(Ok(()), |capacity| shrink(directory, capacity))

@@ -1,11 +1,14 @@
 //! Limits beyond which the results of a run begin to lose their meaning although every step succeeds.
 
+mod met;
 mod texts;
 
 use super::Simulation;
 use crate::contact::{FrictionLaw, Ports};
 use crate::material::INDENTATION;
 use crate::mechanics::{grid_spacing, nominal_half_width};
+
+pub use crate::contact::layout::LEAST as SMALLEST_LAYOUT;
 
 /// Makes the enumeration and the list of its items.
 macro_rules! limits {

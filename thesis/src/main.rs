@@ -31,7 +31,7 @@ fn write(file: &Path, text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// What is asked for on the command line.
+/// Wishes of the command line.
 struct Options {
     out: PathBuf,
     wanted: Vec<String>,

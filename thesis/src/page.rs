@@ -1,4 +1,4 @@
-//! What `docs/thesis.md` tells in numbers: its tables are written from a text with names in the place of numbers.
+//! Numbers of `docs/thesis.md`: its tables are written from a text with names in the place of numbers.
 //!
 //! A name stands in braces with the form in which its value is written, `{a12.peak .0}`: so many decimals, with a sign
 //! (`+.3`), in scientific form (`.2e`), or times a factor (`{a8.deviation*1e-6 .3}`). Names are those of

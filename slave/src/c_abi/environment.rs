@@ -11,7 +11,7 @@ use std::rc::Rc;
 mod registers {
     use std::arch::asm;
 
-    /// What `fnstenv` stores of the older unit, and the register of the vector unit.
+    /// State of the older unit as `fnstenv` stores it, and the register of the vector unit.
     #[derive(Clone, Copy)]
     #[repr(C)]
     pub struct Environment {

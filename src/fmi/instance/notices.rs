@@ -6,7 +6,7 @@ use crate::fmi::presets;
 use crate::fmi::settings::{Settings, of_preset, start_value};
 use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Access, Causality, Kind, Reference, Value, Variable};
-use crate::simulation::SMALLEST_LAYOUT;
+use crate::simulation::validity::SMALLEST_LAYOUT;
 use crate::simulation::mistaken_units::{cold, unusual};
 use crate::simulation::validity::Limit;
 use crate::simulation::{Inputs, Outputs, Simulation};
@@ -255,8 +255,9 @@ fn of_idle_rows(settings: &Settings, config: &Config) -> Option<String> {
     if config.contact.shape.has_rows() {
         return None;
     }
-    let idle = |name: &&str| is_set(settings, name) && (*name != "contact.rows" || !config.contact.rows.is_empty());
-    let name = ["contact.rows", "contact.rows_load"].into_iter().find(idle)?;
+    let (contact, base) = (&config.contact, &settings.base.contact);
+    let idle = [("contact.rows", !contact.rows.is_empty()), ("contact.rows_load", contact.rows_load != base.rows_load)];
+    let (name, _) = idle.into_iter().find(|(name, says)| *says && is_set(settings, name))?;
     Some(format!("{name} has no effect: contact.shape is another; set contact.shape = rows"))
 }
 

@@ -22,7 +22,7 @@ mod control;
 mod prediction;
 
 use super::control::{Drive, Inputs};
-use super::elevation::Course;
+use super::elevation::HeightCourse;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::{Pressing, State, StepControl};
@@ -119,7 +119,7 @@ struct Ramp<'a> {
     inputs: &'a Inputs,
     start: Drive,
     end: Drive,
-    elevation: Course,
+    elevation: HeightCourse,
     /// Its length [s].
     h: f64,
 }
