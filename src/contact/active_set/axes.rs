@@ -112,6 +112,16 @@ impl<'a> Axes<'a> {
         equation
     }
 
+    /// Moment \[N] that is missing from the balance of the rotation in the present iterate; 0 where it is prescribed or held.
+    /// `forces` is memory for all ports of all lines.
+    pub fn missing_moment(&self, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> f64 {
+        if !self.seeks(2) || self.holds(2) {
+            return 0.0;
+        }
+        let [load, limit] = self.rigid[2].drive.loads().unwrap_or_default();
+        self.reaction(2, lines, forces) - load - self.brakes[2].direction() * limit
+    }
+
     /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate; `forces` is memory for all
     /// ports of all lines.
     fn reaction(&self, axis: usize, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> f64 {

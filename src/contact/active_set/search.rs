@@ -34,6 +34,8 @@ const MAX_COEFFICIENTS: usize = 150;
 /// Largest difference between the rim angle and that of the linear problem, which weights it with the forces of the
 /// iterate before \[rad]. It tilts the gap by less than a tenth of a nanometre; ordinary steps differ by 4e-10.
 const ANGLE_TOLERANCE: f64 = 1e-8;
+/// Largest moment that may be missing with the lever arms of the last iterate, over nominal load times radius \[1].
+const MOMENT_TOLERANCE: f64 = 1e-9;
 /// Change of the force of retarded layers in the last iteration that counts as none, over the nominal load \[1].
 const RETARDED_TOLERANCE: f64 = 1e-7;
 
@@ -156,7 +158,7 @@ impl<'a> ActiveSet<'a> {
             settled = !changed && (settled || self.edges_settled());
             let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
             let relieved = relieved && self.axes.seeks(2);
-            if settled && !turned && !relieved && self.lines.iter().all(states::sticks) {
+            if settled && !turned && !relieved && self.lines.iter().all(states::sticks) && self.turns_balance() {
                 return Ok(decided);
             }
         }
@@ -184,6 +186,12 @@ impl<'a> ActiveSet<'a> {
             self.lines.iter_mut().for_each(|line| line.traction.friction.tread_slip = states::mean_slip(line));
         }
         Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
+    }
+
+    /// True if the moments balance with the lever arms of the present iterate, too: it was found with those before.
+    fn turns_balance(&mut self) -> bool {
+        let missing = self.axes.missing_moment(&self.lines, &mut self.memory.rows);
+        missing.abs() <= MOMENT_TOLERANCE * self.problem.nominal_load * self.lines[0].problem.radius()
     }
 
     /// Solves the linear problem of the present states; fills forces, rigid motions, displacements, slips and gaps.
