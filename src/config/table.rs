@@ -83,7 +83,7 @@ parameters! {
                 "Patch under contact.rows_load with contact.shape = rows: the name of a .csv file, or its content with ; between \
                  the lines, with the columns position,half_length,load_share and, where distances differ, width, see \
                  docs/patches.md";
-            1202 basic rows_load: f64 = 100e3, in "N" as "kN", from 1e-3 to 1e9,
+            1202 expert rows_load: f64 = 100e3, in "N" as "kN", from 1e-3 to 1e9,
                 "Load of the patch that contact.rows describes; under other loads its lengths go with the third root of the load";
             1199 basic rail_lateral_radius: f64 = 0.3, in "m" as "mm", from -100.0 to 100.0,
                 "Radius of curvature of the rail head across the direction of rolling, positive where it is convex; 0: straight. \

@@ -106,7 +106,7 @@ const RESOLVED_PHASE: f64 = 0.2;
 /// and those of 50 µs do not.
 const TREAD_SHIFT: f64 = 1.5;
 /// Blow of a corner of `rail.elevation`, over the nominal load, beyond which a run is told of it \[1].
-const CORNER: f64 = 0.01;
+const CORNER: f64 = 5e-3;
 /// Residual of the energy balance beyond which a run is told of it \[1].
 const UNBALANCED: f64 = 0.05;
 /// Internal steps in one communication step beyond which a run is told that it takes long \[1]: with heat about half a

@@ -6,9 +6,9 @@ use crate::fmi::presets;
 use crate::fmi::settings::{Settings, of_preset, start_value};
 use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Access, Causality, Kind, Reference, Value, Variable};
-use crate::simulation::validity::SMALLEST_LAYOUT;
 use crate::simulation::mistaken_units::{cold, unusual};
 use crate::simulation::validity::Limit;
+use crate::simulation::validity::SMALLEST_LAYOUT;
 use crate::simulation::{Inputs, Outputs, Simulation};
 use wheelrail_slave::{Life, Log, Status};
 

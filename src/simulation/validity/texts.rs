@@ -159,7 +159,9 @@ fn sampling(value: f64, bound: f64) -> String {
 
 fn track(value: f64, bound: f64) -> String {
     format!(
-        "rail.elevation changes between communication points as no smooth track does: its corners may ring the wheel with some          {value:.0} N, more than {bound:.0} N; give rail.elevation_rate, or take communication steps of a thirtieth of the          shortest wave of the track"
+        "rail.elevation changes between communication points as no smooth track does: its corners are blows of some \
+         {value:.0} N (more than {bound:.0} N) to the wheel, which add up where they come with its own frequency; give \
+         rail.elevation_rate, or take communication steps of a thirtieth of the shortest wave of the track"
     )
 }
 
