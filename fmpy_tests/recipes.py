@@ -64,6 +64,7 @@ CHECKOUT = (
         ("python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20",),
     ),
     Recipe("python3 packaging/release.py v{version}", ("python3 packaging/release.py v0.4.0",), "{version}"),
+    Recipe("python3 packaging/sbom.py --out {out}/bill.json", ("python3 packaging/sbom.py --out FILE [--target TRIPLE ...]",), "crates"),
     Recipe(".venv/bin/python packaging/wheel.py --sdist --out {out}", (".venv/bin/python packaging/wheel.py --sdist [--out FOLDER]",), ".tar.gz"),
     Recipe(".venv/bin/python packaging/wheel.py {fmu} --out {out}", (".venv/bin/python packaging/wheel.py FMU [--out FOLDER]",), ".whl"),
     Recipe(
@@ -84,6 +85,7 @@ WHEEL = (
         "python -m wheelrail.examples try", ("python -m wheelrail.examples try", "python -m wheelrail.examples FOLDER"), "ex00_minimal.py"
     ),
     Recipe("cd try && python examples/ex00_minimal.py", ("python examples/ex00_minimal.py",), "temperature.wheel_max"),
+    Recipe("python -m wheelrail --version", says="{version}"),
     Recipe("python -m wheelrail train {small} --force", ("python -m wheelrail train examples/train/low_adhesion.json",), "stopping distance"),
     Recipe("python -m wheelrail force results/low_adhesion/train_wsp_on.csv --column force_1", says="mean"),
     Recipe(
@@ -139,7 +141,15 @@ NOT_RUN = {
         "make locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels", "make endurance", "make random-parameters",
         "cargo run --release --example ex03_endurance -- --steps 1000000", "cargo bench",
     ),
-    "compares the whole thesis, which a part of it does in every run": ("make thesis", "make thesis FULL=1"),
+    "recomputes figures of the thesis, most of which its tests compute in every run": (
+        "make thesis", "make thesis FULL=1", "make thesis ACCEPT=1", "cargo run -p wheelrail-thesis -- --page",
+        'cargo run --release --locked -p wheelrail-thesis -- "B 14" "C 14" "C 15"',
+        'cargo run --release --locked -p wheelrail-thesis -- "C 7" "C 8–11"',
+        'cargo run --release --locked -p wheelrail-thesis -- "A 11" "D T1"',
+        'cargo run --release --locked -p wheelrail-thesis -- "A 13–14" "B 18–19"',
+        'cargo run --release --locked -p wheelrail-thesis -- "A 5–6"', 'cargo run --release --locked -p wheelrail-thesis -- "I 5.1" "B 7"',
+        'cargo run --release --locked -p wheelrail-thesis -- "D 11–15"', 'cargo run --release --locked -p wheelrail-thesis -- "D 16–17"',
+    ),
     "this test runs within it, or it compiles everything once more": (
         ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
@@ -156,7 +166,7 @@ NOT_RUN = {
     "needs compilers for Windows, wine, another machine or packages from the network": (
         "make fmu-all", "make platforms-check", "make python-dist", "make site", "make sweep SCHEDULER=tcp://cluster:8786",
         "make sweep SCHEDULER=tcp://host:8786", "dask scheduler", "dask worker tcp://cluster:8786",
-        "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail pack --binary linux64=target/release/libwheelrail.so",
+        "python3 packaging/hashes.py [FILE...]", "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail pack --binary linux64=target/release/libwheelrail.so",
         "wheelrail pack --binary win64=path/to/wheelrail.dll --binary darwin64=path/to/libwheelrail.dylib",
         "pip install ./python", "pip install './python[records]'", "pip install 'wheelrail[records]'", "pip install 'wheelrail[report]'",
         "pip install exudyn", "pip install wheelrail", "python -m pip install 'wheelrail[sweep]'",

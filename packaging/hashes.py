@@ -1,8 +1,8 @@
 """Writes the hashes of pinned Python packages into the requirement files.
 
-    python3 packaging/hashes.py [FILE...]    requirements*.txt without arguments; needs uv (pip install uv)
+    python3 packaging/hashes.py [FILE...]    requirements*.txt without arguments; needs the program uv
 
-Run it after the version of a pin has changed: `pip install --require-hashes` refuses a package whose file has none of the
+Run it after the version of a pin has changed: pip, which is asked for hashes, refuses a package whose file has none of the
 hashes that stand below its pin. All files of a version are listed, so that the pins hold for every platform and Python. Comments
 and the order of pins stay as they are.
 """
