@@ -96,7 +96,6 @@ WHEEL = (
         "cd try && python -m wheelrail ssp examples/train/low_adhesion.json --coach {root}/target/release",
         ("python -m wheelrail ssp examples/train/low_adhesion.json",), "written",
     ),
-    Recipe("python -m wheelrail ssp --help", ("python -m wheelrail train|sweep|ssp SCENARIO",), "--coach"),
     Recipe("python -m wheelrail schema scenario", says='"properties"'),
     Recipe("python -m wheelrail force run.csv", says="mean"),
     Recipe(
