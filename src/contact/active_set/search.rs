@@ -35,7 +35,7 @@ const MAX_COEFFICIENTS: usize = 150;
 /// iterate before \[rad]. It tilts the gap by less than a tenth of a nanometre; ordinary steps differ by 4e-10.
 const ANGLE_TOLERANCE: f64 = 1e-8;
 /// Largest moment that may be missing with the lever arms of the last iterate, over nominal load times radius \[1].
-const MOMENT_TOLERANCE: f64 = 1e-9;
+const MOMENT_TOLERANCE: f64 = 2e-8;
 /// Change of the force of retarded layers in the last iteration that counts as none, over the nominal load \[1].
 const RETARDED_TOLERANCE: f64 = 1e-7;
 
