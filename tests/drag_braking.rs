@@ -177,3 +177,29 @@ fn the_command_line_brakes_for_34_minutes_in_steps_of_minutes() {
     assert!((250.0..450.0).contains(&celsius(minute)));
     assert!(((minute - second) / (second - 293.0)).abs() < 0.01);
 }
+
+/// Steel so hot yields, and its pressure moves the lever arms of the moment in every step.
+#[test]
+fn long_steps_on_hot_yielding_steel_keep_their_energy() {
+    let (power, step) = (65e3, 10.0);
+    let mut config = preset("railway", 10);
+    (config.initial.velocity, config.tuning.max_step, config.thermal.wheel_excess) = (SPEED, 500.0, 655.0);
+    let radius = config.wheel.radius;
+    let mut inputs = Inputs::rolling(&config);
+    (inputs.translation, inputs.rotation) = (Translation::Velocity, Rotation::Moment);
+    (inputs.drive.tread_heat, inputs.drive.moment) = (power, -power / (SPEED / radius));
+    let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+    let missing = |o: &Outputs| {
+        o.hub_work + o.thermal_work - o.stored_energy - o.friction_energy - o.damping_energy - o.plastic_energy
+    };
+    let (mut before, mut worst) = (missing(simulation.outputs()), 0.0_f64);
+    for _ in 0..40 {
+        simulation.advance(&inputs, step).unwrap();
+        let now = missing(simulation.outputs());
+        worst = worst.max((now - before).abs());
+        before = now;
+    }
+    let o = simulation.outputs();
+    println!("{worst} J of {} J in a step, {before} J in all; yielded {}", power * step, o.yielded);
+    assert!(o.yielded > 0.9 && worst < 1e-4 * power * step);
+}
