@@ -6,6 +6,8 @@ import shutil
 import sys
 from pathlib import Path
 
+import dask
+import distributed
 import pytest
 
 from wheelrail import compare, sweep_command
@@ -214,6 +216,9 @@ def test_a_scheduler_that_does_not_answer_is_said_within_ten_seconds(folder, cap
     for address, words in unknown.items():
         code, errors = said(capsys, [*MANY, "--out", "elsewhere", "--scheduler", address])
         assert code == 1 and words in errors and "`dask scheduler`" in errors
+    with pytest.raises(ValueError, match="No clients found"):
+        distributed.get_client()
+    assert "scheduler" not in dask.config.config, "what failed here would compute for others in this process"
 
 
 def test_a_track_that_is_shorter_than_the_stop_is_named_and_stops_that_fit_are_kept(folder, capsys, monkeypatch):

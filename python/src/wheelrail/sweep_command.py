@@ -96,11 +96,12 @@ def _client(distributed, options, stack):
             cluster = distributed.LocalCluster(
                 n_workers=options.workers, threads_per_worker=1, dashboard_address=":0", silence_logs=logging.CRITICAL
             )
-        return distributed.Client(stack.enter_context(cluster))
+        return distributed.Client(stack.enter_context(cluster), set_as_default=False)
     address = options.scheduler if "://" in options.scheduler else f"tcp://{options.scheduler}"
     start = "start one with `dask scheduler`, or leave out --scheduler for workers on this machine"
     try:
-        client = distributed.Client(address, timeout=PATIENCE)
+        # Not the default: a client that failed would stay that of everything else in this process that uses dask.
+        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         text = " ".join(str(error).split()) or type(error).__name__
         raise SweepStopped(f"no scheduler answers at {address} within {PATIENCE:g} s ({text}); {start}") from None
