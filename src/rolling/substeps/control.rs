@@ -18,12 +18,17 @@ use super::prediction::Found;
 use crate::config::Tuning;
 use crate::rolling::state::StepControl;
 
-/// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events
-/// are located to twice this time at best.
+/// Internal step that errors alone do not halve any further at tolerances of [`TOLERANCE`] and more [s]: forces may
+/// jump, with the friction coefficient. Events are located to twice this time at best. Errors go with the square of the
+/// step, and this step with the root of a finer tolerance.
 const FINEST: f64 = 1e-5;
 /// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or
 /// ends somewhere within, and its energy errs by what it does on the way of the whole step.
 const STRIKE: f64 = 2e-6;
+/// Tolerance \[1] below which shorter steps than [`FINEST`] and [`STRIKE`] are taken, and the shortest of them over
+/// those \[1].
+const TOLERANCE: f64 = 2e-3;
+const SHORTEST: f64 = 0.1;
 /// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of
 /// remembered ones that doubles [`FINEST`]; twice as many make it five times as long. The shortest steps fall from
 /// sixty in a millisecond to some six if they go on.
@@ -84,6 +89,7 @@ impl<'a> Control<'a> {
         }
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
         let finest = if found.strikes { STRIKE } else { FINEST };
+        let finest = finest * (tolerance / TOLERANCE).sqrt().clamp(SHORTEST, 1.0);
         let finest = finest * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
         let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
         let overheats = found.overheats && dt > 2.0 * OVERHEATED;
