@@ -200,7 +200,7 @@ fn breaking_loose_and_catching_again_are_located_independently_of_the_communicat
     }
 }
 
-/// Contact forces \[N] after each millisecond of 60, while the load jumps at the given times [ms] to shares of the nominal
+/// Contact forces \[N] after each millisecond of 40, while the load jumps at the given times [ms] to shares of the nominal
 /// one, and the largest error of the force that the warning of missing energy told meanwhile.
 fn shaken(name: &str, tolerance: f64, max_step: f64, jumps: &[(usize, f64)]) -> (Vec<f64>, f64) {
     let mut config = shipped(name);
@@ -209,7 +209,7 @@ fn shaken(name: &str, tolerance: f64, max_step: f64, jumps: &[(usize, f64)]) -> 
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     let mut told = 0.0f64;
-    let forces = (0..60).map(|k| {
+    let forces = (0..40).map(|k| {
         if let Some((_, share)) = jumps.iter().find(|(time, _)| *time == k) {
             inputs.drive.load = share * model.config().model.nominal_load;
         }
@@ -229,7 +229,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn after_jumps_of_the_load_the_force_of_a_wheel_on_the_rail_errs_by_less_than_the_warning_says() {
-    let (doubled, changed): (&[_], &[_]) = (&[(5, 2.0)], &[(5, 0.8), (25, 1.2)]);
+    let (doubled, changed): (&[_], &[_]) = (&[(5, 2.0)], &[(5, 0.8), (20, 1.2)]);
     let plane = ["paper_a", "paper_b", "paper_c", "paper_d", "railway"].map(|name| (name, vec![doubled, changed]));
     for (name, courses) in plane.into_iter().chain([("railway_ellipse", vec![changed])]) {
         for jumps in courses {
