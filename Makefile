@@ -100,8 +100,8 @@ test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
-	$(WRAPPED) CARGO=$(CARGO) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave
-	$(WRAPPED) CARGO=$(CARGO) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
+	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave
+	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
