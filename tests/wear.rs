@@ -99,8 +99,11 @@ fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
     assert!((first[19].contact_force_x / off[39].contact_force_x - 1.0).abs() < 1e-3);
 }
 
+/// A wheel after its slide, and what it was given.
+type Slide = (Simulation, Inputs);
+
 /// A wheel that slides 2 m with severe wear, eight times as fast as that of the tests, so that it grinds a flat.
-fn slide(elements: usize, step: f64) -> (Simulation, Inputs) {
+fn slide(elements: usize, step: f64) -> Slide {
     let mut config = wearing(elements);
     config.damage.wear_severe *= 8.0;
     config.tuning.max_step = step;
@@ -222,25 +225,22 @@ fn read_off(text: &str) -> [f64; 2] {
     [ends[1] - ends[0], -tread[lowest][1]]
 }
 
+/// A wheel that yields, locked at 60 km/h for 0.4 s.
+fn soften(name: &str) -> Slide {
+    let model = model(preset(name, 6));
+    let mut inputs = prescribed(&model, 60.0 / 3.6, 0.0);
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    inputs.drive.omega = 0.0;
+    run(&mut simulation, &inputs, 2e-3, 200);
+    (simulation, inputs)
+}
+
 /// Locked wheels get a flat by wear, and by yielding of hot steel on a line and on the middle line of a patch. Its
 /// length is what one reads off the profile that is saved, within the distance of samples there, and stays when the wheel rolls on.
 #[test]
 fn the_flat_of_a_locked_wheel_is_as_long_as_its_saved_profile_shows() {
-    let worn = || slide(6, 1e-3);
-    let soft = |name: &'static str| {
-        move || {
-            let model = model(preset(name, 6));
-            let mut inputs = prescribed(&model, 60.0 / 3.6, 0.0);
-            let mut simulation = Simulation::new(model, &inputs).unwrap();
-            inputs.drive.omega = 0.0;
-            run(&mut simulation, &inputs, 2e-3, 200);
-            (simulation, inputs)
-        }
-    };
-    let cases: [(&str, Box<dyn Fn() -> (Simulation, Inputs)>); 3] =
-        [("worn", Box::new(worn)), ("soft", Box::new(soft("railway"))), ("patch", Box::new(soft("railway_ellipse")))];
-    for (case, locked) in cases {
-        let (mut simulation, mut inputs) = locked();
+    let slides = [slide(6, 1e-3), soften("railway"), soften("railway_ellipse")];
+    for (case, (mut simulation, mut inputs)) in ["worn", "soft", "patch"].into_iter().zip(slides) {
         let outputs = simulation.outputs().clone();
         let contact = 2.0 * outputs.contact_half_width;
         let [length, depth] = read_off(&simulation.wheel_profile_file());
