@@ -327,7 +327,7 @@ outputs! {
     810 hub_work: real "energy.hub_work", in "J" as "kJ", nominal 1e5, start zero,
         "Work of the hub forces and the hub moment since the start";
     811 thermal_work: real "energy.thermal_work", in "J" as "kJ", nominal 1e2, start zero,
-        "Work of the wheel that grows with its temperature and lifts its load since the start";
+        "Work of heat since the start: the wheel that grows lifts its load, hot layers swell and pull at the surfaces";
     812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
         "Growth of kinetic and elastic energy, less the work of the centrifugal load, since the start; with friction, damping and solver.energy_residual it \
          balances energy.hub_work + energy.thermal_work + energy.gravity + energy.rail_work";
