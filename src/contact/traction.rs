@@ -147,16 +147,16 @@ impl Traction {
     /// Work of the pull of hot layers on the way of the surfaces since the traction `before`, with the mean of both
     /// pulls [J/m]; 0 where another solver has taken over, on other ports.
     pub fn pull_work(&self, before: &Self) -> f64 {
-        let way = self.surface.iter().zip(&before.surface).zip([1.0, -1.0]).enumerate();
-        let of_body = |(body, ((now, then), sign)): (usize, ((&DVector<f64>, &DVector<f64>), f64))| {
+        let of_body = |body: usize| {
+            let (now, then, sign) = (&self.surface[body], &before.surface[body], [1.0, -1.0][body]);
             if now.len() != then.len() {
                 return 0.0;
             }
             let pull = |traction: &Self, port: usize| traction.loads[body][port] - sign * traction.port_forces[port];
             let mean = |port: usize| 0.5 * (pull(self, port) + pull(before, port));
-            (0..now.len()).map(|port| mean(port) * (now[port] - then[port])).sum()
+            (0..now.len()).map(|port| mean(port) * (now[port] - then[port])).sum::<f64>()
         };
-        way.map(of_body).sum()
+        of_body(0) + of_body(1)
     }
 
     /// Work of the pressure on the whole overlap [J/m].
