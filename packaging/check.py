@@ -94,14 +94,26 @@ def check_linux(binary):
     print(f"linux64: {FUNCTIONS} functions, glibc {newest}, {size / 1e6:.2f} MB, needs {' '.join(sorted(needed))}")
 
 
+def called_functions(headers, code):
+    """Imported functions to whose slot an instruction refers. The linker also imports what only code calls that it leaves out."""
+    base = int(re.search(r"^ImageBase\s+([0-9a-f]+)$", headers, re.MULTILINE)[1], 16)
+    slots = {}
+    for part in re.split(r"\n (?=[0-9a-f]{8}(?:\s+[0-9a-f]{8}){5}\n)", headers)[1:]:
+        first = base + int(part.split("\n")[0].split()[5], 16)
+        names = re.findall(r"^\s+[0-9a-f]+\s+(?:<none>\s+)?[0-9a-f]+\s+(\w+)$", part, re.MULTILINE)
+        slots |= {first + 8 * place: name for place, name in enumerate(names)}
+    referred = {int(address, 16) for address in set(re.findall(r"# (?:0x)?([0-9a-f]+)", code))}
+    return sorted(name for slot, name in slots.items() if slot in referred)
+
+
 def check_windows(binary):
     """Exports, libraries, functions of the system."""
     text = output("x86_64-w64-mingw32-objdump", "-p", binary)
     table = text.split("[Ordinal/Name Pointer] Table")[-1].split("\n\n")[0]
     check_functions(binary, re.findall(r"^\s+\[ *\d+\](?: \+base\[ *\d+\])?(?: +[0-9a-f]{4,8})? (\S+)$", table, re.MULTILINE))
-    imported = re.findall(r"^\s+[0-9a-f]+\s+(?:<none>\s+)?[0-9a-f]+\s+(\w+)$", text, re.MULTILINE)
-    require(imported, f"{binary} imports no function: is it a library?")
-    check_mathematics(binary, imported)
+    called = called_functions(text, output("x86_64-w64-mingw32-objdump", "-d", "--no-show-raw-insn", binary))
+    require("memcpy" in called or "malloc" in called, f"{binary} calls no function of the system: is it a library?")
+    check_mathematics(binary, called)
     needed = {name.lower() for name in re.findall(r"DLL Name: (\S+)", text)}
     others = sorted(name for name in needed if not SYSTEM.fullmatch(name))
     require(needed and not others, f"{binary} needs {others}")

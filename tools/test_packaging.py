@@ -161,6 +161,18 @@ class Folders(unittest.TestCase):
             with self.assertRaisesRegex(SystemExit, name):
                 CHECK.check_mathematics("library", ["malloc", name])
 
+    def test_functions_that_a_dll_imports_and_does_not_call_decide_nothing(self):
+        headers = (
+            "ImageBase\t\t0000000180000000\n\n"
+            " 00880014\t008800e8 00000000 00000000 00881a8c 008806c0\n\n\tDLL Name: msvcrt.dll\n\tvma:  Hint/Ord Member-Name Bound-To\n"
+            "\t8815c2\t 1014  log\n\t8815d0\t 1020  memcpy\n\t8815f0\t 1033  pow\n\n"
+            " 00880028\t00880108 00000000 00000000 00881b00 00880700\n\n\tDLL Name: KERNEL32.dll\n"
+            "\t881600\t<none>\t    3  WaitOnAddress\n\n"
+        )
+        code = "   180001000:\tjmp *0x8806c8(%rip)        # 0x1808806c8\n   180001008:\tcall *0x87(%rip)        # 0x180880700\n"
+        self.assertEqual(CHECK.called_functions(headers, code), ["WaitOnAddress", "memcpy"])
+        self.assertIn("pow", CHECK.called_functions(headers, code + "   180001010:\tjmp *0x87(%rip)        # 1808806d0\n"))
+
 
 if __name__ == "__main__":
     unittest.main()
