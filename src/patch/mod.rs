@@ -8,11 +8,11 @@
 pub mod elliptic;
 pub mod gauss;
 pub mod hertz;
-pub mod k11;
-pub mod mindlin;
 pub mod reach;
 pub mod rows;
+pub mod tiles;
 
 pub use gauss::GaussLine;
 pub use hertz::{Ellipse, Hertz};
 pub use rows::{EquivalentEllipse, PatchRow};
+pub use tiles::Tile;

@@ -151,7 +151,8 @@ impl HalfSpaces {
             false => (nodes, Some(&self.logarithms)),
         };
         let load = [load / WIDTH, LOAD / WIDTH];
-        let step = Step { radius: self.radius, lines: (&layout, logarithms), load, motion, laws };
+        let (lines, flexibility) = ((&layout[..], logarithms), Some(&**self.patch.flexibility()));
+        let step = Step { radius: self.radius, lines, flexibility, load, motion, laws };
         bodies.solve(&self.solver, &step, start)
     }
 

@@ -157,10 +157,10 @@ impl SeriesSolver {
             found.ports = start.ports;
         }
         laws::solve(&self.constants, problem, &begun, |contact| {
-            for (line, found) in contact.lines.iter().zip(&mut *found) {
+            for ((at, line), found) in contact.lines.iter().enumerate().zip(&mut *found) {
                 let ContactState { traction, history, energy, solver, .. } = &mut **found;
                 let SolverState::Series(state) = solver else { continue };
-                *energy = finish::finish(line, state, history, traction);
+                *energy = finish::finish((line, contact.growth(at)), state, history, traction);
             }
         })?;
         for ((line, found), begun) in problem.lines.iter().zip(&*found).zip(&begun) {
