@@ -17,8 +17,9 @@ pub type Powers = [f64; POINTS];
 /// Polynomials by unit moments: displacements, strains or others, one for each power.
 pub type ByMoments = [Powers; POINTS];
 
-/// Places of the rule by which kernels become polynomials: on the lines themselves they have a kink.
-const PLACES: usize = 40;
+/// Places on the displaced line, and on each part of the line of the force, by which kernels become polynomials.
+const DISPLACED: usize = 32;
+const FORCED: usize = 16;
 /// Place over the half-length beyond which displacements of a line stay as they are there \[1].
 pub const BEYOND: f64 = 1.3;
 
@@ -78,28 +79,32 @@ impl PatchFlexibility {
     /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1 m
     /// at which a force of its own no longer displaces it by more than the mean over all lines.
     pub fn new(tiles: &[Tile], mirrored: bool, (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
-        let (rule, factor) = (Rule::new(), 1.0 / (PI * shear_modulus));
-        let logarithm = 2.0 * (1.0 - nu) * factor;
-        let (mut pairs, mut reaches) = (Vec::with_capacity(tiles.len() * tiles.len()), Vec::new());
-        for (line, at) in tiles.iter().enumerate() {
-            let (first, mut reach) = (pairs.len(), 0.0);
-            for of in tiles {
-                let beside = mirrored && of.edges[0] + of.edges[1] > LEAST_OFFSET * of.width();
-                let images = [Some(*of), beside.then(|| of.mirrored())];
-                let mut pair = Between::default();
-                for image in images.into_iter().flatten() {
-                    rule.add([at, of], factor, |x| at.displaced_by(image, x, nu), &mut pair);
-                }
-                reach += mean(&pair.displacement) / logarithm;
-                pairs.push(pair);
+        let (projection, factor, count) = (Projection::new(), 1.0 / (PI * shear_modulus), tiles.len());
+        let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
+        let mut pairs = vec![Between::default(); count * count];
+        for (pair, (at, of)) in pairs.iter_mut().zip(tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of)))) {
+            for image in [Some(*of), beside(of).then(|| of.mirrored())].into_iter().flatten() {
+                projection.add([at, of], factor, |x| at.displaced_by(image, x, nu), pair);
             }
-            // A constant displacement may belong to the logarithm as well.
-            let own = &mut pairs[first + line];
-            own.displacement[0][0] -= logarithm * reach;
-            own.growth[0][0] += 0.5 * logarithm * reach;
-            reaches.push(reach);
         }
-        (Self { lines: tiles.len(), pairs }, reaches)
+        let width = |tile: &Tile| if beside(tile) { 2.0 * tile.width() } else { tile.width() };
+        for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
+            let [mut first, mut second] = [pairs[i * count + j], pairs[j * count + i]];
+            let of = [&tiles[i], &tiles[j]];
+            reconcile([&mut first, &mut second], of.map(width), of.map(|tile| tile.half_length));
+            (pairs[i * count + j], pairs[j * count + i]) = (first, second);
+        }
+        // A constant displacement may belong to the logarithm as well.
+        let logarithm = 2.0 * (1.0 - nu) * factor;
+        let reaches = (0..count).map(|line| {
+            let reach =
+                pairs[line * count..][..count].iter().map(|pair| mean(&pair.displacement)).sum::<f64>() / logarithm;
+            pairs[line * (count + 1)].displacement[0][0] -= logarithm * reach;
+            pairs[line * (count + 1)].growth[0][0] += 0.5 * logarithm * reach;
+            reach
+        });
+        let reaches = reaches.collect();
+        (Self { lines: count, pairs }, reaches)
     }
 
     /// What forces of a line `by` do to a line `at`.
@@ -166,43 +171,69 @@ impl InPatch<'_> {
     }
 }
 
-/// Quadrature on [−1, 1], and the weights that make polynomials of the values: the orthogonal projection.
-struct Rule {
-    places: Vec<f64>,
-    /// By power.
-    weights: [Vec<f64>; POINTS],
+/// Quadrature by which kernels become polynomials: the orthogonal projection on both lines. Kernels have a kink where
+/// places agree, about as wide as the lines: the integral over the line of the force is divided there, with places that
+/// become denser towards it.
+struct Projection {
+    displaced: Vec<GaussLine>,
+    forced: Vec<GaussLine>,
 }
 
-impl Rule {
+impl Projection {
     fn new() -> Self {
-        let rule = gauss::rule(PLACES);
-        let weight = |k: usize, line: &GaussLine| {
-            let term = |n: usize| (n as f64 + 0.5) * LEGENDRE[n][k] * value(&LEGENDRE[n], line.ordinate);
-            line.weight * (0..POINTS).map(term).sum::<f64>()
-        };
-        let weights = std::array::from_fn(|k| rule.iter().map(|line| weight(k, line)).collect());
-        Self { places: rule.iter().map(|line| line.ordinate).collect(), weights }
+        Self { displaced: gauss::rule(DISPLACED), forced: gauss::rule(FORCED) }
     }
 
     /// Adds the projection of `factor` times a kernel between two lines.
     fn add(&self, [at, of]: [&Tile; 2], factor: f64, kernel: impl Fn(f64) -> Influence, sum: &mut Between) {
-        for (q, t) in self.places.iter().enumerate() {
-            // Along the line of the force first.
+        for line in &self.displaced {
+            let (x, weights) = (at.half_length * line.ordinate, dual(line.ordinate));
+            let middle = (x / of.half_length).clamp(-1.0, 1.0);
             let mut rows = [[0.0; 3]; POINTS];
-            for (r, s) in self.places.iter().enumerate() {
-                let Influence { displacement, strain, growth } = kernel(at.half_length * t - of.half_length * s);
-                let values = [displacement, strain * at.half_length, growth];
-                for (row, weights) in rows.iter_mut().zip(&self.weights) {
-                    row.iter_mut().zip(values).for_each(|(row, value)| *row += factor * weights[r] * value);
+            for (end, line) in
+                [-1.0, 1.0].iter().flat_map(|end| self.forced.iter().map(move |line| (end - middle, line)))
+            {
+                let u = 0.5 * (1.0 + line.ordinate);
+                let (t, weight) = (middle + end * u * u, factor * line.weight * end.abs() * u);
+                let Influence { displacement, strain, growth } = kernel(x - of.half_length * t);
+                for (row, dual) in rows.iter_mut().zip(dual(t)) {
+                    let values = [displacement, strain * at.half_length, growth];
+                    row.iter_mut().zip(values).for_each(|(row, value)| *row += weight * dual * value);
                 }
             }
             for (n, row) in rows.iter().enumerate() {
-                for (k, weights) in self.weights.iter().enumerate() {
-                    sum.displacement[n][k] += weights[q] * row[0];
-                    sum.strain[n][k] += weights[q] * row[1];
-                    sum.growth[n][k] += weights[q] * row[2];
+                for (k, weight) in weights.iter().map(|weight| line.weight * weight).enumerate() {
+                    sum.displacement[n][k] += weight * row[0];
+                    sum.strain[n][k] += weight * row[1];
+                    sum.growth[n][k] += weight * row[2];
                 }
             }
+        }
+    }
+}
+
+/// Polynomials whose products with a function integrate to the coefficients of its projection, at a place.
+fn dual(t: f64) -> Powers {
+    let mut sum = Powers::default();
+    for (n, legendre) in LEGENDRE.iter().enumerate() {
+        let factor = (n as f64 + 0.5) * value(legendre, t);
+        sum.iter_mut().zip(legendre).for_each(|(sum, c)| *sum += factor * c);
+    }
+    sum
+}
+
+/// Makes tables of two lines that displace each other, which stand for the given widths, obey Betti's theorem to
+/// round-off: displacements symmetric, strains antisymmetric.
+fn reconcile([first, second]: [&mut Between; 2], widths: [f64; 2], lengths: [f64; 2]) {
+    for n in 0..POINTS {
+        for k in 0..POINTS {
+            let [there, back] = [widths[0] * first.displacement[n][k], widths[1] * second.displacement[k][n]];
+            let mean = 0.5 * (there + back);
+            (first.displacement[n][k], second.displacement[k][n]) = (mean / widths[0], mean / widths[1]);
+            let scales = [widths[0] / lengths[0], widths[1] / lengths[1]];
+            let [there, back] = [scales[0] * first.strain[n][k], scales[1] * second.strain[k][n]];
+            let mean = 0.5 * (there - back);
+            (first.strain[n][k], second.strain[k][n]) = (mean / scales[0], -mean / scales[1]);
         }
     }
 }

@@ -23,8 +23,8 @@ pub mod solver;
 pub mod traction;
 
 pub use error::ContactError;
-pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use flexibility::{InPatch, PatchFlexibility};
+pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;

@@ -99,7 +99,9 @@ mod tests {
 
     #[test]
     fn a_tile_is_displaced_as_the_integral_over_point_forces_says() {
-        for (at, of) in [(tile(-1.0, 0.5), tile(-1.0, 0.5)), (tile(0.5, 1.0), tile(-1.0, 0.5)), (tile(0.2, 1.0), tile(3.0, 5.0))] {
+        for (at, of) in
+            [(tile(-1.0, 0.5), tile(-1.0, 0.5)), (tile(0.5, 1.0), tile(-1.0, 0.5)), (tile(0.2, 1.0), tile(3.0, 5.0))]
+        {
             for x in [0.1, -0.7, 4.0_f64] {
                 let own = if at == of { -2.0 * (1.0 - NU) * x.abs().ln() } else { 0.0 };
                 let (found, exact) = (at.displaced_by(of, x, NU).displacement + own, integral(at, of, x));
@@ -122,7 +124,9 @@ mod tests {
     #[test]
     fn derivatives_by_place_and_size_are_those_of_differences() {
         let step = 1e-5;
-        for (at, of) in [(tile(-0.5, 0.7), tile(-0.5, 0.7)), (tile(0.7, 1.0), tile(-0.5, 0.7)), (tile(0.7, 1.0), tile(1.0, 1.4))] {
+        for (at, of) in
+            [(tile(-0.5, 0.7), tile(-0.5, 0.7)), (tile(0.7, 1.0), tile(-0.5, 0.7)), (tile(0.7, 1.0), tile(1.0, 1.4))]
+        {
             for x in [0.2, -0.6_f64] {
                 let found = at.displaced_by(of, x, NU);
                 let by_place = [x + step, x - step].map(|x| at.displaced_by(of, x, NU).displacement);

@@ -11,8 +11,8 @@ use super::thermal_state::ThermalDeformation;
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch, LineLayout,
-    LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch,
+    LineLayout, LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;

@@ -89,7 +89,13 @@ impl PatchLines {
     /// Lines with given shares of the width and one flexibility.
     pub fn constant(shares: &[f64], kernel: LineKernel) -> Self {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
-        Self::Constant { lines: shares.iter().map(layout).collect(), symmetric: false, centre: 0.0, gaps: Vec::new(), flexibility: None }
+        Self::Constant {
+            lines: shares.iter().map(layout).collect(),
+            symmetric: false,
+            centre: 0.0,
+            gaps: Vec::new(),
+            flexibility: None,
+        }
     }
 
     /// Number of lines.

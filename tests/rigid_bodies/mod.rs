@@ -62,8 +62,14 @@ impl RigidBodies {
         step: &Step,
         start: &[ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
-        let Step { radius, lines: (layout, logarithms), load: [load, nominal_load], motion, laws: (time, friction), flexibility } =
-            *step;
+        let Step {
+            radius,
+            lines: (layout, logarithms),
+            load: [load, nominal_load],
+            motion,
+            laws: (time, friction),
+            flexibility,
+        } = *step;
         let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
         let line = |(line, layout): (usize, &LineLayout)| LineProblem {

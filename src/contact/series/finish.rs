@@ -80,7 +80,9 @@ fn expansion(line: &SeriesLine) -> f64 {
 fn remember(
     (line, growth): (&SeriesLine, Powers),
     force: &[f64; POWER],
-    state: &mut SeriesState, history: &mut LineHistory) -> [f64; 2] {
+    state: &mut SeriesState,
+    history: &mut LineHistory,
+) -> [f64; 2] {
     let time = &line.problem.line.time;
     (state.tractions, state.kernel) = (line.tractions, line.problem.line.kernel);
     let now = Past::Patch(PatchPast {

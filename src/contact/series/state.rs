@@ -140,12 +140,7 @@ impl Past {
 
     /// Displacement at x \[m]; `kernel` of one half-plane [m/(N/m)]. It is carried on by the line with the given share of
     /// the width; `None`: by one like that which had it.
-    pub fn at<const N: usize>(
-        &self,
-        x: &[f64; N],
-        (kernel, share): (f64, Option<f64>),
-        points: &Lagrange,
-    ) -> [f64; N] {
+    pub fn at<const N: usize>(&self, x: &[f64; N], (kernel, share): (f64, Option<f64>), points: &Lagrange) -> [f64; N] {
         match self {
             Past::Patch(past) => {
                 let carried = share.map_or(1.0, |share| past.carried(share));

@@ -103,8 +103,7 @@ impl SeriesLine<'_> {
     /// Moments of the traction `√((1 − t)/(1 + t))` with the powers, by the rule of Gauss and Chebyshev \[m].
     fn root_moments(&self) -> Powers {
         let Arch { centre, half_width: half, .. } = self.tractions.stick;
-        let places: [f64; ROOT_PLACES] =
-            std::array::from_fn(|q| libm::cos((q as f64 + 0.5) * PI / ROOT_PLACES as f64));
+        let places: [f64; ROOT_PLACES] = std::array::from_fn(|q| libm::cos((q as f64 + 0.5) * PI / ROOT_PLACES as f64));
         let weights = places.map(|t| PI / ROOT_PLACES as f64 * half * (1.0 - self.upstream() * t));
         let powers = self.powers_at(&places.map(|t| centre + half * t));
         powers.map(|power| power.iter().zip(&weights).map(|(power, weight)| power * weight).sum())
