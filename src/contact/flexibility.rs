@@ -8,25 +8,25 @@
 
 use crate::linalg::POINTS;
 use crate::patch::gauss::{self, GaussLine};
-use crate::patch::tiles::{Influence, Tile};
+use crate::patch::tiles::{Tile, TileInfluence};
 use std::f64::consts::PI;
 
 /// A polynomial by powers of the place over the half-length of a line, or moments of forces with these powers [N/m].
-pub type Powers = [f64; POINTS];
+pub type ByPowers = [f64; POINTS];
 
 /// Polynomials by unit moments: displacements, strains or others, one for each power.
-pub type ByMoments = [Powers; POINTS];
+pub type ByMoments = [ByPowers; POINTS];
 
 /// Places on the displaced line, and on each part of the line of the force, by which kernels become polynomials.
 const DISPLACED: usize = 32;
 const FORCED: usize = 16;
-/// Place over the half-length beyond which displacements of a line stay as they are there \[1].
-pub const BEYOND: f64 = 1.3;
+/// Length beyond the ends of a line, over its half-length, on which the effect of the patch fades out \[1].
+const FADING: f64 = 0.5;
 
 /// Offset of a strip from the middle over its width beyond which it has a mirror image \[1].
 const LEAST_OFFSET: f64 = 1e-9;
 /// Coefficients of Legendre's polynomials by powers.
-const LEGENDRE: [Powers; POINTS] = [
+const LEGENDRE: [ByPowers; POINTS] = [
     [1.0, 0.0, 0.0, 0.0, 0.0],
     [0.0, 1.0, 0.0, 0.0, 0.0],
     [-0.5, 0.0, 1.5, 0.0, 0.0],
@@ -46,13 +46,13 @@ pub struct Between {
     pub growth: ByMoments,
 }
 
-/// What the forces of a patch do to one of its lines.
+/// Displacement and strain of one line by the forces of all lines of its patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Field {
     /// Displacement of the wheel less that of the rail \[m].
-    pub displacement: Powers,
+    pub displacement: ByPowers,
     /// Its strain times the half-length of the line \[m].
-    pub strain: Powers,
+    pub strain: ByPowers,
 }
 
 /// Flexibility of all lines of a patch.
@@ -79,7 +79,7 @@ impl PatchFlexibility {
     /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1 m
     /// at which a force of its own no longer displaces it by more than the mean over all lines.
     pub fn new(tiles: &[Tile], mirrored: bool, (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
-        let (projection, factor, count) = (Projection::new(), 1.0 / (PI * shear_modulus), tiles.len());
+        let (projection, factor, count) = (LegendreProjection::new(), 1.0 / (PI * shear_modulus), tiles.len());
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
         let mut pairs = vec![Between::default(); count * count];
         for (pair, (at, of)) in pairs.iter_mut().zip(tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of)))) {
@@ -107,7 +107,7 @@ impl PatchFlexibility {
         (Self { lines: count, pairs }, reaches)
     }
 
-    /// What forces of a line `by` do to a line `at`.
+    /// Effect of the forces of a line `by` on a line `at`.
     pub fn between(&self, at: usize, by: usize) -> &Between {
         &self.pairs[at * self.lines + by]
     }
@@ -116,10 +116,10 @@ impl PatchFlexibility {
     pub fn sum<'a>(
         &self,
         at: usize,
-        moments: impl IntoIterator<Item = &'a Powers>,
+        moments: impl IntoIterator<Item = &'a ByPowers>,
         of: impl Fn(&Between) -> &ByMoments,
-    ) -> Powers {
-        let mut sum = Powers::default();
+    ) -> ByPowers {
+        let mut sum = ByPowers::default();
         for (by, moments) in moments.into_iter().enumerate() {
             add(of(self.between(at, by)), moments, &mut sum);
         }
@@ -128,20 +128,37 @@ impl PatchFlexibility {
 }
 
 /// Adds the polynomial that belongs to moments.
-pub fn add(by_moments: &ByMoments, moments: &Powers, sum: &mut Powers) {
+pub fn add(by_moments: &ByMoments, moments: &ByPowers, sum: &mut ByPowers) {
     for (by_moment, moment) in by_moments.iter().zip(moments) {
         sum.iter_mut().zip(by_moment).for_each(|(sum, by)| *sum += by * moment);
     }
 }
 
 /// Value at the place t of a polynomial.
-pub fn value(polynomial: &Powers, t: f64) -> f64 {
+pub fn value(polynomial: &ByPowers, t: f64) -> f64 {
     polynomial.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
+/// Powers of the place t. Beyond the ends of the line those at the ends fade out: polynomials grow there without bound,
+/// and would push a longer patch up by its own forces.
+pub fn powers(t: f64) -> ByPowers {
+    let beyond = ((t.abs() - 1.0) / FADING).clamp(0.0, 1.0);
+    let (mut power, t) = (1.0 - beyond * beyond * (3.0 - 2.0 * beyond), t.clamp(-1.0, 1.0));
+    std::array::from_fn(|_| {
+        let now = power;
+        power *= t;
+        now
+    })
+}
+
+/// Value of a polynomial, given the powers of the place.
+pub fn at(polynomial: &ByPowers, powers: &ByPowers) -> f64 {
+    polynomial.iter().zip(powers).map(|(c, power)| c * power).sum()
+}
+
 impl Between {
-    /// What forces with given moments do.
-    pub fn field(&self, moments: &Powers) -> Field {
+    /// Field of forces with given moments.
+    pub fn field(&self, moments: &ByPowers) -> Field {
         let mut field = Field::default();
         add(&self.displacement, moments, &mut field.displacement);
         add(&self.strain, moments, &mut field.strain);
@@ -152,40 +169,40 @@ impl Between {
 impl Field {
     /// Slip [m/s] as a polynomial, given the weight of a displacement in its rate [1/s] and the sum of the speeds of both
     /// surfaces [m/s], half of which carries the strain.
-    pub fn slip(&self, [rate, speed]: [f64; 2], half_length: f64) -> Powers {
+    pub fn slip(&self, [rate, speed]: [f64; 2], half_length: f64) -> ByPowers {
         let by_strain = -0.5 * speed / half_length;
         std::array::from_fn(|k| rate * self.displacement[k] + by_strain * self.strain[k])
     }
 }
 
 impl InPatch<'_> {
-    /// What the forces of all lines with the given moments do to this one.
-    pub fn field<'a>(&self, moments: impl Iterator<Item = &'a Powers> + Clone) -> Field {
+    /// Field of the forces of all lines with the given moments on this one.
+    pub fn field<'a>(&self, moments: impl Iterator<Item = &'a ByPowers> + Clone) -> Field {
         let sum = |of: fn(&Between) -> &ByMoments| self.flexibility.sum(self.line, moments.clone(), of);
         Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) }
     }
 
-    /// Place over the half-length of the line \[1]; those far beyond its ends count as one not so far.
-    pub fn place(&self, x: f64) -> f64 {
-        (x / self.half_length).clamp(-BEYOND, BEYOND)
+    /// Powers of a place on the line, see [`powers`].
+    pub fn powers(&self, x: f64) -> ByPowers {
+        powers(x / self.half_length)
     }
 }
 
 /// Quadrature by which kernels become polynomials: the orthogonal projection on both lines. Kernels have a kink where
 /// places agree, about as wide as the lines: the integral over the line of the force is divided there, with places that
 /// become denser towards it.
-struct Projection {
+struct LegendreProjection {
     displaced: Vec<GaussLine>,
     forced: Vec<GaussLine>,
 }
 
-impl Projection {
+impl LegendreProjection {
     fn new() -> Self {
         Self { displaced: gauss::rule(DISPLACED), forced: gauss::rule(FORCED) }
     }
 
     /// Adds the projection of `factor` times a kernel between two lines.
-    fn add(&self, [at, of]: [&Tile; 2], factor: f64, kernel: impl Fn(f64) -> Influence, sum: &mut Between) {
+    fn add(&self, [at, of]: [&Tile; 2], factor: f64, kernel: impl Fn(f64) -> TileInfluence, sum: &mut Between) {
         for line in &self.displaced {
             let (x, weights) = (at.half_length * line.ordinate, dual(line.ordinate));
             let middle = (x / of.half_length).clamp(-1.0, 1.0);
@@ -195,7 +212,7 @@ impl Projection {
             {
                 let u = 0.5 * (1.0 + line.ordinate);
                 let (t, weight) = (middle + end * u * u, factor * line.weight * end.abs() * u);
-                let Influence { displacement, strain, growth } = kernel(x - of.half_length * t);
+                let TileInfluence { displacement, strain, growth } = kernel(x - of.half_length * t);
                 for (row, dual) in rows.iter_mut().zip(dual(t)) {
                     let values = [displacement, strain * at.half_length, growth];
                     row.iter_mut().zip(values).for_each(|(row, value)| *row += weight * dual * value);
@@ -213,8 +230,8 @@ impl Projection {
 }
 
 /// Polynomials whose products with a function integrate to the coefficients of its projection, at a place.
-fn dual(t: f64) -> Powers {
-    let mut sum = Powers::default();
+fn dual(t: f64) -> ByPowers {
+    let mut sum = ByPowers::default();
     for (n, legendre) in LEGENDRE.iter().enumerate() {
         let factor = (n as f64 + 0.5) * value(legendre, t);
         sum.iter_mut().zip(legendre).for_each(|(sum, c)| *sum += factor * c);
@@ -241,6 +258,70 @@ fn reconcile([first, second]: [&mut Between; 2], widths: [f64; 2], lengths: [f64
 /// Mean over a line of its displacement by a unit force that is spread over the other one.
 fn mean(displacement: &ByMoments) -> f64 {
     let of_power = |k: usize| if k.is_multiple_of(2) { 1.0 / (k + 1) as f64 } else { 0.0 };
-    let of_moment = |by: &Powers| by.iter().enumerate().map(|(k, by)| of_power(k) * by).sum::<f64>();
+    let of_moment = |by: &ByPowers| by.iter().enumerate().map(|(k, by)| of_power(k) * by).sum::<f64>();
     displacement.iter().enumerate().map(|(n, by)| of_power(n) * of_moment(by)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEEL: (f64, f64) = (81e9, 0.3);
+
+    /// Strips beside each other, `scale` times as large as millimetres.
+    fn strips(scale: f64) -> Vec<Tile> {
+        let edges = [0.0, 1.0, 3.0, 4.5].map(|z| z * scale);
+        let tile =
+            |(pair, half_length): (&[f64], f64)| Tile { edges: [pair[0], pair[1]], half_length: half_length * scale };
+        edges.windows(2).zip([6.0, 5.0, 3.0]).map(tile).collect()
+    }
+
+    /// Betti: a displacement by the forces of another line does the same work as theirs on that by the own ones, and forces
+    /// do none on the strains that they cause together.
+    #[test]
+    fn works_of_two_lines_on_each_other_are_the_same_and_a_load_moves_along_without_work() {
+        let tiles = strips(1e-3);
+        for mirrored in [false, true] {
+            let (patch, _) = PatchFlexibility::new(&tiles, mirrored, STEEL);
+            let width = |k: usize| tiles[k].width() * if mirrored { 2.0 } else { 1.0 };
+            let forces = [[1.0, 0.3, -0.2, 0.5, 0.1], [0.4, -1.0, 0.7, 0.2, -0.3], [2.0, 0.1, 0.1, -0.6, 0.8]];
+            let work = |k: usize, field: &ByPowers| -> f64 { forces[k].iter().zip(field).map(|(f, c)| f * c).sum() };
+            let mut moved = 0.0;
+            for (k, tile) in tiles.iter().enumerate() {
+                for j in 0..tiles.len() {
+                    let [there, back] = [patch.between(k, j).field(&forces[j]), patch.between(j, k).field(&forces[k])];
+                    let works = [width(k) * work(k, &there.displacement), width(j) * work(j, &back.displacement)];
+                    assert!((works[0] - works[1]).abs() < 1e-12 * works[0].abs() + 1e-26, "{works:?}");
+                    moved += width(k) * work(k, &there.strain) / tile.half_length;
+                }
+            }
+            assert!(moved.abs() < 1e-23, "{moved:e}");
+        }
+    }
+
+    #[test]
+    fn tables_are_the_same_for_patches_of_every_size() {
+        let [(small, reaches), (large, others)] = [1e-3, 2e-3].map(|s| PatchFlexibility::new(&strips(s), true, STEEL));
+        for (a, b) in small.pairs.iter().zip(&large.pairs) {
+            for (a, b) in [(a.displacement, b.displacement), (a.strain, b.strain), (a.growth, b.growth)] {
+                let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-23;
+                assert!(a.as_flattened().iter().zip(b.as_flattened()).all(same));
+            }
+        }
+        assert!(reaches.iter().zip(others).all(|(a, b)| (a + 2.0_f64.ln() - b).abs() < 1e-9));
+    }
+
+    /// Displacement of a wide strip in its middle, far from its sides: that of the plane, in which only the distance at
+    /// which a logarithm ends is the width's.
+    #[test]
+    fn a_wide_strip_is_displaced_as_the_plane() {
+        let tile = Tile { edges: [-1.0, 1.0], half_length: 1e-3 };
+        let (patch, reaches) = PatchFlexibility::new(&[tile], false, STEEL);
+        let rest = patch.between(0, 0).field(&[1.0, 0.0, 0.0, 0.0, 0.0]);
+        let logarithm = 2.0 * (1.0 - STEEL.1) / (PI * STEEL.0);
+        // `asinh(w/|x|) − (1 − 2ν)/(1 − ν)` for a width w = 2.
+        let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.1) / (1.0 - STEEL.1);
+        assert!((reaches[0] - reach).abs() < 1e-3);
+        assert!(rest.displacement.iter().all(|c| c.abs() < 1e-3 * logarithm), "{rest:?}");
+    }
 }

@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// with which they are too soft.
 pub const LEAST: f64 = 0.1;
 
+/// Length of lines that stay over that under their load on which they feel each other's tangential forces \[1].
+const ROOM: f64 = 1.5;
+
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LineLayout {
@@ -74,6 +77,10 @@ pub struct PatchLayout {
     tangential: Vec<Logarithm>,
     /// What else its lines feel of each other's tangential forces.
     flexibility: Arc<PatchFlexibility>,
+    /// Lengths of the lines on which they do, over those under the load of the description \[1].
+    room: f64,
+    /// Shear modulus \[Pa] and Poisson's ratio \[1].
+    elastic: (f64, f64),
     /// Strain of the surface under the pressure of every line [1/Pa].
     couplings: Vec<f64>,
 }
@@ -134,7 +141,7 @@ impl PatchLayout {
         let patches = || rows::patches(&rows).zip(shapes);
         let coupling = |shape: &EquivalentEllipse| material.half_plane.coupling * shape.b / (shape.a + shape.b);
         let elastic = (material.shear_modulus, material.poissons_ratio);
-        let (flexibility, reaches) = PatchFlexibility::new(&tiles(&rows, symmetric), symmetric, elastic);
+        let (flexibility, reaches) = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, elastic);
         let factor = material.half_plane.kernel;
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
@@ -147,9 +154,20 @@ impl PatchLayout {
             width,
             tangential: reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect(),
             flexibility: Arc::new(flexibility),
+            room: 1.0,
+            elastic,
             couplings: patches().flat_map(|(rows, shape)| std::iter::repeat_n(coupling(shape), rows.len())).collect(),
             rows,
         }
+    }
+
+    /// With room on its lines for patches that are longer than under the load of the description, as those on surfaces
+    /// with profiles are.
+    pub fn with_room(self) -> Self {
+        let (rows, symmetric) = (&self.rows, self.symmetric);
+        let (flexibility, reaches) = PatchFlexibility::new(&tiles(rows, symmetric, ROOM), symmetric, self.elastic);
+        let tangential = self.tangential.iter().zip(reaches).map(|(along, reach)| Logarithm { reach, ..*along });
+        Self { tangential: tangential.collect(), flexibility: Arc::new(flexibility), room: ROOM, ..self }
     }
 
     /// True if lines beside the middle stand for a symmetric pair.
@@ -229,7 +247,7 @@ impl PatchLayout {
         LineLayout {
             ordinate: position / (scale * self.lateral),
             share: width / self.width,
-            half_length,
+            half_length: self.room * half_length,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
                 tangential: Logarithm { reach: along.reach + libm::log(scale), ..along },
@@ -243,13 +261,13 @@ impl PatchLayout {
 
 /// Strips for which rows stand, about the centre of load. Those of a symmetric patch, from the middle on, lie side by
 /// side; others keep their gaps, with the mean of their positions.
-fn tiles(rows: &[PatchRow], symmetric: bool) -> Vec<Tile> {
+fn tiles(rows: &[PatchRow], symmetric: bool, room: f64) -> Vec<Tile> {
     let (mut tiles, mut low) = (Vec::with_capacity(rows.len()), 0.0);
     for row in rows {
         let alone = symmetric && row.position == 0.0;
         let width = if symmetric && !alone { 0.5 * row.width } else { row.width };
         low = if alone { -0.5 * width } else { low + row.gap };
-        tiles.push(Tile { edges: [low, low + width], half_length: row.half_length });
+        tiles.push(Tile { edges: [low, low + width], half_length: room * row.half_length });
         low += width;
     }
     if !symmetric {

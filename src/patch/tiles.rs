@@ -24,7 +24,7 @@ pub struct Tile {
 /// Displacement of a tile by a unit force per width on another one at a distance x, times `πG` \[1], and what follows
 /// from it. Of a tile's own displacement the logarithm `2 (1 − ν) ln(1/|x|)` is left out, lengths in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Influence {
+pub struct TileInfluence {
     /// The displacement \[1].
     pub displacement: f64,
     /// Its derivative by x [1/m].
@@ -50,8 +50,8 @@ impl Tile {
     }
 
     /// Its displacement by a force on the tile `of` at the distance x \[m] on half-spaces with Poisson's ratio ν \[1].
-    pub fn displaced_by(self, of: Self, x: f64, nu: f64) -> Influence {
-        let (own, mut sum) = (self == of, Influence::default());
+    pub fn displaced_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
+        let (own, mut sum) = (self == of, TileInfluence::default());
         let logarithm = libm::log(x.abs().max(LEAST));
         for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
             for (there, sign) in of.edges.into_iter().zip([at, -at]) {
@@ -71,7 +71,7 @@ impl Tile {
         }
         let width = self.width();
         let [displacement, strain] = [sum.displacement, sum.strain].map(|sum| sum / width);
-        Influence { displacement, strain, growth: sum.growth / width - displacement }
+        TileInfluence { displacement, strain, growth: sum.growth / width - displacement }
     }
 }
 

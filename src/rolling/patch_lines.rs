@@ -74,15 +74,16 @@ impl PatchLines {
             }
             (_, None) => PatchLayout::ellipse((&config.hertz(), radius), material, (lines, width, load)),
         };
-        Ok(match smooth {
-            true => Self::Sized(patch),
-            false => Self::Constant {
-                lines: patch.staying(load, longest_patch(config)),
-                symmetric: patch.is_symmetric(),
-                centre: patch.centre(),
-                gaps: patch.gaps().to_vec(),
-                flexibility: Some(patch.flexibility().clone()),
-            },
+        if smooth {
+            return Ok(Self::Sized(patch));
+        }
+        let patch = patch.with_room();
+        Ok(Self::Constant {
+            lines: patch.staying(load, longest_patch(config)),
+            symmetric: patch.is_symmetric(),
+            centre: patch.centre(),
+            gaps: patch.gaps().to_vec(),
+            flexibility: Some(patch.flexibility().clone()),
         })
     }
 

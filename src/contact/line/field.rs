@@ -1,34 +1,31 @@
 //! Displacement of a line by the tangential forces of all lines of its patch.
 
 use super::contact_line::ContactLine;
-use crate::contact::flexibility::{ByMoments, Powers, value};
+use crate::contact::flexibility::{ByMoments, ByPowers, at};
 use std::ops::Range;
 
 impl ContactLine<'_> {
     /// Moments of tangential forces [N/m] at candidates with the powers of their places.
-    pub fn moments(&self, forces: impl Iterator<Item = (usize, f64)>) -> Powers {
-        let mut moments = Powers::default();
+    pub fn moments(&self, forces: impl Iterator<Item = (usize, f64)>) -> ByPowers {
+        let mut moments = ByPowers::default();
         let Some(patch) = self.problem.patch else { return moments };
-        for (i, mut force) in forces.filter(|(_, force)| *force != 0.0) {
-            let place = patch.place(self.grid.x[i]);
-            for moment in &mut moments {
-                *moment += force;
-                force *= place;
-            }
+        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
+            let powers = patch.powers(self.grid.x[i]);
+            moments.iter_mut().zip(powers).for_each(|(moment, power)| *moment += force * power);
         }
         moments
     }
 
     /// Displacement of the wheel less that of the rail at a candidate \[m].
     pub fn moved_by_lines(&self, i: usize) -> f64 {
-        let place = |x: f64| self.problem.patch.map(|patch| patch.place(x));
-        place(self.grid.x[i]).map_or(0.0, |t| value(&self.others.field.displacement, t))
+        let moved = |powers| at(&self.others.field.displacement, &powers);
+        self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
     }
 
     /// Strain of the wheel at a candidate \[1]; that of the rail is the opposite.
     pub fn stretch_by_lines(&self, i: usize) -> f64 {
         let Some(patch) = self.problem.patch else { return 0.0 };
-        0.5 * value(&self.others.field.strain, patch.place(self.grid.x[i])) / patch.half_length
+        0.5 * at(&self.others.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
     }
 
     /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is no
@@ -48,12 +45,12 @@ impl ContactLine<'_> {
     pub fn add_slip_by(&self, i: usize, by: &ContactLine, window: Range<usize>, forces: &mut [f64]) {
         let (Some(patch), Some(other)) = (self.problem.patch, by.problem.patch) else { return };
         let Some(by_moments) = self.slip_by_moments(other.line) else { return };
-        let at = patch.place(self.grid.x[i]);
-        let of_moments = by_moments.map(|polynomial| value(&polynomial, at));
+        let here = patch.powers(self.grid.x[i]);
+        let of_moments = by_moments.map(|polynomial| at(&polynomial, &here));
         let first = window.start / 2;
         let nodes = forces[window].as_chunks_mut::<2>().0;
         for (node, x) in nodes.iter_mut().zip(&self.grid.nodes()[first..]) {
-            node[0] += value(&of_moments, other.place(*x));
+            node[0] += at(&of_moments, &other.powers(*x));
         }
     }
 }

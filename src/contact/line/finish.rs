@@ -5,7 +5,7 @@ use super::observe::{self, WheelShape};
 use super::power::Power;
 use super::slopes::Slopes;
 use super::vectors::copy;
-use crate::contact::flexibility::value;
+use crate::contact::flexibility::at;
 use crate::multistep::History;
 
 /// Moves the histories of a line on and reads off its traction.
@@ -35,7 +35,7 @@ pub fn finish(line: ContactLine) {
     };
     for (i, gap) in state.tangential_gap.iter_mut().enumerate() {
         let port = grid.port(i);
-        let by_lines = problem.patch.map_or(0.0, |patch| value(&others.field.displacement, patch.place(grid.x[i])));
+        let by_lines = problem.patch.map_or(0.0, |patch| at(&others.field.displacement, &patch.powers(grid.x[i])));
         push(gap, wheel[port] - rail[port] + by_lines);
     }
     *energy = 0.5 * others.moments.iter().zip(&others.field.displacement).map(|(moment, by)| moment * by).sum::<f64>();

@@ -4,7 +4,7 @@
 //! bodies as a whole is its own ([`super::alone`]); the rest acts on all lines alike.
 
 use super::vectors::copy;
-use crate::contact::flexibility::{Field, Powers};
+use crate::contact::flexibility::{ByPowers, Field};
 use nalgebra::DVector;
 
 /// Forces of the other lines on the ports of wheel and rail, each line weighted with its share of the width.
@@ -16,7 +16,7 @@ pub struct OtherLines {
     pub pull: [Vec<f64>; 2],
     /// Moments of the line's own tangential forces with the powers of the place [N/m], and what the forces of all lines of
     /// the patch do to it.
-    pub moments: Powers,
+    pub moments: ByPowers,
     pub field: Field,
     /// Contact forces and pulls of all lines together.
     mean: (DVector<f64>, [Vec<f64>; 2]),

@@ -3,7 +3,7 @@
 use super::contact::SeriesContact;
 use super::places::Places;
 use super::series_line::SeriesLine;
-use crate::contact::flexibility::{Field, Powers};
+use crate::contact::flexibility::{ByPowers, Field};
 
 impl SeriesContact<'_> {
     /// Gives all lines the fields of the present shear.
@@ -15,15 +15,15 @@ impl SeriesContact<'_> {
     }
 
     /// Derivative of the displacement of a line by its size, while the forces stay where they are \[m].
-    pub fn growth(&self, at: usize) -> Powers {
-        let Some(patch) = self.lines[at].problem.line.patch else { return Powers::default() };
+    pub fn growth(&self, at: usize) -> ByPowers {
+        let Some(patch) = self.lines[at].problem.line.patch else { return ByPowers::default() };
         patch.flexibility.sum(patch.line, self.lines.iter().map(|line| &line.powers[1]), |by| &by.growth)
     }
 }
 
 impl SeriesLine<'_> {
     /// Moments of tractions with the powers of the place.
-    pub fn powers_of(&self, places: &Places) -> Powers {
+    pub fn powers_of(&self, places: &Places) -> ByPowers {
         let (mut power, scale) = (places.force, 1.0 / self.half_length);
         std::array::from_fn(|_| {
             let moment = power.iter().sum();
@@ -33,7 +33,7 @@ impl SeriesLine<'_> {
     }
 
     /// Slip [m/s] by a field, as a polynomial.
-    pub fn slip_by(&self, field: &Field) -> Powers {
+    pub fn slip_by(&self, field: &Field) -> ByPowers {
         let speeds = [self.problem.line.time.a0, self.rigid[0] + self.rim_velocity()];
         field.slip(speeds, self.half_length)
     }

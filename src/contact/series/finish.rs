@@ -6,7 +6,7 @@ use super::series_line::SeriesLine;
 use super::state::{Past, PatchPast, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
-use crate::contact::flexibility::Powers;
+use crate::contact::flexibility::ByPowers;
 use crate::contact::kernel::LineKernel;
 use crate::contact::line::LineHistory;
 use crate::contact::traction::{SolvedFriction, Traction};
@@ -78,7 +78,7 @@ fn expansion(line: &SeriesLine) -> f64 {
 /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
 /// [J/m].
 fn remember(
-    (line, growth): (&SeriesLine, Powers),
+    (line, growth): (&SeriesLine, ByPowers),
     force: &[f64; POWER],
     state: &mut SeriesState,
     history: &mut LineHistory,
@@ -111,7 +111,7 @@ fn remember(
 /// Writes the traction, the history and the memory, for which `growth` is the change of the displacement by the lines of
 /// the patch with the size of this one; returns the elastic energy of the line's own flexibility [J/m].
 pub(super) fn finish(
-    (line, growth): (&SeriesLine, Powers),
+    (line, growth): (&SeriesLine, ByPowers),
     state: &mut SeriesState,
     history: &mut LineHistory,
     traction: &mut Traction,

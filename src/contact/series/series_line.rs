@@ -7,7 +7,7 @@ use super::places::{Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
-use crate::contact::flexibility::{Field, Powers};
+use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::line::LineHistory;
 use crate::contact::problem::OneLine;
 use crate::contact::solver::{ContactState, SolverState};
@@ -65,8 +65,8 @@ pub struct SeriesLine<'a> {
     /// Length by which places on the line are measured \[m].
     pub half_length: f64,
     /// Moments of pressure and shear with the powers of these places [N/m].
-    pub powers: [Powers; 2],
-    /// What the lines of the patch do to this one under their present shear.
+    pub powers: [ByPowers; 2],
+    /// Effect of the lines of the patch under their present shear.
     pub field: Field,
     /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],

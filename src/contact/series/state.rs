@@ -1,7 +1,7 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::{Arch, logarithm_of_both};
-use crate::contact::flexibility::{BEYOND, Powers, value};
+use crate::contact::flexibility::{ByPowers, at, powers};
 use crate::contact::kernel::LineKernel;
 use crate::linalg::{Lagrange, POINTS};
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,7 @@ pub struct PatchPast {
     pub smooth: [f64; POINTS],
     /// Displacement by the lines of the patch \[m] as a polynomial of the place over `half_length` \[m], and its derivative
     /// by the size of this line.
-    pub field: [Powers; 2],
+    pub field: [ByPowers; 2],
     pub half_length: f64,
     /// `ln(L/1 m)` of the reach of the line, by which that contains `2κ ln L ∫ q ds` \[1].
     pub reach: f64,
@@ -149,8 +149,8 @@ impl Past {
                 let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
                 let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
                 std::array::from_fn(|i| {
-                    let t = (scale * x[i]).clamp(-BEYOND, BEYOND);
-                    let by_lines = value(field, t) + 2.0 * (1.0 - carried) * value(growth, t);
+                    let place = powers(scale * x[i]);
+                    let by_lines = at(field, &place) + 2.0 * (1.0 - carried) * at(growth, &place);
                     smooth.at(x[i]) + by_lines + own - 2.0 * carried * kernel * logarithm[i]
                 })
             }

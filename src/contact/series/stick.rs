@@ -249,15 +249,6 @@ impl StickSearch {
         self.last = Some([share, root]);
         let peak = it.friction * it.tractions.pressure.terms[0];
         let next = share - root / self.slope;
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "share {share:.9} root/peak {:.3e} next {next:.9} slope {:.3e} changes {} slide {} normal {normal:.1e} moved {moved:.1e}",
-                root / peak,
-                self.slope / peak,
-                self.changes,
-                it.tractions.slide
-            );
-        }
         let lasting = root.abs() > peak * NEITHER.max(LEFT * self.moving);
         if next >= 1.0 && share >= 1.0 && lasting {
             // Sticking everywhere asks for slip in the other direction, and not for the changes of other lines alone; the

@@ -7,7 +7,7 @@ use super::series_line::SeriesLine;
 use super::surface::SmoothSurfaces;
 use super::tables::{SHEAR, STICK, Tables};
 use crate::contact::error::ContactError;
-use crate::contact::flexibility::Powers;
+use crate::contact::flexibility::ByPowers;
 use crate::linalg::POINTS;
 use crate::linalg::vectorised::vectorised;
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
@@ -23,15 +23,15 @@ pub struct Stretch {
     half: f64,
     /// Moments of the terms of the shear and of the root with the powers \[m]. That of the root is exact: so those of the
     /// whole stretch, by which lines feel each other, hardly depend on where slip begins.
-    moments: [Powers; SHEAR],
-    root: Powers,
+    moments: [ByPowers; SHEAR],
+    root: ByPowers,
     /// Solutions: of the known part, then those that a unit of each power takes away.
     solutions: [Coefficients; 1 + POINTS],
 }
 
 impl Stretch {
     /// Moments with the powers [N/m] of the tractions of a solution.
-    fn moments_of(&self, x: &Coefficients) -> Powers {
+    fn moments_of(&self, x: &Coefficients) -> ByPowers {
         let mut sums = self.root.map(|moment| x[SHEAR] * moment);
         for (term, moments) in x[..SHEAR].iter().zip(&self.moments) {
             sums.iter_mut().zip(moments).for_each(|(sum, moment)| *sum += term * moment);
@@ -40,7 +40,7 @@ impl Stretch {
     }
 
     /// Moments of the tractions under the known slip, and those that a unit of each power takes away.
-    pub fn moments(&self) -> [Powers; 1 + POINTS] {
+    pub fn moments(&self) -> [ByPowers; 1 + POINTS] {
         self.solutions.each_ref().map(|x| self.moments_of(x))
     }
 
@@ -50,7 +50,7 @@ impl Stretch {
     }
 
     /// Terms of the shear and the root under a slip besides the known one \[Pa].
-    pub fn tractions(&self, slip: &[f64]) -> Coefficients {
+    pub fn tractions(&self, slip: &ByPowers) -> Coefficients {
         let mut x = self.solutions[0];
         for (value, solution) in slip.iter().zip(&self.solutions[1..]) {
             x.iter_mut().zip(solution).for_each(|(x, by)| *x -= value * by);
@@ -101,7 +101,7 @@ impl SeriesLine<'_> {
     }
 
     /// Moments of the traction `√((1 − t)/(1 + t))` with the powers, by the rule of Gauss and Chebyshev \[m].
-    fn root_moments(&self) -> Powers {
+    fn root_moments(&self) -> ByPowers {
         let Arch { centre, half_width: half, .. } = self.tractions.stick;
         let places: [f64; ROOT_PLACES] = std::array::from_fn(|q| libm::cos((q as f64 + 0.5) * PI / ROOT_PLACES as f64));
         let weights = places.map(|t| PI / ROOT_PLACES as f64 * half * (1.0 - self.upstream() * t));
@@ -109,7 +109,7 @@ impl SeriesLine<'_> {
         powers.map(|power| power.iter().zip(&weights).map(|(power, weight)| power * weight).sum())
     }
 
-    /// Powers of the place over the half-length of the line, by power.
+    /// ByPowers of the place over the half-length of the line, by power.
     fn powers_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
         let (mut power, scale) = ([1.0; N], 1.0 / self.half_length);
         std::array::from_fn(|_| {

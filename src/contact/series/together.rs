@@ -4,12 +4,12 @@
 //! solved for every power of one, and these polynomials follow from as many equations ([`super::field`],
 //! [`super::surface`]).
 
-use super::contact::SeriesContact;
+use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::stretch::Stretch;
 use super::surface::{AtPoints, plus};
 use crate::contact::error::ContactError;
-use crate::contact::flexibility::Powers;
+use crate::contact::flexibility::ByPowers;
 use crate::linalg::{DenseSystem, POINTS, Polynomial};
 
 impl SeriesContact<'_> {
@@ -25,10 +25,8 @@ impl SeriesContact<'_> {
             stretches.push(half.map(|_| line.stretch(&surface)).transpose()?);
         }
         let slips = self.share(&stretches)?;
-        let mut slips = slips.as_chunks::<POINTS>().0.iter();
-        for ((line, stretch), root) in self.lines.iter_mut().zip(&stretches).zip(roots) {
-            let stretch = stretch.as_ref().zip(slips.next());
-            *root = stretch.map_or(0.0, |(stretch, slip)| line.take(&stretch.tractions(slip)));
+        for (((line, stretch), slip), root) in self.lines.iter_mut().zip(&stretches).zip(&slips).zip(roots) {
+            *root = stretch.as_ref().map_or(0.0, |stretch| line.take(&stretch.tractions(slip)));
             line.place_shear();
         }
         self.displace();
@@ -53,26 +51,24 @@ impl SeriesContact<'_> {
 
 impl SeriesContact<'_> {
     /// Finds the motions that are not prescribed, and the slips of all lines that stick by all that the known slip does
-    /// not contain: polynomials, one after the other.
-    fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<Vec<f64>, ContactError> {
-        let sticking: Vec<_> =
-            stretches.iter().enumerate().filter_map(|(line, stretch)| Some((line, stretch.as_ref()?))).collect();
-        let (count, axes) = (POINTS * sticking.len(), self.free_axes());
+    /// not contain, as polynomials.
+    fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<[ByPowers; MOST_LINES], ContactError> {
+        let (count, axes) = (POINTS * sticking(stretches).count(), self.free_axes());
         let mut system = std::mem::take(&mut self.system);
         system.reset(count + axes.clone().count());
-        self.write_motions(&sticking, &mut system);
-        for (column, (by, stretch)) in sticking.iter().enumerate() {
-            let share = self.lines[*by].problem.line.share;
+        self.write_motions(stretches, &mut system);
+        for (column, (by, stretch)) in sticking(stretches).enumerate() {
+            let share = self.lines[by].problem.line.share;
             for (k, (moments, force)) in stretch.moments().iter().zip(stretch.forces()).enumerate() {
                 // The known tractions stand on the right, the others take away from them.
                 let mut write = |row: usize, value: f64| {
                     let (coefficients, side) = system.row(row);
                     if k == 0 { *side += value } else { coefficients[POINTS * column + k - 1] += value }
                 };
-                let ports = self.at_points(*by, moments);
+                let ports = self.at_points(by, moments);
                 let displaced = self.displaced(&ports);
-                for (row, (at, _)) in sticking.iter().enumerate() {
-                    let slip = self.slip_between([*at, *by], moments, &displaced);
+                for (row, (at, _)) in sticking(stretches).enumerate() {
+                    let slip = self.slip_between([at, by], moments, &displaced);
                     slip.iter().enumerate().for_each(|(p, slip)| write(POINTS * row + p, *slip));
                 }
                 for (row, axis) in axes.clone().enumerate() {
@@ -81,23 +77,27 @@ impl SeriesContact<'_> {
                 }
             }
         }
-        let solution = system.solve().map(<[f64]>::to_vec);
+        let mut slips = [ByPowers::default(); MOST_LINES];
+        let solved = system.solve().map(|solution| {
+            let (polynomials, changes) = solution.split_at(count);
+            let lines = sticking(stretches).zip(polynomials.as_chunks::<POINTS>().0);
+            lines.for_each(|((line, _), slip)| slips[line] = *slip);
+            axes.zip(changes).for_each(|(axis, change)| self.speed_up(axis, *change));
+        });
         self.system = system;
-        let mut solution = solution.ok_or(ContactError::Unsuited { reason: "the lines have no common solution" })?;
-        axes.zip(solution.drain(count..)).for_each(|(axis, change)| self.speed_up(axis, change));
-        Ok(solution)
+        solved.map(|()| slips).ok_or(ContactError::Unsuited { reason: "the lines have no common solution" })
     }
 
     /// Writes the effect of the motions on the slips of lines that stick, and the balances of the motions but for the
     /// stretches that stick.
-    fn write_motions(&self, sticking: &[(usize, &Stretch)], system: &mut DenseSystem) {
-        let count = POINTS * sticking.len();
-        for (row, (line, _)) in sticking.iter().enumerate() {
+    fn write_motions(&self, stretches: &[Option<Stretch>], system: &mut DenseSystem) {
+        let count = POINTS * sticking(stretches).count();
+        for (row, (line, _)) in sticking(stretches).enumerate() {
             for p in 0..POINTS {
                 system.row(POINTS * row + p).0[POINTS * row + p] = 1.0;
             }
             for (column, axis) in self.free_axes().enumerate() {
-                let slip = self.lines[*line].slip_by_motion(axis);
+                let slip = self.lines[line].slip_by_motion(axis);
                 slip.iter().enumerate().for_each(|(p, slip)| system.row(POINTS * row + p).0[count + column] = -slip);
             }
         }
@@ -119,7 +119,7 @@ impl SeriesContact<'_> {
 
     /// Moments of a shear with the polynomials of the bodies, per metre of their width, from those with the powers of the
     /// places on a line [N/m].
-    fn at_points(&self, line: usize, moments: &Powers) -> AtPoints {
+    fn at_points(&self, line: usize, moments: &ByPowers) -> AtPoints {
         let (line, points) = (&self.lines[line], &self.lines[line].constants.points);
         let (mut scale, ratio) = (line.problem.line.share, line.half_length / points.reach);
         let of_bodies = moments.map(|moment| {
@@ -143,7 +143,7 @@ impl SeriesContact<'_> {
     }
 
     /// Slip of a line by moments of the shear of another one, which displaces wheel and rail so.
-    fn slip_between(&self, [at, by]: [usize; 2], moments: &Powers, [wheel, rail]: &[Polynomial; 2]) -> Powers {
+    fn slip_between(&self, [at, by]: [usize; 2], moments: &ByPowers, [wheel, rail]: &[Polynomial; 2]) -> ByPowers {
         let line = &self.lines[at];
         let (v, rim, a0) = (line.rigid[0], line.rim_velocity(), line.problem.line.time.a0);
         let moved = |polynomial: &Polynomial, by_value: f64, by_slope: f64| {
@@ -156,14 +156,19 @@ impl SeriesContact<'_> {
     }
 }
 
+/// Lines of which a stretch sticks, by number.
+fn sticking(stretches: &[Option<Stretch>]) -> impl Iterator<Item = (usize, &Stretch)> {
+    stretches.iter().enumerate().filter_map(|(line, stretch)| Some((line, stretch.as_ref()?)))
+}
+
 impl SeriesLine<'_> {
     /// Change of the slip per unit of V or Ω as a polynomial, the small effect of the strains left out.
-    fn slip_by_motion(&self, axis: usize) -> Powers {
+    fn slip_by_motion(&self, axis: usize) -> ByPowers {
         let (bodies, rim) = (&self.problem.line.bodies, self.rim_velocity());
         let answer = self.constants.points.polynomial(&std::array::from_fn(|k| bodies.inertial[(2 * k, axis)]));
         let (a0, gain) = (self.problem.line.time.a0, self.problem.rigid[axis].gain);
         let [values, slopes] = [answer, answer.derivative()].map(|of| of.by_powers(self.half_length));
-        let mut slip: Powers = std::array::from_fn(|k| gain * (a0 * values[k] - rim * slopes[k]));
+        let mut slip: ByPowers = std::array::from_fn(|k| gain * (a0 * values[k] - rim * slopes[k]));
         slip[0] += if axis == 0 { 1.0 } else { -self.problem.line.radius() };
         slip
     }

@@ -7,7 +7,7 @@
 
 use crate::contact::active_set::axes::{Axes, Equation};
 use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns, scale};
-use crate::contact::flexibility::{ByMoments, Powers, add, value};
+use crate::contact::flexibility::{ByMoments, ByPowers, add, at};
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
 use crate::linalg::DenseSystem;
@@ -58,11 +58,11 @@ struct LineEquations {
     shared: Vec<f64>,
     /// Slips by unit moments of every line of the patch, in which the own ones are none; empty: there is no patch.
     by_lines: Vec<ByMoments>,
-    /// Places of the closed nodes, and those of the stuck ones beside the factors of their equations \[1].
-    places: Vec<f64>,
-    stuck: Vec<[f64; 2]>,
+    /// Powers of the places of the closed nodes, and those of the stuck ones beside the factors of their equations \[1].
+    places: Vec<ByPowers>,
+    stuck: Vec<(ByPowers, f64)>,
     /// Moments of the own forces [N/m].
-    moments: Powers,
+    moments: ByPowers,
     /// Coefficients of the own forces in the balances.
     balances: [Vec<f64>; 3],
     /// Forces at all ports, those within the window [N/m].
@@ -269,7 +269,7 @@ impl LineEquations {
             self.by_motions.iter_mut().zip(&self.row[size..]).for_each(|(by_motion, value)| by_motion[r] = *value);
             self.shared.extend(others[window.clone()].iter().map(|by_all| scale * by_all));
             if let Some(patch) = line.problem.patch.filter(|_| sticks) {
-                self.stuck.push([patch.place(line.grid.x[i]), scale]);
+                self.stuck.push((patch.powers(line.grid.x[i]), scale));
             }
         }
         let motions = self.by_motions.iter_mut().take(count);
@@ -284,7 +284,7 @@ impl LineEquations {
         let Some(patch) = line.problem.patch else { return };
         let by = |by: usize| if by == k { Some(ByMoments::default()) } else { line.slip_by_moments(by) };
         self.by_lines.extend((0..lines.len()).filter_map(by));
-        self.places.extend(own.closed.iter().map(|&i| patch.place(line.grid.x[i])));
+        self.places.extend(own.closed.iter().map(|&i| patch.powers(line.grid.x[i])));
     }
 
     /// Takes the forces of a solution, and adds them to those of all lines at the ports of the window.
@@ -299,13 +299,10 @@ impl LineEquations {
         self.forces[window.clone()].fill(0.0);
         own.place(forces, grid, &mut self.forces);
         mean.iter_mut().zip(&self.forces[window.clone()]).for_each(|(mean, force)| *mean += self.share * force);
-        self.moments = Powers::default();
+        self.moments = ByPowers::default();
         for (&i, place) in own.closed.iter().zip(&self.places) {
-            let mut force = self.forces[grid.port(i)];
-            for moment in &mut self.moments {
-                *moment += force;
-                force *= place;
-            }
+            let force = self.forces[grid.port(i)];
+            self.moments.iter_mut().zip(place).for_each(|(moment, power)| *moment += force * power);
         }
     }
 
@@ -313,7 +310,7 @@ impl LineEquations {
     /// `moments`: those of every line.
     fn answer(
         &mut self,
-        (mean, moments): (&[f64], &[Powers]),
+        (mean, moments): (&[f64], &[ByPowers]),
         (window, known): (&Range<usize>, bool),
         forces: &mut [f64],
     ) -> bool {
@@ -321,10 +318,10 @@ impl LineEquations {
         others.iter_mut().zip(mean).for_each(|(force, mean)| *force = mean - self.share * *force);
         let rows = self.shared.chunks_exact(window.len());
         forces.iter_mut().zip(rows).for_each(|(force, row)| *force = -dot(row, others));
-        let mut slip = Powers::default();
+        let mut slip = ByPowers::default();
         self.by_lines.iter().zip(moments).for_each(|(by, moments)| add(by, moments, &mut slip));
         let (_, sticking) = forces.split_at_mut(forces.len() - self.stuck.len());
-        sticking.iter_mut().zip(&self.stuck).for_each(|(force, [at, scale])| *force -= scale * value(&slip, *at));
+        sticking.iter_mut().zip(&self.stuck).for_each(|(force, (place, scale))| *force -= scale * at(&slip, place));
         let finite = self.own.solve_with(forces);
         if known {
             forces.iter_mut().zip(&self.alone).for_each(|(force, alone)| *force += alone);
