@@ -48,7 +48,8 @@ PYTHON ?= python3
 CARGO ?= cargo
 # Libraries that are packed name no folders of whoever built them. The edit loop does without: the compiler would take its
 # parts for others wherever `cargo loop` is called by hand.
-RELEASE_CARGO := RUSTC_WRAPPER="$${RUSTC_WRAPPER:-$(CURDIR)/packaging/rustc-wrapper}" $(CARGO)
+WRAPPED := RUSTC_WRAPPER="$${RUSTC_WRAPPER:-$(CURDIR)/packaging/rustc-wrapper}"
+RELEASE_CARGO := $(WRAPPED) $(CARGO)
 
 # Everything is built in one profile and one target directory, so that dependencies compile once.
 TARGET := $(or $(CARGO_TARGET_DIR),target)
@@ -99,8 +100,8 @@ test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
-	$(RELEASE_CARGO) test --release --locked -p wheelrail -p wheelrail-slave
-	$(RELEASE_CARGO) test --release --locked -p wheelrail-thesis
+	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave
+	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
 
 test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests

@@ -149,6 +149,8 @@ def test_any_key_of_any_file_is_swept_and_own_classes_reach_workers_that_have_no
     class Emptied:
         """A client whose workers find the folder empty."""
 
+        loop = client.loop
+
         def submit(self, *arguments, **named):
             (folder / "mine.py").unlink(missing_ok=True)
             (folder / "beside.py").unlink(missing_ok=True)

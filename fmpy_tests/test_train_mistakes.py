@@ -216,7 +216,7 @@ def test_a_scheduler_that_does_not_answer_is_said_within_ten_seconds(folder, cap
     for address, words in unknown.items():
         code, errors = said(capsys, [*MANY, "--out", "elsewhere", "--scheduler", address])
         assert code == 1 and words in errors and "`dask scheduler`" in errors
-    with pytest.raises(ValueError, match="No clients found"):
+    with pytest.raises(ValueError, match="No global client found"):
         distributed.get_client()
     assert "scheduler" not in dask.config.config, "what failed here would compute for others in this process"
 

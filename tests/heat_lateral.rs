@@ -180,7 +180,7 @@ fn lines_that_move_with_the_width_of_the_patch_keep_the_heat() {
     let mut last = cells(1.0);
     for k in 0..400 {
         let now = cells(1.0 + 0.07 * (0.3 * f64::from(k)).sin());
-        if let Some(mixing) = history.advance(1e-3, &now, alpha) {
+        if let Some(mixing) = history.advance(1e-3, &now, 0.0, alpha) {
             mix(&mixing, &mut states);
             mixed += 1;
             last = now;
@@ -194,6 +194,42 @@ fn lines_that_move_with_the_width_of_the_patch_keep_the_heat() {
         heat.observe(state, &mut seen).unwrap();
         let found = seen.temperatures.wheel_centre;
         assert!((0.0..=100.0).contains(&found), "{found}");
+    }
+}
+
+/// A hot line between colder ones: mixed as seldom as cells that differ little, it cooled by tens of kelvin at once.
+#[test]
+fn a_line_cools_to_its_neighbours_little_by_little_however_much_hotter_it_is() {
+    let heat = heat(&thick(false));
+    let alpha = heat.config().diffusivity();
+    let cells = LateralCells::side_by_side(&[1.6e-3; 3]).unwrap();
+    for excess in [3.0, 30.0, 800.0] {
+        let mut states: Vec<HeatState> = [0.0, excess, 0.0].map(|t| heat.initial(t, 0.0)).into();
+        let (mut history, mut seen, h) = (LateralHistory::default(), Observation::default(), 1e-4);
+        let mut temperatures = |states: &[HeatState]| {
+            let one = |state: &HeatState| {
+                heat.observe(state, &mut seen).unwrap();
+                seen.temperatures.wheel_centre
+            };
+            states.iter().map(one).collect::<Vec<_>>()
+        };
+        let (mut hot, mut fall, mut mixings) = (excess, 0.0_f64, 0);
+        for _ in 0..1000 {
+            let apart = temperatures(&states);
+            if let Some(mixing) = history.advance(h, &cells, apart[1] - apart[0], alpha) {
+                mix(&mixing, &mut states);
+                mixings += 1;
+                let now = temperatures(&states)[1];
+                fall = fall.max(hot - now);
+                hot = now;
+            }
+        }
+        // Of three cells the middle one keeps 1/3 + 2/3 e^{−3αt/w²}.
+        let left = excess * (1.0 + 2.0 * (-3.0 * alpha * (0.1 - history.waited) / 1.6e-3_f64.powi(2)).exp()) / 3.0;
+        println!("{excess} K: {mixings} mixings, falls of at most {fall:.2} K, {hot:.4} K left of {left:.4} K");
+        assert!((hot / left - 1.0).abs() < 1e-9);
+        assert!(fall < 5.0);
+        assert!(excess > 3.0 || mixings < 5, "small differences are mixed seldom");
     }
 }
 

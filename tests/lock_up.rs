@@ -120,3 +120,48 @@ fn a_moment_locks_the_wheel_on_a_slippery_rail() {
     }
     assert!((slides[0].0 / slides[1].0 - 1.0).abs() < 0.01 && (slides[0].1 / slides[1].1 - 1.0).abs() < 1e-4);
 }
+
+/// Seven lines that a growing brake locks one after the other: means over 50 ms of force and temperature, and the numbers of
+/// internal steps of all communication steps.
+fn brake_lines(h: f64) -> (Vec<[f64; 2]>, Vec<u64>) {
+    let mut config = preset("railway_ellipse", 4);
+    config.initial.velocity = 16.7;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let (each, mut means, mut steps) = ((0.05 / h).round() as usize, Vec::new(), Vec::new());
+    let seen = |simulation: &Simulation| {
+        let o = simulation.outputs();
+        [o.contact_force_x, o.temperature_wheel_max]
+    };
+    for bin in 0..14 {
+        let mut sums = [0.0; 2];
+        for k in 1..=each {
+            inputs.drive.torque = 41.6e3 / 0.8 * (0.05 * bin as f64 + h * k as f64);
+            let before = seen(&simulation);
+            simulation.advance(&inputs, h).unwrap();
+            let now = seen(&simulation);
+            sums = [0, 1].map(|q| sums[q] + 0.5 * (before[q] + now[q]) / each as f64);
+            steps.push(simulation.outputs().internal_steps);
+        }
+        means.push(sums);
+    }
+    (means, steps)
+}
+
+#[test]
+fn lines_that_lock_take_few_internal_steps_and_slide_as_in_short_ones() {
+    let [(long, steps), (short, _)] = [1e-3, 1e-4].map(brake_lines);
+    for (k, (a, b)) in long.iter().zip(&short).enumerate() {
+        println!("until {:.2} s: {:.1} and {:.1} N, {:.1} and {:.1} K", 0.05 * (k + 1) as f64, a[0], b[0], a[1], b[1]);
+    }
+    let [last, before] = [13, 12].map(|k| long[k][1]);
+    assert!(last > 1000.0 && before > 1000.0, "it slides hot: {last} K");
+    for (a, b) in long.iter().zip(&short) {
+        assert!((a[0] - b[0]).abs() < 0.01 * b[0].abs().max(1e4) && (a[1] - b[1]).abs() < 0.01 * b[1]);
+    }
+    // Steps that lock, or that the sudden ends of the slip of a line bend, may be shorter.
+    let short_ones = steps.iter().filter(|&&steps| steps > 4).count();
+    println!("{} internal steps in {}, more than 4 in {short_ones} of them", steps.iter().sum::<u64>(), steps.len());
+    assert!(short_ones < 10 && steps.iter().sum::<u64>() < 3 * steps.len() as u64);
+}

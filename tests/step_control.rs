@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{model, preset};
+use common::{model, preset, shipped};
+use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Inputs, Outputs, Simulation, Vertical};
 
 /// Outputs after each communication step `h` under `drive(inputs, time)`, with the number of internal steps.
@@ -197,4 +198,56 @@ fn breaking_loose_and_catching_again_are_located_independently_of_the_communicat
         println!("{name}: {:.1e} s, {:.1e} s from the exact time, {apart:.1e} s apart", late(&coarse), late(&fine));
         assert!(apart < RESOLUTION && late(&coarse) < 5.0 * RESOLUTION && late(&fine) < 5.0 * RESOLUTION);
     }
+}
+
+/// Contact forces \[N] after each millisecond of 40, while the load jumps at the given times [ms] to shares of the nominal
+/// one, and the largest error of the force that the warning of missing energy told meanwhile.
+fn shaken(name: &str, tolerance: f64, max_step: f64, jumps: &[(usize, f64)]) -> (Vec<f64>, f64) {
+    let mut config = shipped(name);
+    (config.tuning.tolerance, config.tuning.max_step) = (tolerance, max_step);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut told = 0.0f64;
+    let forces = (0..40).map(|k| {
+        if let Some((_, share)) = jumps.iter().find(|(time, _)| *time == k) {
+            inputs.drive.load = share * model.config().model.nominal_load;
+        }
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let text = simulation.describe_limit(Limit::Energy);
+        let number = text.split("by at most ").nth(1).and_then(|rest| rest.split(" N").next()).unwrap();
+        told = told.max(number.parse().unwrap());
+        simulation.outputs().contact_force_y
+    });
+    (forces.collect(), told)
+}
+
+/// Largest difference of two courses of a force.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn after_jumps_of_the_load_the_force_of_a_wheel_on_the_rail_errs_by_less_than_the_warning_says() {
+    let (doubled, changed): (&[_], &[_]) = (&[(5, 2.0)], &[(5, 0.8), (20, 1.2)]);
+    let plane = ["paper_a", "paper_b", "paper_c", "paper_d", "railway"].map(|name| (name, vec![doubled, changed]));
+    for (name, courses) in plane.into_iter().chain([("railway_ellipse", vec![changed])]) {
+        for jumps in courses {
+            let (exact, _) = shaken(name, 0.0, 5e-6, jumps);
+            let (forces, told) = shaken(name, 2e-3, 0.1, jumps);
+            let (error, load) = (apart(&forces, &exact), exact[0]);
+            println!("{name}, {jumps:?}: error {:.4} of the load, told {:.4}", error / load, told / load);
+            assert!(exact.iter().all(|force| *force > 0.0), "it left the rail");
+            assert!(error < told && told < load, "{name}: {error:e} N, told {told:e} N");
+        }
+    }
+}
+
+#[test]
+fn force_error_after_a_jump_of_the_load_falls_with_the_tolerance_where_nothing_is_damped() {
+    let (exact, _) = shaken("paper_a", 0.0, 2e-6, &[(5, 2.0)]);
+    let errors = [2e-3, 2e-4, 2e-5].map(|tolerance| apart(&shaken("paper_a", tolerance, 0.1, &[(5, 2.0)]).0, &exact));
+    println!("errors over the load: {:.4?}", errors.map(|error| error / exact[0]));
+    assert!(errors.windows(2).all(|e| e[1] < 0.4 * e[0]));
+    assert!(errors[2] < 0.01 * exact[0]);
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{model, preset};
+use common::{model, preset, range, shipped};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use wheelrail::config::{Config, Hub};
@@ -306,4 +306,52 @@ fn a_track_loads_the_wheel_alike_in_steps_of_one_and_five_milliseconds_or_tells_
     println!("steps of 0.005 s without rates: {force} N");
     // Corners would make it 8.4 kN.
     assert!(told && force < 4.2e3);
+}
+
+/// Contact forces every 10 ms \[N] of a wheel of a preset on the same track, which passes under it at 20 m/s whatever its own
+/// speed is, in steps of `h` seconds with rates; its moment and the friction change a little in every step where they `vary`.
+fn forces_on_a_wave(name: &str, velocity: f64, vary: bool, h: f64) -> Vec<f64> {
+    let mut config = shipped(name);
+    config.initial.velocity = velocity;
+    config.mesh.elements_per_half_width = 8;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let (frequency, each) = (2.0 * PI * 20.0, (1e-2 / h).round() as usize);
+    let mut forces = Vec::new();
+    for k in 1..=30 * each {
+        let t = h * k as f64;
+        inputs.drive.elevation = 1e-4 * (1.0 - (frequency * t).cos());
+        inputs.drive.elevation_rate = 1e-4 * frequency * (frequency * t).sin();
+        if vary {
+            inputs.drive.moment = -2000.0 * (30.0 * t).sin();
+            inputs.drive.friction = 0.2 + 0.02 * (40.0 * t).sin();
+        }
+        simulation.advance(&inputs, h).unwrap();
+        if k % each == 0 {
+            forces.push(simulation.outputs().contact_force_y);
+        }
+    }
+    forces
+}
+
+#[test]
+fn a_track_loads_wheels_of_every_kind_alike_in_short_and_long_steps() {
+    let cases = [
+        ("railway", -20.0, false),
+        ("railway", 0.0, false),
+        ("railway_wet", 20.0, true),
+        ("railway_ellipse", 20.0, true),
+        ("railway_s1002_3mm", -10.0, true),
+        ("railway_damage", 40.0, true),
+    ];
+    for (name, velocity, vary) in cases {
+        let [exact, long] = [2.5e-4, 5e-3].map(|h| forces_on_a_wave(name, velocity, vary, h).split_off(10));
+        let (low, high) = range(&exact);
+        let error = exact.iter().zip(&long).map(|(exact, long)| (exact - long).abs()).fold(0.0, f64::max);
+        println!(
+            "{name} at {velocity} m/s, varying: {vary}: {low:.0} to {high:.0} N, steps of 5 ms are off by {error:.0} N"
+        );
+        assert!(high - low > 800.0 && error < 0.1 * (high - low), "{name} at {velocity} m/s");
+    }
 }

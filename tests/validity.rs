@@ -119,3 +119,53 @@ fn falling_friction_without_memory_is_told_in_steps_in_which_it_has_no_definite_
     assert!(!told(1e-12, 2e-4), "in long steps the rest of the wheel answers");
     assert!(!told(memory, 5e-6), "the memory of the preset is long enough");
 }
+
+/// A limit that is exceeded, and the run that obeys its advice: whether it is left, and the error of a quantity before and
+/// after against that of a much finer run.
+fn obeyed(limit: Limit, run: impl Fn(f64) -> (Vec<Limit>, f64), values: [f64; 3]) -> [f64; 2] {
+    let [(before, found), (after, better), (_, reference)] = values.map(&run);
+    assert!(before.contains(&limit) && !after.contains(&limit), "{limit:?}: {before:?}, {after:?}");
+    let errors = [found, better].map(|value| (value / reference - 1.0).abs());
+    println!("{limit:?}: error {:.2e}, obeyed {:.2e}", errors[0], errors[1]);
+    errors
+}
+
+#[test]
+fn meshes_that_follow_the_advice_of_their_warnings_bring_the_error_down() {
+    let sliding = |max_speed: f64| {
+        let mut config = preset("railway", 10);
+        config.thermal.max_speed = max_speed;
+        let model = model(config);
+        let mut simulation = Simulation::new(model.clone(), &prescribed(&model, 50.0, 0.02)).unwrap();
+        (0..50).for_each(|_| simulation.advance(&prescribed(&model, 50.0, 0.02), 1e-3).unwrap());
+        (limits(&simulation), simulation.outputs().temperature_wheel_max)
+    };
+    let [before, after] = obeyed(Limit::Speed, sliding, [10.0, 50.0, 150.0]);
+    assert!(after < 0.5 * before);
+
+    let lightly = |elements: f64| {
+        let mut config = preset("railway", 5);
+        config.thermal.enabled = false;
+        config.rail.profile = "sinusoid(amplitude = 1e-9, wavelength = 0.2)".into();
+        config.mesh.grid_elements_per_half_width = elements as usize;
+        let model = model(config);
+        let mut inputs = prescribed(&model, 20.0, 5e-4);
+        inputs.drive.load = 1e3;
+        let simulation = Simulation::new(model, &inputs).unwrap();
+        (limits(&simulation), simulation.outputs().contact_pressure_max)
+    };
+    let [before, after] = obeyed(Limit::Patch, lightly, [10.0, 25.0, 80.0]);
+    assert!(after < 0.5 * before);
+
+    let rough = |elements: f64| {
+        let mut config = preset("railway", 5);
+        config.thermal.enabled = false;
+        config.rail.profile = "sinusoid(amplitude = 2e-6, wavelength = 0.003)".into();
+        config.mesh.grid_elements_per_half_width = elements as usize;
+        let inputs = Inputs::rolling(&config);
+        let simulation = Simulation::new(model(config), &inputs).unwrap();
+        (limits(&simulation), simulation.outputs().contact_pressure_max)
+    };
+    let [before, after] = obeyed(Limit::Waves, rough, [5.0, 10.0, 40.0]);
+    assert!(after < 0.5 * before);
+}

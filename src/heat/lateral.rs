@@ -219,16 +219,19 @@ pub struct LateralHistory {
 /// `docs/theory/heat.md`, section 9.
 pub const MIXED_AT: f64 = 0.25;
 
+/// Change of a temperature by a mixing that contact and friction feel as a jump \[K].
+const FELT: f64 = 1.0;
+
 /// Share of its width by which a face moves until fields are mixed \[1].
 const MOVED_AT: f64 = 0.02;
 
 impl LateralHistory {
-    /// Follows a step of `dt` \[s] of all cells, at whose end they are `cells`: the mixing that is due, `None` while
-    /// there is time.
+    /// Follows a step of `dt` \[s] of all cells, at whose end they are `cells` and their highest temperatures up to `apart`
+    /// \[K] apart: the mixing that is due, `None` while there is time.
     ///
     /// The mixing follows from states and steps alone. Callers apply it to the states of all cells at the end of the
     /// step, before these are observed.
-    pub fn advance(&mut self, dt: f64, cells: &LateralCells, diffusivity: f64) -> Option<LateralMixing> {
+    pub fn advance(&mut self, dt: f64, cells: &LateralCells, apart: f64, diffusivity: f64) -> Option<LateralMixing> {
         if self.cells.len() != cells.len() {
             self.cells = cells.clone();
             self.waited = 0.0;
@@ -239,7 +242,8 @@ impl LateralHistory {
             let width = cells.width(i.min(cells.len().saturating_sub(1)));
             most.max((now - before).abs() / width)
         });
-        if self.waited < cells.spreading_time(diffusivity, MIXED_AT) && moved < MOVED_AT {
+        let share = if apart * MIXED_AT > FELT { FELT / apart } else { MIXED_AT };
+        if self.waited < cells.spreading_time(diffusivity, share) && moved < MOVED_AT {
             return None;
         }
         let conduction = cells.conduction(diffusivity, self.waited);

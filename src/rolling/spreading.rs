@@ -31,7 +31,10 @@ pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) ->
         false => LateralCells::side_by_side(&widths)?.apart(model.contact.patch.gaps()),
     };
     let diffusivity = model.narrowing(next).powi(2) * Isotropic::from(&model.config.material).diffusivity();
-    let Some(mixing) = next.spreading.advance(dt, &cells, diffusivity) else { return Ok(()) };
+    let hottest = next.lines.iter().map(Line::hottest);
+    let [coolest, hottest] =
+        hottest.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)]);
+    let Some(mixing) = next.spreading.advance(dt, &cells, hottest - coolest, diffusivity) else { return Ok(()) };
     let mut fields: Vec<&mut HeatState> =
         next.lines.iter_mut().filter_map(|line| line.thermal.as_mut()).map(|thermal| &mut thermal.fields).collect();
     Ok(mixing.apply(&mut fields)?)

@@ -21,8 +21,6 @@ use crate::multistep::{History, TimeDerivative, formula, position, settled};
 /// How often a step is taken again with less friction where it leaves the contact hotter than molten steel can be. Each
 /// time the share of friction on the hottest places falls to a quarter or less.
 const COOLER: usize = 6;
-/// Step from which on flashes follow friction within it \[s].
-const FOLLOWED: f64 = 4e-5;
 /// Longest step that is taken again \[s]: longer ones are divided, so that friction can follow the temperature.
 const LONGEST_AGAIN: f64 = 1e-3;
 
@@ -188,9 +186,10 @@ impl Plan {
         let law = FrictionLaw::from(demand.tuning);
         let friction = state.lines.iter().map(|line| {
             let heating = line.thermal.as_ref().map_or(Heating::default(), |thermal| thermal.heating);
-            let before = &line.contact.traction.friction;
-            let ratio = if dt >= FOLLOWED { ratio } else { ratio * law.extrapolated(available, heating) };
-            let friction = Friction::local(law, available, heating, ratio);
+            let traction = &line.contact.traction;
+            let before = &traction.friction;
+            let rise = || model.thermal.as_ref().map_or(0.0, |thermal| thermal.warming.by_friction(traction, dt));
+            let friction = Friction::remembering(law, available, heating, ratio, before.coefficient, rise);
             friction.after(dt, before.coefficient, before.tread_slip, heating)
         });
         let friction = friction.collect();

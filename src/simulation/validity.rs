@@ -229,6 +229,16 @@ impl Simulation {
         self.state().rise.error * (stiffness * mass).sqrt()
     }
 
+    /// Energy \[J] that the balance misses, and the largest error \[N] of the contact force of a wheel that stays on the
+    /// rail which goes with it: the force `√(2 k E)` that the energy `E` is worth as an oscillation on the contact. Its
+    /// stiffness `k` is that of the nominal patch on rigid bodies, and those of elastic bodies are softer.
+    fn missing_energy(&self) -> (f64, f64) {
+        let (contact, width) = (&self.model().rolling.contact, self.model().config().width());
+        let missing = self.state().audit.imbalance().abs();
+        let share = (missing / contact.nominal_energy()).sqrt();
+        (width * missing, width * contact.nominal_line_load() * share)
+    }
+
     /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding
     /// contact whose friction falls with the slip.
     fn unresolved_phase(&self) -> f64 {

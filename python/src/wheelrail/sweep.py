@@ -247,7 +247,7 @@ def finished(client, missing, made, fmu, limit):
     futures = [submit(task, scenario) for task, scenario in zip(missing, made)]
     task_of = {future.key: task for future, task in zip(futures, missing)}
     # Those who wait for results hold no futures: a result whose worker dies is not computed again.
-    waiting = as_completed(futures)
+    waiting = as_completed(futures, loop=client.loop)
     del futures
     for future in waiting:
         if future.cancelled():

@@ -64,12 +64,12 @@ impl FrictionLaw {
         available * self.slip.fall(slip)
     }
 
-    /// Share e of its change over which the heating θ may be extrapolated \[1] in steps too short for the temperature
-    /// to follow friction.
+    /// Least share of its temperature that counts as following friction within a step \[1]: all where friction has lost
+    /// up to a third, else `1/2κ` with `κ = μ₀Kθ`.
     ///
-    /// There θ falls by what μ rises, and a θ extrapolated in full feeds on itself where friction has lost most of its
-    /// value. With `G = −dln μ/dln θ = κ/(1 + κ)`, `κ = μ₀Kθ`, no deviation of θ grows if `G (1 + 2e) ≤ 1`.
-    pub fn extrapolated(&self, available: f64, heating: Heating) -> f64 {
+    /// If nothing followed, friction would take κ times from the temperature what the temperature takes from friction,
+    /// one step later, and jump. With this share an error of the extrapolated temperature falls to `1/√3` in every step.
+    pub fn followed(&self, available: f64, heating: Heating) -> f64 {
         let softened = available * self.softening * heating.now.max(0.0);
         if softened > 0.5 { 0.5 / softened } else { 1.0 }
     }

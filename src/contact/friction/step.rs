@@ -9,7 +9,9 @@ pub struct Friction {
     law: FrictionLaw,
     /// Coefficient available on the rail [1].
     available: f64,
-    /// Rise of the contact temperature per unit of coefficient at the end of the step [K].
+    /// Share of it that heat of earlier steps leaves [1].
+    left: f64,
+    /// Rise of the contact temperature at the end of the step per unit of coefficient [K].
     heating: f64,
     memory: Option<Memory>,
 }
@@ -35,7 +37,32 @@ impl Friction {
     /// `μ = cold (1 − K θ μ)` with θ extrapolated to the end of the step keeps the law stable in long steps and second
     /// order in short ones, and sees slip and temperature at the same time.
     pub fn local(law: FrictionLaw, available: f64, heating: Heating, ratio: f64) -> Self {
-        Self { law, available, heating: heating.predicted(ratio), memory: None }
+        Self { law, available, left: 1.0, heating: heating.predicted(ratio), memory: None }
+    }
+
+    /// [`Self::local`] in a contact that may remember its heat: `coefficient` \[1] is that of the step before, and `rise`
+    /// tells by how much the temperature rises within the step per unit of coefficient \[K].
+    ///
+    /// Under a wheel that stands the temperature is that of all the heat since it was locked. Of it the share
+    /// `ρ = rise/θ` follows friction in the step, and the rest is that of before: `T − T_ref = θ (ρμ + (1 − ρ) μ_before)`.
+    /// If all of it followed, a falling coefficient would seem to cool the contact and heat it in the next step. What
+    /// does not follow limits how far θ is extrapolated, and takes no more than the whole coefficient.
+    pub fn remembering(
+        law: FrictionLaw,
+        available: f64,
+        heating: Heating,
+        ratio: f64,
+        coefficient: f64,
+        rise: impl FnOnce() -> f64,
+    ) -> Self {
+        let least = law.followed(available, heating);
+        if least == 1.0 {
+            return Self::local(law, available, heating, ratio);
+        }
+        let follows = (rise() / heating.now).clamp(least, 1.0);
+        let theta = heating.predicted(ratio * (least / (1.0 - follows)).min(1.0));
+        let left = (1.0 - law.softening * theta * coefficient).max(0.0);
+        Self { law, available, left: follows + (1.0 - follows) * left, heating: follows * theta, memory: None }
     }
 
     /// A coefficient that nothing changes \[1].
@@ -66,9 +93,9 @@ impl Friction {
         self.softened(weight * self.available * self.law.slip.factor(slip), rest)
     }
 
-    /// Solution of `μ = cold · max(m, 1 − K θ μ) + rest`: of both branches the larger one.
+    /// Solution of `μ = cold · max(m, left − K θ μ) + rest`: of both branches the larger one.
     fn softened(&self, cold: f64, rest: f64) -> f64 {
-        let hot = (cold + rest) / (1.0 + cold * self.law.softening * self.heating);
+        let hot = (cold * self.left + rest) / (1.0 + cold * self.law.softening * self.heating);
         hot.max(cold * self.law.softening_floor + rest)
     }
 
@@ -132,15 +159,69 @@ mod tests {
     fn a_deviation_of_the_heating_does_not_feed_on_itself_in_short_steps() {
         // The temperature stays, θ = T/μ: the extreme of a short step.
         for temperature in [50.0, 300.0, 700.0, 850.0] {
-            let mut mu = 0.3 * (1.0 - LAW.softening * temperature);
-            let exact = mu;
-            let mut heating = Heating { now: temperature / (1.01 * mu), before: temperature / mu };
+            let exact = 0.3 * (1.0 - LAW.softening * temperature);
+            let mut mu = 1.01 * exact;
+            let mut heating = Heating { now: temperature / mu, before: temperature / exact };
             for _ in 0..400 {
-                mu = Friction::local(LAW, 0.3, heating, LAW.extrapolated(0.3, heating)).coefficient(0.0);
+                mu = Friction::remembering(LAW, 0.3, heating, 1.0, mu, || 0.0).coefficient(0.0);
                 assert!((mu / exact - 1.0).abs() < 0.0101, "{temperature} K: {mu} for {exact}");
                 heating = Heating { now: temperature / mu, before: heating.now };
             }
             assert!((mu / exact - 1.0).abs() < 1e-9, "{temperature} K: {mu} for {exact}");
+        }
+    }
+
+    /// Temperature per unit of power of a half-space that stands in a contact and of one that passes it in unit time,
+    /// over the time, both with the effusivity 1.
+    fn warmed(time: f64) -> f64 {
+        libm::expm1(-time) / (std::f64::consts::PI * time).sqrt() + libm::erf(time.sqrt())
+    }
+
+    /// Largest relative deviation of the coefficient from the law at the temperature of the same time, over the last
+    /// quarter of 400 steps of the length `h` after the start of a slide that would settle at the heating `theta`.
+    fn misfit(law: FrictionLaw, theta: f64, h: f64) -> f64 {
+        let rise = theta * (h / std::f64::consts::PI).sqrt();
+        let (mut coefficients, mut heating, mut worst) = (vec![0.3], Heating::default(), 0.0_f64);
+        for n in 1..=400 {
+            let before = coefficients[n - 1];
+            let mu = Friction::remembering(law, 0.3, heating, 1.0, before, || rise).coefficient(0.0);
+            coefficients.push(mu);
+            let since = |k: usize| if k > n { 0.0 } else { warmed((n + 1 - k) as f64 * h) };
+            let temperature: f64 = (1..=n).map(|k| theta * coefficients[k] * (since(k) - since(k + 1))).sum();
+            heating = Heating { now: temperature / mu, before: if n > 1 { heating.now } else { temperature / mu } };
+            let softened = 0.3 * (1.0 - law.softening * temperature).max(law.softening_floor);
+            if n > 300 {
+                worst = worst.max((mu / softened - 1.0).abs());
+            }
+        }
+        worst
+    }
+
+    /// With a temperature that followed friction within every step, the coefficient swung by itself with a period of
+    /// ten steps where 0.9 of it were lost.
+    #[test]
+    fn a_wheel_that_stands_and_remembers_its_heat_has_the_friction_of_its_temperature_in_every_length_of_step() {
+        let law = FrictionLaw { slip: SlipDependence::Constant, softening_floor: 0.01, ..LAW };
+        for lost in [0.25, 0.5, 0.8, 0.9, 0.95] {
+            let theta = lost / (1.0 - lost) / (0.3 * law.softening);
+            for h in [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0] {
+                let misfit = misfit(law, theta, h);
+                println!("{lost} lost, steps of {h} passages: coefficient within {misfit:.1e} of its law");
+                assert!(misfit < 0.02);
+            }
+        }
+    }
+
+    /// Where the remembered temperature alone would end friction, it falls from step to step and never ends.
+    #[test]
+    fn friction_of_a_contact_that_starts_too_hot_for_any_falls_and_stays_positive() {
+        let law = FrictionLaw { slip: SlipDependence::Constant, softening_floor: 0.0, ..LAW };
+        let mut mu = 0.3;
+        for _ in 0..50 {
+            let heating = Heating { now: 1500.0 / mu, before: 1500.0 / mu };
+            let next = Friction::remembering(law, 0.3, heating, 1.0, mu, || 0.0).coefficient(0.0);
+            assert!(next > 0.0 && next < 0.7 * mu, "{next} after {mu}");
+            mu = next;
         }
     }
 

@@ -18,12 +18,20 @@ use super::prediction::Found;
 use crate::config::Tuning;
 use crate::rolling::state::StepControl;
 
-/// Internal step that errors alone do not halve any further [s]: forces may jump, with the friction coefficient. Events
-/// are located to twice this time at best.
+/// Internal step that errors alone do not halve any further at tolerances of [`TOLERANCE`] and more [s]: forces may
+/// jump, with the friction coefficient. Events are located to twice this time at best. Errors go with the square of the
+/// step, and this step with the root of a finer tolerance.
 const FINEST: f64 = 1e-5;
 /// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or
 /// ends somewhere within, and its energy errs by what it does on the way of the whole step.
 const STRIKE: f64 = 2e-6;
+/// Internal step that errors of the temperature alone do not halve any further [s]: shorter ones bring no better
+/// temperatures, since those of a hot sliding contact scatter by more than the default tolerance whatever the step.
+const WARMING: f64 = 2.5e-4;
+/// Tolerance \[1] below which shorter steps than [`FINEST`] and [`STRIKE`] are taken, and the shortest of them over
+/// those \[1].
+const TOLERANCE: f64 = 2e-3;
+const SHORTEST: f64 = 0.1;
 /// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of
 /// remembered ones that doubles [`FINEST`]; twice as many make it five times as long. The shortest steps fall from
 /// sixty in a millisecond to some six if they go on.
@@ -79,13 +87,15 @@ impl<'a> Control<'a> {
     /// step `may_halve`.
     pub fn judge(&mut self, found: &Found, dt: f64, may_halve: bool) -> Verdict {
         let tolerance = self.tuning.tolerance;
-        if !found.first && self.failed > 0.0 && found.error > SMALLER * self.failed {
-            self.learn(found.error);
+        let error = error(found, dt);
+        if !found.first && self.failed > 0.0 && error > SMALLER * self.failed {
+            self.learn(error);
         }
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
         let finest = if found.strikes { STRIKE } else { FINEST };
+        let finest = finest * (tolerance / TOLERANCE).sqrt().clamp(SHORTEST, 1.0);
         let finest = finest * (1.0 + (self.memory.effort / PERSISTENCE.1).powi(2));
-        let inaccurate = tolerance > 0.0 && found.error > limit && dt > 2.0 * finest;
+        let inaccurate = tolerance > 0.0 && error > limit && dt > 2.0 * finest;
         let overheats = found.overheats && dt > 2.0 * OVERHEATED;
         let heats = overheats || (found.heating > HEATING.0 && dt > HEATING.1 * (1.0 + 1e-9));
         match (heats, inaccurate, may_halve) {
@@ -94,9 +104,9 @@ impl<'a> Control<'a> {
             (true, _, _) | (false, true, true) => {}
         }
         self.memory.step = 0.5 * dt;
-        self.failed = found.error;
+        self.failed = error;
         let doubled = inaccurate && found.doubled;
-        (self.memory.suspect, self.memory.quiet) = if doubled { (found.error, 0) } else { (0.0, 0) };
+        (self.memory.suspect, self.memory.quiet) = if doubled { (error, 0) } else { (0.0, 0) };
         Verdict::TooLong
     }
 
@@ -107,7 +117,7 @@ impl<'a> Control<'a> {
         self.memory.noise *= FADING;
         let counted = if found.yields || found.hottest > self.tuning.austenitisation { 1.0 } else { 0.0 };
         self.memory.effort = counted + self.memory.effort * libm::exp(-dt / PERSISTENCE.0);
-        let quiet = found.error <= GROWTH * tolerance;
+        let quiet = error(found, 2.0 * dt) <= GROWTH * tolerance;
         if self.memory.suspect > 0.0 {
             self.memory.quiet = if quiet { self.memory.quiet + 1 } else { 0 };
             if self.memory.quiet == 2 {
@@ -124,7 +134,13 @@ impl<'a> Control<'a> {
         grows
     }
 
+    /// Remembers the size of what shorter steps do not cure.
     fn learn(&mut self, noise: f64) {
         self.memory.noise = self.memory.noise.max(noise);
     }
+}
+
+/// Error by which a step of `dt` seconds is judged \[1].
+fn error(found: &Found, dt: f64) -> f64 {
+    if dt > WARMING * (1.0 + 1e-9) { found.error.max(found.warming) } else { found.error }
 }

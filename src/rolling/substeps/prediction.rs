@@ -53,8 +53,10 @@ pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
 
 /// How far an internal step was from its prediction.
 pub struct Found {
-    /// Largest deviation of the predicted quantities, relative to their scales \[1].
+    /// Largest deviation of the predicted forces and slip, relative to their scales \[1].
     pub error: f64,
+    /// Largest deviation of the predicted temperatures, relative to theirs \[1].
+    pub warming: f64,
     /// Change of the highest contact temperature \[K].
     pub heating: f64,
     /// Highest absolute contact temperature at the end \[K]; zero without heat.
@@ -95,7 +97,7 @@ impl Found {
             true => missed(&|c| c.resisting[k]).abs() / (AIRBORNE * load * arms[k]),
             false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
         };
-        let mut error = (0..3).map(force).fold(0.0, f64::max);
+        let (mut error, mut warming) = ((0..3).map(force).fold(0.0, f64::max), 0.0f64);
         if flies {
             error = error.max(missed(&|c| c.damper).abs() / load);
         }
@@ -109,7 +111,7 @@ impl Found {
             error = error.max((missed(&|c| c.slip).abs() - explained) / scale);
             for body in 0..2 {
                 let rise = |c: &Controlled| c.temperatures[body];
-                error = error.max(missed(&rise).abs() / WARM.max(rise(&found).abs()));
+                warming = warming.max(missed(&rise).abs() / WARM.max(rise(&found).abs()));
             }
         }
         let reference = model.thermal.as_ref().map_or(0.0, |thermal| thermal.reference());
@@ -119,7 +121,7 @@ impl Found {
         let overheats = molten && hottest - rise <= bound;
         let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
         let strikes = from.touches() != to.touches();
-        Self { error, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
+        Self { error, warming, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
     }
 
     /// Refuses a step that leaves the contact hotter than molten steel under friction can be.

@@ -9,6 +9,7 @@ mod exchange;
 mod history;
 mod smoothing;
 mod thermoelastic;
+mod warming;
 mod weakening;
 
 use super::contact_model::ContactModel;
@@ -33,6 +34,7 @@ pub use history::criteria;
 use history::{MaterialHistory, ObservedStep};
 use smoothing::Smoothing;
 use thermoelastic::Thermoelastic;
+use warming::Warming;
 use weakening::WeakSteel;
 
 /// Excess over the liquidus that a molten contact may reach \[K]: a step that gets there from below was too long.
@@ -66,6 +68,8 @@ pub struct ThermalModel {
     /// Distance of the contact nodes [m].
     pub(super) spacing: f64,
     weakening: WeakSteel,
+    /// How far friction warms the contact within a step.
+    pub(super) warming: Warming,
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
     history: MaterialHistory,
@@ -145,6 +149,7 @@ impl ThermalModel {
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
             spacing: margin,
             weakening: WeakSteel::new(config),
+            warming: Warming::new(config),
             points: profile_points(zone),
         })
     }
@@ -323,7 +328,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&*self.heat, contact.traction, dt, thermal, seen)?;
+        self.weakening.find(&*self.heat, contact.traction, self.warming.unit(dt), thermal, seen)?;
         Ok(())
     }
 

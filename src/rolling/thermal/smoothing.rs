@@ -5,6 +5,8 @@
 //! 14). A flash that is much thinner than an element lifts the surface above it; a locked wheel is heated to the depth
 //! of several elements, and hot spots narrower than that do not lift it by their own height.
 
+use crate::linalg::lru::Lru;
+use std::convert::Infallible;
 use std::f64::consts::PI;
 
 /// Depth from which on it matters, in distances of the surface nodes of the contact [1].
@@ -15,10 +17,9 @@ const STEP: f64 = 1.02;
 /// Poisson kernels for the positions of one model; only memory, its content follows from the depth asked for.
 #[derive(Default)]
 pub struct Smoothing {
-    /// Which depth the weights belong to, in steps.
-    place: Option<i32>,
-    /// Weights of the values at all nodes for each node, row by row.
-    weights: Vec<f64>,
+    /// Weights of the values at all nodes for each node, row by row, by the depth in steps and the number of nodes: each
+    /// line of a wheel has its own depth.
+    weights: Lru<(i32, usize), Vec<f64>>,
     /// Primitives of the kernel of one node and of its first moment at another one, row by row.
     primitives: Vec<[f64; 2]>,
     smoothed: Vec<f64>,
@@ -32,54 +33,56 @@ impl Smoothing {
             return;
         }
         let place = (libm::log(depth) / libm::log(STEP)).round() as i32;
-        if self.place != Some(place) || self.weights.len() != x.len() * x.len() {
-            self.prepare(x, STEP.powi(place));
-            self.place = Some(place);
-        }
-        let rows = self.weights.chunks_exact(x.len());
+        let primitives = &mut self.primitives;
+        let Ok(()) = self.weights.select((place, x.len()), |weights| {
+            set_primitives(primitives, x, STEP.powi(place));
+            set_weights(weights, primitives, x);
+            Ok::<(), Infallible>(())
+        });
+        let rows = self.weights.present().chunks_exact(x.len());
         self.smoothed.clear();
         self.smoothed.extend(rows.map(|row| product(row, values)));
         values.clone_from(&self.smoothed);
     }
+}
 
-    /// Weights for the depth `d`: exact integrals of the kernel over the pieces of a piecewise linear function.
-    fn prepare(&mut self, x: &[f64], d: f64) {
-        let n = x.len();
-        self.weights.clear();
-        self.weights.resize(n * n, 0.0);
-        self.set_primitives(x, d);
-        let rows = self.weights.chunks_exact_mut(n).zip(self.primitives.chunks_exact(n));
-        for ((row, primitives), &at) in rows.zip(x) {
-            for i in 1..n {
-                let ([a0, a1], [b0, b1]) = (primitives[i - 1], primitives[i]);
-                // ∫ K ds and ∫ K (s − at) ds over the piece.
-                let (whole, first) = (b0 - a0, b1 - a1);
-                let length = x[i] - x[i - 1];
-                let share = (first + (at - x[i - 1]) * whole) / length;
-                row[i] += share;
-                row[i - 1] += whole - share;
-            }
+/// Weights of the values at the nodes `x`: exact integrals of the kernel of the `primitives` over the pieces of a piecewise
+/// linear function.
+fn set_weights(weights: &mut Vec<f64>, primitives: &[[f64; 2]], x: &[f64]) {
+    let n = x.len();
+    weights.clear();
+    weights.resize(n * n, 0.0);
+    let rows = weights.chunks_exact_mut(n).zip(primitives.chunks_exact(n));
+    for ((row, primitives), &at) in rows.zip(x) {
+        for i in 1..n {
+            let ([a0, a1], [b0, b1]) = (primitives[i - 1], primitives[i]);
+            // ∫ K ds and ∫ K (s − at) ds over the piece.
+            let (whole, first) = (b0 - a0, b1 - a1);
+            let length = x[i] - x[i - 1];
+            let share = (first + (at - x[i - 1]) * whole) / length;
+            row[i] += share;
+            row[i - 1] += whole - share;
         }
     }
+}
 
-    /// Primitives of the kernel and of its first moment between all nodes. They depend on distances only: odd and even,
-    /// and the same on both sides of the middle where the nodes are.
-    fn set_primitives(&mut self, x: &[f64], d: f64) {
-        let n = x.len();
-        self.primitives.resize(n * n, [0.0; 2]);
-        let mirrored = x.iter().zip(x.iter().rev()).all(|(a, b)| *a == -b);
-        for at in 0..n {
-            let ends = if mirrored { at..n - at } else { at..n };
-            for i in ends {
-                let s = x[i] - x[at];
-                let [odd, even] = [libm::atan(s / d) / PI, 0.5 * d / PI * libm::log(s.powi(2) + d * d)];
-                self.primitives[at * n + i] = [odd, even];
-                self.primitives[i * n + at] = [-odd, even];
-                if mirrored {
-                    let [at, i] = [n - 1 - i, n - 1 - at];
-                    self.primitives[at * n + i] = [odd, even];
-                    self.primitives[i * n + at] = [-odd, even];
-                }
+/// Primitives of the kernel for the depth `d` and of its first moment between all nodes. They depend on distances only: odd
+/// and even, and the same on both sides of the middle where the nodes are.
+fn set_primitives(primitives: &mut Vec<[f64; 2]>, x: &[f64], d: f64) {
+    let n = x.len();
+    primitives.resize(n * n, [0.0; 2]);
+    let mirrored = x.iter().zip(x.iter().rev()).all(|(a, b)| *a == -b);
+    for at in 0..n {
+        let ends = if mirrored { at..n - at } else { at..n };
+        for i in ends {
+            let s = x[i] - x[at];
+            let [odd, even] = [libm::atan(s / d) / PI, 0.5 * d / PI * libm::log(s.powi(2) + d * d)];
+            primitives[at * n + i] = [odd, even];
+            primitives[i * n + at] = [-odd, even];
+            if mirrored {
+                let [at, i] = [n - 1 - i, n - 1 - at];
+                primitives[at * n + i] = [odd, even];
+                primitives[i * n + at] = [-odd, even];
             }
         }
     }
@@ -126,13 +129,32 @@ mod tests {
     #[test]
     fn nodes_on_both_sides_of_the_middle_have_mirrored_weights() {
         let x = [-3.0, -2.5, -1.0, -0.2, 0.2, 1.0, 2.5, 3.0];
-        let (mut mirrored, mut shifted) = (Smoothing::default(), Smoothing::default());
-        mirrored.prepare(&x, 0.7);
-        shifted.prepare(&x.map(|x| x + 1.0), 0.7);
-        let pairs = mirrored.weights.iter().zip(&shifted.weights);
+        let weights = |x: &[f64]| {
+            let (mut primitives, mut weights) = (Vec::new(), Vec::new());
+            set_primitives(&mut primitives, x, 0.7);
+            set_weights(&mut weights, &primitives, x);
+            weights
+        };
+        let (mirrored, shifted) = (weights(&x), weights(&x.map(|x| x + 1.0)));
+        let pairs = mirrored.iter().zip(&shifted);
         let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         println!("{apart:.1e} apart");
         assert!(apart < 1e-14);
-        assert!(mirrored.weights.iter().zip(mirrored.weights.iter().rev()).all(|(a, b)| (a - b).abs() < 1e-14));
+        assert!(mirrored.iter().zip(mirrored.iter().rev()).all(|(a, b)| (a - b).abs() < 1e-14));
+    }
+
+    #[test]
+    fn depths_in_turn_are_smoothed_as_each_alone_bit_for_bit() {
+        let x: Vec<f64> = (-20..=20).map(f64::from).collect();
+        let hot: Vec<f64> = x.iter().map(|x| 1.0 / (1.0 + x * x)).collect();
+        let smoothed = |smoothing: &mut Smoothing, depth: f64| {
+            let mut values = hot.clone();
+            smoothing.apply(&x, &mut values, depth, 1.0);
+            values
+        };
+        let mut shared = Smoothing::default();
+        for depth in (0..60).map(|k| 0.3 + 0.1 * f64::from(k % 20)) {
+            assert_eq!(smoothed(&mut shared, depth), smoothed(&mut Smoothing::default(), depth));
+        }
     }
 }

@@ -8,7 +8,6 @@ use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
 use crate::piecewise::{Piecewise, interpolate, smear};
 use crate::rolling::error::StepError;
 use crate::rolling::thermal_state::ThermalState;
-use std::f64::consts::PI;
 
 /// Depth in which the pressure of a patch acts, in its half-widths: there the shear stress of a Hertzian line contact
 /// is near its maximum, and a hotter but thinner skin does not yield on its own. Nor does a narrower strip: the steel
@@ -49,13 +48,13 @@ impl WeakSteel {
         (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
     }
 
-    /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s], infinite in the stationary
-    /// state; its film is still that of the step before.
+    /// Fills `thermal.weakening` from the temperatures `seen` after a step within which a unit of power per area warms the
+    /// surfaces by `warming` [K m²/W], infinite in the stationary state; its film is still that of the step before.
     pub fn find(
         &self,
         heat: &dyn HeatModel,
         traction: &Traction,
-        dt: f64,
+        warming: f64,
         thermal: &mut ThermalState,
         seen: &mut Observation,
     ) -> Result<(), StepError> {
@@ -64,7 +63,7 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            self.melt(heat.zone_x(), [dt, hottest], traction, seen, &mut weakening.film);
+            self.melt(heat.zone_x(), [warming, hottest], traction, seen, &mut weakening.film);
         }
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
             return Ok(());
@@ -89,15 +88,14 @@ impl WeakSteel {
         share * (1.0 - CUT * (excess / FILM_GROWS).min(1.0))
     }
 
-    /// Share of friction on molten places in the coming step of about `dt` \[s]. The temperature at its end is taken as
-    /// linear in the share, and the share that belongs to its own temperature is found; a share from the temperature
-    /// before would let the surface overheat and freeze in turns. In a long step the flash follows friction in full, as
-    /// in [`crate::contact::Friction::local`]; in a short one it rises by the warming of a half-space under the power
-    /// of friction without a film, `q √(Δt/π)/√(kρc)` with half of the power for each body.
+    /// Share of friction on molten places in the coming step, which takes about as long as the last one. The temperature
+    /// at its end is taken as linear in the share, and the share that belongs to its own temperature is found; a share
+    /// from the temperature before would let the surface overheat and freeze in turns. In a long step the flash follows
+    /// friction in full; in a short one it rises by `warming` [K m²/W] times the power of friction without a film.
     fn melt(
         &self,
         zone: &[f64],
-        [dt, hottest]: [f64; 2],
+        [warming, hottest]: [f64; 2],
         traction: &Traction,
         seen: &Observation,
         film: &mut Piecewise,
@@ -108,8 +106,6 @@ impl WeakSteel {
         }
         let before = film.clone();
         film.clear();
-        let Material { conductivity, density, specific_heat, .. } = self.material;
-        let warming = (dt / (PI * conductivity * density * specific_heat)).sqrt();
         let [wheel, rail] = &seen.surface;
         for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };

@@ -8,11 +8,11 @@
 
 use super::conductance::{ContactBands, of_element};
 use super::inverse::{Inverse, InverseKey};
-use super::lru::Lru;
 use super::transport::upwind_within;
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::kernels::add;
 use crate::linalg::DenseSystem;
+use crate::linalg::lru::Lru;
 use nalgebra::{Matrix4, Vector4};
 
 /// Data of a coupling.

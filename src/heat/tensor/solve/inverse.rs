@@ -1,12 +1,12 @@
 //! Inverses of the matrices of one body, kept for the steps that share them.
 
 use super::coefficients::StageCoefficients;
-use super::lru::Lru;
 use super::response::SurfaceInfluence;
 use super::transport::Transport;
 use super::tridiagonal::TridiagonalFactor;
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::body::HeatBody;
+use crate::linalg::lru::Lru;
 use std::ops::Range;
 
 /// Data on which the matrix of an implicit stage in one body depends.

@@ -6,7 +6,6 @@ pub mod coupling;
 mod decay;
 pub mod inverse;
 pub mod line_conduction;
-mod lru;
 pub mod operators;
 pub mod response;
 mod ring;

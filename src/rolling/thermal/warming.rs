@@ -1,0 +1,39 @@
+//! How far friction warms the contact within a step.
+
+use crate::config::{Config, Material};
+use crate::contact::Traction;
+use crate::piecewise::weighted_mean;
+use std::f64::consts::PI;
+
+/// Rise of the surface temperature of two half-spaces that share a power per area.
+#[derive(Clone, Copy, Debug)]
+pub struct Warming {
+    /// `πkρc` [W² s/(m⁴ K²)].
+    inertia: f64,
+    /// Part of the friction power that becomes heat here \[1].
+    heat_ratio: f64,
+}
+
+impl Warming {
+    /// Rise for the material of the parameters.
+    pub fn new(config: &Config) -> Self {
+        let Material { conductivity, density, specific_heat, .. } = config.material;
+        Self { inertia: PI * conductivity * density * specific_heat, heat_ratio: config.thermal.heat_ratio }
+    }
+
+    /// Rise after `dt` \[s] under a unit of power per area, half of it in each body: `√(Δt/π)/√(kρc)` [K m²/W].
+    pub fn unit(&self, dt: f64) -> f64 {
+        (dt / self.inertia).sqrt()
+    }
+
+    /// Rise of the temperature of friction within `dt` \[s] per unit of friction coefficient \[K], under the slip and the
+    /// pressure of a solved contact.
+    pub fn by_friction(&self, traction: &Traction, dt: f64) -> f64 {
+        let friction = &traction.friction;
+        if friction.coefficient == 0.0 {
+            return 0.0;
+        }
+        let dissipation = weighted_mean(&traction.pressure, &friction.dissipation.x, &friction.dissipation.value);
+        self.heat_ratio * self.unit(dt) * dissipation / friction.coefficient
+    }
+}
