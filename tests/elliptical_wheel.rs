@@ -241,7 +241,7 @@ fn a_patch_that_grows_across_the_rail_becomes_the_plane_contact_of_its_load_per_
         // Pressure and half-length tend to those of the plane contact with the size of the patch, forces and stick from the
         // other side, as Kalker's coefficient does: 1 % at 1:4.5 and at 1:9.5.
         let third = curvature < 0.1;
-        let least = |k: usize| if k == 2 || k == 3 { 0.0 } else { 0.012 };
+        let least = |k: usize| -> f64 { if k == 2 || k == 3 { 0.0 } else { 0.012 } };
         let bound = |k: usize, before: f64| if third { least(k).max(0.5 * before) } else { 0.05 };
         assert!(worst.iter().zip(before).enumerate().all(|(k, (now, before))| *now < bound(k, before)));
         before = worst;
