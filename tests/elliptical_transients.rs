@@ -105,8 +105,6 @@ fn held(case: &Json, lines: usize, series: bool) -> Held {
         held.worst = held.worst.max(error);
         held.rms += error * error / (xi.len() - 1) as f64;
         held.crept = held.crept.max((sums[0] / sums[1]).abs());
-            print!("{:.2}:{:+.4} ", way[step], found / xi[step] - 1.0);
-        }
         if way[step] > SETTLED {
             held.settled = held.settled.max(error);
         }
