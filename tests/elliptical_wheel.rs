@@ -246,5 +246,5 @@ fn a_patch_that_grows_across_the_rail_becomes_the_plane_contact_of_its_load_per_
         assert!(worst.iter().zip(before).enumerate().all(|(k, (now, before))| *now < bound(k, before)));
         before = worst;
     }
-    assert!(before.into_iter().all(|error| error < 6e-3));
+    assert!(before.into_iter().all(|error| error < 8e-3));
 }

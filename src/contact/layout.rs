@@ -75,7 +75,7 @@ pub struct PatchLayout {
     width: f64,
     /// Tangential flexibility of every line under it, as far as it is a logarithm.
     tangential: Vec<Logarithm>,
-    /// What else its lines feel of each other's tangential forces.
+    /// Smooth rest of it, under the forces of all lines.
     flexibility: Arc<PatchFlexibility>,
     /// Lengths of the lines on which they do, over those under the load of the description \[1].
     room: f64,

@@ -133,6 +133,11 @@ impl HalfSpaces {
         lines.iter().map(|line| self.solver.narrowed(line, LOAD / WIDTH)).collect()
     }
 
+    /// Lines of the series on the grid.
+    pub fn as_grid(&self, lines: &Lines) -> Lines {
+        lines.iter().map(|line| self.solver.widened(line).unwrap()).collect()
+    }
+
     pub fn layout(&self, load: f64) -> Vec<LineLayout> {
         self.patch.moving(load).collect()
     }
