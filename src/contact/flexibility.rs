@@ -134,6 +134,24 @@ pub fn add(by_moments: &ByMoments, moments: &ByPowers, sum: &mut ByPowers) {
     }
 }
 
+/// Polynomial that belongs to moments.
+pub fn polynomial(by_moments: &ByMoments, moments: &ByPowers) -> ByPowers {
+    let mut sum = ByPowers::default();
+    add(by_moments, moments, &mut sum);
+    sum
+}
+
+/// Values of a polynomial at places x, whose unit is `length` \[m].
+pub fn values<const N: usize>(polynomial: &ByPowers, x: &[f64; N], length: f64) -> [f64; N] {
+    let (mut sums, scale) = ([0.0; N], 1.0 / length);
+    for c in polynomial.iter().rev() {
+        for i in 0..N {
+            sums[i] = sums[i] * (x[i] * scale) + c;
+        }
+    }
+    sums
+}
+
 /// Value at the place t of a polynomial.
 pub fn value(polynomial: &ByPowers, t: f64) -> f64 {
     polynomial.iter().rev().fold(0.0, |sum, c| sum * t + c)
@@ -159,20 +177,21 @@ pub fn at(polynomial: &ByPowers, powers: &ByPowers) -> f64 {
 impl Between {
     /// Field of forces with given moments.
     pub fn field(&self, moments: &ByPowers) -> Field {
-        let mut field = Field::default();
-        add(&self.displacement, moments, &mut field.displacement);
-        add(&self.strain, moments, &mut field.strain);
-        field
+        Field { displacement: polynomial(&self.displacement, moments), strain: polynomial(&self.strain, moments) }
     }
 }
 
 impl Field {
-    /// Slip [m/s] as a polynomial, given the weight of a displacement in its rate [1/s] and the sum of the speeds of both
-    /// surfaces [m/s], half of which carries the strain.
-    pub fn slip(&self, [rate, speed]: [f64; 2], half_length: f64) -> ByPowers {
-        let by_strain = -0.5 * speed / half_length;
-        std::array::from_fn(|k| rate * self.displacement[k] + by_strain * self.strain[k])
+    /// Slip [m/s] as a polynomial, given its changes with displacement and strain, see [`slip_of_field`].
+    pub fn slip(&self, [by_displacement, by_strain]: [f64; 2]) -> ByPowers {
+        std::array::from_fn(|k| by_displacement * self.displacement[k] + by_strain * self.strain[k])
     }
+}
+
+/// Changes of the slip [m/s] with the displacement of a field, which has the weight `rate` in its rate [1/s], and with its
+/// strain: half of the sum `speed` of the speeds of both surfaces [m/s] carries it.
+pub fn slip_of_field([rate, speed]: [f64; 2], half_length: f64) -> [f64; 2] {
+    [rate, -0.5 * speed / half_length]
 }
 
 impl InPatch<'_> {

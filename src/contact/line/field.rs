@@ -1,7 +1,7 @@
 //! Displacement of a line by the tangential forces of all lines of its patch.
 
 use super::contact_line::ContactLine;
-use crate::contact::flexibility::{ByMoments, ByPowers, at};
+use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
 use std::ops::Range;
 
 impl ContactLine<'_> {
@@ -36,7 +36,7 @@ impl ContactLine<'_> {
         let speeds = [self.problem.time.a0, self.traction.rigid[0] + self.rim_velocity()];
         Some(std::array::from_fn(|n| {
             let unit = std::array::from_fn(|k| if k == n { 1.0 } else { 0.0 });
-            between.field(&unit).slip(speeds, patch.half_length)
+            between.field(&unit).slip(slip_of_field(speeds, patch.half_length))
         }))
     }
 

@@ -62,7 +62,6 @@ impl<'a> SeriesContact<'a> {
     /// Gives all lines the smooth displacements under the present tractions.
     pub fn displace(&mut self) {
         let (surface, load) = (self.surface(), self.load());
-        self.exchange();
         for line in &mut self.lines {
             line.mean_load = load;
             line.displace(surface);

@@ -3,7 +3,7 @@
 use super::contact::SeriesContact;
 use super::places::Places;
 use super::series_line::SeriesLine;
-use crate::contact::flexibility::{ByPowers, Field};
+use crate::contact::flexibility::{self, ByPowers};
 
 impl SeriesContact<'_> {
     /// Gives all lines the fields of the present shear.
@@ -32,9 +32,9 @@ impl SeriesLine<'_> {
         })
     }
 
-    /// Slip [m/s] by a field, as a polynomial.
-    pub fn slip_by(&self, field: &Field) -> ByPowers {
-        let speeds = [self.problem.line.time.a0, self.rigid[0] + self.rim_velocity()];
-        field.slip(speeds, self.half_length)
+    /// Changes of the slip with displacement and strain of the field.
+    pub fn slip_of_field(&self) -> [f64; 2] {
+        let speed = self.rigid[0] + self.rim_velocity();
+        flexibility::slip_of_field([self.problem.line.time.a0, speed], self.half_length)
     }
 }

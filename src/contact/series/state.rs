@@ -1,7 +1,7 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::{Arch, logarithm_of_both};
-use crate::contact::flexibility::{ByPowers, at, powers};
+use crate::contact::flexibility::{ByPowers, at, powers, values};
 use crate::contact::kernel::LineKernel;
 use crate::linalg::{Lagrange, POINTS};
 use serde::{Deserialize, Serialize};
@@ -53,6 +53,16 @@ impl Default for PatchPast {
 }
 
 impl PatchPast {
+    /// Displacement by the lines of the patch, carried on with a factor \[m].
+    fn by_lines<const N: usize>(&self, carried: f64, x: &[f64; N]) -> [f64; N] {
+        let [field, growth] = &self.field;
+        let sum: ByPowers = std::array::from_fn(|k| field[k] + 2.0 * (1.0 - carried) * growth[k]);
+        match x.iter().all(|x| x.abs() <= self.half_length) {
+            true => values(&sum, x, self.half_length),
+            false => x.map(|x| at(&sum, &powers(x / self.half_length))),
+        }
+    }
+
     /// Factor with which the logarithm of the line's own displacement is carried on by a line with another share of the
     /// width \[1]: its energy stays.
     fn carried(&self, share: f64) -> f64 {
@@ -144,15 +154,10 @@ impl Past {
         match self {
             Past::Patch(past) => {
                 let carried = share.map_or(1.0, |share| past.carried(share));
-                let [field, growth] = &past.field;
-                let scale = 1.0 / past.half_length;
+                let by_lines = past.by_lines(carried, x);
                 let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
                 let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
-                std::array::from_fn(|i| {
-                    let place = powers(scale * x[i]);
-                    let by_lines = at(field, &place) + 2.0 * (1.0 - carried) * at(growth, &place);
-                    smooth.at(x[i]) + by_lines + own - 2.0 * carried * kernel * logarithm[i]
-                })
+                std::array::from_fn(|i| smooth.at(x[i]) + by_lines[i] + own - 2.0 * carried * kernel * logarithm[i])
             }
             Past::Grid(first, spacing, values) if values.len() > 3 => x.map(|x| cubic((x - first) / spacing, values)),
             Past::Grid(..) => [0.0; N],

@@ -117,6 +117,7 @@ impl Search {
     /// True if the solution obeys friction on every line; `false`: the search has to go on.
     fn check(&mut self, contact: &mut SeriesContact) -> Result<bool, ContactError> {
         let mut obeyed = true;
+        contact.exchange();
         for (line, search) in contact.lines.iter_mut().zip(&mut self.lines) {
             obeyed &= search.check(line)?;
             line.slope = search.slope(line);

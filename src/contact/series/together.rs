@@ -7,10 +7,10 @@
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::stretch::Stretch;
-use super::surface::{AtPoints, plus};
+use super::surface::AtPoints;
 use crate::contact::error::ContactError;
-use crate::contact::flexibility::ByPowers;
-use crate::linalg::{DenseSystem, POINTS, Polynomial};
+use crate::contact::flexibility::{ByMoments, ByPowers, polynomial};
+use crate::linalg::{DenseSystem, POINTS};
 
 impl SeriesContact<'_> {
     /// Solves for the shear of stretches of the half-lengths `halves` \[m] that stick from the leading edges on
@@ -57,23 +57,27 @@ impl SeriesContact<'_> {
         let mut system = std::mem::take(&mut self.system);
         system.reset(count + axes.clone().count());
         self.write_motions(stretches, &mut system);
+        let bodies = self.displaced_by_powers();
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
-            let share = self.lines[by].problem.line.share;
-            for (k, (moments, force)) in stretch.moments().iter().zip(stretch.forces()).enumerate() {
-                // The known tractions stand on the right, the others take away from them.
-                let mut write = |row: usize, value: f64| {
-                    let (coefficients, side) = system.row(row);
-                    if k == 0 { *side += value } else { coefficients[POINTS * column + k - 1] += value }
-                };
-                let ports = self.at_points(by, moments);
-                let displaced = self.displaced(&ports);
-                for (row, (at, _)) in sticking(stretches).enumerate() {
-                    let slip = self.slip_between([at, by], moments, &displaced);
-                    slip.iter().enumerate().for_each(|(p, slip)| write(POINTS * row + p, *slip));
+            let (moments, forces, share) = (stretch.moments(), stretch.forces(), self.lines[by].problem.line.share);
+            for (row, (at, _)) in sticking(stretches).enumerate() {
+                let between = self.slips_between([at, by], &bodies);
+                let slips = moments.map(|moments| polynomial(&between, &moments));
+                for p in 0..POINTS {
+                    // The known tractions stand on the right, the others take away from them.
+                    let (coefficients, side) = system.row(POINTS * row + p);
+                    *side += slips[0][p];
+                    let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
+                    coefficients.zip(&slips[1..]).for_each(|(value, slip)| *value += slip[p]);
                 }
-                for (row, axis) in axes.clone().enumerate() {
+            }
+            for (row, axis) in axes.clone().enumerate() {
+                let (coefficients, side) = system.row(count + row);
+                for (k, (moments, force)) in moments.iter().zip(forces).enumerate() {
+                    let ports = self.at_points(by, moments);
                     let momentum = (0..POINTS).map(|l| self.bodies().momentum[(axis, 2 * l)] * ports[l]).sum::<f64>();
-                    write(count + row, self.arm(axis) * share * force - momentum);
+                    let value = self.arm(axis) * share * force - momentum;
+                    if k == 0 { *side += value } else { coefficients[POINTS * column + k - 1] += value }
                 }
             }
         }
@@ -130,29 +134,50 @@ impl SeriesContact<'_> {
         points.moments(&of_bodies)
     }
 
-    /// Tangential displacements of wheel and rail by forces on the wheel at the points, and the rail's opposite ones.
-    fn displaced(&self, forces: &AtPoints) -> [Polynomial; 2] {
+    /// Tangential displacements of wheel and rail by unit moments of a shear on the wheel, and the rail's opposite one, with
+    /// the powers of `x/reach`, as polynomials of it.
+    fn displaced_by_powers(&self) -> [ByMoments; 2] {
         let points = &self.lines[0].constants.points;
-        [0, 1].map(|body| {
+        [(0, 1.0), (1, -1.0)].map(|(body, sign)| {
             let compliance = self.bodies().shared.compliance[body];
-            let sign = if body == 0 { 1.0 } else { -1.0 };
-            points.polynomial(&std::array::from_fn(|k| {
-                sign * forces.iter().enumerate().map(|(l, force)| compliance[(2 * k, 2 * l)] * force).sum::<f64>()
-            }))
+            std::array::from_fn(|n| {
+                let forces = points.moments(&std::array::from_fn(|k| if k == n { sign } else { 0.0 }));
+                let moved = |k: usize| (0..POINTS).map(|l| compliance[(2 * k, 2 * l)] * forces[l]).sum();
+                points.polynomial(&std::array::from_fn(moved)).by_powers(points.reach)
+            })
         })
     }
 
-    /// Slip of a line by moments of the shear of another one, which displaces wheel and rail so.
-    fn slip_between(&self, [at, by]: [usize; 2], moments: &ByPowers, [wheel, rail]: &[Polynomial; 2]) -> ByPowers {
-        let line = &self.lines[at];
-        let (v, rim, a0) = (line.rigid[0], line.rim_velocity(), line.problem.line.time.a0);
-        let moved = |polynomial: &Polynomial, by_value: f64, by_slope: f64| {
-            let [values, slopes] = [*polynomial, polynomial.derivative()].map(|of| of.by_powers(line.half_length));
-            std::array::from_fn::<_, POINTS, _>(|k| by_value * values[k] + by_slope * slopes[k])
+    /// Slips of a line by unit moments of the shear of another one, given what those do to the bodies.
+    fn slips_between(&self, [at, by]: [usize; 2], [wheel, rail]: &[ByMoments; 2]) -> ByMoments {
+        let (line, other) = (&self.lines[at], &self.lines[by]);
+        let (v, rim, a0, reach) =
+            (line.rigid[0], line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
+        let powers = |ratio: f64, first: f64| {
+            let mut power = first;
+            ByPowers::default().map(|_| {
+                let next = power * ratio;
+                std::mem::replace(&mut power, next)
+            })
         };
-        let slip = plus(&moved(wheel, a0, -rim), &moved(rail, -a0, v));
-        let Some(patch) = line.problem.line.patch else { return slip };
-        plus(&slip, &line.slip_by(&patch.flexibility.between(patch.line, by).field(moments)))
+        let here = powers(line.half_length / reach, 1.0);
+        let there = powers(other.half_length / reach, other.problem.line.share);
+        let mut slips = [ByPowers::default(); POINTS];
+        for (n, slip) in slips.iter_mut().enumerate() {
+            let slope = |of: &ByPowers, p: usize| (p + 1) as f64 / reach * of.get(p + 1).copied().unwrap_or(0.0);
+            for (p, slip) in slip.iter_mut().enumerate() {
+                let rate = a0 * (wheel[n][p] - rail[n][p]);
+                *slip = there[n] * here[p] * (rate + v * slope(&rail[n], p) - rim * slope(&wheel[n], p));
+            }
+        }
+        let Some(patch) = line.problem.line.patch else { return slips };
+        let (between, [rate, strain]) = (patch.flexibility.between(patch.line, by), line.slip_of_field());
+        for (n, slip) in slips.iter_mut().enumerate() {
+            for (p, slip) in slip.iter_mut().enumerate() {
+                *slip += rate * between.displacement[n][p] + strain * between.strain[n][p];
+            }
+        }
+        slips
     }
 }
 
