@@ -177,6 +177,14 @@ def test_a_csv_with_or_without_units_gives_the_curves_of_the_run(run, packed, tm
     assert plain.series["contact.force_x"].meaning == run.series["contact.force_x"].meaning
 
 
+def test_flags_of_a_csv_are_read_as_fmi_and_as_python_and_pandas_write_them(tmp_path):
+    file, read = tmp_path / "flags.csv", []
+    for yes, no in (("true", "false"), ("True", "False"), ("TRUE", "FALSE"), ("1", "0")):
+        file.write_text(f"time,wheel.velocity,brake.locked\n0.0,10.0,{no}\n1.0,9.0,{yes}\n2.0,8.0,{no}\n")
+        read.append(sources.read(file, None).series["brake.locked"].values.tolist())
+    assert read == [[0.0, 1.0, 0.0]] * 4
+
+
 def test_a_dataset_as_a_netcdf_file_is_the_run(run, packed, tmp_path):
     xarray = pytest.importorskip("xarray", reason="xarray is not installed")
     pytest.importorskip("h5netcdf", reason="h5netcdf is not installed")

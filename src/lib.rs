@@ -42,6 +42,7 @@
 //! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula] |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
+//! | `lru` | what is expensive to compute, kept for the steps that share it | |
 //! | [`files`] | reading of regular files of bounded size | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
@@ -82,6 +83,7 @@ pub mod files;
 pub mod fmi;
 pub mod heat;
 pub mod linalg;
+mod lru;
 pub mod material;
 pub mod mechanics;
 pub mod multistep;

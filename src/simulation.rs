@@ -21,6 +21,7 @@
 
 pub mod advice;
 mod foreign_state;
+mod ingredients;
 mod lock;
 pub mod mistaken_units;
 mod patch_file;
@@ -32,14 +33,16 @@ mod tests;
 mod tools;
 pub mod validity;
 
+pub use ingredients::PrepareError;
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 
-use crate::config::{Config, ConfigError, Tuning};
+use crate::config::{Config, Tuning};
 use crate::heat::HeatError;
-use crate::mechanics::{self, Basis, BasisError, MechanicsError};
-use crate::rolling::{self, ModelError, fields, outputs, sensitivity, stationary, substeps};
-use crate::surface::{self, Surfaces};
+use crate::mechanics::{self, Basis};
+use crate::rolling::{self, fields, outputs, sensitivity, stationary, substeps};
+use crate::surface;
 use foreign_state::is_plausible;
+use ingredients::Ingredients;
 use lock::lock;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
@@ -52,26 +55,6 @@ pub use crate::rolling::{
     Difference, Drive, Inputs, MOST_LINES, Origin, OutputRow, Outputs, PROFILE_POINTS, Read, Rotation, State,
     StepError, Translation, Vertical,
 };
-
-/// Why a model could not be prepared.
-#[derive(Debug, thiserror::Error)]
-pub enum PrepareError {
-    /// Parameters out of range or against each other.
-    #[error(transparent)]
-    Config(#[from] ConfigError),
-    /// Meshes, matrices or modes.
-    #[error("finite-element model: {0}")]
-    Mechanics(#[from] MechanicsError),
-    /// Contact or heat.
-    #[error(transparent)]
-    Model(#[from] rolling::ModelError),
-    /// A stored basis that cannot be read.
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// A computed basis that cannot be written as bytes.
-    #[error("computed basis: {0}")]
-    Basis(#[from] BasisError),
-}
 
 /// Immutable model of one parameter set; instances with equal parameters may share it.
 pub struct Model {
@@ -110,11 +93,15 @@ impl Model {
         store: &BasisStore,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
-        config.validate()?;
-        let (rows, config) = (config.contact.rows.clone(), patch_file::read(config, store.resources())?);
-        config.validate()?;
-        rolling::RollingModel::check_size(&config)?;
-        let surfaces = Surfaces::from_config(&config, store.resources()).map_err(ModelError::from)?;
+        Self::with_ingredients(Ingredients::read(config, store)?, store, progress)
+    }
+
+    fn with_ingredients(
+        ingredients: Ingredients,
+        store: &BasisStore,
+        progress: &mut dyn FnMut(&str, f64),
+    ) -> Result<Arc<Self>, PrepareError> {
+        let Ingredients { config, rows, surfaces } = ingredients;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
         if config.solver.response.is_reduced() {
             let (found, bytes) = match store.find(&config)? {
@@ -141,6 +128,14 @@ impl Model {
             theirs.contact.rows.clone_from(&ours.contact.rows);
         }
         theirs == *ours
+    }
+
+    /// True if the files that the parameters name say what they said when the model was made.
+    pub fn is_up_to_date(&self, store: &BasisStore) -> bool {
+        let mut given = self.config().clone();
+        given.contact.rows.clone_from(&self.rows);
+        Ingredients::read(given, store)
+            .is_ok_and(|now| now.config == *self.config() && now.surfaces == self.rolling.contact.surfaces)
     }
 
     /// Parameters of the model.

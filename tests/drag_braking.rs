@@ -203,3 +203,35 @@ fn long_steps_on_hot_yielding_steel_keep_their_energy() {
     println!("{worst} J of {} J in a step, {before} J in all; yielded {}", power * step, o.yielded);
     assert!(o.yielded > 0.9 && worst < 1e-4 * power * step);
 }
+
+/// A wheel whose tread is hotter than 400 °C grows with its bulk in steps of a second, and nothing of the growth is
+/// kept back until a short step comes and presses the wheel onto the rail.
+#[test]
+fn a_hot_wheel_grows_with_its_bulk_in_long_steps_and_bears_its_load() {
+    let (power, step) = (65e3, 1.0);
+    let mut config = preset("railway", 10);
+    (config.initial.velocity, config.tuning.max_step) = (SPEED, 500.0);
+    let (radius, expansion) = (config.wheel.radius, config.material.expansion);
+    let mut inputs = Inputs::rolling(&config);
+    (inputs.translation, inputs.rotation) = (Translation::Velocity, Rotation::Moment);
+    (inputs.drive.tread_heat, inputs.drive.moment) = (power, -power / (SPEED / radius));
+    let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+    let start = simulation.outputs().clone();
+    let mut most = 0.0_f64;
+    for _ in 0..(2000.0 / step) as usize {
+        simulation.advance(&inputs, step).unwrap();
+        most = most.max(simulation.outputs().contact_force_max);
+    }
+    let o = simulation.outputs();
+    let warmer = o.temperature_wheel_bulk - start.temperature_wheel_bulk;
+    let growth = (o.thermal_growth - start.thermal_growth) / (expansion * radius * warmer);
+    let missing =
+        o.hub_work + o.thermal_work - o.stored_energy - o.friction_energy - o.damping_energy - o.plastic_energy;
+    println!(
+        "steps of {step} s: {warmer:.1} K warmer, growth over that of the bulk {growth:.4}, load at most {most:.0} N, \
+             {missing:.1} J missing, residual {:.1e}",
+        o.energy_residual
+    );
+    assert!(warmer > 400.0 && (growth - 1.0).abs() < 0.01 && most < 1.02e5, "{growth} {most}");
+    assert!(missing.abs() < 1e-5 * power * 2000.0, "{missing}");
+}

@@ -155,3 +155,36 @@ fn the_balance_holds_while_the_torsion_rings() {
         assert!(before.energy_residual.abs() < 3e-3 && work > dissipated * 0.5);
     }
 }
+
+/// Hot layers under a locked wheel swell, which lifts the load, and pull at a surface that the ringing rim moves to and
+/// fro. This work of heat is 12 and 6 J of the balances here, without which 1e-3 would be missing. What is left where
+/// the wheel locks within 20 ms is the numerical damping of the rim that rings, which falls with the tolerance; where
+/// it locks within 200 ms nothing rings.
+#[test]
+fn heat_that_swells_and_pulls_under_a_locked_wheel_is_in_the_balance() {
+    let run = |name: &str, stop: f64, tolerance: f64, end: f64| {
+        let mut config = preset(name, 10);
+        config.initial.velocity = 50.0;
+        config.tuning.tolerance = tolerance;
+        let model = model(config);
+        let mut inputs = prescribed(&model, 50.0, 0.0);
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let rolling = inputs.drive.omega;
+        for k in 1..=(end * 1e3).round() as usize {
+            inputs.drive.omega = rolling * (1.0 - k as f64 * 1e-3 / stop).max(0.0);
+            simulation.advance(&inputs, 1e-3).unwrap();
+        }
+        let o = simulation.outputs();
+        println!(
+            "{name}, locked in {stop} s, tolerance {tolerance}: work of heat {:.3} J, friction {:.0} J, {:.1} J damped, residual {:.1e}",
+            o.thermal_work, o.friction_energy, o.damping_energy, o.energy_residual
+        );
+        [o.energy_residual, o.thermal_work]
+    };
+    for name in ["railway", "railway_ellipse"] {
+        let [rings, work] = run(name, 0.02, 1e-4, 0.06);
+        assert!(rings.abs() < 4e-4 && work > 2.0, "{name}: {rings:.1e}");
+        let [gentle, _] = run(name, 0.2, 1e-2, 0.6);
+        assert!(gentle.abs() < 3e-5, "{name}: {gentle:.1e}");
+    }
+}

@@ -80,7 +80,8 @@ fn a_bound_that_is_not_reached_changes_nothing() {
 /// shares of the throughput as largest distances, and speeds of wheel and rim at the end \[m/s]. Measured, the limits are
 /// half as much again: with 16 steps 8e-4, 3.9 K, 4e-4 and 9e-5 m/s; with 8 4e-3, 10 K, 7e-3 and 3e-4 m/s; with 4 0.024,
 /// 29 K, 0.039 and 1e-3 m/s. The energy is out of balance for the milliseconds of the lock-up only: at the end by less
-/// than 1e-4. Longer steps whose errors keep the tolerance are no loss, and nothing is told of them.
+/// than 1e-4. Longer steps whose errors keep the tolerance are no loss, and nothing is told of them: one of 350 steps,
+/// 2e-5 of the load and 0.04 K.
 #[test]
 fn a_bound_holds_is_told_of_where_it_binds_and_costs_little_accuracy() {
     let model = railway();
@@ -89,16 +90,23 @@ fn a_bound_holds_is_told_of_where_it_binds_and_costs_little_accuracy() {
         [(16, 1.2e-3, 6.0, 7e-4, 1.4e-4), (8, 6e-3, 15.0, 1e-2, 5e-4), (4, 0.036, 45.0, 0.06, 1.5e-3)]
     {
         let run = lock_up(&model, Some(most));
-        let binds = |step: &&Step| step.outputs != step.free;
-        println!("at most {most}: it takes {} and is told of {}", most_steps(&run), run.iter().filter(binds).count());
+        let told = run.iter().filter(|step| step.told).count();
+        println!("at most {most}: it takes {} and is told of {told}", most_steps(&run));
         for (k, step) in run.iter().enumerate() {
             assert!(step.outputs.internal_steps <= most as u64, "step {k}");
             assert_eq!(step.told, step.outputs.limited_steps > 0, "step {k}");
-            assert_eq!(step.told, binds(&step), "step {k}");
+            assert!(!step.told || step.outputs != step.free, "step {k}");
+            let [longer, free] = [&step.outputs, &step.free];
+            let lost = (longer.contact_force_x - free.contact_force_x).abs() / free.contact_force_y;
+            let warmer = (longer.temperature_wheel_max - free.temperature_wheel_max).abs();
+            assert!(
+                step.told || lost < 1e-4 && warmer < 0.2,
+                "nothing is told of {lost:.1e} and {warmer} K in step {k}"
+            );
             let limit = 0.3 * step.outputs.contact_force_y * (1.0 + 1e-9);
             assert!(step.outputs.contact_force_x.abs() <= limit, "no more than friction in step {k}");
         }
-        assert!(run.iter().filter(binds).count() > 5, "it binds");
+        assert!(told > 5, "it binds");
         let runs = [run.as_slice(), free.as_slice()];
         let forces = apart(runs, |o| o.contact_force_x / 1e5);
         let temperatures = apart(runs, |o| o.temperature_wheel_max);

@@ -59,6 +59,35 @@ fn equal_parameters_share_one_model_as_long_as_somebody_uses_it() {
     assert!(prepare(coarse(0.43)).1 > 0);
 }
 
+/// Two profiles of one name: the file has been changed between two wheels, or names begin in different folders.
+#[test]
+fn profiles_of_one_name_and_other_content_do_not_share_a_model() {
+    let folders = ["one", "other"].map(Directory::new);
+    let write = |folder: &Directory, depth: f64| {
+        let text = format!("position,height\n1.0,0.0\n1.01,{}\n1.02,0.0\n", -depth);
+        fs::write(folder.0.join("shared_models_dip.csv"), text).unwrap();
+    };
+    folders.iter().zip([1e-4, 2e-4]).for_each(|(folder, depth)| write(folder, depth));
+    let [one, other] = folders.each_ref().map(|folder| BasisStore::none().with_packed(Some(&folder.0)));
+    let share = |store: &BasisStore| {
+        let mut config = coarse(0.425);
+        config.wheel.profile = "shared_models_dip.csv".to_owned();
+        Model::shared(config, store, &mut |_, _| {}).unwrap()
+    };
+    let depth = |model: &Arc<Model>| {
+        Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap().outputs().flat_depth
+    };
+    let (first, second) = (share(&one), share(&other));
+    assert!(Arc::ptr_eq(&first, &share(&one)) && !Arc::ptr_eq(&first, &second));
+    assert!(first.is_up_to_date(&one) && !first.is_up_to_date(&other));
+    write(&folders[0], 3e-4);
+    let third = share(&one);
+    assert!(!first.is_up_to_date(&one) && !Arc::ptr_eq(&first, &third));
+    let depths = [&first, &second, &third].map(depth);
+    println!("depths of flats: {depths:?} m");
+    assert!(depths.iter().zip([1e-4, 2e-4, 3e-4]).all(|(found, given)| (found / given - 1.0).abs() < 0.02));
+}
+
 #[test]
 fn who_asks_for_a_model_in_preparation_waits_for_it() {
     let (preparations, store) = (AtomicUsize::new(0), BasisStore::none());

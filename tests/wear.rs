@@ -99,8 +99,11 @@ fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
     assert!((first[19].contact_force_x / off[39].contact_force_x - 1.0).abs() < 1e-3);
 }
 
+/// A wheel after its slide, and what it was given.
+type Slide = (Simulation, Inputs);
+
 /// A wheel that slides 2 m with severe wear, eight times as fast as that of the tests, so that it grinds a flat.
-fn slide(elements: usize, step: f64) -> (Simulation, Inputs) {
+fn slide(elements: usize, step: f64) -> Slide {
     let mut config = wearing(elements);
     config.damage.wear_severe *= 8.0;
     config.tuning.max_step = step;
@@ -201,6 +204,93 @@ fn at(samples: &[[f64; 2]], s: f64) -> f64 {
     let next = samples.partition_point(|sample| sample[0] <= s).clamp(1, samples.len() - 1);
     let [a, b] = [samples[next - 1], samples[next]];
     a[1] + (b[1] - a[1]) * ((s - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0)
+}
+
+/// Length and depth of the flat that one reads off the file of a profile: the stretch around its lowest sample that lies
+/// more than a micrometre below the round tread.
+fn read_off(text: &str) -> [f64; 2] {
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    let rows = text.lines().skip(1).map(|line| line.split_once(',').unwrap());
+    let turn = std::f64::consts::TAU * 0.46;
+    let once: Vec<[f64; 2]> = rows.map(|(s, height)| [number(s), number(height)]).collect();
+    // A flat may lie where the file ends and begins.
+    let tread: Vec<_> = [-turn, 0.0, turn].iter().flat_map(|by| once.iter().map(move |[s, h]| [s + by, *h])).collect();
+    let of_height = |k: &usize, j: &usize| tread[*k][1].total_cmp(&tread[*j][1]);
+    let lowest = (once.len()..2 * once.len()).min_by(of_height).unwrap();
+    let crossing =
+        |[out, within]: [[f64; 2]; 2]| out[0] + (within[0] - out[0]) * (-1e-6 - out[1]) / (within[1] - out[1]);
+    let first = (0..lowest).rev().find(|&k| tread[k][1] >= -1e-6).unwrap();
+    let last = (lowest..tread.len()).find(|&k| tread[k][1] >= -1e-6).unwrap();
+    let ends = [[tread[first], tread[first + 1]], [tread[last], tread[last - 1]]].map(crossing);
+    [ends[1] - ends[0], -tread[lowest][1]]
+}
+
+/// A wheel that yields, locked at 60 km/h for 0.4 s.
+fn soften(name: &str) -> Slide {
+    let model = model(preset(name, 6));
+    let mut inputs = prescribed(&model, 60.0 / 3.6, 0.0);
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    inputs.drive.omega = 0.0;
+    run(&mut simulation, &inputs, 2e-3, 200);
+    (simulation, inputs)
+}
+
+/// Locked wheels get a flat by wear, and by yielding of hot steel on a line and on the middle line of a patch. Its
+/// length is what one reads off the profile that is saved, within the distance of samples there, and stays when the wheel rolls on.
+#[test]
+fn the_flat_of_a_locked_wheel_is_as_long_as_its_saved_profile_shows() {
+    let slides = [slide(6, 1e-3), soften("railway"), soften("railway_ellipse")];
+    for (case, (mut simulation, mut inputs)) in ["worn", "soft", "patch"].into_iter().zip(slides) {
+        let outputs = simulation.outputs().clone();
+        let contact = 2.0 * outputs.contact_half_width;
+        let [length, depth] = read_off(&simulation.wheel_profile_file());
+        println!(
+            "{case}: flat of {:.2} mm, {:.2} um deep; saved profile {:.2} mm, {:.2} um; contact {:.2} mm",
+            1e3 * outputs.flat_length,
+            1e6 * outputs.flat_depth,
+            1e3 * length,
+            1e6 * depth,
+            1e3 * contact,
+        );
+        let spacing = contact / 6.0;
+        assert!((outputs.flat_length - length).abs() < spacing, "{case}");
+        assert!((outputs.flat_depth / depth - 1.0).abs() < 0.05, "{case}");
+        assert!(outputs.flat_depth >= outputs.worn_depth.max(outputs.flattening), "{case}");
+        // Steel yields in a part of the contact; beyond it lies what the wheel wore while it came to rest, on 50 mm.
+        assert!((0.5..1.5).contains(&(outputs.flat_length / contact)), "{case}");
+        inputs.drive.omega = inputs.drive.velocity / 0.46;
+        inputs.drive.friction = 0.0;
+        run(&mut simulation, &inputs, 1e-3, 30);
+        let rolled = simulation.outputs();
+        assert!((rolled.flat_length / outputs.flat_length - 1.0).abs() < 0.02, "{case}: {}", rolled.flat_length);
+    }
+}
+
+/// A chord as the text of a profile and as its file: the chord formula `L = √(8 r d)`, less what lies above a
+/// micrometre, `√(1 − 1 µm/d)`.
+#[test]
+fn an_imposed_chord_has_the_length_of_the_chord() {
+    let (length, radius) = (0.04, 0.46);
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("chord.csv");
+    let height = |s: f64| -(length * length / 4.0 - s * s).max(0.0) / (2.0 * radius);
+    let rows = (0..=400).map(|k| 1.0 + 1e-4 * f64::from(k - 200));
+    let text: String = rows.map(|s| format!("{s},{}\n", height(s - 1.0))).collect();
+    std::fs::write(&file, format!("position,height\n{text}")).unwrap();
+    for profile in [format!("flat(length = {length}, position = 1)"), file.to_str().unwrap().to_owned()] {
+        let mut config = wearing(6);
+        config.wheel.profile = profile;
+        let model = model(config);
+        let inputs = prescribed(&model, 10.0, 0.0);
+        let simulation = Simulation::new(model, &inputs).unwrap();
+        let outputs = simulation.outputs();
+        let chord = (8.0 * radius * outputs.flat_depth).sqrt();
+        let expected = length * (1.0 - 1e-6 / outputs.flat_depth).sqrt();
+        println!("flat of {:.4} mm, chord of its depth {:.4} mm", 1e3 * outputs.flat_length, 1e3 * chord);
+        assert!((chord / length - 1.0).abs() < 1e-3 && (outputs.flat_length / expected - 1.0).abs() < 1e-3);
+        let [saved, _] = read_off(&simulation.wheel_profile_file());
+        let spacing = outputs.contact_half_width / 3.0;
+        assert!((saved - outputs.flat_length).abs() < 2.0 * spacing, "{saved}");
+    }
 }
 
 /// A wheel that spins on the spot burns a hollow into the rail, which a rolling one does not.

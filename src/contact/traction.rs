@@ -138,6 +138,27 @@ impl Traction {
         (0..x.len()).map(|i| width(i) * deeper(x[i]) * self.pressure.at(x[i])).sum()
     }
 
+    /// Integral of the pressure times a function of x, that of its middle in every piece of the pressure [N/m times the
+    /// unit of the function].
+    pub fn load_times(&self, of: impl Fn(f64) -> f64) -> f64 {
+        self.pressure.segments().map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1]) * of(0.5 * (x[0] + x[1]))).sum()
+    }
+
+    /// Work of the pull of hot layers on the way of the surfaces since the traction `before`, with the mean of both
+    /// pulls [J/m]; 0 where another solver has taken over, on other ports.
+    pub fn pull_work(&self, before: &Self) -> f64 {
+        let of_body = |body: usize| {
+            let (now, then, sign) = (&self.surface[body], &before.surface[body], [1.0, -1.0][body]);
+            if now.len() != then.len() {
+                return 0.0;
+            }
+            let pull = |traction: &Self, port: usize| traction.loads[body][port] - sign * traction.port_forces[port];
+            let mean = |port: usize| 0.5 * (pull(self, port) + pull(before, port));
+            (0..now.len()).map(|port| mean(port) * (now[port] - then[port])).sum::<f64>()
+        };
+        of_body(0) + of_body(1)
+    }
+
     /// Work of the pressure on the whole overlap [J/m].
     pub fn overlap_work(&self) -> f64 {
         self.work_of(|x| self.yielding.overlap.at(x))

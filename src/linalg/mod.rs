@@ -1,5 +1,5 @@
 //! Linear algebra: sparse matrices with a Cholesky factorisation (over faer), the lowest modes of a pencil,
-//! small dense systems, GMRES and Anderson mixing; and what is expensive to compute, kept for the steps that share it ([`lru`]).
+//! small dense systems, GMRES and Anderson mixing.
 //!
 //! Two libraries share the work. faer factorises and multiplies large matrices; substitutions with its sparse factors
 //! are ours, for several columns side by side. nalgebra holds the small dense ones of the bodies and solves the dense
@@ -16,7 +16,6 @@ pub mod gmres;
 mod inverse_factor;
 mod krylov;
 mod lagrange;
-pub(crate) mod lru;
 pub mod modes;
 pub mod parity;
 pub mod pencil;

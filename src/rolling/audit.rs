@@ -3,8 +3,9 @@
 //! Every force has the impulse that the time formula gives it (see [`crate::multistep::TimeDerivative::impulse`]), so
 //! that all impulses add up to the change of momentum; the work of a force in a step is its impulse times the way over
 //! the time: that of distance, angle and height as the outputs show them. The wheel that grows in a heat step lifts its
-//! load, which is work of the heat. Derivation: `docs/theory/lever-arms.md`.
+//! load, and its hot layers move the contact: work of the heat. Derivation: `docs/theory/lever-arms.md`.
 
+use super::line::Line;
 use super::model::RollingModel;
 use super::state::{Audit, State};
 use crate::multistep::TimeDerivative;
@@ -61,9 +62,20 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
     }
 }
 
-/// Adds the work of the wheel whose radius grows, by more than `before` \[m], in the heat step of `state` and lifts its
-/// load.
-pub fn grow(state: &mut State, before: f64) {
-    let growth = state.growth() - before;
-    state.audit.thermal_work += growth * state.resultant()[1];
+/// Adds the work of heat in the step from `before` to `state`, whose heat step is done: the wheel that grows lifts its
+/// load, and hot layers that swell and pull more than before move the surfaces under the contact.
+pub fn expand(before: &State, state: &mut State) {
+    let growth = (state.growth() - before.growth()) * state.resultant()[1];
+    let of_line = |(old, new): (&Line, &Line)| {
+        let pull = new.contact.traction.pull_work(&old.contact.traction);
+        new.layout.share * (swelling_work(old, new) + pull)
+    };
+    let layers: f64 = before.lines.iter().zip(&state.lines).map(of_line).sum();
+    state.audit.thermal_work += growth + layers;
+}
+
+/// Work of the pressure on what the hot layers of a line swell in a step from `before` to `line` [J/m].
+fn swelling_work(before: &Line, line: &Line) -> f64 {
+    let layers = before.deformation().swelling.iter().zip(&line.deformation().swelling);
+    layers.map(|(old, new)| line.contact.traction.load_times(|x| new.at(x) - old.at(x))).sum()
 }

@@ -20,7 +20,7 @@ use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
 use crate::mechanics::{self, Pair};
-use crate::surface::{Flattening, Surfaces};
+use crate::surface::{Flattening, Surfaces, TreadLevel};
 
 /// Everything that does not change during a run; instances with equal parameters share it.
 pub struct RollingModel {
@@ -32,6 +32,8 @@ pub struct RollingModel {
     pub wheel: RigidWheel,
     /// Contact between them.
     pub contact: ContactModel,
+    /// Tread of the wheel as it is made.
+    pub tread: TreadLevel,
     /// Temperatures, unless they are switched off.
     pub thermal: Option<ThermalModel>,
     /// Half-length of the zone in which ordinary contact is looked for \[m].
@@ -126,6 +128,7 @@ impl RollingModel {
         };
         Ok(Self {
             wheel: RigidWheel::new(&config),
+            tread: TreadLevel::of(&surfaces),
             bodies: match config.contact.shape.is_line() {
                 true => Bodies::new(bodies, TrackSupport::new(&config), correction),
                 false => {

@@ -196,6 +196,11 @@ outputs! {
         "Mass of the wheel: wheel.hub_mass and that of the elastic annulus; vehicle.mass not included";
     407 wheel_inertia: real "wheel.inertia", in "kg.m2", from 0.0, nominal 10.0,
         "Moment of inertia of the wheel about its axle: wheel.hub_inertia and that of the elastic annulus";
+    409 flat_length: real "wheel.flat_length", in "m" as "mm", from 0.0, nominal 1e-2,
+        "Length of the deepest flat of the wheel along its tread: the stretch around the lowest place of its present profile, as \
+         wheel.profile_save writes it, that lies more than 1 um below the level of the tread without waves and roughness; 0 without one";
+    410 flat_depth: real "wheel.flat_depth", in "m" as "mm", from 0.0, nominal 1e-5,
+        "Depth of that flat below the level of the tread, made by wheel.profile, yielding and wear";
     500 hub_force_x: real "hub.force_x", in "N" as "kN", nominal 1e4,
         "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity; gravity \
          on a rail.slope acts besides. The wheel's inertia is between it and contact.force_x, which a master that owns the \
@@ -322,7 +327,7 @@ outputs! {
     810 hub_work: real "energy.hub_work", in "J" as "kJ", nominal 1e5, start zero,
         "Work of the hub forces and the hub moment since the start";
     811 thermal_work: real "energy.thermal_work", in "J" as "kJ", nominal 1e2, start zero,
-        "Work of the wheel that grows with its temperature and lifts its load since the start";
+        "Work of heat since the start: the wheel that grows lifts its load, hot layers swell and pull at the surfaces";
     812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
         "Growth of kinetic and elastic energy, less the work of the centrifugal load, since the start; with friction, damping and solver.energy_residual it \
          balances energy.hub_work + energy.thermal_work + energy.gravity + energy.rail_work";

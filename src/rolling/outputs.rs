@@ -142,7 +142,15 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
 
 /// Outputs about the material that the surfaces have lost and about heat. Profiles are those of the line `shown`.
 fn surface_outputs(model: &RollingModel, state: &State, shown: &Line, others: Outputs) -> Outputs {
+    let none = Line::default();
+    let flat = model.tread.flat(
+        &model.contact.surfaces,
+        &deepest_line(state, &none).flattening[0],
+        grid_spacing(&model.config),
+    );
     Outputs {
+        flat_length: flat.length,
+        flat_depth: flat.depth,
         flattening: state.largest(|line| line.flattening[0].deepest_dent()),
         flattening_rail: state.largest(|line| line.flattening[1].deepest_dent()),
         worn_mass: state.sum(|line| line.worn) * model.wheel.width,
@@ -240,10 +248,15 @@ fn ratio(a: f64, b: f64) -> f64 {
 /// Elements of the contact between the samples of the tread: as many as the contact resolves.
 const SAMPLING: f64 = 2.0;
 
-/// Present profile of the wheel under its most worn line: positions around the tread and heights over the circle \[m],
+/// The line under which the wheel has lost most, `none` if there is no line.
+fn deepest_line<'a>(state: &'a State, none: &'a Line) -> &'a Line {
+    state.line_of_largest(|line| line.flattening[0].deepest()).unwrap_or(none)
+}
+
+/// Present profile of the wheel under the line under which it has lost most: positions around the tread and heights over the circle \[m],
 /// that is `wheel.profile` less the depth that yielding and wear have taken off.
 pub fn tread(model: &RollingModel, state: &State) -> Vec<[f64; 2]> {
     let none = Line::default();
-    let line = state.line_of_largest(|line| line.worn).unwrap_or(&none);
-    model.contact.surfaces.tread(&line.flattening[0], SAMPLING * grid_spacing(&model.config))
+    let flattening = &deepest_line(state, &none).flattening[0];
+    model.contact.surfaces.tread(flattening, SAMPLING * grid_spacing(&model.config))
 }

@@ -156,7 +156,7 @@ fn heat(
     }
     spreading::spread(model, state, dt, next)?;
     thermal::share_growth(&mut next.lines);
-    audit::grow(next, state.growth());
+    audit::expand(state, next);
     Ok(())
 }
 

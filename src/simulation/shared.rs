@@ -3,6 +3,7 @@
 //! A model is prepared by the first who asks for it; others who ask meanwhile wait for it. Nobody keeps a model but its
 //! users: with the last of them it is gone.
 
+use super::ingredients::Ingredients;
 use super::lock::lock;
 use super::{BasisStore, Model, PrepareError};
 use crate::config::Config;
@@ -10,7 +11,7 @@ use std::sync::{Arc, Mutex, Weak};
 
 /// A model that exists, existed or is being prepared.
 struct Entry {
-    config: Config,
+    ingredients: Ingredients,
     model: Mutex<Weak<Model>>,
 }
 
@@ -19,7 +20,7 @@ static ENTRIES: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
 impl Entry {
     fn model(
         &self,
-        config: Config,
+        ingredients: Ingredients,
         store: &BasisStore,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Model>, PrepareError> {
@@ -27,19 +28,19 @@ impl Entry {
         if let Some(model) = place.upgrade() {
             return Ok(model);
         }
-        let model = Model::prepare(config, store, progress)?;
+        let model = Model::with_ingredients(ingredients, store, progress)?;
         *place = Arc::downgrade(&model);
         Ok(model)
     }
 }
 
-/// The entry of a configuration, a new one if there is none.
-fn entry(config: &Config) -> Arc<Entry> {
+/// The entry of parameters and files, a new one if there is none.
+fn entry(ingredients: &Ingredients) -> Arc<Entry> {
     let mut entries = lock(&ENTRIES);
-    if let Some(known) = entries.iter().find(|entry| entry.config == *config) {
+    if let Some(known) = entries.iter().find(|entry| entry.ingredients == *ingredients) {
         return known.clone();
     }
-    let entry = Arc::new(Entry { config: config.clone(), model: Mutex::default() });
+    let entry = Arc::new(Entry { ingredients: ingredients.clone(), model: Mutex::default() });
     entries.push(entry.clone());
     entry
 }
@@ -59,15 +60,16 @@ impl Drop for Model {
 }
 
 impl Model {
-    /// The model that others of this process use for an equal configuration, or one prepared now
-    /// (see [`Model::prepare`]).
+    /// The model that others of this process use for an equal configuration and equal contents of its files, or one
+    /// prepared now (see [`Model::prepare`]).
     pub fn shared(
         config: Config,
         store: &BasisStore,
         progress: &mut dyn FnMut(&str, f64),
     ) -> Result<Arc<Self>, PrepareError> {
-        let entry = entry(&config);
-        let model = entry.model(config, store, progress);
+        let ingredients = Ingredients::read(config, store)?;
+        let entry = entry(&ingredients);
+        let model = entry.model(ingredients, store, progress);
         if model.is_err() {
             drop(entry);
             forget_unused();

@@ -43,6 +43,14 @@ impl Dents {
         self.dents.iter().flat_map(|dent| &dent.depth).copied().fold(0.0, f64::max)
     }
 
+    /// Position \[m] of the deepest lattice point of all dents.
+    pub fn deepest_place(&self) -> Option<f64> {
+        let points = self.dents.iter().flat_map(|dent| {
+            dent.depth.iter().enumerate().map(|(k, depth)| [*depth, dent.first + k as f64 * dent.spacing])
+        });
+        points.max_by(|a, b| a[0].total_cmp(&b[0])).map(|[_, s]| s)
+    }
+
     /// Adds the depth `added` over x \[m], not empty and zero outside its ends, to the material that lies at `position`
     /// + x.
     ///

@@ -35,6 +35,16 @@ impl Flattening {
         self.dents.deepest()
     }
 
+    /// Largest depth that dents, and that wear has taken off \[m].
+    pub fn deepest(&self) -> f64 {
+        self.dents.deepest().max(self.worn.deepest())
+    }
+
+    /// Positions \[m] of the deepest dent and of the most worn place.
+    pub fn deepest_places(&self) -> impl Iterator<Item = f64> {
+        self.dents.deepest_place().into_iter().chain(self.worn.deepest_place())
+    }
+
     /// Depth that wear has taken off.
     pub fn worn(&self) -> &Worn {
         &self.worn

@@ -7,16 +7,19 @@
 //! | [`profile`] | heights on top of circle and plane: files, waves, roughness, holes, joints, flats |
 //! | `dents`, `worn` | depths that yielding and wear have taken off, fixed to the material |
 //! | `flattening` | both together, as a state remembers them for each body |
+//! | `flat` | length and depth of the deepest flat of the tread |
 //! | `wear_law` | mass that friction wears off |
 //! | `shape` | gap between the undeformed bodies: circle, profiles, flattening and thermal growth at x |
 
 mod dents;
+mod flat;
 mod flattening;
 pub mod profile;
 mod shape;
 mod wear_law;
 mod worn;
 
+pub use flat::{Flat, TreadLevel};
 pub use flattening::Flattening;
 pub use profile::{Body, Profile, ProfileError, csv, longest_flat};
 pub use shape::{Placement, SurfaceError, Surfaces};

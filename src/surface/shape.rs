@@ -17,7 +17,7 @@ pub struct SurfaceError {
 }
 
 /// Undeformed surfaces of wheel and rail as they are made.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surfaces {
     /// Radius of the round wheel \[m].
     pub radius: f64,

@@ -61,6 +61,20 @@ impl Worn {
         self.depth.iter().copied().fold(0.0, f64::max)
     }
 
+    /// Depth \[m] that all of a wheel has lost; nothing on an open surface, which goes on.
+    pub fn shallowest(&self) -> f64 {
+        match self.circumference > 0.0 && !self.is_empty() {
+            true => self.depth.iter().copied().fold(f64::INFINITY, f64::min),
+            false => 0.0,
+        }
+    }
+
+    /// Position \[m] of the most worn cell.
+    pub fn deepest_place(&self) -> Option<f64> {
+        let deepest = self.depth.iter().zip(self.first..).max_by(|a, b| a.0.total_cmp(b.0));
+        deepest.map(|(_, cell)| cell as f64 * self.spacing)
+    }
+
     /// Volume worn off per width \[m²].
     pub fn volume(&self) -> f64 {
         self.spacing * self.depth.iter().sum::<f64>()

@@ -45,7 +45,7 @@ class Constant:
 class Samples:
     """An input with values at times [s]."""
 
-    constant = False
+    constant, seen = False, SEEN
 
     def __init__(self, variable, times, values):
         self.times, self.values, self.end = list(map(float, times)), values, float(times[-1])
@@ -97,19 +97,24 @@ class Samples:
             )
 
     def _is_hidden(self, k, stop, step):
-        """Whether a sample lies within a step and off the straight line through its ends."""
+        """Whether a sample lies within a step and off the curve that the step has through its ends."""
         time = self.times[k]
         begin = step * floor((time + ROUNDING) / step)
         end = min(begin + step, stop)
         if time <= 0.0 or not begin + ROUNDING < time < end - ROUNDING:
             return False
+        return abs(self._drawn(time, begin, end) - self.values[k]) > self.seen * max(map(abs, self.values))
+
+    def _drawn(self, time, begin, end):
+        """The value that a step has at `time` [s]: on the straight line through its ends."""
         low, high = self.at(begin), self.before(end)
-        line = low + (high - low) * (time - begin) / (end - begin)
-        return abs(line - self.values[k]) > SEEN * max(map(abs, self.values))
+        return low + (high - low) * (time - begin) / (end - begin)
 
 
 class Heights(Samples):
     """The height of a rail, sampled over time: smooth between its samples, with rates."""
+
+    seen = UNEVEN
 
     def __init__(self, variable, times, values):
         super().__init__(variable, times, values)
@@ -125,18 +130,12 @@ class Heights(Samples):
             return self.values[max(after - 1, 0)]
         return float(self.curve.at(min(max(time, self.times[after - 1]), self.times[after]), before=True)[0])
 
-    def _is_hidden(self, k, stop, step):
-        """Whether a sample lies within a step and off the cubic through its ends."""
-        time = self.times[k]
-        begin = step * floor((time + ROUNDING) / step)
-        end = min(begin + step, stop)
-        if time <= 0.0 or not begin + ROUNDING < time < end - ROUNDING:
-            return False
+    def _drawn(self, time, begin, end):
+        """The height that a step has at `time` [s]: on the cubic through its ends."""
         heights, rates = self.line(begin, end), (self.rate(begin), self.rate(end))
         share, mean = (time - begin) / (end - begin), (heights[1] - heights[0]) / (end - begin)
         bent = share * (1.0 - share) * ((1.0 - share) * (rates[0] - mean) - share * (rates[1] - mean))
-        cubic = heights[0] + (end - begin) * (share * mean + bent)
-        return abs(cubic - self.values[k]) > UNEVEN * max(map(abs, self.values))
+        return heights[0] + (end - begin) * (share * mean + bent)
 
 
 class Function:

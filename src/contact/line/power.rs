@@ -44,8 +44,7 @@ impl Power<'_> {
     }
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the
-    /// change of the expansion in time adds, force times expansion, is not counted: hundredths of a joule in a whole
-    /// run.
+    /// change of the expansion in time adds is counted by the audit.
     fn expansion(&self) -> f64 {
         let velocity = [self.rim_velocity, self.traction.rigid[0]];
         let of_node = |i: usize| {

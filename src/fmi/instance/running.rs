@@ -32,6 +32,8 @@ impl WheelSlave {
     pub fn simulation(&mut self, life: &Life) -> Outcome<&mut Simulation> {
         if self.simulation.is_none() {
             self.check_settings(life)?;
+            let store = self.store();
+            self.model = self.model.take().filter(|model| model.is_up_to_date(&store));
             let model = self.model(self.config.clone(), life)?;
             let mut inputs = self.inputs(life);
             let config = self.config.clone();
@@ -131,6 +133,11 @@ impl WheelSlave {
         })
     }
 
+    /// Where bases, profiles and rows lie.
+    fn store(&self) -> BasisStore {
+        BasisStore::of_user().with_packed(self.resources.as_deref())
+    }
+
     /// The model with these parameters; prepared now, with logged progress, unless it is the present one.
     fn model(&mut self, config: Config, life: &Life) -> Outcome<Arc<Model>> {
         if let Some(model) = self.model.as_ref().filter(|model| model.serves(&config)) {
@@ -145,7 +152,7 @@ impl WheelSlave {
         };
         // Wheels that leave different files behind share a model.
         let config = Config { files: Files::default(), ..config };
-        let store = BasisStore::of_user().with_packed(self.resources.as_deref());
+        let store = self.store();
         let failed = |error| CallError::error(advice::failed_preparation(&error, &config));
         let prepare =
             |report: &mut Report| Model::shared(config.clone(), &store, &mut |what, share| report(what, share));

@@ -272,7 +272,10 @@ impl ThermalModel {
         self.history.advance(&mut thermal.damage, motion, criteria, contact, &seen, history);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
+            // The layers alone: growth held back in long steps would press the wheel onto the rail in the next short one.
+            let growth = thermal.deformation.radius_growth;
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));
+            thermal.deformation.radius_growth = growth;
         }
         let [sum, amount] = balance(&thermal.flows);
         thermal.unaccounted = before.unaccounted + dt * sum;

@@ -5,7 +5,7 @@
 //! 14). A flash that is much thinner than an element lifts the surface above it; a locked wheel is heated to the depth
 //! of several elements, and hot spots narrower than that do not lift it by their own height.
 
-use crate::linalg::lru::Lru;
+use crate::lru::Lru;
 use std::convert::Infallible;
 use std::f64::consts::PI;
 

@@ -72,6 +72,11 @@ impl Profile {
         self.features.iter().map(|feature| feature.height(position)).sum()
     }
 
+    /// Height of local features alone, without waves and roughness \[m].
+    pub fn local_height(&self, position: f64) -> f64 {
+        self.features.iter().filter(|feature| !feature.is_undulation()).map(|feature| feature.height(position)).sum()
+    }
+
     /// Slope `dh/dx` at a position; jumps have none.
     pub fn slope(&self, position: f64) -> f64 {
         self.features.iter().map(|feature| feature.slope(position)).sum()

@@ -35,7 +35,7 @@ def energy(run):
         ("work of hub forces and moment, without the brake", end("hub_work") + brake),
         ("work of gravity on slopes", end("gravity")),
         ("work of a rail that rises", end("rail_work")),
-        ("work of the wheel that grows with its temperature", end("thermal_work")),
+        ("work of wheel and hot layers that grow with their temperature", end("thermal_work")),
     ]
     out = [
         ("growth of kinetic and elastic energy", end("stored")),

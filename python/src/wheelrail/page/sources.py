@@ -26,7 +26,7 @@ GUESSES = (
     (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
     (r".*velocity$|.*slip$", "m/s"), (r"wheel\.omega$", "rad/s"),
     (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
-    (r".*(half_width|approach|distance|height|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
+    (r".*(half_width|approach|distance|height|length|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
     (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|fi_surf)$", "1"),
 )  # fmt: skip
 
@@ -114,7 +114,7 @@ def table(path):
 
 
 def _values(path, numbered, width):
-    """The numbers of lines of a CSV; flags count 1 and 0."""
+    """The numbers of lines of a CSV; flags, as FMI (true) or Python and pandas (True) write them, count 1 and 0."""
     try:
         values = np.loadtxt((line for _, line in numbered), delimiter=",", ndmin=2)
         if values.shape[1] == width:
@@ -128,7 +128,7 @@ def _values(path, numbered, width):
             raise BadFile(f"{path}:{line}: {len(cells)} entries, the first line has {width}")
         for k, cell in enumerate(map(str.strip, cells)):
             try:
-                row[k] = FLAGS[cell] if cell in FLAGS else float(cell or "nan")
+                row[k] = FLAGS[cell.lower()] if cell.lower() in FLAGS else float(cell or "nan")
             except ValueError:
                 raise BadFile(f"{path}:{line}: {cell[:40]!r} in column {k + 1} is no number") from None
     return values

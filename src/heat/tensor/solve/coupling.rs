@@ -12,7 +12,7 @@ use super::transport::upwind_within;
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::kernels::add;
 use crate::linalg::DenseSystem;
-use crate::linalg::lru::Lru;
+use crate::lru::Lru;
 use nalgebra::{Matrix4, Vector4};
 
 /// Data of a coupling.

@@ -6,7 +6,7 @@ use super::transport::Transport;
 use super::tridiagonal::TridiagonalFactor;
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::body::HeatBody;
-use crate::linalg::lru::Lru;
+use crate::lru::Lru;
 use std::ops::Range;
 
 /// Data on which the matrix of an implicit stage in one body depends.
