@@ -1,8 +1,9 @@
 //! Displacement of lines by the tangential forces of all lines of a patch, as far as it is smooth on each line.
 
 use super::contact::SeriesContact;
-use super::places::Places;
+use super::places::{Places, total};
 use super::series_line::SeriesLine;
+use super::tables::QUADRATURE;
 use crate::contact::flexibility::{self, ByPowers};
 
 impl SeriesContact<'_> {
@@ -26,7 +27,7 @@ impl SeriesLine<'_> {
     pub fn powers_of(&self, places: &Places) -> ByPowers {
         let (mut power, scale) = (places.force, 1.0 / self.half_length);
         std::array::from_fn(|_| {
-            let moment = power.iter().sum();
+            let moment = total(&power, &[1.0; QUADRATURE]);
             power.iter_mut().zip(&places.x).for_each(|(power, x)| *power *= scale * x);
             moment
         })

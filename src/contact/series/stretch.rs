@@ -12,8 +12,9 @@ use crate::linalg::POINTS;
 use crate::linalg::vectorised::vectorised;
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 
-/// Places of the rule that integrates a root times a power: exact.
-const ROOT_PLACES: usize = 4;
+/// Places of the rule that integrates a root times a power exactly: zeros of `T_4`, `cos(π/8)` and `cos(3π/8)`.
+const ROOT_PLACES: [f64; 4] =
+    [0.923_879_532_511_286_7, 0.382_683_432_365_089_8, -0.382_683_432_365_089_8, -0.923_879_532_511_286_7];
 
 /// Tractions of a stretch that sticks: ten terms of the shear and the strength of a root at the end where slip begins
 /// \[Pa], for the known part of the slip and for the slip of all else, which is a polynomial: per unit of every power of
@@ -103,9 +104,8 @@ impl SeriesLine<'_> {
     /// Moments of the traction `√((1 − t)/(1 + t))` with the powers, by the rule of Gauss and Chebyshev \[m].
     fn root_moments(&self) -> ByPowers {
         let Arch { centre, half_width: half, .. } = self.tractions.stick;
-        let places: [f64; ROOT_PLACES] = std::array::from_fn(|q| libm::cos((q as f64 + 0.5) * PI / ROOT_PLACES as f64));
-        let weights = places.map(|t| PI / ROOT_PLACES as f64 * half * (1.0 - self.upstream() * t));
-        let powers = self.powers_at(&places.map(|t| centre + half * t));
+        let weights = ROOT_PLACES.map(|t| PI / ROOT_PLACES.len() as f64 * half * (1.0 - self.upstream() * t));
+        let powers = self.powers_at(&ROOT_PLACES.map(|t| centre + half * t));
         powers.map(|power| power.iter().zip(&weights).map(|(power, weight)| power * weight).sum())
     }
 
