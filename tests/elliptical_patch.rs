@@ -3,10 +3,11 @@
 
 mod half_spaces;
 
-use half_spaces::{HalfSpaces, LOAD, SPEED, formula, number, numbers, reference};
+use half_spaces::{FRICTION, HalfSpaces, LOAD, SHEAR_MODULUS, SPEED, formula, number, numbers, reference};
 use serde_json::Value as Json;
 use wheelrail::contact::LineLayout;
 use wheelrail::multistep::TimeDerivative;
+use wheelrail::patch::Ellipse;
 
 #[test]
 fn half_axes_pressure_and_approach_are_those_of_hertz_from_a_tenth_to_twice_the_load() {
@@ -45,8 +46,24 @@ fn steady_creep_forces_and_stick_are_those_of_contact() {
                 println!("{aspect} {lines} {xi:.5}: force {:+.4} of {force:.3}, stick {:+.4}", errors[0], errors[1]);
                 worst.iter_mut().zip(errors).for_each(|(worst, error)| *worst = worst.max(error.abs()));
             }
-            let stick = if aspect > 1.0 || lines < 7 { 0.05 } else { 0.03 };
-            assert!(worst[0] < 0.02 && worst[1] < stick, "{aspect} {lines}: {worst:?}");
+            assert!(worst[0] < 0.01 && worst[1] < 0.02, "{aspect} {lines}: {worst:?}");
+        }
+    }
+}
+
+/// Kalker's coefficients `C₁₁` for ν = 0.3: secants at 2 % of friction, computed with CONTACT r2707 on 61 × 41 elements,
+/// so up to 1 % below the slope at rest; and that of his table at b/a = 0.752, interpolated.
+#[test]
+fn creep_coefficients_of_small_creepages_are_those_of_kalker() {
+    for (aspect, coefficient) in [(0.5, 3.8057), (1.0, 4.2769), (2.0, 5.2573), (1.0 / 0.752, 4.63)] {
+        for lines in [5, 7, 13] {
+            let spaces = HalfSpaces::new(aspect, lines);
+            let Ellipse { a, b, .. } = spaces.hertz.under(LOAD);
+            let linear = 0.02;
+            let creepage = linear * FRICTION * LOAD / (SHEAR_MODULUS * a * b * coefficient);
+            let found = spaces.utilisation(LOAD, &spaces.steady(-creepage)) / linear;
+            println!("{aspect} {lines}: {found:.4}");
+            assert!((found - 1.0).abs() < 0.035, "{aspect} {lines}: {found}");
         }
     }
 }
@@ -78,11 +95,7 @@ fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact(
             continue;
         }
         for lines in [5, 7, 9] {
-            let tolerance = match name {
-                "step88" if lines == 5 => 0.025,
-                "load3" => 0.007,
-                _ => 0.018,
-            };
+            let tolerance = if name == "load3" { 0.004 } else { 0.008 };
             assert!(transient(case, lines) < tolerance, "{name} {lines}");
         }
     }
@@ -114,7 +127,7 @@ fn tractions_of_rows_are_those_of_contact() {
                     sum += shear.abs();
                 }
                 println!("{} xi {xi:.5} y {y:.4}: {:.3}", number(&set["aspect"]), apart / sum);
-                assert!(apart < 0.06 * sum);
+                assert!(apart < if y == 0.0 { 0.01 } else { 0.06 } * sum);
             }
         }
     }

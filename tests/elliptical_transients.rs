@@ -3,10 +3,14 @@
 
 mod half_spaces;
 
-use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, number, numbers, reference, run_of_reference};
+use half_spaces::{
+    FRICTION, HalfSpaces, LOAD, Lines, NU, SHEAR_MODULUS, SPEED, formula, number, numbers, reference, run_of_reference,
+};
 use serde_json::Value as Json;
+use std::f64::consts::PI;
 use wheelrail::contact::{Friction, FrictionLaw, Heating, RigidMotion, SlipDependence};
 use wheelrail::multistep::TimeDerivative;
+use wheelrail::patch::{Ellipse, elliptic};
 
 /// Nodes of the grid per half axis, as in the product.
 const NODES: u32 = 20;
@@ -34,14 +38,12 @@ fn shifted(spaces: &HalfSpaces, end: f64, steps: usize) -> (Lines, Vec<f64>) {
     (state, all)
 }
 
-/// Lines that do not see each other shift too far where most of them slip: with ever more lines errors at nine tenths
-/// of friction tend to 6 and 7.4 %.
 #[test]
 fn a_wheel_is_shifted_without_rolling_as_by_contact() {
-    for (name, aspect, tolerance) in [("cattaneo_r1", 1.0, 0.07), ("cattaneo_r2", 2.0, 0.085)] {
+    for (name, aspect) in [("cattaneo_r1", 1.0), ("cattaneo_r2", 2.0)] {
         let expected = numbers(&run_of_reference(name)["shift_mm"]);
         let until = numbers(&run_of_reference(name)["Fx"])[8];
-        for lines in [5, 7, 13] {
+        for (lines, tolerance) in [(5, 0.025), (7, 0.012), (13, 0.005)] {
             let spaces = HalfSpaces::with_grid(aspect, lines, NODES);
             let shift = shifted(&spaces, until, 9).1;
             let errors: Vec<_> = shift.iter().zip(&expected).map(|(found, mm)| 1e3 * found / mm - 1.0).collect();
@@ -54,6 +56,22 @@ fn a_wheel_is_shifted_without_rolling_as_by_contact() {
                 assert!(apart < 1e-4);
             }
         }
+    }
+}
+
+/// Mindlin's stiffness of both bodies together, `1/K = 1/(4πG) ∮ (1 − ν sin²φ)/√(b² cos²φ + a² sin²φ) dφ` (Johnson,
+/// *Contact Mechanics* (1985), section 7.2), at a hundredth of friction.
+#[test]
+fn a_patch_that_sticks_is_as_stiff_as_that_of_mindlin() {
+    for aspect in [0.25, 0.5, 1.0, 2.0, 3.0] {
+        let spaces = HalfSpaces::with_grid(aspect, 7, NODES);
+        let Ellipse { a, b, .. } = spaces.hertz.under(LOAD);
+        let compliance = elliptic::complete((a / b).powi(2), 1.0, 1.0 - NU) / (PI * SHEAR_MODULUS * b);
+        let share = 0.01;
+        let [shift] = shifted(&spaces, share, 1).1.try_into().unwrap();
+        let found = shift / (share * FRICTION * LOAD * compliance);
+        println!("{aspect}: {found:.4}");
+        assert!((found.abs() - 1.0).abs() < 0.01, "{aspect}: {found}");
     }
 }
 
@@ -80,7 +98,10 @@ fn held(case: &Json, lines: usize, series: bool) -> Held {
         if series && let Some(taken) = spaces.as_series(&state) {
             (state, held.series) = (taken, Some(way[step]));
         }
-        state = spaces.solve(LOAD, spaces.driven(force, SPEED), dry(formula(dt, step == 1)), &state).unwrap();
+        let (motion, laws) = (spaces.driven(force, SPEED), dry(formula(dt, step == 1)));
+        // A line that slips at its leading edge goes back to the grid, as in the product.
+        let on_grid = |_| spaces.solve(LOAD, motion, laws, &spaces.as_grid(&state));
+        state = spaces.solve(LOAD, motion, laws, &state).or_else(on_grid).unwrap();
         let found = HalfSpaces::creepage(&state);
         sums = [sums[0] + found - xi[step], sums[1] + xi[step]];
         let error = (found / xi[step] - 1.0).abs();
@@ -101,9 +122,9 @@ fn held(case: &Json, lines: usize, series: bool) -> Held {
 fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() {
     let case = run_of_reference("held50");
     for (lines, series, tolerances) in [
-        (5, true, [0.11, 0.03]),
-        (7, false, [0.11, 0.026]),
-        (7, true, [0.11, 0.026]),
+        (5, true, [0.09, 0.03]),
+        (7, false, [0.06, 0.02]),
+        (7, true, [0.06, 0.02]),
         (10, true, [0.06, 0.015]),
         (13, true, [0.055, 0.015]),
     ] {
@@ -115,7 +136,7 @@ fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() 
             held.series
         );
         assert!(worst < tolerances[0] && rms < tolerances[1] && held.series.is_some() == series);
-        assert!(lines < 7 || settled < 0.006 && crept < 0.065);
+        assert!(lines < 7 || settled < 0.007 && crept < 0.045);
     }
 }
 

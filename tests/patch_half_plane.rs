@@ -58,6 +58,7 @@ impl HalfPlanes {
         let step = Step {
             radius: RADIUS,
             lines: (&[self.line], None),
+            flexibility: None,
             load: [load, LOAD],
             motion,
             laws: (time, Friction::constant(friction)),

@@ -1,17 +1,21 @@
 //! Lines side by side that stand for a patch under a load.
 
+use super::flexibility::PatchFlexibility;
 use super::kernel::{LineKernel, Logarithm};
 use crate::analytic::HalfPlane;
 use crate::patch::gauss::{self, GaussLine};
-use crate::patch::k11::k11;
 use crate::patch::rows::{self, EquivalentEllipse, PatchRow};
-use crate::patch::{Ellipse, Hertz, hertz, mindlin, reach};
+use crate::patch::{Ellipse, Hertz, Tile, hertz, reach};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that layout,
 /// with which they are too soft.
 pub const LEAST: f64 = 0.1;
+
+/// Length of lines that stay over that under their load on which they feel each other's tangential forces \[1].
+const ROOM: f64 = 1.5;
 
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,6 +24,8 @@ pub struct LineLayout {
     pub ordinate: f64,
     /// Width of the line over that of the bodies \[1].
     pub share: f64,
+    /// Half-length of which it is laid out \[m].
+    pub half_length: f64,
     /// Distance by which its surfaces are farther apart than the hub says \[m].
     pub gap: f64,
     /// Flexibility that it has for itself.
@@ -37,25 +43,6 @@ pub struct PatchMaterial {
     pub shear_modulus: f64,
     /// Poisson's ratio \[1].
     pub poissons_ratio: f64,
-}
-
-impl PatchMaterial {
-    /// Flexibilities of the lines of one patch, which is as large as the ellipse `shape`.
-    fn in_shear(self, rows: &[PatchRow], shape: &EquivalentEllipse) -> impl Iterator<Item = ShearFlexibility> {
-        let (Self { half_plane, shear_modulus, poissons_ratio }, &EquivalentEllipse { a, b, .. }) = (self, shape);
-        let lines = rows.iter().map(|row| [row.width, row.half_length]);
-        let reach = libm::log(mindlin::kernel_length([a, b], poissons_ratio, lines));
-        let factor = (1.0 - poissons_ratio) / (PI * shear_modulus) / k11(a / b);
-        let tangential = Logarithm { factor, reach };
-        std::iter::repeat_n(ShearFlexibility { tangential, coupling: half_plane.coupling * b / (a + b) }, rows.len())
-    }
-}
-
-/// Flexibility of a line under a shear force, and the strain of the surface under its pressure.
-#[derive(Clone, Copy, Debug)]
-struct ShearFlexibility {
-    tangential: Logarithm,
-    coupling: f64,
 }
 
 /// A patch of contact lines, or several ones side by side, whose size follows from its load as that of an ellipse does: lengths with its third root.
@@ -86,8 +73,16 @@ pub struct PatchLayout {
     radius: f64,
     /// Width of the bodies \[m].
     width: f64,
-    /// Flexibilities of every line under it beside the normal one.
-    shear: Vec<ShearFlexibility>,
+    /// Tangential flexibility of every line under it, as far as it is a logarithm.
+    tangential: Vec<Logarithm>,
+    /// Smooth rest of it, under the forces of all lines.
+    flexibility: Arc<PatchFlexibility>,
+    /// Lengths of the lines on which they do, over those under the load of the description \[1].
+    room: f64,
+    /// Shear modulus \[Pa] and Poisson's ratio \[1].
+    elastic: (f64, f64),
+    /// Strain of the surface under the pressure of every line [1/Pa].
+    couplings: Vec<f64>,
 }
 
 impl PatchLayout {
@@ -109,8 +104,8 @@ impl PatchLayout {
         // A single line, which is no rule for this pressure, carries the load on a smaller width.
         let scale = load / rows::load(&rows);
         let rows = rows.into_iter().map(|row| PatchRow { width: scale * row.width, ..row }).collect();
-        let layout = Self::of(rows, &[EquivalentEllipse { a, b, centre: 0.0 }], material, [radius, width]);
-        Self { symmetric: true, lateral: b, ..layout }
+        let layout = Self::of((rows, true), &[EquivalentEllipse { a, b, centre: 0.0 }], material, [radius, width]);
+        Self { lateral: b, ..layout }
     }
 
     /// Patches of rows, of which neighbours that touch and differ least share a line where there are more than `lines`.
@@ -124,13 +119,15 @@ impl PatchLayout {
         let rows = rows::merged(rows, lines);
         let centre = rows::centre_of_load(&rows);
         let about = |row: PatchRow| PatchRow { position: row.position - centre, ..row };
-        let layout = Self::of(rows.into_iter().map(about).collect(), shapes, material, [radius, width]);
+        let rows = rows.into_iter().map(about).collect();
+        let layout = Self::of((rows, false), shapes, material, [radius, width]);
         Self { centre, ..layout }
     }
 
-    /// Lines at positions about the centre of load, in patches as large as the ellipses `shapes`.
+    /// Lines at positions about the centre of load, in patches as large as the ellipses `shapes`; on a symmetric patch
+    /// those beside the middle stand for a pair.
     fn of(
-        rows: Vec<PatchRow>,
+        (rows, symmetric): (Vec<PatchRow>, bool),
         shapes: &[EquivalentEllipse],
         material: PatchMaterial,
         [radius, width]: [f64; 2],
@@ -142,18 +139,35 @@ impl PatchLayout {
             load / hertz::approach([shape.a, shape.b], load, modulus)
         };
         let patches = || rows::patches(&rows).zip(shapes);
+        let coupling = |shape: &EquivalentEllipse| material.half_plane.coupling * shape.b / (shape.a + shape.b);
+        let elastic = (material.shear_modulus, material.poissons_ratio);
+        let (flexibility, reaches) = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, elastic);
+        let factor = material.half_plane.kernel;
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
-            symmetric: false,
+            symmetric,
             centre: 0.0,
             load,
             approach: load / patches().map(softness).sum::<f64>(),
             lateral: 0.5 * rows.iter().map(|row| row.width).sum::<f64>(),
             radius,
             width,
-            shear: patches().flat_map(|(rows, shape)| material.in_shear(rows, shape)).collect(),
+            tangential: reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect(),
+            flexibility: Arc::new(flexibility),
+            room: 1.0,
+            elastic,
+            couplings: patches().flat_map(|(rows, shape)| std::iter::repeat_n(coupling(shape), rows.len())).collect(),
             rows,
         }
+    }
+
+    /// With room on its lines for patches that are longer than under the load of the description, as those on surfaces
+    /// with profiles are.
+    pub fn with_room(self) -> Self {
+        let (rows, symmetric) = (&self.rows, self.symmetric);
+        let (flexibility, reaches) = PatchFlexibility::new(&tiles(rows, symmetric, ROOM), symmetric, self.elastic);
+        let tangential = self.tangential.iter().zip(reaches).map(|(along, reach)| Logarithm { reach, ..*along });
+        Self { tangential: tangential.collect(), flexibility: Arc::new(flexibility), room: ROOM, ..self }
     }
 
     /// True if lines beside the middle stand for a symmetric pair.
@@ -164,6 +178,11 @@ impl PatchLayout {
     /// Lateral position of the centre of load, which is the same under all loads \[m].
     pub fn centre(&self) -> f64 {
         self.centre
+    }
+
+    /// Flexibility of lines under each other's tangential forces, the same under all loads.
+    pub fn flexibility(&self) -> &Arc<PatchFlexibility> {
+        &self.flexibility
     }
 
     /// Free widths between every line and the one before it under the load of the description \[m]; zero where they touch.
@@ -195,8 +214,8 @@ impl PatchLayout {
     pub fn moving(&self, load: f64) -> impl Iterator<Item = LineLayout> {
         let scale = libm::cbrt(self.load_of(load) / self.load);
         let approach = scale * scale * self.approach;
-        let lines = rows::scaled(&self.rows, scale).zip(&self.shear);
-        lines.map(move |(row, shear)| self.line((&row, shear), scale, 1.5 * row.line_load / approach))
+        let lines = rows::scaled(&self.rows, scale).enumerate();
+        lines.map(move |(i, row)| self.line((i, &row), scale, 1.5 * row.line_load / approach))
     }
 
     /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
@@ -210,30 +229,53 @@ impl PatchLayout {
         let lines: Vec<_> = rows.iter().map(|row| [0.5 * row.width / factor(row), row.half_length]).collect();
         let stiffness = 1.5 * rows::load(&rows) / (scale * scale * self.approach);
         let lengths = reach::proportional_lengths(stiffness, &lines, 0.5 * longest);
-        let line = |((row, shear), length): ((&PatchRow, &ShearFlexibility), f64)| {
-            self.line((row, shear), scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
+        let line = |(i, (row, length)): (usize, (&PatchRow, f64))| {
+            self.line((i, row), scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
         };
-        rows.iter().zip(&self.shear).zip(lengths).map(line).collect()
+        rows.iter().zip(lengths).enumerate().map(line).collect()
     }
 
     /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load
     /// per width with the approach [N/m²].
-    fn line(&self, (row, shear): (&PatchRow, &ShearFlexibility), scale: f64, stiffness: f64) -> LineLayout {
+    fn line(&self, (i, row): (usize, &PatchRow), scale: f64, stiffness: f64) -> LineLayout {
         let PatchRow { position, width, half_length, line_load, .. } = *row;
         let approach = scale * scale * self.approach;
         let factor = half_length * half_length / (4.0 * self.radius * line_load);
         // `dδ/dP = 2κ ln(2L/a)`, `δ = κP (2 ln(2L/a) + 1)`.
+        let along = self.tangential[i];
         let (pressing, logarithm) = (factor * line_load, 0.5 / (factor * stiffness));
         LineLayout {
             ordinate: position / (scale * self.lateral),
             share: width / self.width,
+            half_length: self.room * half_length,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
-                tangential: Logarithm { reach: shear.tangential.reach + libm::log(scale), ..shear.tangential },
+                tangential: Logarithm { reach: along.reach + libm::log(scale), ..along },
                 normal: Logarithm { factor, reach: libm::log(0.5 * half_length) + logarithm },
-                coupling: shear.coupling,
+                coupling: self.couplings[i],
             },
             energy: line_load * (0.4 * approach - pressing * (logarithm + 0.25)),
         }
     }
+}
+
+/// Strips for which rows stand, about the centre of load. Those of a symmetric patch, from the middle on, lie side by
+/// side; others keep their gaps, with the mean of their positions.
+fn tiles(rows: &[PatchRow], symmetric: bool, room: f64) -> Vec<Tile> {
+    let (mut tiles, mut low) = (Vec::with_capacity(rows.len()), 0.0);
+    for row in rows {
+        let alone = symmetric && row.position == 0.0;
+        let width = if symmetric && !alone { 0.5 * row.width } else { row.width };
+        low = if alone { -0.5 * width } else { low + row.gap };
+        tiles.push(Tile { edges: [low, low + width], half_length: room * row.half_length });
+        low += width;
+    }
+    if !symmetric {
+        let moment = |tile: &Tile| 0.5 * (tile.edges[0] + tile.edges[1]) * tile.width();
+        let positions = rows.iter().map(|row| row.width * row.position).sum::<f64>();
+        let shift = positions - tiles.iter().map(moment).sum::<f64>();
+        let shift = shift / rows.iter().map(|row| row.width).sum::<f64>();
+        tiles.iter_mut().for_each(|tile| tile.edges = tile.edges.map(|edge| edge + shift));
+    }
+    tiles
 }

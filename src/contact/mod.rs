@@ -11,6 +11,7 @@ pub mod active_set;
 mod brake;
 pub mod error;
 pub mod film;
+mod flexibility;
 pub mod friction;
 mod kernel;
 pub mod layout;
@@ -22,6 +23,7 @@ pub mod solver;
 pub mod traction;
 
 pub use error::ContactError;
+pub use flexibility::{InPatch, PatchFlexibility};
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, PatchLayout, PatchMaterial};

@@ -5,6 +5,7 @@
 //! its [`LineKernel`] says. Derivation: `docs/theory/lines.md`.
 
 use super::error::ContactError;
+use super::flexibility::InPatch;
 use super::friction::Friction;
 use super::kernel::LineKernel;
 use super::limits::SteelLimits;
@@ -155,6 +156,8 @@ pub struct LineProblem<'a> {
     pub share: f64,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
+    /// Patch whose other lines displace it, too; `None`: it is alone but for the bodies.
+    pub patch: Option<InPatch<'a>>,
     /// Linear answer of the bodies.
     pub bodies: SurfaceResponse<'a>,
     /// Membrane forces `N(x)` of the hot layers of wheel and rail [N/m]; their gradients pull at the surfaces.

@@ -7,6 +7,7 @@ use super::line::state::LineState;
 use super::problem::ContactProblem;
 use super::series::state::SeriesState;
 use super::traction::Traction;
+use crate::linalg::DenseSystem;
 use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
 
@@ -120,4 +121,6 @@ impl ContactState {
 pub struct ContactScratch {
     /// Of the active set on paired nodes.
     pub active_set: ActiveSetScratch,
+    /// Equations of all lines on series.
+    pub series: DenseSystem,
 }

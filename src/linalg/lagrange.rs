@@ -86,6 +86,11 @@ impl Lagrange {
         Polynomial { reach: self.reach, coefficients: std::array::from_fn(power) }
     }
 
+    /// Moments with all polynomials from those with the powers of `x/reach`.
+    pub fn moments(&self, of_powers: &[f64; POINTS]) -> [f64; POINTS] {
+        self.coefficients.each_ref().map(|c| c.iter().zip(of_powers).map(|(c, moment)| c * moment).sum())
+    }
+
     /// Matrix that turns values at the positions `x` into those at the points: least squares.
     pub fn projection(&self, x: &[f64]) -> Option<DMatrix<f64>> {
         let design = DMatrix::from_fn(x.len(), POINTS, |i, k| self.values(x[i])[k]);
@@ -102,6 +107,22 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
+    /// Its coefficients by powers of `x/length`.
+    pub fn by_powers(&self, length: f64) -> [f64; POINTS] {
+        let (ratio, mut scale) = (length / self.reach, 1.0);
+        self.coefficients.map(|c| {
+            let scaled = c * scale;
+            scale *= ratio;
+            scaled
+        })
+    }
+
+    /// Its derivative.
+    pub fn derivative(&self) -> Self {
+        let of_power = |k: usize| if k < POINTS { k as f64 * self.coefficients[k] / self.reach } else { 0.0 };
+        Self { reach: self.reach, coefficients: std::array::from_fn(|k| of_power(k + 1)) }
+    }
+
     /// Its value at x.
     pub fn at(&self, x: f64) -> f64 {
         let s = x / self.reach;

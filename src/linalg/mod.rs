@@ -27,7 +27,7 @@ pub use dense::DenseSystem;
 pub use error::LinalgError;
 pub use inverse_factor::InverseFactor;
 pub use krylov::Oscillator;
-pub use lagrange::{Lagrange, POINTS};
+pub use lagrange::{Lagrange, POINTS, Polynomial};
 pub use modes::{VibrationModes, lowest_modes, lowest_modes_of_parts};
 pub use parity::{Parity, ParityPart, Reflection};
 pub use sparse::CsrMatrix;

@@ -159,11 +159,10 @@ impl Bodies {
     pub fn correction_energy(&self, state: &State) -> f64 {
         let forces = lines::mean(&state.lines, |line| &line.contact.traction.port_forces);
         let correction = match (ports_of(state), &self.correction) {
-            _ if self.hold_correction => 0.0,
-            (Ports::Narrow | Ports::Wide, Some(correction)) => correction.energy(&forces),
-            (Ports::Narrow | Ports::Wide, None) | (Ports::Smooth, _) => state.sum(|line| line.contact.energy),
+            (Ports::Narrow | Ports::Wide, Some(correction)) if !self.hold_correction => correction.energy(&forces),
+            (Ports::Narrow | Ports::Wide | Ports::Smooth, _) => 0.0,
         };
-        correction + self.energy_of_lines(state)
+        correction + state.sum(|line| line.contact.energy) + self.energy_of_lines(state)
     }
 
     /// Elastic energy of the flexibility of lines that the bodies do not count, less that which they count in its place

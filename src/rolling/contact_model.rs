@@ -11,8 +11,8 @@ use super::thermal_state::ThermalDeformation;
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LineLayout,
-    LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch,
+    LineLayout, LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -185,9 +185,9 @@ impl ContactModel {
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         let layouts: Vec<_> = found.iter().map(|line| line.layout).collect();
-        let lines = start.iter().zip(step.friction).zip(&layouts);
+        let lines = start.iter().zip(step.friction).zip(&layouts).enumerate();
         let problem = ContactProblem {
-            lines: lines.map(|((line, friction), layout)| self.line(step, line, *friction, layout)).collect(),
+            lines: lines.map(|(k, ((line, friction), layout))| self.line(step, line, *friction, (k, layout))).collect(),
             rigid: step.rigid,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
@@ -197,13 +197,13 @@ impl ContactModel {
         self.solver.solve(&problem, &before, &mut after, scratch)
     }
 
-    /// Problem of a line with a layout, which is in the state `start`.
+    /// Problem of a line with its number and layout, which is in the state `start`.
     fn line<'a>(
         &'a self,
         step: &'a ContactStep,
         start: &'a Line,
         friction: Friction,
-        layout: &LineLayout,
+        (number, layout): (usize, &LineLayout),
     ) -> LineProblem<'a> {
         let ThermalDeformation { radius_growth, swelling, membrane_force } = start.deformation();
         let (weakening, traction) = (start.weakening(), &start.contact.traction);
@@ -211,6 +211,11 @@ impl ContactModel {
         LineProblem {
             share: layout.share,
             kernel: layout.kernel,
+            patch: self.patch.flexibility().map(|flexibility| InPatch {
+                flexibility,
+                line: number,
+                half_length: layout.half_length,
+            }),
             bodies: surface_response(step),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,

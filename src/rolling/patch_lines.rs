@@ -2,9 +2,10 @@
 
 use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
-use crate::contact::{LineKernel, LineLayout, Logarithm, PatchLayout, PatchMaterial};
+use crate::contact::{LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial};
 use crate::material::Isotropic;
 use crate::surface;
+use std::sync::Arc;
 
 /// Distances at which forces displace plane bodies as they displace those of wheel and rail \[m]: tangential, normal on
 /// a rigid base, and normal on a track that yields (`docs/theory/structural-width.md`).
@@ -32,6 +33,8 @@ pub enum PatchLines {
         centre: f64,
         /// Free widths before the lines \[m].
         gaps: Vec<f64>,
+        /// Flexibility under each other's tangential forces; `None`: they are alone but for the bodies.
+        flexibility: Option<Arc<PatchFlexibility>>,
     },
     /// Lines of a patch whose size follows from its load.
     Sized(PatchLayout),
@@ -71,21 +74,29 @@ impl PatchLines {
             }
             (_, None) => PatchLayout::ellipse((&config.hertz(), radius), material, (lines, width, load)),
         };
-        Ok(match smooth {
-            true => Self::Sized(patch),
-            false => Self::Constant {
-                lines: patch.staying(load, longest_patch(config)),
-                symmetric: patch.is_symmetric(),
-                centre: patch.centre(),
-                gaps: patch.gaps().to_vec(),
-            },
+        if smooth {
+            return Ok(Self::Sized(patch));
+        }
+        let patch = patch.with_room();
+        Ok(Self::Constant {
+            lines: patch.staying(load, longest_patch(config)),
+            symmetric: patch.is_symmetric(),
+            centre: patch.centre(),
+            gaps: patch.gaps().to_vec(),
+            flexibility: Some(patch.flexibility().clone()),
         })
     }
 
     /// Lines with given shares of the width and one flexibility.
     pub fn constant(shares: &[f64], kernel: LineKernel) -> Self {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
-        Self::Constant { lines: shares.iter().map(layout).collect(), symmetric: false, centre: 0.0, gaps: Vec::new() }
+        Self::Constant {
+            lines: shares.iter().map(layout).collect(),
+            symmetric: false,
+            centre: 0.0,
+            gaps: Vec::new(),
+            flexibility: None,
+        }
     }
 
     /// Number of lines.
@@ -120,6 +131,14 @@ impl PatchLines {
         }
     }
 
+    /// Flexibility of the lines under each other's tangential forces, if they feel them.
+    pub fn flexibility(&self) -> Option<&PatchFlexibility> {
+        match self {
+            Self::Constant { flexibility, .. } => flexibility.as_deref(),
+            Self::Sized(patch) => Some(patch.flexibility()),
+        }
+    }
+
     /// Load of which lines are laid out while they carry `load` \[N]; zero where that does not matter.
     pub fn load_of(&self, load: f64) -> f64 {
         match self {
@@ -151,8 +170,9 @@ impl PatchLines {
     /// True if the lines of a state are as many, and have finite layouts.
     pub fn fits(&self, lines: &[Line]) -> bool {
         let sound = |line: &Line| {
-            let LineLayout { ordinate, share, gap, kernel, energy } = line.layout;
-            share > 0.0 && kernel.is_sound() && [ordinate, share, gap, energy].iter().all(|value| value.is_finite())
+            let LineLayout { ordinate, share, half_length, gap, kernel, energy } = line.layout;
+            let sizes = [share, half_length].iter().all(|size| *size > 0.0 && size.is_finite());
+            sizes && kernel.is_sound() && [ordinate, gap, energy].iter().all(|value| value.is_finite())
         };
         match self {
             Self::Constant { lines: layouts, .. } => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),

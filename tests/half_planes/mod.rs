@@ -147,6 +147,7 @@ impl HalfPlanes {
         let mut problems = Vec::new();
         for (line, swelling) in lines.iter().zip(&swollen) {
             problems.push(LineProblem {
+                patch: None,
                 share: line.share,
                 kernel: kernel(alone.map_or(1.0, |(_, length)| length)),
                 bodies: SurfaceResponse {

@@ -26,8 +26,10 @@ pub const FRICTION: f64 = 0.3;
 pub const LOAD: f64 = 1e5;
 /// Speed of rolling [m/s].
 pub const SPEED: f64 = 20.0;
-const NU: f64 = 0.3;
+pub const NU: f64 = 0.3;
 const YOUNG: f64 = 2.1e11;
+/// Shear modulus \[Pa].
+pub const SHEAR_MODULUS: f64 = 0.5 * YOUNG / (1.0 + NU);
 /// Geometric mean of the half axes of all patches of the reference [m].
 const MEAN_AXIS: f64 = 6e-3;
 /// Width of the bodies, which are rigid here but for their half-spaces [m].
@@ -102,9 +104,8 @@ impl HalfSpaces {
         let unit = lateral(ratio).under(LOAD);
         let radius = (MEAN_AXIS * MEAN_AXIS / (unit.a * unit.b)).powf(1.5);
         let hertz = Hertz::new(radius, radius * ratio, modulus());
-        let shear_modulus = 0.5 * YOUNG / (1.0 + NU);
         let half_plane = HalfPlane { kernel: 1.0 / (PI * modulus()), coupling: (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG };
-        let material = PatchMaterial { half_plane, shear_modulus, poissons_ratio: NU };
+        let material = PatchMaterial { half_plane, shear_modulus: SHEAR_MODULUS, poissons_ratio: NU };
         let (spacing, side) = (hertz.under(LOAD).a / f64::from(nodes), (ROOM * f64::from(nodes)).ceil() as i32);
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
@@ -132,6 +133,11 @@ impl HalfSpaces {
         lines.iter().map(|line| self.solver.narrowed(line, LOAD / WIDTH)).collect()
     }
 
+    /// Lines of the series on the grid.
+    pub fn as_grid(&self, lines: &Lines) -> Lines {
+        lines.iter().map(|line| self.solver.widened(line).unwrap()).collect()
+    }
+
     pub fn layout(&self, load: f64) -> Vec<LineLayout> {
         self.patch.moving(load).collect()
     }
@@ -151,7 +157,8 @@ impl HalfSpaces {
             false => (nodes, Some(&self.logarithms)),
         };
         let load = [load / WIDTH, LOAD / WIDTH];
-        let step = Step { radius: self.radius, lines: (&layout, logarithms), load, motion, laws };
+        let (lines, flexibility) = ((&layout[..], logarithms), Some(&**self.patch.flexibility()));
+        let step = Step { radius: self.radius, lines, flexibility, load, motion, laws };
         bodies.solve(&self.solver, &step, start)
     }
 

@@ -3,8 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineLayout, LineProblem, RigidMotion, SteelLimits, SurfaceResponse,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch, Influence,
+    LineLayout, LineProblem, PatchFlexibility, RigidMotion, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -25,6 +25,8 @@ pub struct Step<'a> {
     pub radius: f64,
     /// The lines, and the logarithms of the distances of the nodes of a grid; none on smooth bodies.
     pub lines: (&'a [LineLayout], Option<&'a DMatrix<f64>>),
+    /// Flexibility of the lines under each other's tangential forces.
+    pub flexibility: Option<&'a PatchFlexibility>,
     /// Load per metre of the bodies' width, and that which scales tolerances [N/m].
     pub load: [f64; 2],
     /// Translation and rotation.
@@ -60,13 +62,20 @@ impl RigidBodies {
         step: &Step,
         start: &[ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
-        let Step { radius, lines: (layout, logarithms), load: [load, nominal_load], motion, laws: (time, friction) } =
-            *step;
+        let Step {
+            radius,
+            lines: (layout, logarithms),
+            load: [load, nominal_load],
+            motion,
+            laws: (time, friction),
+            flexibility,
+        } = *step;
         let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
-        let line = |layout: &LineLayout| LineProblem {
+        let line = |(line, layout): (usize, &LineLayout)| LineProblem {
             share: layout.share,
             kernel: layout.kernel,
+            patch: flexibility.map(|flexibility| InPatch { flexibility, line, half_length: layout.half_length }),
             bodies: self.response(logarithms),
             membrane: [&flat, &flat],
             time,
@@ -84,7 +93,7 @@ impl RigidBodies {
             friction,
         };
         let problem = ContactProblem {
-            lines: layout.iter().map(line).collect(),
+            lines: layout.iter().enumerate().map(line).collect(),
             rigid: [motion[0], hub, motion[1]],
             nominal_load,
             edge_tolerance: 1e-5,

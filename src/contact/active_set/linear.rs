@@ -10,10 +10,10 @@ use crate::linalg::DenseSystem;
 use std::ops::Range;
 
 /// Equation of a node. The first function writes the coefficients of the line's own forces at the given ports, and
-/// returns the rest; the second one writes those of the forces of another line with its share of the width.
+/// returns the rest; the second one writes those of the forces of another line.
 type NodeEquation = (
     fn(&ContactLine, usize, Range<usize>, &mut [f64]) -> AffineRow,
-    fn(&ContactLine, usize, f64, Range<usize>, &mut [f64]),
+    fn(&ContactLine, usize, &ContactLine, Range<usize>, &mut [f64]),
 );
 
 /// Solves the linear problem of the present states and gives the lines their forces and motions; `rows` is memory for
@@ -30,11 +30,14 @@ pub(super) fn solve(
     for (k, unknown) in unknowns.lines.iter().enumerate() {
         let gap: NodeEquation = (
             |line, i, window, row| line.gap_row(i, window, row),
-            |line, i, share, window, row| line.gap_by_shared(i, share, window, row),
+            |line, i, other, window, row| line.gap_by_shared(i, other.problem.share, window, row),
         );
         let slip: NodeEquation = (
             |line, i, window, row| line.slip_row(i, window, row),
-            |line, i, share, window, row| line.slip_by_shared(i, share, window, row),
+            |line, i, other, window, row| {
+                line.slip_by_shared(i, other.problem.share, window.clone(), row);
+                line.add_slip_by(i, other, window, row);
+            },
         );
         for (nodes, equation) in [(&unknown.closed, gap), (&unknown.stuck, slip)] {
             for &i in nodes {
@@ -69,7 +72,7 @@ fn write_forces(
         let window = other.window(line.grid);
         match j == k {
             true => affine = own(line, i, window, row),
-            false => by_other(line, i, lines[j].problem.share, window, row),
+            false => by_other(line, i, &lines[j], window, row),
         }
     }
     affine

@@ -92,7 +92,7 @@ impl<'a> ActiveSet<'a> {
         let accelerations = problem.rigid.map(|motion| motion.known_acceleration());
         let ActiveSetScratch { lines: buffers, memory } = scratch;
         buffers.resize_with(problem.lines.len(), LineScratch::default);
-        for ((line, (state, _, traction)), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
+        for ((line, (state, _, traction, _)), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
             buffers.find_known(grid, line, (state, &traction.port_forces), accelerations);
         }
         exchange::pulls(grid, &problem.lines, buffers);

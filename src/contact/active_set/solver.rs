@@ -67,13 +67,13 @@ fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineSt
     let SolverState::Line(state) = solver else { return Err(ContactError::ForeignState) };
     state.copy_from(before);
     history.copy_from(&start.history);
-    (*ports, *energy) = (start.ports, 0.0);
+    *ports = start.ports;
     copy(&mut traction.port_forces, &start.traction.port_forces);
     traction.friction.tread_slip = start.traction.friction.tread_slip;
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    Ok((state, history, traction))
+    Ok((state, history, traction, energy))
 }
 
 impl ContactSolver for ActiveSetSolver {

@@ -63,6 +63,8 @@ pub struct ContactLine<'a> {
     pub state: &'a mut LineState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
+    /// Elastic energy that neither the bodies nor the logarithms count [J/m].
+    pub energy: &'a mut f64,
     /// Frame that turns with the rim, at the angle of the present iterate.
     pub frame: RimFrame<'a>,
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
@@ -85,15 +87,15 @@ pub struct ContactLine<'a> {
     pub displaced: &'a mut [Vec<f64>; 2],
 }
 
-/// State, history and traction from which a line starts, and which it changes.
-pub type LineStart<'a> = (&'a mut LineState, &'a mut LineHistory, &'a mut Traction);
+/// State, history, traction and elastic energy from which a line starts, and which it changes.
+pub type LineStart<'a> = (&'a mut LineState, &'a mut LineHistory, &'a mut Traction, &'a mut f64);
 
 impl<'a> ContactLine<'a> {
     /// A line that starts from the given states; the known part of its problem is that of the `scratch`.
     pub fn new(
         grid: &'a ContactGrid,
         problem: &'a LineProblem<'a>,
-        (state, history, traction): LineStart<'a>,
+        (state, history, traction, energy): LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
         let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip, displaced } = scratch;
@@ -114,6 +116,7 @@ impl<'a> ContactLine<'a> {
             state,
             history,
             traction,
+            energy,
             frame,
             surface_angle: 0.0,
             rim,

@@ -31,4 +31,17 @@ pub fn forces(lines: &mut [ContactLine]) {
             line.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
         }
     }
+    fields(lines);
+}
+
+/// Gives lines of a patch what the tangential forces of all of them do.
+fn fields(lines: &mut [ContactLine]) {
+    for line in &mut *lines {
+        let forces = (0..line.grid.len()).map(|i| (i, line.tangential(i)));
+        line.others.moments = line.moments(forces);
+    }
+    for k in 0..lines.len() {
+        let Some(patch) = lines[k].problem.patch else { return };
+        lines[k].others.field = patch.field(lines.iter().map(|line| &line.others.moments));
+    }
 }

@@ -5,6 +5,7 @@ use super::observe::{self, WheelShape};
 use super::power::Power;
 use super::slopes::Slopes;
 use super::vectors::copy;
+use crate::contact::flexibility::at;
 use crate::multistep::History;
 
 /// Moves the histories of a line on and reads off its traction.
@@ -14,9 +15,11 @@ pub fn finish(line: ContactLine) {
         grid,
         problem,
         given,
+        others,
         state,
         history,
         traction,
+        energy,
         frame,
         retarded,
         overlap,
@@ -32,8 +35,10 @@ pub fn finish(line: ContactLine) {
     };
     for (i, gap) in state.tangential_gap.iter_mut().enumerate() {
         let port = grid.port(i);
-        push(gap, wheel[port] - rail[port]);
+        let by_lines = problem.patch.map_or(0.0, |patch| at(&others.field.displacement, &patch.powers(grid.x[i])));
+        push(gap, wheel[port] - rail[port] + by_lines);
     }
+    *energy = 0.5 * others.moments.iter().zip(&others.field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
     push(&mut history.rim_angle, frame.rim_angle);
     for (body, sign) in [(0, 1.0), (1, -1.0)] {
         let loads = &mut traction.loads[body];

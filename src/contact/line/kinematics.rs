@@ -18,10 +18,10 @@ impl ContactLine<'_> {
     /// UpwindWeights derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     pub fn stretches(&self, i: usize, row: UpwindWeights, to_right: bool) -> [f64; 2] {
         let [wheel, rail] = &self.traction.surface;
-        let stencil = self.stencil(i, row, to_right);
+        let (stencil, by_lines) = (self.stencil(i, row, to_right), self.stretch_by_lines(i));
         [
-            stencil.iter().map(|(port, weight)| weight * self.frame.tangential(wheel, *port)).sum(),
-            stencil.iter().map(|(port, weight)| weight * rail[*port]).sum(),
+            stencil.iter().map(|(port, weight)| weight * self.frame.tangential(wheel, *port)).sum::<f64>() + by_lines,
+            stencil.iter().map(|(port, weight)| weight * rail[*port]).sum::<f64>() - by_lines,
         ]
     }
 
@@ -30,7 +30,8 @@ impl ContactLine<'_> {
         let (port, length) = (self.grid.port(i), self.grid.span(i));
         let [wheel, rail] = &self.traction.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
-        [turned / length, (rail[port + 2] - rail[port - 2]) / length]
+        let by_lines = self.stretch_by_lines(i);
+        [turned / length + by_lines, (rail[port + 2] - rail[port - 2]) / length - by_lines]
     }
 
     /// Takes the rim angle that belongs to the surface displacements at hand.
@@ -61,7 +62,8 @@ impl ContactLine<'_> {
             let excess = || self.traction.port_forces[port + 1] - self.given.strength.limit[i];
             self.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
-                let dynamic = problem.time.a0 * (u_c[port] - u_p[port]) + self.given.slip_offset[i];
+                let relative = u_c[port] - u_p[port] + self.moved_by_lines(i);
+                let dynamic = problem.time.a0 * relative + self.given.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
                 let upwind = self.stretches(i, self.upwind.row(i), to_right);
                 self.centred_slip[i] = slip(self.centred_stretches(i));

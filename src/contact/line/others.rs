@@ -4,6 +4,7 @@
 //! bodies as a whole is its own ([`super::alone`]); the rest acts on all lines alike.
 
 use super::vectors::copy;
+use crate::contact::flexibility::{ByPowers, Field};
 use nalgebra::DVector;
 
 /// Forces of the other lines on the ports of wheel and rail, each line weighted with its share of the width.
@@ -13,6 +14,10 @@ pub struct OtherLines {
     pub forces: DVector<f64>,
     /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
     pub pull: [Vec<f64>; 2],
+    /// Moments of the line's own tangential forces with the powers of the place [N/m], and what the forces of all lines of
+    /// the patch do to it.
+    pub moments: ByPowers,
+    pub field: Field,
     /// Contact forces and pulls of all lines together.
     mean: (DVector<f64>, [Vec<f64>; 2]),
 }
@@ -38,7 +43,7 @@ impl OtherLines {
         if self.forces.is_empty() {
             return own;
         }
-        let Self { forces, pull, mean } = self;
+        let Self { forces, pull, mean, .. } = self;
         copy(&mut mean.0, forces);
         mean.0.axpy(share, own.0, 1.0);
         for ((mean, others), own) in mean.1.iter_mut().zip(pull).zip(own.1) {

@@ -132,7 +132,8 @@ impl ContactLine<'_> {
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
-        self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window, forces);
+        self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window.clone(), forces);
+        self.add_slip_by(i, self, window, forces);
         let rim = &self.rim;
         accelerations.iter_mut().zip(rim.accelerations).for_each(|(load, t)| *load += by_angle * t);
         constant += by_angle * (rim.constant - self.frame.rim_angle);

@@ -3,6 +3,7 @@
 use super::series_line::SeriesLine;
 use super::surface::{AtPoints, Moments, SmoothSurfaces};
 use crate::contact::problem::{AxisDrive, RigidMotion, SurfaceResponse};
+use crate::linalg::DenseSystem;
 
 /// Largest number of lines side by side.
 pub const MOST_LINES: usize = 16;
@@ -17,6 +18,8 @@ pub struct SeriesContact<'a> {
     pulls: [AtPoints; 2],
     /// Moments of the tractions, the mean of all lines.
     moments: Moments,
+    /// Equations of all lines.
+    pub system: DenseSystem,
 }
 
 impl<'a> SeriesContact<'a> {
@@ -30,7 +33,7 @@ impl<'a> SeriesContact<'a> {
             }
         }
         lines.iter_mut().for_each(|line| line.mean_pulls = pulls);
-        Self { lines, rigid, pulls, moments: Moments::default() }
+        Self { lines, rigid, pulls, moments: Moments::default(), system: DenseSystem::default() }
     }
 
     /// Linear answer of the bodies.

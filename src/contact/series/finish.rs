@@ -6,6 +6,7 @@ use super::series_line::SeriesLine;
 use super::state::{Past, PatchPast, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
+use crate::contact::flexibility::ByPowers;
 use crate::contact::kernel::LineKernel;
 use crate::contact::line::LineHistory;
 use crate::contact::traction::{SolvedFriction, Traction};
@@ -29,7 +30,8 @@ fn energy(line: &SeriesLine) -> f64 {
     let pressing = normal.factor * (pressed - normal.reach * line.load().powi(2));
     let pulling =
         tangential.factor * (slide * slide * pressed + stuck - tangential.reach * line.friction_force().powi(2));
-    along + lift - (pressing + pulling)
+    let by_lines: f64 = line.powers[1].iter().zip(&line.field.displacement).map(|(moment, c)| 0.5 * moment * c).sum();
+    along + lift + by_lines - (pressing + pulling)
 }
 
 /// Power of pressure on the slope of the rail that slides past it [W/m].
@@ -75,12 +77,19 @@ fn expansion(line: &SeriesLine) -> f64 {
 
 /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
 /// [J/m].
-fn remember(line: &SeriesLine, force: &[f64; POWER], state: &mut SeriesState, history: &mut LineHistory) -> [f64; 2] {
+fn remember(
+    (line, growth): (&SeriesLine, ByPowers),
+    force: &[f64; POWER],
+    state: &mut SeriesState,
+    history: &mut LineHistory,
+) -> [f64; 2] {
     let time = &line.problem.line.time;
     (state.tractions, state.kernel) = (line.tractions, line.problem.line.kernel);
     let now = Past::Patch(PatchPast {
         tractions: line.tractions,
         smooth: line.relative(&line.surface, true),
+        field: [line.field.displacement, growth],
+        half_length: line.half_length,
         reach: line.problem.line.kernel.tangential.reach,
         share: line.problem.line.share,
     });
@@ -99,15 +108,16 @@ fn remember(line: &SeriesLine, force: &[f64; POWER], state: &mut SeriesState, hi
     history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]])
 }
 
-/// Writes the traction, the history and the memory; returns the elastic energy of the line's own flexibility [J/m].
+/// Writes the traction, the history and the memory, for which `growth` is the change of the displacement by the lines of
+/// the patch with the size of this one; returns the elastic energy of the line's own flexibility [J/m].
 pub(super) fn finish(
-    line: &SeriesLine,
+    (line, growth): (&SeriesLine, ByPowers),
     state: &mut SeriesState,
     history: &mut LineHistory,
     traction: &mut Traction,
 ) -> f64 {
     let (_, force) = line.slipping();
-    let [friction, work] = remember(line, &force, state, history);
+    let [friction, work] = remember((line, growth), &force, state, history);
     traction.friction.coefficient = line.friction;
     let power = traction.friction.dissipate(friction, work, line.problem.line.duration);
     traction.friction.tread_slip = line.tread_slip();

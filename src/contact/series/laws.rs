@@ -10,6 +10,7 @@ use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
 use crate::contact::problem::{AxisDrive, ContactProblem, OneLine};
+use crate::linalg::DenseSystem;
 
 /// States of the brakes that are tried: a reversal passes through rest.
 const MOST_STATES: usize = 6;
@@ -21,11 +22,11 @@ pub const UNRESOLVED: f64 = 0.02;
 const MOST_COEFFICIENTS: usize = 150;
 
 /// Solves the contact of lines with a single patch each and hands the solution to `finish`; `starts` are the results of
-/// the step before, one for each line.
+/// the step before, one for each line, `system` is memory for their equations.
 pub fn solve<R>(
     constants: &Constants,
     problem: &ContactProblem,
-    starts: &[SeriesStart],
+    (starts, system): (&[SeriesStart], &mut DenseSystem),
     finish: impl FnOnce(&SeriesContact) -> R,
 ) -> Result<R, ContactError> {
     let mut states = brake::founding(&problem.rigid);
@@ -35,7 +36,10 @@ pub fn solve<R>(
             |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid, nominal_load: 0.0 }, start);
         let mut contact = SeriesContact::new(problem.lines.iter().zip(starts).map(line).collect(), &rigid);
         check_layers(&contact)?;
-        find(&mut contact)?;
+        std::mem::swap(&mut contact.system, system);
+        let found = find(&mut contact);
+        std::mem::swap(&mut contact.system, system);
+        found?;
         let opens = |line: &SeriesLine| line.pressed.force.iter().any(|force| *force < 0.0);
         if contact.lines.iter().any(opens) {
             return Err(ContactError::Unsuited { reason: "the patch opens within" });

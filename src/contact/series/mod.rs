@@ -1,7 +1,7 @@
 //! Contact on a single smooth patch: tractions as series that fit the patch and the part of it that sticks.
 //!
 //! [`chebyshev`] has the series and their effect on a half-plane, [`tables`] and [`constants`] their constants,
-//! [`surface`] the smooth part of the bodies, [`hot_layers`] the effect of hot layers, [`places`] integrates over
+//! [`surface`] the smooth part of the bodies, [`field`] what the lines of a patch do to each other, [`hot_layers`] the effect of hot layers, [`places`] integrates over
 //! tractions, [`series_line`] has one line and [`contact`] what lines share, [`normal`] solves the normal problem,
 //! [`slip`], [`stretch`] and [`together`] given stretches of stick with [`equations`], [`stick`] finds where slip
 //! begins, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and power,
@@ -12,6 +12,7 @@ pub mod chebyshev;
 mod constants;
 mod contact;
 mod equations;
+mod field;
 mod finish;
 mod hot_layers;
 mod laws;

@@ -7,6 +7,7 @@ use super::places::{Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
+use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::line::LineHistory;
 use crate::contact::problem::OneLine;
 use crate::contact::solver::{ContactState, SolverState};
@@ -61,6 +62,12 @@ pub struct SeriesLine<'a> {
     pub moments: Moments,
     /// Smooth displacements under the tractions of all lines.
     pub surface: SmoothSurfaces,
+    /// Length by which places on the line are measured \[m].
+    pub half_length: f64,
+    /// Moments of pressure and shear with the powers of these places [N/m].
+    pub powers: [ByPowers; 2],
+    /// Effect of the lines of the patch under their present shear.
+    pub field: Field,
     /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],
 }
@@ -89,6 +96,9 @@ impl<'a> SeriesLine<'a> {
             mean_load: 0.0,
             moments: Moments::default(),
             surface: SmoothSurfaces::default(),
+            half_length: problem.line.patch.map_or(before.tractions.pressure.half_width, |patch| patch.half_length),
+            powers: Default::default(),
+            field: Field::default(),
             slips: [0.0; POWER],
         }
     }
@@ -157,14 +167,15 @@ impl<'a> SeriesLine<'a> {
         }
         self.moments.normal = place(tables, points, pressure, &mut self.pressed);
         self.pressed.logarithm = pressure.logarithm(&self.pressed.x);
-        self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
+        self.powers[0] = self.powers_of(&self.pressed);
+        self.slide_all();
     }
 
     /// Places of the shear, and the moments of pressure and shear.
     pub fn place_shear(&mut self) {
         let Constants { tables, points, .. } = self.constants;
-        let Tractions { pressure, slide, stick } = &self.tractions;
-        self.moments.tangential = self.moments.normal.map(|m| slide * m);
+        self.slide_all();
+        let Tractions { pressure, stick, .. } = &self.tractions;
         if stick.half_width == 0.0 {
             self.stuck = Places::default();
             return;
@@ -172,6 +183,14 @@ impl<'a> SeriesLine<'a> {
         let moments = place(tables, points, stick, &mut self.stuck);
         self.stuck.logarithm = pressure.logarithm(&self.stuck.x);
         self.moments.tangential = plus(&self.moments.tangential, &moments);
+        self.powers[1] = plus(&self.powers[1], &self.powers_of(&self.stuck));
+    }
+
+    /// Takes the moments of the shear with which all of the patch slips.
+    pub fn slide_all(&mut self) {
+        let slide = self.tractions.slide;
+        self.moments.tangential = self.moments.normal.map(|moment| slide * moment);
+        self.powers[1] = self.powers[0].map(|moment| slide * moment);
     }
 
     /// Takes smooth displacements under the present tractions, and the rim angle: the mean of `û_x` over the pressure

@@ -5,6 +5,7 @@ use super::constants::Constants;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
 use super::surface::{AtPoints, SmoothSurfaces};
+use crate::contact::flexibility::values;
 
 impl SeriesLine<'_> {
     /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`,
@@ -21,16 +22,20 @@ impl SeriesLine<'_> {
         let carried = points.polynomial(&carried);
         let rigid = v - self.problem.line.radius() * omega;
         let warm = self.warm(x, |layers, x| layers.stretch(x, [-rim, v]));
+        let by_lines = match self.problem.line.patch {
+            Some(_) => values(&self.field.slip(self.slip_of_field()), x, self.half_length),
+            None => [0.0; N],
+        };
         let mut slip: [f64; N] = std::array::from_fn(|i| {
             let tilt = self.rim_angle * x[i] / (radius * radius - x[i] * x[i]).sqrt();
             let strains = (v + rim) * along * cauchy[i] + (rim - v) * kernel.coupling * pressure[i];
-            rigid + strains + carried.slope(x[i]) - rim * tilt + warm[i]
+            rigid + strains + carried.slope(x[i]) - rim * tilt + warm[i] + by_lines[i]
         });
         if !time.is_stationary() {
             let (smooth, logarithm) =
                 (points.polynomial(&self.relative(surface, sticks)), tractions.shear_logarithm(x));
             let past = self.before.kernel.tangential.factor;
-            let own = (past, Some([self.problem.line.share, kernel.tangential.reach]));
+            let own = (past, Some(self.problem.line.share));
             let [last, before] = self.before.past.each_ref().map(|time| time.at(x, own, points));
             for i in 0..N {
                 let now = smooth.at(x[i]) - 2.0 * along * logarithm[i];

@@ -14,7 +14,7 @@ use crate::contact::line::LineHistory;
 use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
-use crate::linalg::{Lagrange, POINTS};
+use crate::linalg::{DenseSystem, Lagrange, POINTS};
 use crate::piecewise::Piecewise;
 use nalgebra::DVector;
 
@@ -134,6 +134,7 @@ impl SeriesSolver {
         problem: &ContactProblem,
         starts: &[&ContactState],
         found: &mut [&mut ContactState],
+        system: &mut DenseSystem,
     ) -> Result<(), ContactError> {
         let begun: Option<Vec<_>> = starts.iter().map(|start| SeriesStart::of(start)).collect();
         let fits = |line: &LineProblem| line.bodies.shared.relative.nrows() == 2 * POINTS;
@@ -156,11 +157,11 @@ impl SeriesSolver {
             found.history.copy_from(&start.history);
             found.ports = start.ports;
         }
-        laws::solve(&self.constants, problem, &begun, |contact| {
-            for (line, found) in contact.lines.iter().zip(&mut *found) {
+        laws::solve(&self.constants, problem, (&begun, system), |contact| {
+            for ((at, line), found) in contact.lines.iter().enumerate().zip(&mut *found) {
                 let ContactState { traction, history, energy, solver, .. } = &mut **found;
                 let SolverState::Series(state) = solver else { continue };
-                *energy = finish::finish(line, state, history, traction);
+                *energy = finish::finish((line, contact.growth(at)), state, history, traction);
             }
         })?;
         for ((line, found), begun) in problem.lines.iter().zip(&*found).zip(&begun) {
@@ -225,7 +226,7 @@ impl ContactSolver for SeriesSolver {
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         if start.iter().all(|start| matches!(start.solver, SolverState::Series(_))) {
-            return self.solve_patches(problem, start, found);
+            return self.solve_patches(problem, start, found, &mut scratch.series);
         }
         self.grid.solve(problem, start, found, scratch)?;
         for (line, found) in problem.lines.iter().zip(found) {

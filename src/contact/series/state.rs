@@ -1,6 +1,7 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::{Arch, logarithm_of_both};
+use crate::contact::flexibility::{ByPowers, at, powers, values};
 use crate::contact::kernel::LineKernel;
 use crate::linalg::{Lagrange, POINTS};
 use serde::{Deserialize, Serialize};
@@ -28,24 +29,44 @@ pub enum Past {
 }
 
 /// Displacement by the half-planes under tractions, `−2κ ∫ q ln|x − s| ds`, and by all else.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PatchPast {
     /// The tractions.
     pub tractions: Tractions,
     /// All else at the points of the polynomial \[m].
     pub smooth: [f64; POINTS],
+    /// Displacement by the lines of the patch \[m] as a polynomial of the place over `half_length` \[m], and its derivative
+    /// by the size of this line.
+    pub field: [ByPowers; 2],
+    pub half_length: f64,
     /// `ln(L/1 m)` of the reach of the line, by which that contains `2κ ln L ∫ q ds` \[1].
     pub reach: f64,
     /// Share of the line in the width of the bodies \[1].
     pub share: f64,
 }
 
+impl Default for PatchPast {
+    fn default() -> Self {
+        let (tractions, smooth, field) = Default::default();
+        Self { tractions, smooth, field, half_length: 1.0, reach: 0.0, share: 0.0 }
+    }
+}
+
 impl PatchPast {
-    /// Factor with which the line's own displacement u is carried on by a line with another share s of the width and
-    /// another reach \[1]: its energy stays, which is `½ s u²/K` with `K ∝ ln(2L/a)` where all sticks.
-    fn carried(&self, [share, reach]: [f64; 2]) -> f64 {
-        let logarithm = |reach: f64| reach - libm::log(0.5 * self.tractions.pressure.half_width);
-        let square = self.share * logarithm(reach) / (share * logarithm(self.reach));
+    /// Displacement by the lines of the patch, carried on with a factor \[m].
+    fn by_lines<const N: usize>(&self, carried: f64, x: &[f64; N]) -> [f64; N] {
+        let [field, growth] = &self.field;
+        let sum: ByPowers = std::array::from_fn(|k| field[k] + 2.0 * (1.0 - carried) * growth[k]);
+        match x.iter().all(|x| x.abs() <= self.half_length) {
+            true => values(&sum, x, self.half_length),
+            false => x.map(|x| at(&sum, &powers(x / self.half_length))),
+        }
+    }
+
+    /// Factor with which the logarithm of the line's own displacement is carried on by a line with another share of the
+    /// width \[1]: its energy stays.
+    fn carried(&self, share: f64) -> f64 {
+        let square = self.share / share;
         if square > 0.0 && square.is_finite() { square.sqrt() } else { 1.0 }
     }
 }
@@ -111,8 +132,11 @@ impl Past {
     /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         match self {
-            Past::Patch(PatchPast { tractions, smooth, reach, share }) => {
-                reach.is_finite()
+            Past::Patch(PatchPast { tractions, smooth, field, half_length, reach, share }) => {
+                *half_length > 0.0
+                    && half_length.is_finite()
+                    && field.as_flattened().iter().all(|c| c.is_finite())
+                    && reach.is_finite()
                     && share.is_finite()
                     && tractions.pressure.is_sound()
                     && tractions.stick.is_sound()
@@ -125,19 +149,15 @@ impl Past {
     }
 
     /// Displacement at x \[m]; `kernel` of one half-plane [m/(N/m)]. It is carried on by the line with the given share of
-    /// the width and the reach `ln(L/1 m)`; `None`: by one like that which had it.
-    pub fn at<const N: usize>(
-        &self,
-        x: &[f64; N],
-        (kernel, line): (f64, Option<[f64; 2]>),
-        points: &Lagrange,
-    ) -> [f64; N] {
+    /// the width; `None`: by one like that which had it.
+    pub fn at<const N: usize>(&self, x: &[f64; N], (kernel, share): (f64, Option<f64>), points: &Lagrange) -> [f64; N] {
         match self {
             Past::Patch(past) => {
-                let carried = line.map_or(1.0, |line| past.carried(line));
+                let carried = share.map_or(1.0, |share| past.carried(share));
+                let by_lines = past.by_lines(carried, x);
                 let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
                 let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
-                std::array::from_fn(|i| smooth.at(x[i]) + own - 2.0 * carried * kernel * logarithm[i])
+                std::array::from_fn(|i| smooth.at(x[i]) + by_lines[i] + own - 2.0 * carried * kernel * logarithm[i])
             }
             Past::Grid(first, spacing, values) if values.len() > 3 => x.map(|x| cubic((x - first) / spacing, values)),
             Past::Grid(..) => [0.0; N],

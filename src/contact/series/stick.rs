@@ -15,7 +15,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Slip against the direction of friction, over that at which rolling becomes sliding, that does \[1].
 const BACKWARD: f64 = 5e-3;
 /// Times that slip and stick, or the directions of slip, change.
-const CHANGES: usize = 4;
+const CHANGES: usize = 6;
 /// Change of the length of stick that says something about how the root depends on it, over all changes of the
 /// iteration before: beside larger ones the root changes for other reasons \[1].
 const TELLING: f64 = 0.2;
@@ -117,6 +117,7 @@ impl Search {
     /// True if the solution obeys friction on every line; `false`: the search has to go on.
     fn check(&mut self, contact: &mut SeriesContact) -> Result<bool, ContactError> {
         let mut obeyed = true;
+        contact.exchange();
         for (line, search) in contact.lines.iter_mut().zip(&mut self.lines) {
             obeyed &= search.check(line)?;
             line.slope = search.slope(line);
@@ -249,8 +250,10 @@ impl StickSearch {
         self.last = Some([share, root]);
         let peak = it.friction * it.tractions.pressure.terms[0];
         let next = share - root / self.slope;
-        if next >= 1.0 && share >= 1.0 && root.abs() > NEITHER * peak {
-            // Sticking everywhere asks for slip in the other direction; the shear stays as it is.
+        let lasting = root.abs() > peak * NEITHER.max(LEFT * self.moving);
+        if next >= 1.0 && share >= 1.0 && lasting {
+            // Sticking everywhere asks for slip in the other direction, and not for the changes of other lines alone; the
+            // shear stays as it is.
             let Tractions { pressure, slide, stick } = &mut it.tractions;
             stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
             *slide = -*slide;

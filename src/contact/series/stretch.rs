@@ -4,51 +4,56 @@ use super::chebyshev::{Arch, TERMS};
 use super::equations::{Coefficients, ROOM, eliminate};
 use super::places::moments;
 use super::series_line::SeriesLine;
-use super::surface::{AtPoints, SmoothSurfaces};
-use super::tables::{SHEAR, STICK, STICK_ROOM, Tables};
+use super::surface::SmoothSurfaces;
+use super::tables::{SHEAR, STICK, Tables};
 use crate::contact::error::ContactError;
+use crate::contact::flexibility::ByPowers;
+use crate::linalg::POINTS;
 use crate::linalg::vectorised::vectorised;
-use crate::linalg::{Lagrange, POINTS};
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 
-/// Shared unknowns: moments of the shear of all lines with the polynomials, V and Ω.
-pub const SHARED: usize = POINTS + 2;
+/// Places of the rule that integrates a root times a power exactly: zeros of `T_4`, `cos(π/8)` and `cos(3π/8)`.
+const ROOT_PLACES: [f64; 4] =
+    [0.923_879_532_511_286_7, 0.382_683_432_365_089_8, -0.382_683_432_365_089_8, -0.923_879_532_511_286_7];
 
 /// Tractions of a stretch that sticks: ten terms of the shear and the strength of a root at the end where slip begins
-/// \[Pa], for the known part of the slip and per unit of every shared unknown.
+/// \[Pa], for the known part of the slip and for the slip of all else, which is a polynomial: per unit of every power of
+/// the place over the half-length of the line.
 pub struct Stretch {
     /// Half of its length \[m].
     half: f64,
-    /// Moments of the terms of the shear with the polynomials \[m].
-    moments: [AtPoints; SHEAR],
-    /// Solutions: of the known part, then those that a unit of the shared unknowns takes away.
-    solutions: [Coefficients; 1 + SHARED],
+    /// Moments of the terms of the shear and of the root with the powers \[m]. That of the root is exact: so those of the
+    /// whole stretch, by which lines feel each other, hardly depend on where slip begins.
+    moments: [ByPowers; SHEAR],
+    root: ByPowers,
+    /// Solutions: of the known part, then those that a unit of each power takes away.
+    solutions: [Coefficients; 1 + POINTS],
 }
 
 impl Stretch {
-    /// Moments with the polynomials [N/m] of the tractions of a solution.
-    fn moments_of(&self, x: &Coefficients) -> AtPoints {
-        let mut sums = self.moments[0].map(|moment| 2.0 * x[SHEAR] * moment);
+    /// Moments with the powers [N/m] of the tractions of a solution.
+    fn moments_of(&self, x: &Coefficients) -> ByPowers {
+        let mut sums = self.root.map(|moment| x[SHEAR] * moment);
         for (term, moments) in x[..SHEAR].iter().zip(&self.moments) {
             sums.iter_mut().zip(moments).for_each(|(sum, moment)| *sum += term * moment);
         }
         sums
     }
 
-    /// Moments of the tractions without shared unknowns, and those that a unit of each takes away.
-    pub fn moments(&self) -> [AtPoints; 1 + SHARED] {
+    /// Moments of the tractions under the known slip, and those that a unit of each power takes away.
+    pub fn moments(&self) -> [ByPowers; 1 + POINTS] {
         self.solutions.each_ref().map(|x| self.moments_of(x))
     }
 
-    /// Force of the tractions without shared unknowns [N/m], and those that a unit of each takes away.
-    pub fn forces(&self) -> [f64; 1 + SHARED] {
+    /// Force of the tractions under the known slip [N/m], and those that a unit of each power takes away.
+    pub fn forces(&self) -> [f64; 1 + POINTS] {
         self.solutions.each_ref().map(|x| FRAC_PI_2 * self.half * (x[0] + 2.0 * x[SHEAR]))
     }
 
-    /// Terms of the shear and the root under given shared unknowns \[Pa].
-    pub fn tractions(&self, shared: &[f64; SHARED]) -> Coefficients {
+    /// Terms of the shear and the root under a slip besides the known one \[Pa].
+    pub fn tractions(&self, slip: &ByPowers) -> Coefficients {
         let mut x = self.solutions[0];
-        for (value, solution) in shared.iter().zip(&self.solutions[1..]) {
+        for (value, solution) in slip.iter().zip(&self.solutions[1..]) {
             x.iter_mut().zip(solution).for_each(|(x, by)| *x -= value * by);
         }
         x
@@ -64,20 +69,15 @@ impl SeriesLine<'_> {
             let centre = pressure.centre + upstream * (pressure.half_width - half);
             Arch { centre, half_width: half, count: SHEAR, terms: [0.0; TERMS] }
         });
-        self.moments.tangential = self.moments.normal.map(|m| self.tractions.slide * m);
+        self.slide_all();
     }
 
     /// Tractions of the stretch that sticks, with the smooth displacements `surface` of the friction of slip.
-    pub fn stretch(
-        &self,
-        surface: &SmoothSurfaces,
-        axes: impl Iterator<Item = usize>,
-    ) -> Result<Stretch, ContactError> {
-        let (tables, points) = (&self.constants.tables, &self.constants.points);
+    pub fn stretch(&self, surface: &SmoothSurfaces) -> Result<Stretch, ContactError> {
+        let tables = &self.constants.tables;
         let Arch { centre, half_width: half, .. } = self.tractions.stick;
         let x = tables.stick.map(|t| centre + half * t);
-        let values = points.values_at(&tables.places.map(|t| centre + half * t));
-        let mut columns = [[0.0; ROOM]; STICK + 1 + SHARED];
+        let mut columns = [[0.0; ROOM]; STICK + 1 + POINTS];
         let kernel = self.problem.line.kernel.tangential;
         let factors = SlipFactors {
             convection: (self.rigid[0] + self.rim_velocity()) * kernel.factor * PI,
@@ -85,18 +85,38 @@ impl SeriesLine<'_> {
             size: libm::log(half) - kernel.reach,
             upstream: self.upstream(),
         };
-        write_columns(tables, points, &x, &self.convected(), &factors, &mut columns);
+        write_columns(tables, &factors, &mut columns);
         let slips = self.slip(&x, surface, false);
         columns[STICK][..STICK].iter_mut().zip(slips).for_each(|(right, slip)| *right = -slip);
-        for axis in axes {
-            let column = &mut columns[STICK + 1 + POINTS + axis / 2];
-            column[..STICK].copy_from_slice(&self.motion_terms(axis, &x)[..STICK]);
+        let powers = self.powers_at(&x);
+        for (column, power) in columns[STICK + 1..].iter_mut().zip(&powers) {
+            column[..STICK].copy_from_slice(&power[..STICK]);
         }
         if !eliminate(&mut columns, STICK) {
             return Err(ContactError::Unsuited { reason: "the equations of stick are singular" });
         }
+        let values = self.powers_at(&tables.places.map(|t| centre + half * t));
         let solutions = std::array::from_fn(|k| columns[STICK + k]);
-        Ok(Stretch { half, moments: moments(&tables.moments, &values, half), solutions })
+        let moments = moments(&tables.moments, &values, half);
+        Ok(Stretch { half, moments, root: self.root_moments(), solutions })
+    }
+
+    /// Moments of the traction `√((1 − t)/(1 + t))` with the powers, by the rule of Gauss and Chebyshev \[m].
+    fn root_moments(&self) -> ByPowers {
+        let Arch { centre, half_width: half, .. } = self.tractions.stick;
+        let weights = ROOT_PLACES.map(|t| PI / ROOT_PLACES.len() as f64 * half * (1.0 - self.upstream() * t));
+        let powers = self.powers_at(&ROOT_PLACES.map(|t| centre + half * t));
+        powers.map(|power| power.iter().zip(&weights).map(|(power, weight)| power * weight).sum())
+    }
+
+    /// ByPowers of the place over the half-length of the line, by power.
+    fn powers_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
+        let (mut power, scale) = ([1.0; N], 1.0 / self.half_length);
+        std::array::from_fn(|_| {
+            let now = power;
+            power.iter_mut().zip(x).for_each(|(power, x)| *power *= scale * x);
+            now
+        })
     }
 
     /// Takes the terms of the shear; returns the strength of the traction `√((1 − t)/(1 + t))` that holds the end of
@@ -104,30 +124,6 @@ impl SeriesLine<'_> {
     pub fn take(&mut self, x: &Coefficients) -> f64 {
         self.tractions.stick.terms[..SHEAR].copy_from_slice(&x[..SHEAR]);
         x[SHEAR]
-    }
-
-    /// Effect of tangential forces of all lines on the slip by the smooth displacements: by their values and by their
-    /// slopes.
-    fn convected(&self) -> [[AtPoints; POINTS]; 2] {
-        let ([wheel, rail], v) = (self.problem.line.bodies.shared.compliance, self.rigid[0]);
-        let (rim, a0) = (self.rim_velocity(), self.problem.line.time.a0);
-        let entry = |matrix: &nalgebra::DMatrix<f64>, k: usize, l: usize| matrix[(2 * k, 2 * l)];
-        let value = |k, l| a0 * (entry(wheel, k, l) + entry(rail, k, l));
-        let slope = |k, l| -rim * entry(wheel, k, l) - v * entry(rail, k, l);
-        [
-            std::array::from_fn(|k| std::array::from_fn(|l| value(k, l))),
-            std::array::from_fn(|k| std::array::from_fn(|l| slope(k, l))),
-        ]
-    }
-
-    /// Change of the slip at x per unit of V or Ω, the small effect of the strains left out.
-    fn motion_terms(&self, axis: usize, x: &[f64; STICK_ROOM]) -> [f64; STICK_ROOM] {
-        let (bodies, rim) = (&self.problem.line.bodies, self.rim_velocity());
-        let answer: AtPoints = std::array::from_fn(|k| bodies.inertial[(2 * k, axis)]);
-        let shape = self.constants.points.polynomial(&answer);
-        let own = if axis == 0 { 1.0 } else { -self.problem.line.radius() };
-        let (a0, gain) = (self.problem.line.time.a0, self.problem.rigid[axis].gain);
-        x.map(|x| own + gain * (a0 * shape.at(x) - rim * shape.slope(x)))
     }
 }
 
@@ -142,28 +138,14 @@ pub(super) struct SlipFactors {
 }
 
 vectorised! {
-    /// Writes the coefficients of the terms of the shear, of the root and of the shared moments in the slip at the
-    /// places x.
+    /// Writes the coefficients of the terms of the shear and of the root in the slip at the places of stick.
     fn write_columns<'a, S>(
         _simd,
         tables: &'a Tables,
-        points: &'a Lagrange,
-        x: &'a [f64; STICK_ROOM],
-        kernels: &'a [[AtPoints; POINTS]; 2],
         factors: &'a SlipFactors,
-        columns: &'a mut [Coefficients; STICK + 1 + SHARED],
+        columns: &'a mut [Coefficients; STICK + 1 + POINTS],
     ) {
         let SlipFactors { convection, rate, size, upstream } = *factors;
-        let (values, slopes) = (points.values_at(x), points.slopes_at(x));
-        // Slip at the places by a tangential force with a unit moment, by point.
-        for (l, column) in columns[STICK + 1..STICK + 1 + POINTS].iter_mut().enumerate() {
-            for k in 0..POINTS {
-                let (of_value, of_slope) = (kernels[0][k][l], kernels[1][k][l]);
-                for i in 0..STICK {
-                    column[i] += values[k][i] * of_value + slopes[k][i] * of_slope;
-                }
-            }
-        }
         let (terms, others) = columns.split_at_mut(SHEAR);
         let of_terms = tables.stick_cauchy.iter().zip(&tables.stick_logarithm);
         for (column, (cauchy, logarithm)) in terms.iter_mut().zip(of_terms) {

@@ -1,13 +1,16 @@
 //! Linear problem of all lines together: shear of the stretches that stick, and the motions that are not prescribed.
+//!
+//! What the forces of all lines, the bodies and the motions do to the slip of a line is a polynomial. So each stretch is
+//! solved for every power of one, and these polynomials follow from as many equations ([`super::field`],
+//! [`super::surface`]).
 
-use super::contact::SeriesContact;
-use super::equations::{Coefficients, ROOM, eliminate};
-use super::stretch::{SHARED, Stretch};
+use super::contact::{MOST_LINES, SeriesContact};
+use super::series_line::SeriesLine;
+use super::stretch::Stretch;
+use super::surface::AtPoints;
 use crate::contact::error::ContactError;
-use crate::linalg::POINTS;
-
-/// Equations of the shared unknowns, by unknown, and their right-hand side.
-type SharedEquations = [Coefficients; SHARED + 1];
+use crate::contact::flexibility::{ByMoments, ByPowers, polynomial};
+use crate::linalg::{DenseSystem, POINTS};
 
 impl SeriesContact<'_> {
     /// Solves for the shear of stretches of the half-lengths `halves` \[m] that stick from the leading edges on
@@ -15,18 +18,15 @@ impl SeriesContact<'_> {
     /// roots at the ends where slip begins to `roots` \[Pa].
     pub fn stick(&mut self, halves: &[Option<f64>], roots: &mut [f64]) -> Result<(), ContactError> {
         self.lines.iter_mut().zip(halves).for_each(|(line, half)| line.begin_stretch(*half));
+        self.exchange();
         let surface = self.surface();
-        let axes = self.free_axes();
         let mut stretches: Vec<Option<Stretch>> = Vec::with_capacity(self.lines.len());
         for (line, half) in self.lines.iter().zip(halves) {
-            stretches.push(half.map(|_| line.stretch(&surface, axes.clone())).transpose()?);
+            stretches.push(half.map(|_| line.stretch(&surface)).transpose()?);
         }
-        let shared = self.share(&stretches)?;
-        for axis in axes {
-            self.speed_up(axis, shared[POINTS + axis / 2]);
-        }
-        for ((line, stretch), root) in self.lines.iter_mut().zip(&stretches).zip(roots) {
-            *root = stretch.as_ref().map_or(0.0, |stretch| line.take(&stretch.tractions(&shared)));
+        let slips = self.share(&stretches)?;
+        for (((line, stretch), slip), root) in self.lines.iter_mut().zip(&stretches).zip(&slips).zip(roots) {
+            *root = stretch.as_ref().map_or(0.0, |stretch| line.take(&stretch.tractions(slip)));
             line.place_shear();
         }
         self.displace();
@@ -43,56 +43,158 @@ impl SeriesContact<'_> {
         if self.free_axes().next().is_none() {
             return Ok(());
         }
-        let shared = self.share(&[])?;
-        for axis in self.free_axes() {
-            self.speed_up(axis, shared[POINTS + axis / 2]);
-        }
+        self.share(&[])?;
         self.displace();
         Ok(())
     }
+}
 
-    /// Shared unknowns: the moments of the shear of all stretches, and the changes of V and Ω.
-    fn share(&self, stretches: &[Option<Stretch>]) -> Result<[f64; SHARED], ContactError> {
-        let mut columns: SharedEquations = [[0.0; ROOM]; SHARED + 1];
-        let mut forces = [0.0; 1 + SHARED];
-        (0..SHARED).for_each(|k| columns[k][k] = 1.0);
-        for (line, stretch) in self.lines.iter().zip(stretches) {
-            let (Some(stretch), share) = (stretch, line.problem.line.share) else { continue };
-            let [known, by_shared @ ..] = stretch.moments();
-            (0..POINTS).for_each(|l| columns[SHARED][l] += share * known[l]);
-            for (column, moments) in columns.iter_mut().zip(by_shared) {
-                (0..POINTS).for_each(|l| column[l] += share * moments[l]);
+impl SeriesContact<'_> {
+    /// Finds the motions that are not prescribed, and the slips of all lines that stick by all that the known slip does
+    /// not contain, as polynomials.
+    fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<[ByPowers; MOST_LINES], ContactError> {
+        let (count, axes) = (POINTS * sticking(stretches).count(), self.free_axes());
+        let mut system = std::mem::take(&mut self.system);
+        system.reset(count + axes.clone().count());
+        self.write_motions(stretches, &mut system);
+        let bodies = self.displaced_by_powers();
+        for (column, (by, stretch)) in sticking(stretches).enumerate() {
+            let (moments, forces, share) = (stretch.moments(), stretch.forces(), self.lines[by].problem.line.share);
+            for (row, (at, _)) in sticking(stretches).enumerate() {
+                let between = self.slips_between([at, by], &bodies);
+                let slips = moments.map(|moments| polynomial(&between, &moments));
+                for p in 0..POINTS {
+                    // The known tractions stand on the right, the others take away from them.
+                    let (coefficients, side) = system.row(POINTS * row + p);
+                    *side += slips[0][p];
+                    let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
+                    coefficients.zip(&slips[1..]).for_each(|(value, slip)| *value += slip[p]);
+                }
             }
-            forces.iter_mut().zip(stretch.forces()).for_each(|(sum, force)| *sum += share * force);
+            for (row, axis) in axes.clone().enumerate() {
+                let (coefficients, side) = system.row(count + row);
+                for (k, (moments, force)) in moments.iter().zip(forces).enumerate() {
+                    let ports = self.at_points(by, moments);
+                    let momentum = (0..POINTS).map(|l| self.bodies().momentum[(axis, 2 * l)] * ports[l]).sum::<f64>();
+                    let value = self.arm(axis) * share * force - momentum;
+                    if k == 0 { *side += value } else { coefficients[POINTS * column + k - 1] += value }
+                }
+            }
         }
-        self.write_balances(&mut columns, &forces);
-        if !eliminate(&mut columns, SHARED) {
-            return Err(ContactError::Unsuited { reason: "the lines have no common solution" });
-        }
-        Ok(std::array::from_fn(|k| columns[SHARED][k]))
+        let mut slips = [ByPowers::default(); MOST_LINES];
+        let solved = system.solve().map(|solution| {
+            let (polynomials, changes) = solution.split_at(count);
+            let lines = sticking(stretches).zip(polynomials.as_chunks::<POINTS>().0);
+            lines.for_each(|((line, _), slip)| slips[line] = *slip);
+            axes.zip(changes).for_each(|(axis, change)| self.speed_up(axis, *change));
+        });
+        self.system = system;
+        solved.map(|()| slips).ok_or(ContactError::Unsuited { reason: "the lines have no common solution" })
     }
 
-    /// Writes the balances of the motions that are not prescribed; `forces` are those of the stretches without shared
-    /// unknowns, and what a unit of each takes away.
-    fn write_balances(&self, columns: &mut SharedEquations, forces: &[f64; 1 + SHARED]) {
-        let (bodies, radius) = (self.bodies(), self.lines[0].problem.line.radius());
+    /// Writes the effect of the motions on the slips of lines that stick, and the balances of the motions but for the
+    /// stretches that stick.
+    fn write_motions(&self, stretches: &[Option<Stretch>], system: &mut DenseSystem) {
+        let count = POINTS * sticking(stretches).count();
+        for (row, (line, _)) in sticking(stretches).enumerate() {
+            for p in 0..POINTS {
+                system.row(POINTS * row + p).0[POINTS * row + p] = 1.0;
+            }
+            for (column, axis) in self.free_axes().enumerate() {
+                let slip = self.lines[line].slip_by_motion(axis);
+                slip.iter().enumerate().for_each(|(p, slip)| system.row(POINTS * row + p).0[count + column] = -slip);
+            }
+        }
         // Of friction alone: the stretches have no shear yet.
         let resultant = self.resultant();
-        for axis in self.free_axes() {
-            let (row, arm) = (POINTS + axis / 2, if axis == 0 { 1.0 } else { -radius });
-            for (l, column) in columns[..POINTS].iter_mut().enumerate() {
-                column[row] = bodies.momentum[(axis, 2 * l)];
+        for (row, axis) in self.free_axes().enumerate() {
+            let (coefficients, side) = system.row(count + row);
+            *side = -self.unbalance(axis, resultant);
+            for (column, other) in self.free_axes().enumerate() {
+                coefficients[count + column] = self.inertia(axis, other) * self.rigid[other].gain;
             }
-            for (column, force) in columns.iter_mut().zip(&forces[1..]) {
-                column[row] += arm * force;
-            }
-            for other in self.free_axes() {
-                let column = &mut columns[POINTS + other / 2];
-                let change = self.inertia(axis, other) * self.rigid[other].gain;
-                // The equation of an axis that is prescribed says that it does not change.
-                column[row] += change - if axis == other { 1.0 } else { 0.0 };
-            }
-            columns[SHARED][row] = arm * forces[0] - self.unbalance(axis, resultant);
         }
+    }
+
+    /// Arm of a tangential force about an axis \[1, m].
+    fn arm(&self, axis: usize) -> f64 {
+        if axis == 0 { 1.0 } else { -self.lines[0].problem.line.radius() }
+    }
+
+    /// Moments of a shear with the polynomials of the bodies, per metre of their width, from those with the powers of the
+    /// places on a line [N/m].
+    fn at_points(&self, line: usize, moments: &ByPowers) -> AtPoints {
+        let (line, points) = (&self.lines[line], &self.lines[line].constants.points);
+        let (mut scale, ratio) = (line.problem.line.share, line.half_length / points.reach);
+        let of_bodies = moments.map(|moment| {
+            let scaled = scale * moment;
+            scale *= ratio;
+            scaled
+        });
+        points.moments(&of_bodies)
+    }
+
+    /// Tangential displacements of wheel and rail by unit moments of a shear on the wheel, and the rail's opposite one, with
+    /// the powers of `x/reach`, as polynomials of it.
+    fn displaced_by_powers(&self) -> [ByMoments; 2] {
+        let points = &self.lines[0].constants.points;
+        [(0, 1.0), (1, -1.0)].map(|(body, sign)| {
+            let compliance = self.bodies().shared.compliance[body];
+            std::array::from_fn(|n| {
+                let forces = points.moments(&std::array::from_fn(|k| if k == n { sign } else { 0.0 }));
+                let moved = |k: usize| (0..POINTS).map(|l| compliance[(2 * k, 2 * l)] * forces[l]).sum();
+                points.polynomial(&std::array::from_fn(moved)).by_powers(points.reach)
+            })
+        })
+    }
+
+    /// Slips of a line by unit moments of the shear of another one, given what those do to the bodies.
+    fn slips_between(&self, [at, by]: [usize; 2], [wheel, rail]: &[ByMoments; 2]) -> ByMoments {
+        let (line, other) = (&self.lines[at], &self.lines[by]);
+        let (v, rim, a0, reach) =
+            (line.rigid[0], line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
+        let powers = |ratio: f64, first: f64| {
+            let mut power = first;
+            ByPowers::default().map(|_| {
+                let next = power * ratio;
+                std::mem::replace(&mut power, next)
+            })
+        };
+        let here = powers(line.half_length / reach, 1.0);
+        let there = powers(other.half_length / reach, other.problem.line.share);
+        let mut slips = [ByPowers::default(); POINTS];
+        for (n, slip) in slips.iter_mut().enumerate() {
+            let slope = |of: &ByPowers, p: usize| (p + 1) as f64 / reach * of.get(p + 1).copied().unwrap_or(0.0);
+            for (p, slip) in slip.iter_mut().enumerate() {
+                let rate = a0 * (wheel[n][p] - rail[n][p]);
+                *slip = there[n] * here[p] * (rate + v * slope(&rail[n], p) - rim * slope(&wheel[n], p));
+            }
+        }
+        let Some(patch) = line.problem.line.patch else { return slips };
+        let (between, [rate, strain]) = (patch.flexibility.between(patch.line, by), line.slip_of_field());
+        for (n, slip) in slips.iter_mut().enumerate() {
+            for (p, slip) in slip.iter_mut().enumerate() {
+                *slip += rate * between.displacement[n][p] + strain * between.strain[n][p];
+            }
+        }
+        slips
+    }
+}
+
+/// Lines of which a stretch sticks, by number.
+fn sticking(stretches: &[Option<Stretch>]) -> impl Iterator<Item = (usize, &Stretch)> {
+    stretches.iter().enumerate().filter_map(|(line, stretch)| Some((line, stretch.as_ref()?)))
+}
+
+impl SeriesLine<'_> {
+    /// Change of the slip per unit of V or Ω as a polynomial, the small effect of the strains left out.
+    fn slip_by_motion(&self, axis: usize) -> ByPowers {
+        let (bodies, rim) = (&self.problem.line.bodies, self.rim_velocity());
+        let answer = self.constants.points.polynomial(&std::array::from_fn(|k| bodies.inertial[(2 * k, axis)]));
+        let (a0, gain) = (self.problem.line.time.a0, self.problem.rigid[axis].gain);
+        let [values, slopes] = [answer, answer.derivative()].map(|of| of.by_powers(self.half_length));
+        let mut slip: ByPowers = std::array::from_fn(|k| gain * (a0 * values[k] - rim * slopes[k]));
+        slip[0] += if axis == 0 { 1.0 } else { -self.problem.line.radius() };
+        slip
     }
 }

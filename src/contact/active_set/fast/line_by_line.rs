@@ -7,6 +7,7 @@
 
 use crate::contact::active_set::axes::{Axes, Equation};
 use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns, scale};
+use crate::contact::flexibility::{ByMoments, ByPowers, add, at};
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
 use crate::linalg::DenseSystem;
@@ -55,6 +56,13 @@ struct LineEquations {
     by_motions: [Vec<f64>; 3],
     /// Coefficients of other lines' forces at the ports of the window, row by row.
     shared: Vec<f64>,
+    /// Slips by unit moments of every line of the patch, in which the own ones are none; empty: there is no patch.
+    by_lines: Vec<ByMoments>,
+    /// Powers of the places of the closed nodes, and those of the stuck ones beside the factors of their equations \[1].
+    places: Vec<ByPowers>,
+    stuck: Vec<(ByPowers, f64)>,
+    /// Moments of the own forces [N/m].
+    moments: ByPowers,
     /// Coefficients of the own forces in the balances.
     balances: [Vec<f64>; 3],
     /// Forces at all ports, those within the window [N/m].
@@ -116,6 +124,7 @@ impl LineByLine {
             if !equations.write(&lines[k], axes, (own, unknowns, gaps), (&self.window, rows)) {
                 return false;
             }
+            equations.write_patch(k, own, lines);
             let present = own.closed.iter().map(|&i| lines[k].normal(i));
             self.unknowns.extend(present.chain(own.stuck.iter().map(|&i| lines[k].tangential(i))));
         }
@@ -197,12 +206,13 @@ impl LineByLine {
             line.place(own, (given, grid), window, mean);
             rest = others;
         }
+        let moments: Vec<_> = lines.iter().map(|line| line.moments).collect();
         motions.values = if known { motions.known } else { [0.0; 3] };
         let values = &mut motions.values[..motions.count];
         let (mut rest, mut finite) = (&mut *forces, true);
         for (line, own) in lines.iter_mut().zip(&unknowns.lines) {
             let (forces, others) = rest.split_at_mut(own.len());
-            finite &= line.answer(mean, (window, known), forces);
+            finite &= line.answer((mean, &moments), (window, known), forces);
             values.iter_mut().zip(&line.balances).for_each(|(value, balance)| *value -= dot(balance, forces));
             rest = others;
         }
@@ -236,6 +246,7 @@ impl LineEquations {
         self.alone.resize(size, 0.0);
         self.by_motions.iter_mut().for_each(|values| values.resize(size, 0.0));
         self.shared.clear();
+        self.stuck.clear();
         let nodes = own.closed.iter().map(|&i| (i, false)).chain(own.stuck.iter().map(|&i| (i, true)));
         for (r, (i, sticks)) in nodes.enumerate() {
             match sticks {
@@ -257,9 +268,23 @@ impl LineEquations {
             self.own.row(r).0.copy_from_slice(&self.row[..size]);
             self.by_motions.iter_mut().zip(&self.row[size..]).for_each(|(by_motion, value)| by_motion[r] = *value);
             self.shared.extend(others[window.clone()].iter().map(|by_all| scale * by_all));
+            if let Some(patch) = line.problem.patch.filter(|_| sticks) {
+                self.stuck.push((patch.powers(line.grid.x[i]), scale));
+            }
         }
         let motions = self.by_motions.iter_mut().take(count);
         self.own.factorise() && motions.chain([&mut self.alone]).all(|side| self.own.solve_with(side))
+    }
+
+    /// Takes what the other lines of the patch do to this one, which has the number `k`.
+    fn write_patch(&mut self, k: usize, own: &LineUnknowns, lines: &[ContactLine]) {
+        let line = &lines[k];
+        self.by_lines.clear();
+        self.places.clear();
+        let Some(patch) = line.problem.patch else { return };
+        let by = |by: usize| if by == k { Some(ByMoments::default()) } else { line.slip_by_moments(by) };
+        self.by_lines.extend((0..lines.len()).filter_map(by));
+        self.places.extend(own.closed.iter().map(|&i| patch.powers(line.grid.x[i])));
     }
 
     /// Takes the forces of a solution, and adds them to those of all lines at the ports of the window.
@@ -274,14 +299,29 @@ impl LineEquations {
         self.forces[window.clone()].fill(0.0);
         own.place(forces, grid, &mut self.forces);
         mean.iter_mut().zip(&self.forces[window.clone()]).for_each(|(mean, force)| *mean += self.share * force);
+        self.moments = ByPowers::default();
+        for (&i, place) in own.closed.iter().zip(&self.places) {
+            let force = self.forces[grid.port(i)];
+            self.moments.iter_mut().zip(place).for_each(|(moment, power)| *moment += force * power);
+        }
     }
 
-    /// Writes the forces that belong to those of the other lines; whether they are finite. `mean`: forces of all lines.
-    fn answer(&mut self, mean: &[f64], (window, known): (&Range<usize>, bool), forces: &mut [f64]) -> bool {
+    /// Writes the forces that belong to those of the other lines; whether they are finite. `mean`: forces of all lines,
+    /// `moments`: those of every line.
+    fn answer(
+        &mut self,
+        (mean, moments): (&[f64], &[ByPowers]),
+        (window, known): (&Range<usize>, bool),
+        forces: &mut [f64],
+    ) -> bool {
         let others = &mut self.forces[window.clone()];
         others.iter_mut().zip(mean).for_each(|(force, mean)| *force = mean - self.share * *force);
         let rows = self.shared.chunks_exact(window.len());
         forces.iter_mut().zip(rows).for_each(|(force, row)| *force = -dot(row, others));
+        let mut slip = ByPowers::default();
+        self.by_lines.iter().zip(moments).for_each(|(by, moments)| add(by, moments, &mut slip));
+        let (_, sticking) = forces.split_at_mut(forces.len() - self.stuck.len());
+        sticking.iter_mut().zip(&self.stuck).for_each(|(force, (place, scale))| *force -= scale * at(&slip, place));
         let finite = self.own.solve_with(forces);
         if known {
             forces.iter_mut().zip(&self.alone).for_each(|(force, alone)| *force += alone);

@@ -1,0 +1,346 @@
+//! Flexibility of the lines of a patch under the tangential forces of all of them.
+//!
+//! Half-spaces displace a line by the forces on its own strip and on all others. Of the own ones the logarithm of the
+//! distance is left to the line itself ([`super::LineKernel`]); the rest is smooth, and felt through moments:
+//! displacements and strains are polynomials of the place over the half-length of the line, `t = x/a`, and forces act
+//! by their moments with the powers of t. So all coefficients are the same under any load.
+//! Derivation: `docs/theory/lines.md`, section 5.
+
+use crate::linalg::POINTS;
+use crate::patch::gauss::{self, GaussLine};
+use crate::patch::tiles::{Tile, TileInfluence};
+use std::f64::consts::PI;
+
+/// A polynomial by powers of the place over the half-length of a line, or moments of forces with these powers [N/m].
+pub type ByPowers = [f64; POINTS];
+
+/// Polynomials by unit moments: displacements, strains or others, one for each power.
+pub type ByMoments = [ByPowers; POINTS];
+
+/// Places on the displaced line, and on each part of the line of the force, by which kernels become polynomials.
+const DISPLACED: usize = 32;
+const FORCED: usize = 16;
+/// Length beyond the ends of a line, over its half-length, on which the effect of the patch fades out \[1].
+const FADING: f64 = 0.5;
+
+/// Offset of a strip from the middle over its width beyond which it has a mirror image \[1].
+const LEAST_OFFSET: f64 = 1e-9;
+/// Coefficients of Legendre's polynomials by powers.
+const LEGENDRE: [ByPowers; POINTS] = [
+    [1.0, 0.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0, 0.0],
+    [-0.5, 0.0, 1.5, 0.0, 0.0],
+    [0.0, -1.5, 0.0, 2.5, 0.0],
+    [0.375, 0.0, -3.75, 0.0, 4.375],
+];
+
+/// Displacement of the wheel less that of the rail on one line by the forces of one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Between {
+    /// Displacements \[m] by unit moments.
+    pub displacement: ByMoments,
+    /// Strains times the half-length of the displaced line \[m]; no derivatives of the former, so that forces do no work
+    /// on the slopes of their own displacements.
+    pub strain: ByMoments,
+    /// Derivative of the displacement by the size of the displaced line while the forces stay where they are \[m].
+    pub growth: ByMoments,
+}
+
+/// Displacement and strain of one line by the forces of all lines of its patch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Field {
+    /// Displacement of the wheel less that of the rail \[m].
+    pub displacement: ByPowers,
+    /// Its strain times the half-length of the line \[m].
+    pub strain: ByPowers,
+}
+
+/// Flexibility of all lines of a patch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PatchFlexibility {
+    lines: usize,
+    /// By displaced line, then by line of the force.
+    pairs: Vec<Between>,
+}
+
+/// A line as part of a patch that displaces it.
+#[derive(Clone, Copy)]
+pub struct InPatch<'a> {
+    /// Flexibility of the patch.
+    pub flexibility: &'a PatchFlexibility,
+    /// Number of the line in it.
+    pub line: usize,
+    /// Half-length of the line in the layout \[m].
+    pub half_length: f64,
+}
+
+impl PatchFlexibility {
+    /// That of half-spaces with a shear modulus \[Pa] and Poisson's ratio \[1] under lines on `tiles`; with `mirrored`
+    /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1 m
+    /// at which a force of its own no longer displaces it by more than the mean over all lines.
+    pub fn new(tiles: &[Tile], mirrored: bool, (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
+        let (projection, factor, count) = (LegendreProjection::new(), 1.0 / (PI * shear_modulus), tiles.len());
+        let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
+        let mut pairs = vec![Between::default(); count * count];
+        for (pair, (at, of)) in pairs.iter_mut().zip(tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of)))) {
+            for image in [Some(*of), beside(of).then(|| of.mirrored())].into_iter().flatten() {
+                projection.add([at, of], factor, |x| at.displaced_by(image, x, nu), pair);
+            }
+        }
+        let width = |tile: &Tile| if beside(tile) { 2.0 * tile.width() } else { tile.width() };
+        for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
+            let [mut first, mut second] = [pairs[i * count + j], pairs[j * count + i]];
+            let of = [&tiles[i], &tiles[j]];
+            reconcile([&mut first, &mut second], of.map(width), of.map(|tile| tile.half_length));
+            (pairs[i * count + j], pairs[j * count + i]) = (first, second);
+        }
+        // A constant displacement may belong to the logarithm as well.
+        let logarithm = 2.0 * (1.0 - nu) * factor;
+        let reaches = (0..count).map(|line| {
+            let reach =
+                pairs[line * count..][..count].iter().map(|pair| mean(&pair.displacement)).sum::<f64>() / logarithm;
+            pairs[line * (count + 1)].displacement[0][0] -= logarithm * reach;
+            pairs[line * (count + 1)].growth[0][0] += 0.5 * logarithm * reach;
+            reach
+        });
+        let reaches = reaches.collect();
+        (Self { lines: count, pairs }, reaches)
+    }
+
+    /// Effect of the forces of a line `by` on a line `at`.
+    pub fn between(&self, at: usize, by: usize) -> &Between {
+        &self.pairs[at * self.lines + by]
+    }
+
+    /// Sum over the forces of all lines with the given moments [N/m], by line, on the line `at`.
+    pub fn sum<'a>(
+        &self,
+        at: usize,
+        moments: impl IntoIterator<Item = &'a ByPowers>,
+        of: impl Fn(&Between) -> &ByMoments,
+    ) -> ByPowers {
+        let mut sum = ByPowers::default();
+        for (by, moments) in moments.into_iter().enumerate() {
+            add(of(self.between(at, by)), moments, &mut sum);
+        }
+        sum
+    }
+}
+
+/// Adds the polynomial that belongs to moments.
+pub fn add(by_moments: &ByMoments, moments: &ByPowers, sum: &mut ByPowers) {
+    for (by_moment, moment) in by_moments.iter().zip(moments) {
+        sum.iter_mut().zip(by_moment).for_each(|(sum, by)| *sum += by * moment);
+    }
+}
+
+/// Polynomial that belongs to moments.
+pub fn polynomial(by_moments: &ByMoments, moments: &ByPowers) -> ByPowers {
+    let mut sum = ByPowers::default();
+    add(by_moments, moments, &mut sum);
+    sum
+}
+
+/// Values of a polynomial at places x, whose unit is `length` \[m].
+pub fn values<const N: usize>(polynomial: &ByPowers, x: &[f64; N], length: f64) -> [f64; N] {
+    let (mut sums, scale) = ([0.0; N], 1.0 / length);
+    for c in polynomial.iter().rev() {
+        for i in 0..N {
+            sums[i] = sums[i] * (x[i] * scale) + c;
+        }
+    }
+    sums
+}
+
+/// Value at the place t of a polynomial.
+pub fn value(polynomial: &ByPowers, t: f64) -> f64 {
+    polynomial.iter().rev().fold(0.0, |sum, c| sum * t + c)
+}
+
+/// Powers of the place t. Beyond the ends of the line those at the ends fade out: polynomials grow there without bound,
+/// and would push a longer patch up by its own forces.
+pub fn powers(t: f64) -> ByPowers {
+    let beyond = ((t.abs() - 1.0) / FADING).clamp(0.0, 1.0);
+    let (mut power, t) = (1.0 - beyond * beyond * (3.0 - 2.0 * beyond), t.clamp(-1.0, 1.0));
+    std::array::from_fn(|_| {
+        let now = power;
+        power *= t;
+        now
+    })
+}
+
+/// Value of a polynomial, given the powers of the place.
+pub fn at(polynomial: &ByPowers, powers: &ByPowers) -> f64 {
+    polynomial.iter().zip(powers).map(|(c, power)| c * power).sum()
+}
+
+impl Between {
+    /// Field of forces with given moments.
+    pub fn field(&self, moments: &ByPowers) -> Field {
+        Field { displacement: polynomial(&self.displacement, moments), strain: polynomial(&self.strain, moments) }
+    }
+}
+
+impl Field {
+    /// Slip [m/s] as a polynomial, given its changes with displacement and strain, see [`slip_of_field`].
+    pub fn slip(&self, [by_displacement, by_strain]: [f64; 2]) -> ByPowers {
+        std::array::from_fn(|k| by_displacement * self.displacement[k] + by_strain * self.strain[k])
+    }
+}
+
+/// Changes of the slip [m/s] with the displacement of a field, which has the weight `rate` in its rate [1/s], and with its
+/// strain: half of the sum `speed` of the speeds of both surfaces [m/s] carries it.
+pub fn slip_of_field([rate, speed]: [f64; 2], half_length: f64) -> [f64; 2] {
+    [rate, -0.5 * speed / half_length]
+}
+
+impl InPatch<'_> {
+    /// Field of the forces of all lines with the given moments on this one.
+    pub fn field<'a>(&self, moments: impl Iterator<Item = &'a ByPowers> + Clone) -> Field {
+        let sum = |of: fn(&Between) -> &ByMoments| self.flexibility.sum(self.line, moments.clone(), of);
+        Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) }
+    }
+
+    /// Powers of a place on the line, see [`powers`].
+    pub fn powers(&self, x: f64) -> ByPowers {
+        powers(x / self.half_length)
+    }
+}
+
+/// Quadrature by which kernels become polynomials: the orthogonal projection on both lines. Kernels have a kink where
+/// places agree, about as wide as the lines: the integral over the line of the force is divided there, with places that
+/// become denser towards it.
+struct LegendreProjection {
+    displaced: Vec<GaussLine>,
+    forced: Vec<GaussLine>,
+}
+
+impl LegendreProjection {
+    fn new() -> Self {
+        Self { displaced: gauss::rule(DISPLACED), forced: gauss::rule(FORCED) }
+    }
+
+    /// Adds the projection of `factor` times a kernel between two lines.
+    fn add(&self, [at, of]: [&Tile; 2], factor: f64, kernel: impl Fn(f64) -> TileInfluence, sum: &mut Between) {
+        for line in &self.displaced {
+            let (x, weights) = (at.half_length * line.ordinate, dual(line.ordinate));
+            let middle = (x / of.half_length).clamp(-1.0, 1.0);
+            let mut rows = [[0.0; 3]; POINTS];
+            for (end, line) in
+                [-1.0, 1.0].iter().flat_map(|end| self.forced.iter().map(move |line| (end - middle, line)))
+            {
+                let u = 0.5 * (1.0 + line.ordinate);
+                let (t, weight) = (middle + end * u * u, factor * line.weight * end.abs() * u);
+                let TileInfluence { displacement, strain, growth } = kernel(x - of.half_length * t);
+                for (row, dual) in rows.iter_mut().zip(dual(t)) {
+                    let values = [displacement, strain * at.half_length, growth];
+                    row.iter_mut().zip(values).for_each(|(row, value)| *row += weight * dual * value);
+                }
+            }
+            for (n, row) in rows.iter().enumerate() {
+                for (k, weight) in weights.iter().map(|weight| line.weight * weight).enumerate() {
+                    sum.displacement[n][k] += weight * row[0];
+                    sum.strain[n][k] += weight * row[1];
+                    sum.growth[n][k] += weight * row[2];
+                }
+            }
+        }
+    }
+}
+
+/// Polynomials whose products with a function integrate to the coefficients of its projection, at a place.
+fn dual(t: f64) -> ByPowers {
+    let mut sum = ByPowers::default();
+    for (n, legendre) in LEGENDRE.iter().enumerate() {
+        let factor = (n as f64 + 0.5) * value(legendre, t);
+        sum.iter_mut().zip(legendre).for_each(|(sum, c)| *sum += factor * c);
+    }
+    sum
+}
+
+/// Makes tables of two lines that displace each other, which stand for the given widths, obey Betti's theorem to
+/// round-off: displacements symmetric, strains antisymmetric.
+fn reconcile([first, second]: [&mut Between; 2], widths: [f64; 2], lengths: [f64; 2]) {
+    for n in 0..POINTS {
+        for k in 0..POINTS {
+            let [there, back] = [widths[0] * first.displacement[n][k], widths[1] * second.displacement[k][n]];
+            let mean = 0.5 * (there + back);
+            (first.displacement[n][k], second.displacement[k][n]) = (mean / widths[0], mean / widths[1]);
+            let scales = [widths[0] / lengths[0], widths[1] / lengths[1]];
+            let [there, back] = [scales[0] * first.strain[n][k], scales[1] * second.strain[k][n]];
+            let mean = 0.5 * (there - back);
+            (first.strain[n][k], second.strain[k][n]) = (mean / scales[0], -mean / scales[1]);
+        }
+    }
+}
+
+/// Mean over a line of its displacement by a unit force that is spread over the other one.
+fn mean(displacement: &ByMoments) -> f64 {
+    let of_power = |k: usize| if k.is_multiple_of(2) { 1.0 / (k + 1) as f64 } else { 0.0 };
+    let of_moment = |by: &ByPowers| by.iter().enumerate().map(|(k, by)| of_power(k) * by).sum::<f64>();
+    displacement.iter().enumerate().map(|(n, by)| of_power(n) * of_moment(by)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEEL: (f64, f64) = (81e9, 0.3);
+
+    /// Strips beside each other, `scale` times as large as millimetres.
+    fn strips(scale: f64) -> Vec<Tile> {
+        let edges = [0.0, 1.0, 3.0, 4.5].map(|z| z * scale);
+        let tile =
+            |(pair, half_length): (&[f64], f64)| Tile { edges: [pair[0], pair[1]], half_length: half_length * scale };
+        edges.windows(2).zip([6.0, 5.0, 3.0]).map(tile).collect()
+    }
+
+    /// Betti: a displacement by the forces of another line does the same work as theirs on that by the own ones, and forces
+    /// do none on the strains that they cause together.
+    #[test]
+    fn works_of_two_lines_on_each_other_are_the_same_and_a_load_moves_along_without_work() {
+        let tiles = strips(1e-3);
+        for mirrored in [false, true] {
+            let (patch, _) = PatchFlexibility::new(&tiles, mirrored, STEEL);
+            let width = |k: usize| tiles[k].width() * if mirrored { 2.0 } else { 1.0 };
+            let forces = [[1.0, 0.3, -0.2, 0.5, 0.1], [0.4, -1.0, 0.7, 0.2, -0.3], [2.0, 0.1, 0.1, -0.6, 0.8]];
+            let work = |k: usize, field: &ByPowers| -> f64 { forces[k].iter().zip(field).map(|(f, c)| f * c).sum() };
+            let mut moved = 0.0;
+            for (k, tile) in tiles.iter().enumerate() {
+                for j in 0..tiles.len() {
+                    let [there, back] = [patch.between(k, j).field(&forces[j]), patch.between(j, k).field(&forces[k])];
+                    let works = [width(k) * work(k, &there.displacement), width(j) * work(j, &back.displacement)];
+                    assert!((works[0] - works[1]).abs() < 1e-12 * works[0].abs() + 1e-26, "{works:?}");
+                    moved += width(k) * work(k, &there.strain) / tile.half_length;
+                }
+            }
+            assert!(moved.abs() < 1e-23, "{moved:e}");
+        }
+    }
+
+    #[test]
+    fn tables_are_the_same_for_patches_of_every_size() {
+        let [(small, reaches), (large, others)] = [1e-3, 2e-3].map(|s| PatchFlexibility::new(&strips(s), true, STEEL));
+        for (a, b) in small.pairs.iter().zip(&large.pairs) {
+            for (a, b) in [(a.displacement, b.displacement), (a.strain, b.strain), (a.growth, b.growth)] {
+                let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-23;
+                assert!(a.as_flattened().iter().zip(b.as_flattened()).all(same));
+            }
+        }
+        assert!(reaches.iter().zip(others).all(|(a, b)| (a + 2.0_f64.ln() - b).abs() < 1e-9));
+    }
+
+    /// Displacement of a wide strip in its middle, far from its sides: that of the plane, in which only the distance at
+    /// which a logarithm ends is the width's.
+    #[test]
+    fn a_wide_strip_is_displaced_as_the_plane() {
+        let tile = Tile { edges: [-1.0, 1.0], half_length: 1e-3 };
+        let (patch, reaches) = PatchFlexibility::new(&[tile], false, STEEL);
+        let rest = patch.between(0, 0).field(&[1.0, 0.0, 0.0, 0.0, 0.0]);
+        let logarithm = 2.0 * (1.0 - STEEL.1) / (PI * STEEL.0);
+        // `asinh(w/|x|) − (1 − 2ν)/(1 − ν)` for a width w = 2.
+        let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.1) / (1.0 - STEEL.1);
+        assert!((reaches[0] - reach).abs() < 1e-3);
+        assert!(rest.displacement.iter().all(|c| c.abs() < 1e-3 * logarithm), "{rest:?}");
+    }
+}

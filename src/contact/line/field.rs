@@ -1,0 +1,56 @@
+//! Displacement of a line by the tangential forces of all lines of its patch.
+
+use super::contact_line::ContactLine;
+use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
+use std::ops::Range;
+
+impl ContactLine<'_> {
+    /// Moments of tangential forces [N/m] at candidates with the powers of their places.
+    pub fn moments(&self, forces: impl Iterator<Item = (usize, f64)>) -> ByPowers {
+        let mut moments = ByPowers::default();
+        let Some(patch) = self.problem.patch else { return moments };
+        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
+            let powers = patch.powers(self.grid.x[i]);
+            moments.iter_mut().zip(powers).for_each(|(moment, power)| *moment += force * power);
+        }
+        moments
+    }
+
+    /// Displacement of the wheel less that of the rail at a candidate \[m].
+    pub fn moved_by_lines(&self, i: usize) -> f64 {
+        let moved = |powers| at(&self.others.field.displacement, &powers);
+        self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
+    }
+
+    /// Strain of the wheel at a candidate \[1]; that of the rail is the opposite.
+    pub fn stretch_by_lines(&self, i: usize) -> f64 {
+        let Some(patch) = self.problem.patch else { return 0.0 };
+        0.5 * at(&self.others.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
+    }
+
+    /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is no
+    /// patch.
+    pub fn slip_by_moments(&self, by: usize) -> Option<ByMoments> {
+        let patch = self.problem.patch?;
+        let between = patch.flexibility.between(patch.line, by);
+        let speeds = [self.problem.time.a0, self.traction.rigid[0] + self.rim_velocity()];
+        Some(std::array::from_fn(|n| {
+            let unit = std::array::from_fn(|k| if k == n { 1.0 } else { 0.0 });
+            between.field(&unit).slip(slip_of_field(speeds, patch.half_length))
+        }))
+    }
+
+    /// Adds the change of the slip at a candidate with the tangential forces of a line of the patch to their coefficients
+    /// at the ports `window`.
+    pub fn add_slip_by(&self, i: usize, by: &ContactLine, window: Range<usize>, forces: &mut [f64]) {
+        let (Some(patch), Some(other)) = (self.problem.patch, by.problem.patch) else { return };
+        let Some(by_moments) = self.slip_by_moments(other.line) else { return };
+        let here = patch.powers(self.grid.x[i]);
+        let of_moments = by_moments.map(|polynomial| at(&polynomial, &here));
+        let first = window.start / 2;
+        let nodes = forces[window].as_chunks_mut::<2>().0;
+        for (node, x) in nodes.iter_mut().zip(&self.grid.nodes()[first..]) {
+            node[0] += at(&of_moments, &other.powers(*x));
+        }
+    }
+}

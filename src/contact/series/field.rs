@@ -1,0 +1,41 @@
+//! Displacement of lines by the tangential forces of all lines of a patch, as far as it is smooth on each line.
+
+use super::contact::SeriesContact;
+use super::places::{Places, total};
+use super::series_line::SeriesLine;
+use super::tables::QUADRATURE;
+use crate::contact::flexibility::{self, ByPowers};
+
+impl SeriesContact<'_> {
+    /// Gives all lines the fields of the present shear.
+    pub fn exchange(&mut self) {
+        for at in 0..self.lines.len() {
+            let Some(patch) = self.lines[at].problem.line.patch else { continue };
+            self.lines[at].field = patch.field(self.lines.iter().map(|line| &line.powers[1]));
+        }
+    }
+
+    /// Derivative of the displacement of a line by its size, while the forces stay where they are \[m].
+    pub fn growth(&self, at: usize) -> ByPowers {
+        let Some(patch) = self.lines[at].problem.line.patch else { return ByPowers::default() };
+        patch.flexibility.sum(patch.line, self.lines.iter().map(|line| &line.powers[1]), |by| &by.growth)
+    }
+}
+
+impl SeriesLine<'_> {
+    /// Moments of tractions with the powers of the place.
+    pub fn powers_of(&self, places: &Places) -> ByPowers {
+        let (mut power, scale) = (places.force, 1.0 / self.half_length);
+        std::array::from_fn(|_| {
+            let moment = total(&power, &[1.0; QUADRATURE]);
+            power.iter_mut().zip(&places.x).for_each(|(power, x)| *power *= scale * x);
+            moment
+        })
+    }
+
+    /// Changes of the slip with displacement and strain of the field.
+    pub fn slip_of_field(&self) -> [f64; 2] {
+        let speed = self.rigid[0] + self.rim_velocity();
+        flexibility::slip_of_field([self.problem.line.time.a0, speed], self.half_length)
+    }
+}

@@ -1,0 +1,148 @@
+//! Half-spaces under tangential tractions on tiles: strips across the direction of rolling, each as wide as the contact
+//! line that stands for it.
+//!
+//! A force `f` per width on the tile γ < z < δ, constant across it, displaces half-spaces along x; the displacement of
+//! another tile α < z < β is the mean over it. With a unit point force, `(1 − ν)/r + ν x²/r³` times `1/(πG)` for both
+//! bodies of equal material (Johnson, *Contact Mechanics* (1985), section 3.6), and its second antiderivative in z,
+//!
+//! ```text
+//! H(x, s) = (1 − ν) s asinh(s/|x|) − (1 − 2ν) r,      r² = x² + s²
+//! G(x) = [H(β − γ) − H(β − δ) − H(α − γ) + H(α − δ)]/(β − α)/(πG)
+//! ```
+//!
+//! Derivation: `docs/theory/lines.md`.
+
+/// The strip of the half-spaces for which a contact line stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tile {
+    /// Lateral edges \[m].
+    pub edges: [f64; 2],
+    /// Half of the length of the line \[m].
+    pub half_length: f64,
+}
+
+/// Displacement of a tile by a unit force per width on another one at a distance x, times `πG` \[1], and what follows
+/// from it. Of a tile's own displacement the logarithm `2 (1 − ν) ln(1/|x|)` is left out, lengths in metres.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TileInfluence {
+    /// The displacement \[1].
+    pub displacement: f64,
+    /// Its derivative by x [1/m].
+    pub strain: f64,
+    /// Its derivative by the size of the displaced tile, whose edges move away from z = 0 in proportion, while the force
+    /// stays where it is \[1].
+    pub growth: f64,
+}
+
+/// Smallest distance whose logarithm is taken \[m].
+const LEAST: f64 = 1e-12;
+
+impl Tile {
+    /// The tile on the other side of z = 0.
+    pub fn mirrored(self) -> Self {
+        let [low, high] = self.edges;
+        Self { edges: [-high, -low], ..self }
+    }
+
+    /// Width \[m].
+    pub fn width(self) -> f64 {
+        self.edges[1] - self.edges[0]
+    }
+
+    /// Its displacement by a force on the tile `of` at the distance x \[m] on half-spaces with Poisson's ratio ν \[1].
+    pub fn displaced_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
+        let (own, mut sum) = (self == of, TileInfluence::default());
+        let logarithm = libm::log(x.abs().max(LEAST));
+        for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
+            for (there, sign) in of.edges.into_iter().zip([at, -at]) {
+                let s: f64 = here - there;
+                let (r, size) = (libm::hypot(x, s), s.abs());
+                let along = if r > 0.0 { x / r } else { 0.0 };
+                // `asinh(s/|x|)` without the logarithm of x, which cancels but in a tile's own displacement.
+                let steep = if size > 0.0 { libm::log(size + r) } else { 0.0 };
+                sum.displacement += sign * ((1.0 - nu) * size * steep - (1.0 - 2.0 * nu) * r);
+                let flat = if size + r > 0.0 { size / (size + r) } else { 0.0 };
+                sum.strain += sign * along * ((1.0 - nu) * flat - (1.0 - 2.0 * nu));
+                if size > 0.0 {
+                    let full = steep - if own { 0.0 } else { logarithm };
+                    sum.growth += sign * here * ((1.0 - nu) * full * s.signum() + nu * s / r);
+                }
+            }
+        }
+        let width = self.width();
+        let [displacement, strain] = [sum.displacement, sum.strain].map(|sum| sum / width);
+        TileInfluence { displacement, strain, growth: sum.growth / width - displacement }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NU: f64 = 0.3;
+
+    fn tile(low: f64, high: f64) -> Tile {
+        Tile { edges: [low, high], half_length: 1.0 }
+    }
+
+    /// Double integral of the displacement by point forces over both tiles by the rule of the middle.
+    fn integral(at: Tile, of: Tile, x: f64) -> f64 {
+        let n = 400;
+        let place = |tile: Tile, i: i32| tile.edges[0] + tile.width() * (f64::from(i) + 0.5) / f64::from(n);
+        let mut sum = 0.0;
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let r = x.hypot(place(at, i) - place(of, j));
+            sum += (1.0 - NU) / r + NU * x * x / r.powi(3);
+        }
+        sum * of.width() / f64::from(n * n)
+    }
+
+    #[test]
+    fn a_tile_is_displaced_as_the_integral_over_point_forces_says() {
+        for (at, of) in
+            [(tile(-1.0, 0.5), tile(-1.0, 0.5)), (tile(0.5, 1.0), tile(-1.0, 0.5)), (tile(0.2, 1.0), tile(3.0, 5.0))]
+        {
+            for x in [0.1, -0.7, 4.0_f64] {
+                let own = if at == of { -2.0 * (1.0 - NU) * x.abs().ln() } else { 0.0 };
+                let (found, exact) = (at.displaced_by(of, x, NU).displacement + own, integral(at, of, x));
+                assert!((found / exact - 1.0).abs() < 1e-4, "{at:?} {of:?} {x}: {found} {exact}");
+            }
+        }
+    }
+
+    /// Betti: the works of two forces on each other's displacements are the same.
+    #[test]
+    fn tiles_displace_each_other_in_proportion_to_their_widths() {
+        let [a, b] = [tile(-1.0, 0.5), tile(0.5, 1.2)];
+        for x in [0.0, 0.3, -2.0] {
+            let [there, back] = [a.displaced_by(b, x, NU), b.displaced_by(a, -x, NU)];
+            assert!((a.width() * there.displacement - b.width() * back.displacement).abs() < 1e-14);
+            assert!((a.width() * there.strain + b.width() * back.strain).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn derivatives_by_place_and_size_are_those_of_differences() {
+        let step = 1e-5;
+        for (at, of) in
+            [(tile(-0.5, 0.7), tile(-0.5, 0.7)), (tile(0.7, 1.0), tile(-0.5, 0.7)), (tile(0.7, 1.0), tile(1.0, 1.4))]
+        {
+            for x in [0.2, -0.6_f64] {
+                let found = at.displaced_by(of, x, NU);
+                let by_place = [x + step, x - step].map(|x| at.displaced_by(of, x, NU).displacement);
+                assert!((found.strain - (by_place[0] - by_place[1]) / (2.0 * step)).abs() < 1e-8);
+                let of_size = |scale: f64| integral_free(Tile { edges: at.edges.map(|z| z * scale), ..at }, of, x);
+                let own = if at == of { (1.0 - NU) * x.abs().ln() } else { 0.0 };
+                let by_size = (of_size(1.0 + step) - of_size(1.0 - step)) / (2.0 * step);
+                assert!((found.growth + own - by_size).abs() < 1e-6, "{at:?} {of:?} {x}: {found:?} {own} {by_size}");
+            }
+        }
+    }
+
+    /// The displacement of tiles that are not the same, all logarithms included.
+    fn integral_free(at: Tile, of: Tile, x: f64) -> f64 {
+        let h = |s: f64| (1.0 - NU) * s * (s / x.abs()).asinh() - (1.0 - 2.0 * NU) * x.hypot(s);
+        let [[a, b], [c, d]] = [at.edges, of.edges];
+        (h(b - c) - h(b - d) - h(a - c) + h(a - d)) / at.width()
+    }
+}
