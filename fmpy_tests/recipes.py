@@ -151,7 +151,7 @@ NOT_RUN = {
         "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
         "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",
         "cargo test --release -p wheelrail-thesis -- --nocapture", "cargo test --release -p wheelrail-thesis --test all NAME::",
-        "cargo run --release --example", "tools/run_tests.py -p wheelrail -p wheelrail-slave", "tools/test_times.py", "tools/test_times.py --each --test brake",
+        "cargo run --release --example", "tools/run_tests.py", "tools/run_tests.py -p wheelrail -p wheelrail-slave", "tools/test_times.py", "tools/test_times.py --each --test brake",
         "tools/test_times.py --python .venv/bin/python --out target/test-times.md", "tools/test_times.py --test heat_steps",
     ),
     "writes into the checkout what other tests compare with what is there": (
