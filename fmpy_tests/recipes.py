@@ -52,6 +52,10 @@ CHECKOUT = (
     ),
     Recipe("make sweep SCENARIO={small} OUT={out}", ("make sweep",), "written"),
     Recipe("make ssp SCENARIO=examples/train/low_adhesion.json", ("make ssp", "make ssp SCENARIO=my/scenario.json"), "written"),
+    Recipe('make endurance ARGS="--steps 3000"',
+        ("make endurance", "cargo run --release --example ex03_endurance -- --steps 1000000"), "Recover",
+    ),  # fmt: skip
+    Recipe("make random-parameters ARGS=2", ("make random-parameters",), "2 parameter sets"),
     Recipe("make fmu", says="Nothing to be done"),
     Recipe("make python-wheel", says=".whl"),
     Recipe("make house", ("make house", "tools/house.py"), "lines"),
@@ -133,8 +137,8 @@ NOT_RUN = {
         "make bench-ordinary BEFORE=older/libwheelrail.so", "make bench-ordinary BEFORE=path/libwheelrail.so",
         'make bench-ordinary BEFORE=older.fmu ARGS="--cases varying-30,lock-up --repeats 5 --json results/ordinary.json"',
         'make bench-ordinary BEFORE=older.fmu ARGS="--set solver.contact=auto --set mesh.elements_per_half_width=10"',
-        "make locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels", "make endurance", "make random-parameters",
-        "cargo run --release --example ex03_endurance -- --steps 1000000", "cargo bench",
+        "make locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels",
+        "cargo bench",
     ),
     "recomputes figures of the thesis, most of which its tests compute in every run": (
         "make thesis", "make thesis FULL=1", "make thesis ACCEPT=1", "cargo run -p wheelrail-thesis -- --page",

@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 # All but the tests of the documentation, unless some are chosen.
-KINDS = ("--lib", "--bins", "--tests", "--examples")
+KINDS = ("--lib", "--bins", "--tests")
 CHOICES = ("--lib", "--bin", "--test", "--example", "--doc")
 
 
