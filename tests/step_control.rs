@@ -250,4 +250,11 @@ fn force_error_after_a_jump_of_the_load_falls_with_the_tolerance_where_nothing_i
     println!("errors over the load: {:.4?}", errors.map(|error| error / exact[0]));
     assert!(errors.windows(2).all(|e| e[1] < 0.4 * e[0]));
     assert!(errors[2] < 0.01 * exact[0]);
+    let text = |name: &str| {
+        let model = model(shipped(name));
+        let inputs = Inputs::rolling(model.config());
+        Simulation::new(model, &inputs).unwrap().describe_limit(Limit::Energy)
+    };
+    assert!(text("paper_a").contains("lose their energy in steps of any length"));
+    assert!(!text("railway").contains("in steps of any length"));
 }

@@ -253,8 +253,8 @@ fn deepest_line<'a>(state: &'a State, none: &'a Line) -> &'a Line {
     state.line_of_largest(|line| line.flattening[0].deepest()).unwrap_or(none)
 }
 
-/// Present profile of the wheel under the line under which it has lost most: positions around the tread and heights over the circle \[m],
-/// that is `wheel.profile` less the depth that yielding and wear have taken off.
+/// Present profile of the wheel where it has lost most: positions around the tread and heights over the circle \[m], which
+/// are those of `wheel.profile` less the depth that yielding and wear have taken off under that line.
 pub fn tread(model: &RollingModel, state: &State) -> Vec<[f64; 2]> {
     let none = Line::default();
     let flattening = &deepest_line(state, &none).flattening[0];

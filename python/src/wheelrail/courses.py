@@ -97,7 +97,7 @@ class Samples:
             )
 
     def _is_hidden(self, k, stop, step):
-        """Whether a sample lies within a step and off the curve that the step has through its ends."""
+        """True if a sample lies within a step and off the curve that the step has through its ends."""
         time = self.times[k]
         begin = step * floor((time + ROUNDING) / step)
         end = min(begin + step, stop)

@@ -1,8 +1,7 @@
 //! Linear problem of all lines together: shear of the stretches that stick, and the motions that are not prescribed.
 //!
-//! What the forces of all lines, the bodies and the motions do to the slip of a line is a polynomial. So each stretch is
-//! solved for every power of one, and these polynomials follow from as many equations ([`super::field`],
-//! [`super::surface`]).
+//! Forces of all lines, bodies and motions change the slip of a line by a polynomial. So each stretch is solved for every
+//! power of one, and these polynomials follow from as many equations ([`super::field`], [`super::surface`]).
 
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;

@@ -168,13 +168,18 @@ fn track(value: f64, bound: f64) -> String {
 fn energy(simulation: &Simulation, value: f64) -> String {
     let (missing, force) = simulation.missing_energy();
     let load = simulation.model().config().model.nominal_load;
+    let stays = if simulation.model().config().damping.modal {
+        ""
+    } else {
+        ", and the force errs less; without damping.modal waves of high frequency lose their energy in steps of any length"
+    };
     let off = if force < load { format!("at most {force:.3e} N") } else { "as much as the nominal load".into() };
     format!(
         "energy of {:.1} % of what has been dissipated or is stored is missing (solver.energy_residual), {missing:.3} J: the \
          contact is made, lost or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond \
          what the model is made for; the contact force is inexact, too, by {off} while the wheel stays on the \
          rail, and strikes after a flight come at other times besides; lower solver.tolerance (now {:?}) or \
-         solver.max_step (now {:?} s)",
+         solver.max_step (now {:?} s){stays}",
         1e2 * value,
         simulation.state().clock.last_step,
         simulation.tuning().tolerance,
