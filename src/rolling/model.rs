@@ -36,6 +36,8 @@ pub struct RollingModel {
     pub tread: TreadLevel,
     /// Temperatures, unless they are switched off.
     pub thermal: Option<ThermalModel>,
+    /// Distance of the nodes on which contact is looked for \[m].
+    pub spacing: f64,
     /// Half-length of the zone in which ordinary contact is looked for \[m].
     pub zone: f64,
     /// Half-length of the zone beyond which contact is never looked for \[m].
@@ -119,11 +121,12 @@ impl RollingModel {
         correction: Option<KernelCorrection>,
     ) -> Result<Self, ModelError> {
         let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
+        let spacing = bodies.spacing;
         let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
         let steel = Isotropic::from(&config.material);
         let shear = steel.shear_wave_speed();
         let thermal = match config.thermal.enabled {
-            true => Some(ThermalModel::new(&config, zone, bodies.spacing, reach)?),
+            true => Some(ThermalModel::new(&config, zone, spacing, reach)?),
             false => None,
         };
         Ok(Self {
@@ -140,6 +143,7 @@ impl RollingModel {
             patch_width: config.nominal_patch().width,
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
+            spacing,
             zone,
             config,
         })

@@ -4,8 +4,8 @@
 use super::constants::Constants;
 use super::contact::SeriesContact;
 use super::hot_layers::SeriesLayers;
+use super::pivoting;
 use super::series_line::{SeriesLine, SeriesStart};
-use super::stick;
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
@@ -84,7 +84,7 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: [BrakeState; 
 
 /// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.
 fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    stick::solve(contact)?;
+    pivoting::solve(contact)?;
     if !contact.lines.iter().any(|line| line.problem.line.friction.varies()) {
         return Ok(());
     }
@@ -103,7 +103,7 @@ fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
         if settled {
             return Ok(());
         }
-        stick::solve(contact)?;
+        pivoting::solve(contact)?;
     }
     Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" })
 }

@@ -4,6 +4,7 @@ use super::chebyshev::Arch;
 use super::constants::{Constants, LayerTables};
 use super::contact::MOST_LINES;
 use super::hot_layers::SeriesLayers;
+use super::points::PointTables;
 use super::series_line::SeriesStart;
 use super::state::{Past, PatchPast, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE, Tables};
@@ -47,7 +48,7 @@ impl SeriesSolver {
     /// themselves, beside a `grid`.
     pub fn new(grid: ActiveSetSolver, reach: f64, fallback: Fallback) -> Self {
         let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
-        let constants = Constants { points, tables, layers };
+        let constants = Constants { points, tables, of_points: PointTables::new(), layers };
         Self { grid, constants, fallback }
     }
 
@@ -197,7 +198,8 @@ impl ContactSolver for SeriesSolver {
         let mut pressure = Arch { centre: 0.0, half_width, count: PRESSURE, ..Arch::default() };
         // That of a cylinder is found in the first iteration.
         pressure.terms[0] = 1.0;
-        let tractions = Tractions { pressure, slide: 1.0, stick: Arch { terms: Default::default(), ..pressure } };
+        let stick = Arch { terms: Default::default(), ..pressure };
+        let tractions = Tractions { pressure, slide: 1.0, stick, directions: None };
         let past = [(); 2].map(|()| Past::Patch(PatchPast::default()));
         let state = SeriesState { tractions, past, ..SeriesState::default() };
         let zeros = || DVector::zeros(2 * POINTS);
