@@ -116,14 +116,11 @@ fn standing(rest: &[f64], share: f64) -> [f64; 3] {
         let dt = (end - time) / f64::from(steps);
         for _ in 0..steps {
             let mut next = vec![HeatState::default(); cells.len()];
-            let fields = states.iter().zip(&mut next).enumerate().map(|(i, (state, next))| HeatLine {
-                state,
-                next,
-                exchange: if i < 4 { &heated } else { &idle },
-                flows: HeatFlows::default(),
-            });
+            let exchange = |i: usize| if i < 4 { &heated } else { &idle };
+            let fields = states.iter().zip(&mut next).enumerate();
+            let fields = fields.map(|(i, (state, next))| HeatLine::new(state, next, exchange(i)));
             let mut fields: Vec<_> = fields.collect();
-            heat.step_lines(&mut fields, dt, 0.0, 0.0, &mut scratch).unwrap();
+            heat.step(&mut fields, dt, 0.0, 0.0, &mut scratch).unwrap();
             entered += dt * fields.iter().enumerate().map(|(i, f)| cells.width(i) * f.flows.to_wheel).sum::<f64>();
             states = next;
             waited += dt;
