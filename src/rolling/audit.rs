@@ -15,7 +15,7 @@ pub fn energy(model: &RollingModel, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
-        + model.bodies.correction_energy(state)
+        + model.bodies.energy_of_contact(state)
         + state.sum(|line| line.contact.traction.yielding.springing_work)
 }
 
