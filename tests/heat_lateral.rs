@@ -244,3 +244,30 @@ fn heat_crosses_a_gap_by_the_way_from_line_to_line_and_leaves_nothing_in_it() {
         assert!((cells.width(0) + cells.width(1) - 2.0 * width).abs() < 1e-18);
     }
 }
+
+/// Lines of a cold wheel that slide unevenly, mixed in every step: each field may lie below its coldest datum by the
+/// margin of 0.09 K, and mixing adds nothing to it.
+#[test]
+fn undershoots_of_lines_do_not_add_up_when_their_heat_mixes() {
+    let (heat, v) = (heat(&config(1e5, 20.0)), 15.0);
+    let cells = LateralCells::side_by_side(&[2e-3; 3]).unwrap();
+    let mixing = cells.conduction(heat.config().diffusivity(), 1e-3);
+    let mut states = vec![heat.initial(0.0, 0.0); cells.len()];
+    let (mut scratch, mut seen, mut lowest) = (HeatScratch::default(), Observation::default(), 0.0_f64);
+    for k in 0..400 {
+        let creepage = |line: usize| -1e-3 * (1.0 + ((k * (line + 1)) % 7) as f64);
+        let exchanges: Vec<Exchange> = (0..cells.len()).map(|line| carter(1e5, v, creepage(line))).collect();
+        let mut next = vec![HeatState::default(); cells.len()];
+        let lines = states.iter().zip(&mut next).zip(&exchanges);
+        let mut lines: Vec<_> = lines.map(|((state, next), exchange)| HeatLine::new(state, next, exchange)).collect();
+        heat.step(&mut lines, 1e-3, v, v / RADIUS, &mut scratch).unwrap();
+        states = next;
+        mix(&mixing, &mut states);
+        for state in &states {
+            heat.observe(state, &mut seen).unwrap();
+            lowest = lowest.min(seen.lowest);
+        }
+    }
+    println!("coldest {lowest:.3} K");
+    assert!((-0.0901..0.0).contains(&lowest), "{lowest}");
+}
