@@ -144,7 +144,8 @@ def table(file):
     with open(file, newline="") as source:
         rows = csv.reader(source)
         names = next(rows)
-        return dict(zip(names, zip(*[[float(value) for value in row] for row in rows])))
+        truth = {"true": 1.0, "false": 0.0}
+        return dict(zip(names, zip(*[[float(truth.get(value, value)) for value in row] for row in rows])))
 
 
 def difference(before, after):

@@ -13,7 +13,6 @@ use crate::analytic;
 use crate::config::{Config, ContactMethod};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
-use crate::contact::line::kernel::KernelCorrection;
 use crate::contact::series::{Fallback, SeriesSolver};
 use crate::contact::{self, ContactSolver, LineKernel};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
@@ -79,9 +78,6 @@ impl RollingModel {
     /// Builds the model on given bodies with given surfaces, with contact on the grid of their surface nodes.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
-        let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
-        let modulus = Isotropic::from(&config.material).contact_modulus();
-        let correction = KernelCorrection::new(&(&wheel.surface + &rail.surface), modulus);
         let mut solver = ActiveSetSolver::new(grid(&bodies));
         if let Some(wide) = &bodies.wide {
             solver = solver.with_wider(grid(wide));
@@ -94,7 +90,7 @@ impl RollingModel {
             }
             None => Box::new(solver),
         };
-        Self::with_solver(config, bodies, surfaces, solver, Some(correction))
+        Self::with_solver(config, bodies, surfaces, solver)
     }
 
     /// Distance up to which the bodies less half-planes are known \[m], where the series are asked for and no parameter
@@ -111,14 +107,12 @@ impl RollingModel {
         (!reversible).then_some(smooth.reach)
     }
 
-    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports;
-    /// `correction`: that of their compliance at grid scale, if the solver needs it.
+    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
     pub fn with_solver(
         config: Config,
         bodies: Pair,
         surfaces: Surfaces,
         solver: Box<dyn ContactSolver>,
-        correction: Option<KernelCorrection>,
     ) -> Result<Self, ModelError> {
         let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
         let spacing = bodies.spacing;
@@ -133,10 +127,8 @@ impl RollingModel {
             wheel: RigidWheel::new(&config),
             tread: TreadLevel::of(&surfaces),
             bodies: match config.contact.shape.is_line() {
-                true => Bodies::new(bodies, TrackSupport::new(&config), correction),
-                false => {
-                    Bodies::new(bodies, TrackSupport::new(&config), correction).with_lines(patch_lines::apart(&config))
-                }
+                true => Bodies::new(bodies, TrackSupport::new(&config)),
+                false => Bodies::new(bodies, TrackSupport::new(&config)).with_lines(patch_lines::apart(&config)),
             },
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach))?,
             reach: zone.max(reach),
