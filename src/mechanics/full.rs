@@ -8,6 +8,7 @@ use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOpe
 use super::retarded::RetardedLayer;
 use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
+use crate::axes::PerAxis;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
 use crate::multistep::TimeDerivative;
@@ -266,7 +267,7 @@ impl BodyResponse for FullBody {
         op: &StepOperator,
         free: &FreeResponse,
         forces: &DVector<f64>,
-        rigid: [f64; 3],
+        rigid: PerAxis<f64>,
         td: &TimeDerivative,
         state: &BodyState,
         next: &mut BodyState,
@@ -274,15 +275,15 @@ impl BodyResponse for FullBody {
         motion::commit(self, op, free, forces, rigid, td, state, next);
     }
 
-    fn energy(&self, state: &BodyState, _forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
+    fn energy(&self, state: &BodyState, _forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let system = &self.system;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
         let elastic = 0.5 * system.stiffness.bilinear(y, y);
         let kinetic = 0.5 * system.mass.bilinear(v, v);
         let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
-        let coupling: f64 = momentum.zip(rigid_velocity).map(|(p, w)| p * w).sum();
+        let coupling: f64 = momentum.zip(rigid_velocity.values()).map(|(p, w)| p * w).sum();
         let layer = self.layer().map_or(0.0, |layer| layer.energy(&state.retarded));
-        elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity)
+        elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {

@@ -13,6 +13,7 @@ use super::fast::Shortcuts;
 use super::linear;
 use super::states::{self, Comparison, Rules};
 use super::unknowns::Unknowns;
+use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
@@ -160,7 +161,7 @@ impl<'a> ActiveSet<'a> {
             decided += usize::from(!settled);
             settled = !changed && (settled || self.edges_settled());
             let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
-            let relieved = relieved && self.axes.seeks(2);
+            let relieved = relieved && self.axes.seeks(Axis::Rotation);
             if settled && !turned && !relieved && self.lines.iter().all(states::sticks) {
                 if balancing == MOST_BALANCING || self.turns_balance() {
                     return Ok(decided);
@@ -236,7 +237,7 @@ impl<'a> ActiveSet<'a> {
         }
         let braked = axes.update_brakes(lines, &mut memory.rows, tolerance * grid.len() as f64);
         // A static problem needs a support.
-        let held = problem.rigid[1].gain != 0.0 || !axes.seeks(1);
+        let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
         let closed = !held && states::support(lines);
         closed || changed || braked
     }

@@ -2,6 +2,7 @@
 //! forces of the stuck ones, then motions that are sought.
 
 use super::axes::{Axes, Equation};
+use crate::axes::Axis;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
 use std::ops::Range;
@@ -12,7 +13,7 @@ pub(super) struct Unknowns {
     /// Those of every line.
     pub lines: Vec<LineUnknowns>,
     /// Axes whose motions are sought; the height of the hub comes last.
-    pub axes: Vec<usize>,
+    pub axes: Vec<Axis>,
 }
 
 /// Unknown forces of one line.
@@ -46,7 +47,7 @@ impl Unknowns {
             unknowns.friction.resize(unknowns.closed.len(), 0.0);
         }
         self.axes.clear();
-        self.axes.extend(axes.sought().filter(|&axis| axis == 1));
+        self.axes.extend(axes.sought().filter(|&axis| axis == Axis::Height));
     }
 
     /// Number of unknowns.

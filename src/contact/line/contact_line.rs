@@ -9,6 +9,7 @@ use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
 use super::state::LineState;
 use super::streamline::UpwindRows;
+use crate::axes::PerAxis;
 use crate::contact::limits::RESISTANCE;
 use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
@@ -38,7 +39,7 @@ impl LineScratch {
         grid: &ContactGrid,
         problem: &LineProblem,
         (state, forces): (&LineState, &DVector<f64>),
-        accelerations: [f64; 3],
+        accelerations: PerAxis<f64>,
     ) {
         self.given.find(grid, problem, state, forces, accelerations);
         let ports = if problem.bodies.alone.is_some() { grid.ports() } else { 0 };
@@ -164,7 +165,7 @@ impl<'a> ContactLine<'a> {
     pub fn rim_velocity(&self) -> f64 {
         let time = &self.problem.time;
         let turning = time.a0 * self.frame.rim_angle + self.history.rim_angle.offset(time);
-        self.problem.radius() * (self.traction.rigid[2] - turning)
+        self.problem.radius() * (self.traction.rigid.rotation - turning)
     }
 
     /// Rim angle \[rad] if the rim goes on turning as it does.
@@ -175,12 +176,12 @@ impl<'a> ContactLine<'a> {
 
     /// Sum of the speeds of both surfaces [m/s].
     pub fn speed(&self) -> f64 {
-        self.traction.rigid[0].abs() + self.rim_velocity().abs()
+        self.traction.rigid.travel.abs() + self.rim_velocity().abs()
     }
 
     /// True if the material arrives from `+x`.
     pub fn upstream_right(&self) -> bool {
-        self.traction.rigid[0] + self.rim_velocity() >= 0.0
+        self.traction.rigid.travel + self.rim_velocity() >= 0.0
     }
 
     /// Takes the upwind differences of the present states and pressures; returns the largest change of their weights.

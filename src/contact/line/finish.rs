@@ -61,7 +61,7 @@ pub fn finish(line: ContactLine) {
     observe::lift(grid, problem, (&traction.port_forces, load), (lift, displaced));
     let wheel = WheelShape { radius: problem.radius(), frame: &frame, surface: &traction.surface[0], lift };
     traction.resultant = observe::resultant(wheel, slopes, traction);
-    traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();
+    traction.resultant.rotation -= problem.radius() * retarded.force.iter().sum::<f64>();
     observe::overlap(grid, state, overlap, traction);
     let limits = &given.strength.limit;
     traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, traction);

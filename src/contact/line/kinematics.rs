@@ -5,6 +5,7 @@ use super::observe::{self, WheelShape};
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
+use crate::axes::PerAxis;
 use crate::linalg::vectorised::add_columns;
 
 impl ContactLine<'_> {
@@ -47,15 +48,16 @@ impl ContactLine<'_> {
 
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
     /// those rigid ones that were not known before, `None` the others.
-    pub fn evaluate(&mut self, accelerations: [Option<f64>; 3]) {
+    pub fn evaluate(&mut self, accelerations: PerAxis<Option<f64>>) {
         self.displace(accelerations);
         let load = self.load_of_all();
         observe::lift(self.grid, self.problem, (&self.traction.port_forces, load), (self.lift, self.displaced));
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
-        let [v, height, omega] = self.traction.rigid;
-        let (v_c, rim, to_right) = (problem.radius() * omega, self.rim_velocity(), self.upstream_right());
+        let (v, height) = (self.traction.rigid.travel, self.traction.rigid.height);
+        let (v_c, rim, to_right) =
+            (problem.radius() * self.traction.rigid.rotation, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
@@ -76,7 +78,7 @@ impl ContactLine<'_> {
     }
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
-    fn displace(&mut self, accelerations: [Option<f64>; 3]) {
+    fn displace(&mut self, accelerations: PerAxis<Option<f64>>) {
         let Self { problem, given, others, traction, rim, displaced, .. } = self;
         let bodies = &problem.bodies;
         let (mean, _) = others.mean(problem.share, (&traction.port_forces, &given.layers.pull));
@@ -106,10 +108,10 @@ impl ContactLine<'_> {
                 }
             }
         }
-        for (k, acceleration) in accelerations.into_iter().enumerate() {
+        for (axis, acceleration) in accelerations.iter() {
             let Some(acceleration) = acceleration else { continue };
-            traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);
-            rim.value += acceleration * rim.accelerations[k];
+            traction.surface[0].axpy(acceleration, &bodies.inertial.column(axis.number()), 1.0);
+            rim.value += acceleration * rim.accelerations[axis];
         }
     }
 

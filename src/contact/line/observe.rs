@@ -5,6 +5,7 @@ use super::rim::RimFrame;
 use super::slopes::Slopes;
 use super::state::{LineState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
+use crate::axes::PerAxis;
 use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
@@ -136,16 +137,16 @@ pub(in crate::contact) fn springing_work(
 }
 
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
-pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction: &Traction) -> [f64; 3] {
+pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction: &Traction) -> PerAxis<f64> {
     let grid = slopes.grid;
-    let mut sum = [0.0; 3];
+    let mut sum = PerAxis::default();
     for i in 0..grid.len() {
         let port = grid.port(i);
         let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
         let [arm_t, arm_n] = lever_arms(wheel, slopes, i);
-        sum[0] += t + n * slopes.rail(i);
-        sum[1] += n;
-        sum[2] -= arm_t * t + arm_n * n;
+        sum.travel += t + n * slopes.rail(i);
+        sum.height += n;
+        sum.rotation -= arm_t * t + arm_n * n;
     }
     sum
 }

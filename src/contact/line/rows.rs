@@ -1,6 +1,7 @@
 //! Gap and slip of a line as affine functions of contact forces, rigid motions and their accelerations.
 
 use super::contact_line::ContactLine;
+use crate::axes::{Axis, PerAxis};
 use crate::contact::problem::Influence;
 use crate::linalg::vectorised::vectorised;
 use nalgebra::DMatrix;
@@ -9,10 +10,10 @@ use std::ops::Range;
 /// An affine function without its coefficients of the port forces, which stand beside it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AffineRow {
-    /// Coefficients of the rigid motions V, U, Ω.
-    pub motions: [f64; 3],
+    /// Coefficients of the rigid motions.
+    pub motions: PerAxis<f64>,
     /// Coefficients of their accelerations.
-    pub accelerations: [f64; 3],
+    pub accelerations: PerAxis<f64>,
     /// Constant; it contains the accelerations that are known.
     pub constant: f64,
 }
@@ -52,7 +53,7 @@ impl ContactLine<'_> {
     /// the ports `window` to `forces`: as far as the bodies are displaced.
     pub fn slip_by_shared(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
         let (stencil, by_angle) = self.upwind_slip(i);
-        let (v, velocity, gain) = (self.traction.rigid[0], self.rim_velocity(), self.problem.time.a0);
+        let (v, velocity, gain) = (self.traction.rigid.travel, self.rim_velocity(), self.problem.time.a0);
         let Influence { compliance, relative } = self.problem.bodies.shared;
         let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
         let upstream = stencil.map(|(at, weight)| {
@@ -98,10 +99,11 @@ impl ContactLine<'_> {
     pub fn gap_terms(&self, i: usize) -> AffineRow {
         let (bodies, rim, x) = (&self.problem.bodies, &self.rim, self.grid.x[i]);
         let port = self.grid.port(i) + 1;
-        let accelerations = std::array::from_fn(|k| bodies.inertial[(port, k)] - x * rim.accelerations[k]);
+        let mut accelerations = bodies.inertial_at(port);
+        accelerations.add(-x, rim.accelerations);
         let [wheel, rail] = &self.given.displacement;
         let constant = self.given.gap[i] + wheel[port] - x * rim.constant - rail[port];
-        AffineRow { motions: [0.0, 1.0, 0.0], accelerations, constant }
+        AffineRow { motions: PerAxis::unit(Axis::Height), accelerations, constant }
     }
 
     /// Slip at a candidate [m/s], linearised in V, Ω and the rim angle about the present iterate. Writes the force
@@ -118,16 +120,14 @@ impl ContactLine<'_> {
         let bodies = &problem.bodies;
         let to_right = self.upstream_right();
         let port = self.grid.port(i);
-        let (v, velocity) = (self.traction.rigid[0], self.rim_velocity());
+        let (v, velocity) = (self.traction.rigid.travel, self.rim_velocity());
         let gain = problem.time.a0;
         let [wheel, rail] = &self.given.displacement;
-        let mut accelerations: [f64; 3] = std::array::from_fn(|k| gain * bodies.inertial[(port, k)]);
+        let mut accelerations = bodies.inertial_at(port).map(|by| gain * by);
         let mut constant = gain * (wheel[port] - rail[port]) + self.given.slip_offset[i];
         let (stencil, by_angle) = self.upwind_slip(i);
         for (at, weight) in stencil {
-            for (k, load) in accelerations.iter_mut().enumerate() {
-                *load -= velocity * weight * bodies.inertial[(at, k)];
-            }
+            accelerations.add(-velocity * weight, bodies.inertial_at(at));
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
@@ -135,10 +135,11 @@ impl ContactLine<'_> {
         self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window.clone(), forces);
         self.add_slip_by(i, self, window, forces);
         let rim = &self.rim;
-        accelerations.iter_mut().zip(rim.accelerations).for_each(|(load, t)| *load += by_angle * t);
+        accelerations.add(by_angle, rim.accelerations);
         constant += by_angle * (rim.constant - self.frame.rim_angle);
-        let motions = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
-        constant += -v * stretch_rail + problem.radius() * self.traction.rigid[2] * stretch_wheel;
+        let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
+        let motions = PerAxis { travel, rotation, ..PerAxis::default() };
+        constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
         AffineRow { motions, accelerations, constant }
     }
 }

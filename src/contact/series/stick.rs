@@ -3,6 +3,7 @@
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::state::{Past, PatchPast, SeriesState, Tractions};
+use crate::axes::{Axis, PerAxis};
 use crate::contact::error::ContactError;
 use crate::multistep::TimeDerivative;
 
@@ -128,7 +129,7 @@ impl Search {
 
 /// Motions before an iteration.
 struct Motions {
-    rigid: [f64; 3],
+    rigid: PerAxis<f64>,
     rim_angles: [f64; MOST_LINES],
     /// Slip at which rolling becomes sliding [m/s].
     scale: f64,
@@ -149,7 +150,8 @@ impl Motions {
     fn moved(&self, contact: &SeriesContact) -> f64 {
         let first = &contact.lines[0];
         let (radius, a0) = (first.problem.line.radius(), first.problem.line.time.a0);
-        let moved = (first.rigid[0] - self.rigid[0]).abs() + radius * (first.rigid[2] - self.rigid[2]).abs();
+        let change = |axis: Axis| axis.arm(radius) * (first.rigid[axis] - self.rigid[axis]).abs();
+        let moved: f64 = Axis::along().map(change).sum();
         let turned = contact.lines.iter().zip(self.rim_angles).map(|(line, before)| (line.rim_angle - before).abs());
         let turned = radius * a0 * turned.fold(0.0, f64::max);
         // Velocities are rounded.

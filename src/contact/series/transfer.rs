@@ -123,7 +123,7 @@ fn even(grid: &ContactGrid) -> Range<usize> {
 /// has not rested for long.
 pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
-    let ([edges], load) = (traction.edges.as_slice(), traction.resultant[1]) else { return None };
+    let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
     let reach = ROOM * constants.points.reach;
     if state.rest > 0 || load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {
         return None;
@@ -132,7 +132,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     if edges.low < grid.x[even.start] || edges.high > grid.x[even.end - 1] {
         return None;
     }
-    let upstream_right = traction.rigid[0] >= 0.0;
+    let upstream_right = traction.rigid.travel >= 0.0;
     let (share, direction) = share(state, upstream_right)?;
     let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };

@@ -10,6 +10,7 @@
 
 use super::patch_inverse::KeptInverses;
 use super::pressure_shear::PressureShear;
+use crate::axes::Axis;
 use crate::contact::active_set::axes::Axes;
 use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns};
 use crate::contact::line::contact_line::ContactLine;
@@ -40,7 +41,7 @@ pub fn solve(
 fn write_gaps(
     line: &ContactLine,
     axes: &Axes,
-    (own, sought): (&LineUnknowns, &[usize]),
+    (own, sought): (&LineUnknowns, &[Axis]),
     patch: Range<usize>,
     equations: &mut PressureShear,
 ) {
@@ -61,7 +62,7 @@ fn write_gaps(
         of.clear();
         of.extend(closed.iter().map(|&i| line.rim.by_force(line.problem.share, line.grid.port(i) + offset)));
     }
-    let height = sought.last() == Some(&1);
+    let height = sought.last() == Some(&Axis::Height);
     equations.reset(stuck.len() + sought.len() - usize::from(height), height);
     let guess = closed.iter().map(|&i| line.normal(i)).chain(stuck.iter().map(|&i| line.tangential(i)));
     let motions = sought.iter().map(|&axis| line.traction.rigid[axis]);

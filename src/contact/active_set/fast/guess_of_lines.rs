@@ -2,6 +2,7 @@
 //! with the gaps of all lines and the balance of the height solved [line by line](super::line_by_line).
 
 use super::line_by_line::{self, Known, LineByLine};
+use crate::axes::Axis;
 use crate::contact::active_set::axes::Axes;
 use crate::contact::active_set::states::{Comparison, guess_state};
 use crate::contact::active_set::unknowns::Unknowns;
@@ -52,8 +53,9 @@ impl GuessOfLines {
             return;
         }
         type Start = (Vec<NodeStatus>, DVector<f64>, f64);
-        let of_line =
-            |line: &ContactLine| (line.state.status.clone(), line.traction.port_forces.clone(), line.traction.rigid[1]);
+        let of_line = |line: &ContactLine| {
+            (line.state.status.clone(), line.traction.port_forces.clone(), line.traction.rigid.height)
+        };
         let starts: Vec<Start> = lines.iter().map(of_line).collect();
         if self.settle(lines, axes, comparison, (rows, equations)) {
             return;
@@ -61,7 +63,7 @@ impl GuessOfLines {
         for (line, (status, forces, height)) in lines.iter_mut().zip(starts) {
             line.state.status = status;
             line.traction.port_forces = forces;
-            line.traction.rigid[1] = height;
+            line.traction.rigid.height = height;
         }
     }
 
@@ -122,7 +124,7 @@ impl GuessOfLines {
             before.clone_from(&line.state.status);
             for i in 0..line.grid.len() {
                 let equation = axes.equation(line.gap_terms(i));
-                let sought = (0..3).filter(|&axis| axes.seeks(axis));
+                let sought = Axis::ALL.into_iter().filter(|&axis| axes.seeks(axis));
                 let by_motions: f64 = sought.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum();
                 let gap = axes.constant(&equation) + by_motions + known[i] + gaps[i];
                 changed |= guess_state(line, i, gap, comparison, before);

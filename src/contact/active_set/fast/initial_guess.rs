@@ -6,6 +6,7 @@
 //! [kept factors](KeptInverses). The guess decides nothing; where it fails the search starts from the states of before.
 
 use super::patch_inverse::{KeptInverses, compliance};
+use crate::axes::Axis;
 use crate::contact::active_set::axes::Axes;
 use crate::contact::active_set::states::{Comparison, guess_state};
 use crate::contact::active_set::unknowns::LineUnknowns;
@@ -59,11 +60,11 @@ impl InitialGuess {
         }
         self.status.clone_from(&line.state.status);
         self.port_forces.clone_from(&line.traction.port_forces);
-        let height = line.traction.rigid[1];
+        let height = line.traction.rigid.height;
         if !self.settle(line, axes, comparison, lent) {
             line.state.status.clone_from(&self.status);
             line.traction.port_forces.clone_from(&self.port_forces);
-            line.traction.rigid[1] = height;
+            line.traction.rigid.height = height;
         }
     }
 
@@ -93,9 +94,10 @@ impl InitialGuess {
     /// Writes the gap without normal forces and height, and the balance of the height, whose force coefficients go to
     /// `rows`; `None` if the height is prescribed.
     fn write_base(&mut self, line: &ContactLine, axes: &Axes, rows: &mut [Vec<f64>]) -> Option<HeightBalance> {
-        let (free, [v, height, omega]) = (axes.seeks(1), line.traction.rigid);
-        let motions = [v, if free { 0.0 } else { height }, omega];
-        let of_motions = |by: [f64; 3]| by.iter().zip(motions).map(|(by, value)| by * value).sum::<f64>();
+        let (free, mut motions) = (axes.seeks(Axis::Height), line.traction.rigid);
+        if free {
+            motions.height = 0.0;
+        }
         let Self { base, by_height, displaced, forces, .. } = self;
         forces.clear();
         forces.extend((0..line.grid.len()).map(|i| line.tangential(i)));
@@ -107,14 +109,14 @@ impl InitialGuess {
             let row = line.gap_terms(i);
             let by_motions = axes.equation(row).motions;
             let of_forces = displaced[line.grid.port(i) + 1] - line.grid.x[i] * turned;
-            base.push(row.constant + of_motions(by_motions) + of_forces);
-            by_height.push(if free { by_motions[1] } else { 0.0 });
+            base.push(row.constant + by_motions.dot(motions) + of_forces);
+            by_height.push(if free { by_motions.height } else { 0.0 });
         }
         free.then(|| {
-            let balance = axes.row(1, std::slice::from_ref(line), rows);
+            let balance = axes.row(Axis::Height, std::slice::from_ref(line), rows);
             let of_shear: f64 = forces.iter().enumerate().map(|(i, force)| rows[0][line.grid.port(i)] * force).sum();
-            let known = -balance.constant - of_motions(balance.motions) - of_shear;
-            HeightBalance { by_height: balance.motions[1], known }
+            let known = -balance.constant - balance.motions.dot(motions) - of_shear;
+            HeightBalance { by_height: balance.motions.height, known }
         })
     }
 
@@ -155,7 +157,7 @@ impl InitialGuess {
                 let angle =
                     (turned[0] * by_height + turned[1] * side) / ((1.0 - turned[2]) * by_height + turned[1] * of[2]);
                 let height = (side - of[2] * angle) / by_height;
-                line.traction.rigid[1] = height;
+                line.traction.rigid.height = height;
                 (height, angle)
             }
             None => (0.0, turned[0] / (1.0 - turned[2])),
@@ -206,7 +208,7 @@ impl InitialGuess {
         let mut changed = false;
         for i in 0..grid.len() {
             let gap =
-                base[i] + by_height[i] * line.traction.rigid[1] + displaced[grid.port(i) + 1] - grid.x[i] * turned;
+                base[i] + by_height[i] * line.traction.rigid.height + displaced[grid.port(i) + 1] - grid.x[i] * turned;
             changed |= guess_state(line, i, gap, comparison, before);
         }
         changed

@@ -5,6 +5,7 @@
 //! the other lines from an iteration (GMRES) to which all of this is a good approximation: four lines cost four times
 //! as much as one, not 64 times.
 
+use crate::axes::Axis;
 use crate::contact::active_set::axes::{Axes, Equation};
 use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns, scale};
 use crate::contact::flexibility::{ByMoments, ByPowers, add, at};
@@ -53,7 +54,7 @@ struct LineEquations {
     own: DenseSystem,
     /// Own forces without those of other lines and motions, and their change with the motions.
     alone: Vec<f64>,
-    by_motions: [Vec<f64>; 3],
+    by_motions: [Vec<f64>; Axis::COUNT],
     /// Coefficients of other lines' forces at the ports of the window, row by row.
     shared: Vec<f64>,
     /// Slips by unit moments of every line of the patch, in which the own ones are none; empty: there is no patch.
@@ -64,7 +65,7 @@ struct LineEquations {
     /// Moments of the own forces [N/m].
     moments: ByPowers,
     /// Coefficients of the own forces in the balances.
-    balances: [Vec<f64>; 3],
+    balances: [Vec<f64>; Axis::COUNT],
     /// Forces at all ports, those within the window [N/m].
     forces: Vec<f64>,
     /// An equation.
@@ -77,8 +78,8 @@ struct MotionBalances {
     count: usize,
     /// Coefficients of the motions once the forces are eliminated.
     system: DenseSystem,
-    known: [f64; 3],
-    values: [f64; 3],
+    known: [f64; Axis::COUNT],
+    values: [f64; Axis::COUNT],
 }
 
 /// Solves the linear problem of the present states and gives the lines their forces and motions; `false`: it takes all
@@ -99,7 +100,7 @@ pub fn solve(
 
 /// Part of an equation that motions which are sought, but not unknown, make known.
 fn by_known_motions(equation: &Equation, line: &ContactLine, axes: &Axes, unknowns: &Unknowns) -> f64 {
-    let known = (0..3).filter(|axis| axes.seeks(*axis) && !unknowns.axes.contains(axis));
+    let known = Axis::ALL.into_iter().filter(|axis| axes.seeks(*axis) && !unknowns.axes.contains(axis));
     known.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum()
 }
 
@@ -207,7 +208,7 @@ impl LineByLine {
             rest = others;
         }
         let moments: Vec<_> = lines.iter().map(|line| line.moments).collect();
-        motions.values = if known { motions.known } else { [0.0; 3] };
+        motions.values = if known { motions.known } else { [0.0; Axis::COUNT] };
         let values = &mut motions.values[..motions.count];
         let (mut rest, mut finite) = (&mut *forces, true);
         for (line, own) in lines.iter_mut().zip(&unknowns.lines) {

@@ -4,6 +4,7 @@
 //! velocities of the hub that are free), and the height of the hub where it is free, in this order.
 
 use super::patch_inverse::PatchInverse;
+use crate::axes::Axis;
 use crate::linalg::DenseSystem;
 use crate::linalg::vectorised::{add_columns, dot};
 
@@ -18,7 +19,7 @@ pub struct PressureShear {
     /// Gap at the closed nodes without contact forces and free motions [m].
     pub gap: Vec<f64>,
     /// Its change with each of the free motions, in their order.
-    pub motions: [Vec<f64>; 3],
+    pub motions: [Vec<f64>; Axis::COUNT],
     /// Place of the closed nodes \[m]: the rim angle tilts the gap about the contact point.
     pub place: Vec<f64>,
     /// Rim angle by the normal and by the tangential force at each closed node [rad/(N/m)].
