@@ -235,8 +235,7 @@ fn solve_and_commit(
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
     next.motion = moved(&state.motion, [td, of_height], next.rigid());
-    let accelerations = next.motion.accelerations();
-    model.bodies.commit(&operators, free, accelerations, td, state, next);
+    model.bodies.commit(&operators, free, next.motion.accelerations(), td, state, next);
     let driving = {
         let (forces, resultant) = (next.loads(0), next.resultant());
         model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], &forces, resultant)
