@@ -30,11 +30,13 @@ macro_rules! axes {
 
         impl<T> PerAxis<T> {
             /// The values that a function has for the axes, in their order.
+            #[inline]
             pub fn from_fn(mut of: impl FnMut(Axis) -> T) -> Self {
                 Self { $($field: of(Axis::$axis)),* }
             }
 
             /// The values in the order of the axes.
+            #[inline]
             pub fn values(self) -> [T; Axis::COUNT] {
                 [$(self.$field),*]
             }
@@ -43,6 +45,7 @@ macro_rules! axes {
         impl<T> Index<Axis> for PerAxis<T> {
             type Output = T;
 
+            #[inline]
             fn index(&self, axis: Axis) -> &T {
                 match axis {
                     $(Axis::$axis => &self.$field,)*
@@ -51,6 +54,7 @@ macro_rules! axes {
         }
 
         impl<T> IndexMut<Axis> for PerAxis<T> {
+            #[inline]
             fn index_mut(&mut self, axis: Axis) -> &mut T {
                 match axis {
                     $(Axis::$axis => &mut self.$field,)*
@@ -68,16 +72,19 @@ axes! {
 
 impl Axis {
     /// Number of the row or column of a matrix that belongs to it.
+    #[inline]
     pub fn number(self) -> usize {
         self as usize
     }
 
     /// Axes along the surfaces, in their order.
+    #[inline]
     pub fn along() -> impl Iterator<Item = Self> + Clone {
         Self::ALL.into_iter().filter(|axis| *axis != Self::Height)
     }
 
     /// Force or moment of the axis that counts as much as a unit of force at a rim of this `radius` \[m].
+    #[inline]
     pub fn arm(self, radius: f64) -> f64 {
         match self {
             Self::Travel | Self::Height => 1.0,
@@ -88,11 +95,13 @@ impl Axis {
 
 impl<T: Copy> PerAxis<T> {
     /// A function of every value.
+    #[inline]
     pub fn map<U>(self, mut of: impl FnMut(T) -> U) -> PerAxis<U> {
         PerAxis::from_fn(|axis| of(self[axis]))
     }
 
     /// The axes with their values, in their order.
+    #[inline]
     pub fn iter(self) -> impl Iterator<Item = (Axis, T)> {
         Axis::ALL.into_iter().map(move |axis| (axis, self[axis]))
     }
@@ -100,16 +109,19 @@ impl<T: Copy> PerAxis<T> {
 
 impl PerAxis<f64> {
     /// Sum of the products with other values, such as the power of forces.
+    #[inline]
     pub fn dot(self, other: Self) -> f64 {
         self.iter().map(|(axis, value)| value * other[axis]).sum()
     }
 
     /// Adds a multiple of other values.
+    #[inline]
     pub fn add(&mut self, factor: f64, other: Self) {
         other.iter().for_each(|(axis, value)| self[axis] += factor * value);
     }
 
     /// One on an axis, zero on all others.
+    #[inline]
     pub fn unit(axis: Axis) -> Self {
         Self::from_fn(|other| if other == axis { 1.0 } else { 0.0 })
     }

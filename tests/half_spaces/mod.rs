@@ -110,7 +110,7 @@ impl HalfSpaces {
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
             solver: SeriesSolver::new(ActiveSetSolver::new(grid.clone()), 0.03, fallback),
-            patch: PatchLayout::ellipse((&hertz, radius), material, (lines, WIDTH, LOAD)),
+            patch: PatchLayout::ellipse(&hertz, radius, material, lines, WIDTH, LOAD),
             hertz,
             radius,
             bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),

@@ -18,7 +18,7 @@ pub(super) struct Axes<'a> {
 pub(super) struct Equation {
     /// Coefficients of the rigid motions.
     pub motions: PerAxis<f64>,
-    /// Constant, prescribed motions apart.
+    /// Constant, motions apart.
     pub constant: f64,
 }
 
@@ -71,12 +71,6 @@ impl<'a> Axes<'a> {
             motions[axis] += self.rigid[axis].gain * row.accelerations[axis];
         }
         Equation { motions, constant: row.constant }
-    }
-
-    /// Constant of an equation with the prescribed motions.
-    pub fn constant(&self, equation: &Equation) -> f64 {
-        let prescribed = self.rigid.map(|motion| motion.target().unwrap_or(0.0));
-        equation.constant + equation.motions.dot(prescribed)
     }
 
     /// Equation of a motion that is sought: its balance, or rest where a brake holds it. Writes the coefficients of all

@@ -3,7 +3,7 @@
 use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
-use super::others::OtherLines;
+use super::others::{LineForces, OtherLines};
 use super::retarded::Retarded;
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
@@ -38,7 +38,8 @@ impl LineScratch {
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
-        (state, forces): (&LineState, &DVector<f64>),
+        state: &LineState,
+        forces: &DVector<f64>,
         accelerations: PerAxis<f64>,
     ) {
         self.given.find(grid, problem, state, forces, accelerations);
@@ -89,16 +90,22 @@ pub struct ContactLine<'a> {
 }
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
-pub type LineStart<'a> = (&'a mut LineState, &'a mut LineHistory, &'a mut Traction, &'a mut f64);
+pub struct LineStart<'a> {
+    pub state: &'a mut LineState,
+    pub history: &'a mut LineHistory,
+    pub traction: &'a mut Traction,
+    pub energy: &'a mut f64,
+}
 
 impl<'a> ContactLine<'a> {
     /// A line that starts from the given states; the known part of its problem is that of the `scratch`.
     pub fn new(
         grid: &'a ContactGrid,
         problem: &'a LineProblem<'a>,
-        (state, history, traction, energy): LineStart<'a>,
+        start: LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
+        let LineStart { state, history, traction, energy } = start;
         let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip, displaced } = scratch;
         lift.clear();
         if !problem.limits.is_limited() {
@@ -193,7 +200,7 @@ impl<'a> ContactLine<'a> {
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
     pub fn update_retarded(&mut self) -> f64 {
-        let own = (&self.traction.port_forces, &self.given.layers.pull);
+        let own = LineForces { contact: &self.traction.port_forces, pull: &self.given.layers.pull };
         self.retarded.update(self.grid, self.problem, self.others.mean(self.problem.share, own))
     }
 

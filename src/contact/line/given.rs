@@ -66,7 +66,7 @@ impl KnownPart {
     /// Adds the displacements by the `pull` of other lines' hot layers on wheel and rail, at the candidates [N/m].
     pub fn add_pulls_of_others(&mut self, grid: &ContactGrid, others: &Influence, pull: &[Vec<f64>; 2]) {
         for (body, pull) in pull.iter().enumerate().filter(|(_, pull)| !pull.is_empty()) {
-            self.layers.add_pull(grid, others.compliance[body], (body, pull), &mut self.displacement[body]);
+            self.layers.add_pull(grid, others.compliance[body], body, pull, &mut self.displacement[body]);
         }
     }
 

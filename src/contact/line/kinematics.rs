@@ -2,6 +2,7 @@
 
 use super::contact_line::ContactLine;
 use super::observe::{self, WheelShape};
+use super::others::LineForces;
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
@@ -51,7 +52,7 @@ impl ContactLine<'_> {
     pub fn evaluate(&mut self, accelerations: PerAxis<Option<f64>>) {
         self.displace(accelerations);
         let load = self.load_of_all();
-        observe::lift(self.grid, self.problem, (&self.traction.port_forces, load), (self.lift, self.displaced));
+        observe::lift(self.grid, self.problem, &self.traction.port_forces, load, self.lift, self.displaced);
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
@@ -81,8 +82,8 @@ impl ContactLine<'_> {
     fn displace(&mut self, accelerations: PerAxis<Option<f64>>) {
         let Self { problem, given, others, traction, rim, displaced, .. } = self;
         let bodies = &problem.bodies;
-        let (mean, _) = others.mean(problem.share, (&traction.port_forces, &given.layers.pull));
-        let forces = mean.as_slice();
+        let own = LineForces { contact: &traction.port_forces, pull: &given.layers.pull };
+        let forces = others.mean(problem.share, own).contact.as_slice();
         let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
         let loaded = first..forces.iter().rposition(|force| *force != 0.0).map_or(first, |last| last + 1);
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
@@ -98,7 +99,7 @@ impl ContactLine<'_> {
             for component in 0..2 {
                 forces.clear();
                 forces.extend(traction.port_forces.iter().skip(component).step_by(2));
-                alone.displace(component, (0, forces), displaced);
+                alone.displace(component, 0, forces, displaced);
                 for (surface, sign) in traction.surface.iter_mut().zip([1.0, -1.0]) {
                     let nodes = surface.as_mut_slice().as_chunks_mut::<2>().0;
                     nodes.iter_mut().zip(&*displaced).for_each(|(node, moved)| node[component] += sign * moved);

@@ -38,8 +38,10 @@ pub(in crate::contact) struct WheelShape<'a> {
 pub(in crate::contact) fn lift(
     grid: &ContactGrid,
     problem: &LineProblem,
-    (forces, load): (&DVector<f64>, f64),
-    (lift, memory): (&mut Vec<f64>, &mut [Vec<f64>; 2]),
+    forces: &DVector<f64>,
+    load: f64,
+    lift: &mut Vec<f64>,
+    memory: &mut [Vec<f64>; 2],
 ) {
     lift.clear();
     let kernel = &problem.kernel;
@@ -50,7 +52,7 @@ pub(in crate::contact) fn lift(
     normal.clear();
     normal.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
     for (component, sign) in [(0, 1.0), (1, -1.0)] {
-        alone.displace(component, (first, normal), displaced);
+        alone.displace(component, first, normal, displaced);
         lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
     }
 }
@@ -71,7 +73,8 @@ pub(in crate::contact) fn lever_arms(wheel: WheelShape, slopes: Slopes, i: usize
 /// the steel bears anywhere \[Pa].
 pub fn read_off(
     grid: &ContactGrid,
-    (power, limit): (f64, f64),
+    power: f64,
+    limit: f64,
     state: &LineState,
     centred_slip: &[f64],
     traction: &mut Traction,

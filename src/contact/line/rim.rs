@@ -102,7 +102,7 @@ impl RimAngleRow {
         add_columns(1.0, columns, 2 * ports, &self.weights, &mut self.shared);
         self.alone.clear();
         if let Some(alone) = problem.alone() {
-            alone.displace(0, (first / 2, &self.weights), &mut self.alone);
+            alone.displace(0, first / 2, &self.weights, &mut self.alone);
         }
     }
 

@@ -18,19 +18,40 @@ pub struct AffineRow {
     pub constant: f64,
 }
 
-impl ContactLine<'_> {
-    /// `g` at a closed candidate, `g + c (λ_n − Λ)` at one that yields above the force `Λ` \[m]. Writes the force
-    /// coefficients of the ports `window` to `forces`.
-    pub fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
-        self.gap_by_shared(i, self.problem.share, window.clone(), forces);
-        self.add_gap(i, window, forces)
+/// Kind of the equation of a node.
+#[derive(Clone, Copy)]
+pub enum NodeEquation {
+    /// A closed node has no gap.
+    Gap,
+    /// A stuck node does not slip.
+    Slip,
+}
+
+impl NodeEquation {
+    /// Writes the change of the value at a candidate with the forces of a line, a `share` of which the bodies feel, at
+    /// the ports `window` to `forces`: as far as the bodies are displaced.
+    pub fn by_shared(self, line: &ContactLine, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
+        match self {
+            Self::Gap => line.gap_by_shared(i, share, window, forces),
+            Self::Slip => line.slip_by_shared(i, share, window, forces),
+        }
     }
 
-    /// Adds to the coefficients of the line's own forces in the gap what only the line feels of them; returns the rest
-    /// of the gap.
+    /// Adds to the coefficients of the line's own forces what only the line feels of them; returns the rest.
+    pub fn add_own(self, line: &ContactLine, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        match self {
+            Self::Gap => line.add_gap(i, window, forces),
+            Self::Slip => line.add_slip(i, window, forces),
+        }
+    }
+}
+
+impl ContactLine<'_> {
+    /// Adds to the coefficients of the line's own forces in the gap `g` what only the line feels of them; returns the
+    /// rest of the gap. Where a candidate yields above the force `Λ` it is `g + c (λ_n − Λ)` \[m].
     pub fn add_gap(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let port = self.grid.port(i) + 1;
-        self.add_alone((1, -self.grid.x[i]), [(port, 2.0)], window, forces);
+        self.add_alone(1, -self.grid.x[i], [(port, 2.0)], window, forces);
         let mut row = self.gap_terms(i);
         if self.state.yielded[i] {
             let creep = self.creep(i);
@@ -70,7 +91,8 @@ impl ContactLine<'_> {
     /// times the factors beside them, and the rim angle times `turned`.
     fn add_alone<const N: usize>(
         &self,
-        (component, turned): (usize, f64),
+        component: usize,
+        turned: f64,
         ports: [(usize, f64); N],
         window: Range<usize>,
         forces: &mut [f64],
@@ -106,15 +128,8 @@ impl ContactLine<'_> {
         AffineRow { motions: PerAxis::unit(Axis::Height), accelerations, constant }
     }
 
-    /// Slip at a candidate [m/s], linearised in V, Ω and the rim angle about the present iterate. Writes the force
-    /// coefficients of the ports `window` to `forces`.
-    pub fn slip_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
-        self.slip_by_shared(i, self.problem.share, window.clone(), forces);
-        self.add_slip(i, window, forces)
-    }
-
     /// Adds to the coefficients of the line's own forces in the slip what only the line feels of them; returns the rest
-    /// of the slip.
+    /// of the slip [m/s], linearised in V, Ω and the rim angle about the present iterate.
     pub fn add_slip(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
@@ -132,7 +147,7 @@ impl ContactLine<'_> {
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
-        self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window.clone(), forces);
+        self.add_alone(0, by_angle, [(port, 2.0 * gain), a, b, c], window.clone(), forces);
         self.add_slip_by(i, self, window, forces);
         let rim = &self.rim;
         accelerations.add(by_angle, rim.accelerations);
