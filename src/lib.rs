@@ -40,6 +40,7 @@
 //! | [`analytic`] | Hertz, Carter and other closed forms: start guesses and tests | |
 //! | [`patch`] | closed forms of the elliptical patch and of the lines that stand for it | [lines] |
 //! | [`material`] | moduli, wave speeds, diffusivity: constants that follow from the parameters | |
+//! | [`axes`] | axes of the rigid motion of the wheel, and what has a value for each | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula] |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
 //! | `lru` | what is expensive to compute, kept for the steps that share it | |
@@ -75,6 +76,7 @@
 #![warn(missing_docs)]
 
 pub mod analytic;
+pub mod axes;
 pub mod config;
 pub mod contact;
 pub mod damage;

@@ -4,6 +4,7 @@ mod common;
 mod heap;
 use common::*;
 use nalgebra::DVector;
+use wheelrail::axes::PerAxis;
 use wheelrail::mechanics::{
     BodyDamping, BodyResponse, BodyState, BodySystem, Convection, FreeResponse, ReducedBasis, ReducedBody, wheel_system,
 };
@@ -27,8 +28,17 @@ fn a_step_of_a_reduced_body_allocates_nothing() {
         let mut step = |states: &mut [BodyState; 2]| {
             let [state, next] = states;
             body.free_response(&op, state, &td, Convection { speed: 60.0, acceleration: 1.0 }, &mut free);
-            body.commit(&op, &free, &forces, [1.0, 0.0, 2.0], &td, state, next);
-            let energy = body.energy(next, &forces, [30.0, 0.0, 60.0]) + body.dissipation(next, 60.0);
+            body.commit(
+                &op,
+                &free,
+                &forces,
+                PerAxis { travel: 1.0, rotation: 2.0, ..PerAxis::default() },
+                &td,
+                state,
+                next,
+            );
+            let energy = body.energy(next, &forces, PerAxis { travel: 30.0, rotation: 60.0, ..PerAxis::default() })
+                + body.dissipation(next, 60.0);
             states.swap(0, 1);
             energy
         };

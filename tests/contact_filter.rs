@@ -33,7 +33,7 @@ fn height(elements: usize, load: f64, wavelength: f64, phase: f64) -> f64 {
     let wave = Profile::parse(&text, None, Body::Rail).unwrap();
     let circle = |x: f64| x * x / (RADIUS + (RADIUS * RADIUS - x * x).sqrt());
     let bodies = HalfPlanes::new(elements).with_gap(|x| circle(x) - wave.height(x));
-    bodies.roll(load, 0.0, &bodies.start()).unwrap().traction.rigid[1]
+    bodies.roll(load, 0.0, &bodies.start()).unwrap().traction.rigid.height
 }
 
 /// Shares of a wave of so many half-widths that lift the cylinder, from a crest and a trough below its centre. The

@@ -7,6 +7,7 @@ mod half_planes;
 use common::Random;
 use half_planes::{HalfPlanes, NOMINAL, RADIUS, grid_state_mut, modulus};
 use wheelrail::analytic::hertz_half_width;
+use wheelrail::axes::Axis;
 use wheelrail::contact::ContactError;
 use wheelrail::contact::line::NodeStatus;
 
@@ -53,7 +54,8 @@ fn a_rigid_turn_of_the_rim_by_five_millimetres_changes_nothing_in_the_contact() 
         for turned in &found[1..] {
             let patch = |t: &wheelrail::contact::Traction| t.extent().map(|p| [p.low, p.high]).unwrap();
             let moved = (0..2).map(|k| (patch(turned)[k] - patch(&found[0])[k]).abs()).fold(0.0, f64::max);
-            let force = (0..3).map(|k| (turned.resultant[k] - found[0].resultant[k]).abs()).fold(0.0, f64::max);
+            let force =
+                Axis::ALL.map(|k| (turned.resultant[k] - found[0].resultant[k]).abs()).into_iter().fold(0.0, f64::max);
             let half_width = found[0].half_width();
             println!("load {load}, creepage {creepage}: edges {:.1e}, force {:.1e}", moved / half_width, force / load);
             assert!(moved < 1e-6 * half_width && force < 1e-6 * load, "{moved:e} m, {force:e} N/m");

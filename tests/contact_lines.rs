@@ -244,7 +244,7 @@ fn a_lower_wheel_takes_more_load_by_the_closed_form_of_hertz() {
             [0, 1].map(|k| SideLine { share: shares[k], lower: if k == 0 { lower } else { 0.0 }, friction: FRICTION });
         let shared: &dyn Fn(f64) -> f64 = &|x| 3e-11 * (1.0 - 20.0 * x * x);
         let found = planes.roll_lines(&lines, (length, shared), (NOMINAL, 0.0)).unwrap();
-        let load = |k: usize| found[k].traction.resultant[1];
+        let load = |k: usize| found[k].traction.resultant.height;
         assert!((shares[0] * load(0) + shares[1] * load(1) - NOMINAL).abs() < 1e-9 * NOMINAL);
         let apart = approach(load(0), length) - approach(load(1), length);
         println!("{shares:?}: {:.1} and {:.1} N/m, apart by {apart:e} m", load(0), load(1));
@@ -263,7 +263,7 @@ fn lines_of_different_load_and_friction_each_have_the_creep_force_of_carter() {
     for creepage in [2e-4, 8e-4, 4e-3, -1.2e-3] {
         let found = planes.roll_lines(&lines, (0.03, rigid), (NOMINAL, creepage)).unwrap();
         for (line, state) in lines.iter().zip(&found) {
-            let [force, load, _] = state.traction.resultant;
+            let (force, load) = (state.traction.resultant.travel, state.traction.resultant.height);
             let a = hertz_half_width(load, RADIUS, modulus());
             let full = carter_full_slip(line.friction, a, RADIUS);
             let carter = carter_force(creepage, full) * line.friction * load;
@@ -289,7 +289,7 @@ fn dent_passes(shares: &[f64], step: f64) -> ([f64; 2], [f64; 2]) {
         let mut next = State::default();
         substeps::advance(&model, &config.tuning, &state, &inputs, 5e-4, &mut workspace, &mut next).unwrap();
         state = next;
-        let load = |line: &Line| line.contact.traction.resultant[1];
+        let load = |line: &Line| line.contact.traction.resultant.height;
         let now = load(&state.lines[0]) / state.lines.last().map_or(0.0, load);
         let missing = observe(&model, &state).energy_residual;
         (ratio, residual) = ([ratio[0].min(now), now], [f64::max(residual[0], missing.abs()), missing]);

@@ -132,7 +132,7 @@ fn forces_press_gaps_are_open_and_friction_stays_in_its_cone_on_two_patches() {
 fn creep_force_of_two_patches_reverses_with_the_creepage_and_converges() {
     let well = DoubleWell::new();
     let utilisation = |bodies: &HalfPlanes, load: f64, creepage: f64| {
-        roll(bodies, load, creepage).traction.resultant[0] / (FRICTION * load)
+        roll(bodies, load, creepage).traction.resultant.travel / (FRICTION * load)
     };
     let [coarse, middle, fine] = [20, 40, 80].map(|n| well.bodies(n));
     let mut worst = [0.0f64; 2];

@@ -17,8 +17,8 @@ fn half_axes_pressure_and_approach_are_those_of_hertz_from_a_tenth_to_twice_the_
             let load = share * LOAD;
             let exact = spaces.hertz.under(load);
             let found = spaces.roll(load, 0.0, TimeDerivative::default(), &spaces.start());
-            let carried = spaces.sum(load, &found, |line| line.traction.resultant[1]);
-            let approach = -found[0].traction.rigid[1];
+            let carried = spaces.sum(load, &found, |line| line.traction.resultant.height);
+            let approach = -found[0].traction.rigid.height;
             let mut worst = (approach / exact.approach - 1.0).abs();
             for (layout, line) in spaces.layout(load).iter().zip(&found) {
                 let root = (1.0 - layout.ordinate.powi(2)).sqrt();

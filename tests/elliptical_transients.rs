@@ -31,7 +31,7 @@ fn shifted(spaces: &HalfSpaces, end: f64, steps: usize) -> (Lines, Vec<f64>) {
     for k in 1..=steps {
         let [translation, _] = spaces.driven(end * k as f64 / steps as f64, 0.0);
         state = spaces.solve(LOAD, [translation, still], dry(time), &state).unwrap();
-        shift += state[0].traction.rigid[0];
+        shift += state[0].traction.rigid.travel;
         all.push(shift);
     }
     assert!((spaces.utilisation(LOAD, &state) - end).abs() < 1e-6);

@@ -88,7 +88,7 @@ fn pressure_is_that_of_hertz_on_a_parabola_to_the_square_of_half_width_over_radi
         let peak = hertz_peak_pressure(load, a);
         let error = (traction.half_width() / a - 1.0).abs().max((traction.pressure_max / peak - 1.0).abs());
         println!("load {load:e}: {error:.2e} where a²/r² is {:.2e}", (a / RADIUS).powi(2));
-        assert!((traction.resultant[1] / load - 1.0).abs() < 1e-11);
+        assert!((traction.resultant.height / load - 1.0).abs() < 1e-11);
         assert!(error < 0.5 * (a / RADIUS).powi(2) + 1e-12);
         errors.push(error);
     }
@@ -103,7 +103,7 @@ fn force_and_stick_are_those_of_carter() {
     for load in [0.1 * LOAD, LOAD, 1.9 * LOAD] {
         for share in [-1.5, -0.9, -0.5, -0.1, -0.01, 0.01, 0.3, 0.7, 0.95, 1.2] {
             let found = planes.steady(load, share);
-            let utilisation = found.traction.resultant[0] / (FRICTION * load);
+            let utilisation = found.traction.resultant.travel / (FRICTION * load);
             let full = carter_full_slip(FRICTION, hertz_half_width(load, RADIUS, modulus()), RADIUS);
             let error = utilisation - carter_force(share * full, full);
             let stick = found.traction.stick_fraction - (1.0 - f64::abs(share)).max(0.0);
@@ -122,7 +122,7 @@ fn force_has_no_ripple_while_the_load_varies() {
     let force = |k: i32| {
         let load = LOAD * (1.0 + 0.001 * f64::from(k));
         let found = planes.roll((load, FRICTION), (10.0, xi), TimeDerivative::default(), &start).unwrap();
-        found.traction.resultant[0] / (FRICTION * LOAD)
+        found.traction.resultant.travel / (FRICTION * LOAD)
     };
     let forces: Vec<f64> = (-150..=150).map(force).collect();
     // Fourth differences of a smooth curve over steps of 1e-3 vanish; a ripple of the amplitude A leaves up to 16 A.
@@ -139,7 +139,7 @@ fn a_step_of_creepage_ends_in_carters_state_whatever_the_steps() {
     let planes = HalfPlanes::new(false);
     let a = hertz_half_width(LOAD, RADIUS, modulus());
     let xi = 0.5 * carter_full_slip(FRICTION, a, RADIUS);
-    let steady = planes.steady(LOAD, 0.5).traction.resultant[0] / (FRICTION * LOAD);
+    let steady = planes.steady(LOAD, 0.5).traction.resultant.travel / (FRICTION * LOAD);
     let mut halfway = Vec::new();
     for steps_per_half_width in [50.0, 25.0, 12.0, 2.0] {
         let dt = a / (10.0 * steps_per_half_width);
@@ -150,10 +150,10 @@ fn a_step_of_creepage_ends_in_carters_state_whatever_the_steps() {
         for k in 0..count {
             state = planes.roll((LOAD, FRICTION), (10.0, xi), if k == 0 { first } else { bdf2 }, &state).unwrap();
             if k + 1 == steps_per_half_width as usize {
-                halfway.push(state.traction.resultant[0] / (FRICTION * LOAD));
+                halfway.push(state.traction.resultant.travel / (FRICTION * LOAD));
             }
         }
-        let end = state.traction.resultant[0] / (FRICTION * LOAD);
+        let end = state.traction.resultant.travel / (FRICTION * LOAD);
         println!(
             "{steps_per_half_width} steps: after a half-width {:.4}, at the end {end:.5} of {steady:.5}",
             halfway[halfway.len() - 1]

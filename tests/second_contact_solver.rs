@@ -8,6 +8,7 @@ use nalgebra::DVector;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex};
 use wheelrail::analytic::{hertz_half_width, hertz_peak_pressure};
+use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::config::{Config, Response};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, OneLine, SolvedFriction,
@@ -51,11 +52,11 @@ impl Hertz {
     }
 
     /// Displacements of both surfaces under forces and known motions.
-    fn surfaces(&self, problem: &OneLine, forces: &DVector<f64>, rigid: &[f64; 3]) -> [DVector<f64>; 2] {
+    fn surfaces(&self, problem: &OneLine, forces: &DVector<f64>, rigid: &PerAxis<f64>) -> [DVector<f64>; 2] {
         let bodies = &problem.line.bodies;
         let mut wheel = bodies.free[0] + bodies.shared.compliance[0] * forces;
-        for (k, motion) in problem.rigid.iter().enumerate() {
-            wheel.axpy(motion.acceleration(rigid[k]), &bodies.inertial.column(k), 1.0);
+        for (axis, motion) in problem.rigid.iter() {
+            wheel.axpy(motion.acceleration(rigid[axis]), &bodies.inertial.column(axis.number()), 1.0);
         }
         [wheel, bodies.free[1] - bodies.shared.compliance[1] * forces]
     }
@@ -67,44 +68,45 @@ impl Hertz {
     }
 
     /// Unbalance of a free axis [N/m, N].
-    fn unbalance(&self, problem: &OneLine, axis: usize, forces: &DVector<f64>, rigid: &[f64; 3]) -> f64 {
+    fn unbalance(&self, problem: &OneLine, axis: Axis, forces: &DVector<f64>, rigid: &PerAxis<f64>) -> f64 {
         let motion = &problem.rigid[axis];
-        let mut sum = motion.momentum + (problem.line.bodies.momentum.row(axis) * forces)[0];
-        for (l, other) in problem.rigid.iter().enumerate() {
-            let inertia =
-                problem.line.bodies.deformation_inertia[(axis, l)] + if l == axis { motion.inertia } else { 0.0 };
-            sum += inertia * other.acceleration(rigid[l]);
+        let mut sum = motion.momentum + (problem.line.bodies.momentum.row(axis.number()) * forces)[0];
+        for (other, of_other) in problem.rigid.iter() {
+            let of_deformation = problem.line.bodies.deformation_inertia[(axis.number(), other.number())];
+            let inertia = of_deformation + if other == axis { motion.inertia } else { 0.0 };
+            sum += inertia * of_other.acceleration(rigid[other]);
         }
         sum - self.resultant(forces)[axis]
     }
 
     /// Force and moment about the hub centre: the pressure is symmetric about the point below it.
-    fn resultant(&self, forces: &DVector<f64>) -> [f64; 3] {
-        [0.0, forces.iter().skip(1).step_by(2).sum(), 0.0]
+    fn resultant(&self, forces: &DVector<f64>) -> PerAxis<f64> {
+        PerAxis { height: forces.iter().skip(1).step_by(2).sum(), ..PerAxis::default() }
     }
 
     /// Rigid motions and residuals of the free axes for a load: the equations are linear.
-    fn motion(&self, problem: &OneLine, load: f64, radius: f64) -> [f64; 3] {
+    fn motion(&self, problem: &OneLine, load: f64, radius: f64) -> PerAxis<f64> {
         let forces = self.forces(load, radius);
         let mut rigid = problem.rigid.map(|motion| motion.start());
         for _ in 0..4 {
-            for axis in [0, 2] {
+            for axis in Axis::along() {
                 // The start seeks the speed at which friction holds a balance; without friction any speed does.
                 let sought = problem.rigid[axis].gain == 0.0;
                 if let (AxisDrive::Free { load }, false) = (problem.rigid[axis].drive, sought) {
                     let residual = self.unbalance(problem, axis, &forces, &rigid) - load;
-                    let inertia = problem.rigid[axis].inertia + problem.line.bodies.deformation_inertia[(axis, axis)];
+                    let diagonal = (axis.number(), axis.number());
+                    let inertia = problem.rigid[axis].inertia + problem.line.bodies.deformation_inertia[diagonal];
                     rigid[axis] -= residual / (inertia * problem.rigid[axis].gain);
                 }
             }
             // The height at which the surfaces just touch.
-            if problem.rigid[1].target().is_none() {
+            if problem.rigid.height.target().is_none() {
                 let touch = |height: f64| {
-                    let rigid = [rigid[0], height, rigid[2]];
+                    let rigid = PerAxis { height, ..rigid };
                     self.gap(problem, &self.surfaces(problem, &forces, &rigid), height)
                 };
-                let (at, slope) = (touch(rigid[1]), touch(rigid[1] + 1e-6) - touch(rigid[1]));
-                rigid[1] -= at * 1e-6 / slope;
+                let (at, slope) = (touch(rigid.height), touch(rigid.height + 1e-6) - touch(rigid.height));
+                rigid.height -= at * 1e-6 / slope;
             }
         }
         rigid
@@ -133,9 +135,9 @@ impl ContactSolver for Hertz {
         let missing = |load: f64| {
             let rigid = self.motion(problem, load, radius);
             let forces = self.forces(load, radius);
-            match problem.rigid[1].drive {
+            match problem.rigid.height.drive {
                 AxisDrive::Free { load } | AxisDrive::Braked { load, .. } => {
-                    self.unbalance(problem, 1, &forces, &rigid) - load
+                    self.unbalance(problem, Axis::Height, &forces, &rigid) - load
                 }
                 AxisDrive::Prescribed { target } => {
                     self.gap(problem, &self.surfaces(problem, &forces, &rigid), target) * problem.nominal_load * 1e4
@@ -163,7 +165,7 @@ impl ContactSolver for Hertz {
         let x: Vec<f64> = (0..PROFILE).map(at).collect();
         let pressure = x.iter().map(|x| peak * (1.0 - (x / half_width).powi(2)).max(0.0).sqrt()).collect();
         let profile = |value: Vec<f64>| Piecewise { x: x.clone(), value };
-        let slip = rigid[0] - radius * rigid[2];
+        let slip = rigid.travel - radius * rigid.rotation;
         found.traction = Traction {
             resultant: self.resultant(&forces),
             surface: self.surfaces(problem, &forces, &rigid),
@@ -291,7 +293,7 @@ fn a_wheel_on_the_second_solver_accelerates_under_its_moment_alone() {
         assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-4, "{}", outputs.contact_force_y);
     }
     // Without friction the moment turns the wheel, and nothing drives the vehicle.
-    let turned = model.wheel.inertia[2] * model.wheel.width * (last.wheel_omega - first.wheel_omega);
+    let turned = model.wheel.inertia.rotation * model.wheel.width * (last.wheel_omega - first.wheel_omega);
     println!("angular momentum {turned:.6} N m s under {:.6} N m s", 500.0 * 0.04);
     println!("velocity {:e}, energy residual {:e}", last.wheel_velocity - first.wheel_velocity, last.energy_residual);
     assert!((turned / (500.0 * 0.04) - 1.0).abs() < 1e-6);

@@ -139,13 +139,17 @@ def run(binary, names, case, directory):
     return part.rename(out)
 
 
+def number(text):
+    """A number or a truth value of a file of results."""
+    return {"false": 0.0, "true": 1.0}[text] if text in ("false", "true") else float(text)
+
+
 def table(file):
     """Columns of a file of results by name."""
     with open(file, newline="") as source:
         rows = csv.reader(source)
         names = next(rows)
-        truth = {"true": 1.0, "false": 0.0}
-        return dict(zip(names, zip(*[[float(truth.get(value, value)) for value in row] for row in rows])))
+        return dict(zip(names, zip(*[[number(value) for value in row] for row in rows])))
 
 
 def difference(before, after):

@@ -5,6 +5,7 @@
 //! a slipping one has the balance with the known force. A brake that holds slips where more than `L` is needed to hold
 //! it; one whose force no longer opposes the motion holds, so that a reversal passes through rest.
 
+use crate::axes::PerAxis;
 use crate::contact::problem::{AxisDrive, RigidMotion};
 
 /// State of the brake of an axis.
@@ -30,7 +31,7 @@ impl BrakeState {
 }
 
 /// States of the brakes at which the search begins: those of the motions that are expected.
-pub(super) fn founding(rigid: &[RigidMotion; 3]) -> [BrakeState; 3] {
+pub(super) fn founding(rigid: &PerAxis<RigidMotion>) -> PerAxis<BrakeState> {
     rigid.map(|motion| match motion.guess {
         speed if speed > 0.0 => BrakeState::Backward,
         speed if speed < 0.0 => BrakeState::Forward,
@@ -39,8 +40,8 @@ pub(super) fn founding(rigid: &[RigidMotion; 3]) -> [BrakeState; 3] {
 }
 
 /// The motions with brakes in given states: held at rest, or free under the load and the force of the brake.
-pub(super) fn driven(rigid: &[RigidMotion; 3], states: [BrakeState; 3]) -> [RigidMotion; 3] {
-    std::array::from_fn(|axis| {
+pub(super) fn driven(rigid: &PerAxis<RigidMotion>, states: PerAxis<BrakeState>) -> PerAxis<RigidMotion> {
+    PerAxis::from_fn(|axis| {
         let AxisDrive::Braked { load, limit } = rigid[axis].drive else { return rigid[axis] };
         let drive = match states[axis] {
             BrakeState::Holding => AxisDrive::Prescribed { target: 0.0 },

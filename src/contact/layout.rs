@@ -88,11 +88,7 @@ pub struct PatchLayout {
 impl PatchLayout {
     /// The ellipse of a wheel with the rolling `radius` \[m], on a number of `lines` by the rule of Gauss and Legendre.
     /// The bodies are `width` \[m] wide; `load` \[N] is any positive one.
-    pub fn ellipse(
-        (hertz, radius): (&Hertz, f64),
-        material: PatchMaterial,
-        (lines, width, load): (usize, f64, f64),
-    ) -> Self {
+    pub fn ellipse(hertz: &Hertz, radius: f64, material: PatchMaterial, lines: usize, width: f64, load: f64) -> Self {
         let Ellipse { a, b, peak, .. } = hertz.under(load);
         let row = |line: &GaussLine| {
             let share = (1.0 - line.ordinate.powi(2)).sqrt();
@@ -104,7 +100,7 @@ impl PatchLayout {
         // A single line, which is no rule for this pressure, carries the load on a smaller width.
         let scale = load / rows::load(&rows);
         let rows = rows.into_iter().map(|row| PatchRow { width: scale * row.width, ..row }).collect();
-        let layout = Self::of((rows, true), &[EquivalentEllipse { a, b, centre: 0.0 }], material, [radius, width]);
+        let layout = Self::of(rows, true, &[EquivalentEllipse { a, b, centre: 0.0 }], material, [radius, width]);
         Self { lateral: b, ..layout }
     }
 
@@ -112,22 +108,26 @@ impl PatchLayout {
     /// `shapes` are the ellipses with the second moments of area of each patch; `radius` and `width` \[m] are those of wheel
     /// and bodies.
     pub fn rows(
-        (rows, shapes): (Vec<PatchRow>, &[EquivalentEllipse]),
+        rows: Vec<PatchRow>,
+        shapes: &[EquivalentEllipse],
         material: PatchMaterial,
-        (lines, radius, width): (usize, f64, f64),
+        lines: usize,
+        radius: f64,
+        width: f64,
     ) -> Self {
         let rows = rows::merged(rows, lines);
         let centre = rows::centre_of_load(&rows);
         let about = |row: PatchRow| PatchRow { position: row.position - centre, ..row };
         let rows = rows.into_iter().map(about).collect();
-        let layout = Self::of((rows, false), shapes, material, [radius, width]);
+        let layout = Self::of(rows, false, shapes, material, [radius, width]);
         Self { centre, ..layout }
     }
 
     /// Lines at positions about the centre of load, in patches as large as the ellipses `shapes`; on a symmetric patch
     /// those beside the middle stand for a pair.
     fn of(
-        (rows, symmetric): (Vec<PatchRow>, bool),
+        rows: Vec<PatchRow>,
+        symmetric: bool,
         shapes: &[EquivalentEllipse],
         material: PatchMaterial,
         [radius, width]: [f64; 2],
@@ -215,7 +215,7 @@ impl PatchLayout {
         let scale = libm::cbrt(self.load_of(load) / self.load);
         let approach = scale * scale * self.approach;
         let lines = rows::scaled(&self.rows, scale).enumerate();
-        lines.map(move |(i, row)| self.line((i, &row), scale, 1.5 * row.line_load / approach))
+        lines.map(move |(i, row)| self.line(i, &row, scale, 1.5 * row.line_load / approach))
     }
 
     /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
@@ -230,14 +230,14 @@ impl PatchLayout {
         let stiffness = 1.5 * rows::load(&rows) / (scale * scale * self.approach);
         let lengths = reach::proportional_lengths(stiffness, &lines, 0.5 * longest);
         let line = |(i, (row, length)): (usize, (&PatchRow, f64))| {
-            self.line((i, row), scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
+            self.line(i, row, scale, 0.5 / (factor(row) * libm::log(2.0 * length / row.half_length)))
         };
         rows.iter().zip(lengths).enumerate().map(line).collect()
     }
 
     /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load
     /// per width with the approach [N/m²].
-    fn line(&self, (i, row): (usize, &PatchRow), scale: f64, stiffness: f64) -> LineLayout {
+    fn line(&self, i: usize, row: &PatchRow, scale: f64, stiffness: f64) -> LineLayout {
         let PatchRow { position, width, half_length, line_load, .. } = *row;
         let approach = scale * scale * self.approach;
         let factor = half_length * half_length / (4.0 * self.radius * line_load);

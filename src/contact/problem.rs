@@ -9,6 +9,7 @@ use super::flexibility::InPatch;
 use super::friction::Friction;
 use super::kernel::LineKernel;
 use super::limits::SteelLimits;
+use crate::axes::{Axis, PerAxis};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
 use crate::surface::{Placement, Surfaces};
@@ -36,14 +37,21 @@ pub struct SurfaceResponse<'a> {
     pub lift: f64,
     /// Displacement of wheel and rail without contact forces and rigid accelerations \[m].
     pub free: [&'a DVector<f64>; 2],
-    /// Displacement of the wheel surface per unit rigid acceleration, three columns (x, y, rotation).
+    /// Displacement of the wheel surface per unit rigid acceleration, a column for each axis.
     pub inertial: &'a DMatrix<f64>,
-    /// Rate of deformation momentum per unit nodal force, three rows.
+    /// Rate of deformation momentum per unit nodal force, a row for each axis.
     pub momentum: &'a DMatrix<f64>,
-    /// Rate of deformation momentum per unit rigid acceleration, 3 × 3.
+    /// Rate of deformation momentum per unit rigid acceleration, axis by axis.
     pub deformation_inertia: &'a DMatrix<f64>,
     /// Retarded layers of wheel and rail; `None`: all flexibility answers at once.
     pub retarded: [Option<RetardedSurface<'a>>; 2],
+}
+
+impl SurfaceResponse<'_> {
+    /// Displacement of the wheel at a port per unit rigid acceleration.
+    pub fn inertial_at(&self, port: usize) -> PerAxis<f64> {
+        PerAxis::from_fn(|axis| self.inertial[(port, axis.number())])
+    }
 }
 
 /// Retarded layer at the surface of a body: its displacement belongs to the elastic part `share · force + known` of the
@@ -189,6 +197,15 @@ impl LineProblem<'_> {
         }
     }
 
+    /// Slip of the round wheel per unit of a rigid motion \[1, m].
+    pub fn sliding(&self, axis: Axis) -> f64 {
+        match axis {
+            Axis::Travel => 1.0,
+            Axis::Height => 0.0,
+            Axis::Rotation => -self.radius(),
+        }
+    }
+
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
@@ -200,8 +217,8 @@ impl LineProblem<'_> {
 pub struct OneLine<'a> {
     /// The line.
     pub line: &'a LineProblem<'a>,
-    /// Translation V, hub height U, rotation Ω.
-    pub rigid: &'a [RigidMotion; 3],
+    /// Rigid motions of the wheel.
+    pub rigid: &'a PerAxis<RigidMotion>,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
 }
@@ -224,8 +241,8 @@ impl ContactProblem<'_> {
 pub struct ContactProblem<'a> {
     /// The contact lines.
     pub lines: Vec<LineProblem<'a>>,
-    /// Translation V, hub height U, rotation Ω.
-    pub rigid: [RigidMotion; 3],
+    /// Rigid motions of the wheel.
+    pub rigid: PerAxis<RigidMotion>,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].

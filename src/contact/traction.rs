@@ -1,5 +1,6 @@
 //! Result of a solved contact for everyone else: forces, patches and profiles, whatever solver found them.
 
+use crate::axes::PerAxis;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -21,9 +22,9 @@ pub struct Traction {
     /// Displacements of the ports of wheel and rail \[m].
     pub surface: [DVector<f64>; 2],
     /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which they were found.
-    pub rigid: [f64; 3],
+    pub rigid: PerAxis<f64>,
     /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N].
-    pub resultant: [f64; 3],
+    pub resultant: PerAxis<f64>,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the
     /// pressures beside them.
     pub edges: Vec<Interval>,

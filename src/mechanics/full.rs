@@ -10,6 +10,7 @@ use super::retarded::{RetardedLayer, quadratic_form};
 use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
 use crate::analytic::HalfPlane;
+use crate::axes::PerAxis;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
 use crate::multistep::TimeDerivative;
@@ -279,7 +280,7 @@ impl BodyResponse for FullBody {
         op: &StepOperator,
         free: &FreeResponse,
         forces: &DVector<f64>,
-        rigid: [f64; 3],
+        rigid: PerAxis<f64>,
         td: &TimeDerivative,
         state: &BodyState,
         next: &mut BodyState,
@@ -287,18 +288,18 @@ impl BodyResponse for FullBody {
         motion::commit(self, op, free, forces, rigid, td, state, next);
     }
 
-    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
+    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let system = &self.system;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
         let elastic = 0.5 * system.stiffness.bilinear(y, y);
         let kinetic = 0.5 * system.mass.bilinear(v, v);
         let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
-        let coupling: f64 = momentum.zip(rigid_velocity).map(|(p, w)| p * w).sum();
+        let coupling: f64 = momentum.zip(rigid_velocity.values()).map(|(p, w)| p * w).sum();
         let layer = match self.layer() {
             Some(layer) => layer.energy(&state.retarded),
             None => 0.5 * quadratic_form(&self.near, forces),
         };
-        elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity)
+        elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {

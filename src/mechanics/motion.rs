@@ -6,6 +6,7 @@
 
 use super::response::{BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::RetardedLayer;
+use crate::axes::PerAxis;
 use crate::linalg::vectorised::dot;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
@@ -45,8 +46,8 @@ pub(super) trait Equations {
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>);
 }
 
-/// Work `Ω² XᵀM y` of the centrifugal load on the deformation, at the present angular velocity [J/m].
-pub(super) fn centrifugal_work(body: &impl Equations, state: &BodyState, [_, _, omega]: [f64; 3]) -> f64 {
+/// Work `Ω² XᵀM y` of the centrifugal load on the deformation, at the angular velocity `omega` [rad/s], in J/m.
+pub(super) fn centrifugal_work(body: &impl Equations, state: &BodyState, omega: f64) -> f64 {
     body.centrifugal().map_or(0.0, |load| omega * omega * load.dot(&state.displacement))
 }
 
@@ -91,7 +92,7 @@ pub(super) fn free_response(
     for (value, known) in product.as_mut_slice().iter_mut().zip(acceleration.as_slice()) {
         *value = *value * a0_squared + known;
     }
-    *momentum = std::array::from_fn(|k| dot(column(body.rigid(), k), product.as_slice()));
+    *momentum = PerAxis::from_fn(|axis| dot(column(body.rigid(), axis.number()), product.as_slice()));
 }
 
 /// `out ← out + factor · x`.
@@ -111,7 +112,7 @@ pub(super) fn commit(
     op: &StepOperator,
     free: &FreeResponse,
     forces: &DVector<f64>,
-    rigid: [f64; 3],
+    rigid: PerAxis<f64>,
     td: &TimeDerivative,
     state: &BodyState,
     next: &mut BodyState,
@@ -120,8 +121,8 @@ pub(super) fn commit(
     fit(new, free.load.len());
     new.copy_from(&free.load);
     body.add_surface_forces(forces, new);
-    for (k, acceleration) in rigid.iter().enumerate() {
-        add_column(-acceleration, column(body.rigid(), k), new);
+    for (axis, acceleration) in rigid.iter() {
+        add_column(-acceleration, column(body.rigid(), axis.number()), new);
     }
     op.solver.solve_in_place(new);
     state.advance(td, next);
@@ -159,7 +160,7 @@ mod tests {
         forces: &DVector<f64>,
     ) -> BodyState {
         let known = free(body, op, state, td, Convection::default());
-        committed(body, op, &known, forces, [0.0; 3], td, state)
+        committed(body, op, &known, forces, PerAxis::default(), td, state)
     }
 
     /// Rail whose ends swallow plane waves.
@@ -238,7 +239,7 @@ mod tests {
                 let dt = 4e-5;
                 let td = trapezoidal(dt);
                 let op = body.operator(td.a0).unwrap();
-                let initial = body.energy(&state, &none, [0.0; 3]);
+                let initial = body.energy(&state, &none, PerAxis::default());
                 let mut dissipated = 0.0;
                 for _ in 0..100 {
                     let next = after(body, &op, &state, &td, &none);
@@ -248,7 +249,7 @@ mod tests {
                     dissipated += step;
                     state = next;
                 }
-                let lost = initial - body.energy(&state, &none, [0.0; 3]);
+                let lost = initial - body.energy(&state, &none, PerAxis::default());
                 println!(
                     "{name}: {:.3} of the energy lost, imbalance {:.1e}",
                     lost / initial,

@@ -18,6 +18,7 @@ use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
+use crate::axes::PerAxis;
 use crate::linalg::vectorised::{self, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
@@ -215,7 +216,7 @@ impl BodyResponse for ReducedBody {
         op: &StepOperator,
         free: &FreeResponse,
         forces: &DVector<f64>,
-        rigid: [f64; 3],
+        rigid: PerAxis<f64>,
         td: &TimeDerivative,
         state: &BodyState,
         next: &mut BodyState,
@@ -223,7 +224,7 @@ impl BodyResponse for ReducedBody {
         motion::commit(self, op, free, forces, rigid, td, state, next);
     }
 
-    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64 {
+    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let basis = &self.basis;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
         let modal: f64 = y.iter().zip(basis.squared_frequencies.as_slice()).map(|(y, w)| w * y * y).sum();
@@ -232,8 +233,9 @@ impl BodyResponse for ReducedBody {
             None => quadratic_form(&basis.residual, forces),
         };
         let kinetic = dot(v, v);
-        let coupling: f64 = rigid_velocity.iter().enumerate().map(|(k, w)| w * dot(column(&basis.rigid, k), v)).sum();
-        0.5 * (modal + residual + kinetic) + coupling - motion::centrifugal_work(self, state, rigid_velocity)
+        let coupling: f64 =
+            rigid_velocity.iter().map(|(axis, w)| w * dot(column(&basis.rigid, axis.number()), v)).sum();
+        0.5 * (modal + residual + kinetic) + coupling - motion::centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
@@ -269,6 +271,7 @@ const COLUMNS: usize = 32;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::axes::Axis;
     use crate::mechanics::testing::{committed, free, paper_d};
     use crate::mechanics::{FullBody, rail_system, wheel_system};
 
@@ -348,26 +351,33 @@ mod tests {
                 for step in 0..40 {
                     let t = (step + 1) as f64 * dt;
                     let forces = load(op.surface.nrows(), -2e4 * (t / 5e-3).min(1.0), 3e3 * (800.0 * t).sin());
-                    let rigid = [2.0 * (t / 5e-3).min(1.0), 0.0, -30.0 * (t / 5e-3).min(1.0)];
+                    let rising = (t / 5e-3).min(1.0);
+                    let rigid = PerAxis { travel: 2.0 * rising, rotation: -30.0 * rising, ..PerAxis::default() };
                     let convection = Convection { speed: 30.0 + t, acceleration: 1.0 };
                     let free = free(body, &op, &state, &td, convection);
-                    let surface =
-                        &free.surface + &op.surface * &forces + &op.inertial_response * DVector::from_row_slice(&rigid);
-                    let momentum = DVector::from_row_slice(&free.momentum)
+                    let surface = &free.surface
+                        + &op.surface * &forces
+                        + &op.inertial_response * DVector::from_row_slice(&rigid.values());
+                    let momentum = DVector::from_row_slice(&free.momentum.values())
                         + &op.momentum * &forces
-                        + &op.deformation_inertia * DVector::from_row_slice(&rigid);
+                        + &op.deformation_inertia * DVector::from_row_slice(&rigid.values());
                     state = committed(body, &op, &free, &forces, rigid, &td, &state);
                     // The predicted rate of momentum is r_kᵀ M ÿ of the accepted state.
                     let rate = BodyState { velocity: state.acceleration.clone(), ..state.clone() };
                     // What is odd in the rigid velocities; the work of the centrifugal load is even.
-                    let energy = |w: [f64; 3]| body.energy(&rate, &forces, w);
-                    let coupled = |w: [f64; 3]| 0.5 * (energy(w) - energy(w.map(|w| -w)));
-                    for (k, w) in [[1e3, 0.0, 0.0], [0.0, 1e3, 0.0], [0.0, 0.0, 1e3]].iter().enumerate() {
-                        let kinetic = body.energy(&rate, &forces, [0.0; 3]);
-                        let error = (coupled(*w) - 1e3 * momentum[k]).abs();
+                    let energy = |w: PerAxis<f64>| body.energy(&rate, &forces, w);
+                    let coupled = |w: PerAxis<f64>| 0.5 * (energy(w) - energy(w.map(|w| -w)));
+                    for axis in Axis::ALL {
+                        let w = PerAxis::unit(axis).map(|one| 1e3 * one);
+                        let kinetic = body.energy(&rate, &forces, PerAxis::default());
+                        let error = (coupled(w) - 1e3 * momentum[axis.number()]).abs();
                         assert!(error <= 1e-7 * (1e3 * momentum.amax()) + 1e-12 * kinetic, "{error:e}");
                     }
-                    history.push((surface, momentum, body.energy(&state, &forces, [10.0, 0.0, 20.0])));
+                    history.push((
+                        surface,
+                        momentum,
+                        body.energy(&state, &forces, PerAxis { travel: 10.0, rotation: 20.0, ..PerAxis::default() }),
+                    ));
                 }
                 histories.push(history);
             }
@@ -399,21 +409,21 @@ mod tests {
             let stationary = TimeDerivative::default();
             let loaded = free(body, &still, &state, &stationary, rest);
             let forces = load(still.surface.nrows(), -2e4, 5e3);
-            state = committed(body, &still, &loaded, &forces, [0.0; 3], &stationary, &state);
+            state = committed(body, &still, &loaded, &forces, PerAxis::default(), &stationary, &state);
             assert!(state.velocity.amax() == 0.0 && state.displacement == state.displacement_before);
             // Released: without forces the acceleration is −M⁻¹ K y; one short backward Euler step supplies it.
             let start = TimeDerivative { a0: 1e6, a1: -1e6, a2: 0.0, b1: 0.0 };
             let none = DVector::zeros(still.surface.nrows());
             let op = body.operator(start.a0).unwrap();
             let released = free(body, &op, &state, &start, rest);
-            state = committed(body, &op, &released, &none, [0.0; 3], &start, &state);
+            state = committed(body, &op, &released, &none, PerAxis::default(), &start, &state);
             let op = body.operator(td.a0).unwrap();
-            let initial = body.energy(&state, &none, [0.0; 3]);
+            let initial = body.energy(&state, &none, PerAxis::default());
             for _ in 0..50 {
                 let moving = free(body, &op, &state, &td, rest);
-                state = committed(body, &op, &moving, &none, [0.0; 3], &td, &state);
+                state = committed(body, &op, &moving, &none, PerAxis::default(), &td, &state);
             }
-            let change = body.energy(&state, &none, [0.0; 3]) / initial - 1.0;
+            let change = body.energy(&state, &none, PerAxis::default()) / initial - 1.0;
             println!("energy changes by {change:.1e}");
             assert!(change.abs() < 1e-8 && state.velocity.amax() > 0.0);
         }

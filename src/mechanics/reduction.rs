@@ -4,6 +4,7 @@ use super::MechanicsError;
 use super::damping::ModeCharacter;
 use super::shapes::{Shapes, StaticPart};
 use super::system::BodySystem;
+use crate::axes::Axis;
 use crate::linalg::Parity;
 use crate::linalg::dense::symmetrise;
 use nalgebra::{DMatrix, DVector};
@@ -140,7 +141,7 @@ impl ReducedBasis {
         let m = self.modes();
         self.shapes.shape() == (ports, m)
             && self.residual.shape() == (ports, ports)
-            && self.rigid.shape() == (m, 3)
+            && self.rigid.shape() == (m, Axis::COUNT)
             && self.rigid_residual.shape() == (ports, 3)
             && self.centrifugal.len() == m
             && self.centrifugal_residual.len() == ports

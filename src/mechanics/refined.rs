@@ -85,6 +85,7 @@ fn rows_between(between: &DMatrix<f64>, rows: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::axes::PerAxis;
     use crate::material::Isotropic;
     use crate::mechanics::motion::Equations;
     use crate::mechanics::testing::paper_d;
@@ -160,7 +161,8 @@ mod tests {
         full.add_surface_forces(&forces, &mut load);
         full.operator(0.0).unwrap().solver.solve_in_place(&mut load);
         state.displacement = load;
-        let (found, expected) = (full.energy(&state, &forces, [0.0; 3]), 0.5 * forces.dot(&(&compliance * &forces)));
+        let (found, expected) =
+            (full.energy(&state, &forces, PerAxis::default()), 0.5 * forces.dot(&(&compliance * &forces)));
         assert!((found / expected - 1.0).abs() < 1e-9, "{found:e} J/m, {expected:e} J/m");
     }
 

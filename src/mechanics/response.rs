@@ -20,6 +20,7 @@ use super::MechanicsError;
 pub(super) use super::retarded::fit;
 use super::retarded::{RetardedForces, RetardedLayer};
 use super::solver::StepSolver;
+use crate::axes::PerAxis;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -58,7 +59,7 @@ pub trait BodyResponse: Send + Sync {
         op: &StepOperator,
         free: &FreeResponse,
         forces: &DVector<f64>,
-        rigid: [f64; 3],
+        rigid: PerAxis<f64>,
         td: &TimeDerivative,
         state: &BodyState,
         next: &mut BodyState,
@@ -67,7 +68,7 @@ pub trait BodyResponse: Send + Sync {
     /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
     /// velocities `w = (V, U̇, Ω)`, less the work `Ω² XᵀM y` of the centrifugal load [J/m]; `forces` feed the static
     /// part of a reduced body.
-    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: [f64; 3]) -> f64;
+    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64;
 
     /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without
     /// damping.
@@ -192,7 +193,7 @@ pub struct FreeResponse {
     /// Surface displacement without contact forces and rigid accelerations, `2n` \[m].
     pub surface: DVector<f64>,
     /// Rate of deformation momentum (x, y, Ω) without contact forces and rigid accelerations.
-    pub momentum: [f64; 3],
+    pub momentum: PerAxis<f64>,
     /// Right-hand side in the body's own coordinates, for [`BodyResponse::commit`].
     pub load: DVector<f64>,
     /// Scratch: what is known of acceleration and velocity, and a vector for products.
@@ -214,6 +215,6 @@ impl Default for FreeResponse {
     fn default() -> Self {
         let empty = || DVector::zeros(0);
         let (surface, load, acceleration, velocity, product) = (empty(), empty(), empty(), empty(), empty());
-        Self { surface, momentum: [0.0; 3], load, acceleration, velocity, product, retarded: empty() }
+        Self { surface, momentum: PerAxis::default(), load, acceleration, velocity, product, retarded: empty() }
     }
 }

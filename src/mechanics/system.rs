@@ -2,6 +2,7 @@
 
 use super::ale::Stream;
 use super::elasticity::{self, Lame};
+use crate::axes::PerAxis;
 use crate::config::Material;
 use crate::fem::{AssemblyPattern, DofMap, FemError, Mesh, assemble_vector};
 use crate::linalg::dense::symmetrise;
@@ -51,7 +52,11 @@ impl BodySystem {
             Stream::Rotation => load(field),
             Stream::Translation => Ok(DVector::zeros(dofs.len())),
         };
-        let rigid = [load(|_| [1.0, 0.0])?, load(|_| [0.0, 1.0])?, turning(|[x, y]| [y, -x])?];
+        let rigid = PerAxis {
+            travel: load(|_| [1.0, 0.0])?,
+            height: load(|_| [0.0, 1.0])?,
+            rotation: turning(|[x, y]| [y, -x])?,
+        };
         let circles = match stream {
             Stream::Rotation => Some([
                 pattern.assemble(|p| Stream::squared_diameters(p, density))?,
@@ -68,7 +73,7 @@ impl BodySystem {
             transport: pattern.assemble(|p| stream.transport(p, density))?,
             circles,
             ale_inertia: pattern.assemble(|p| stream.ale_inertia(p, density))?,
-            rigid: DMatrix::from_columns(&rigid),
+            rigid: DMatrix::from_columns(&rigid.values()),
             centrifugal: turning(|x| x)?,
             surface: mesh.surface.iter().flat_map(unknowns).flatten().collect(),
             reflection: reflection(mesh, &dofs),
@@ -175,7 +180,7 @@ mod tests {
         let system = wheel_system(&paper_d(8)).unwrap();
         let factor = Cholesky::new(&system.stiffness).unwrap();
         let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 6, &mut |_| {}).unwrap();
-        let participation = modes.shapes.tr_mul(&system.rigid.column(2));
+        let participation = modes.shapes.tr_mul(&system.rigid.column(crate::axes::Axis::Rotation.number()));
         let omega = modes.squared_frequencies[participation.iamax()].sqrt();
         let exact = exact_torsion(&paper_d(8));
         assert!((omega / exact.frequency - 1.0).abs() < 1e-3, "{omega} rad/s, {exact:?}");

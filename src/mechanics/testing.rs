@@ -1,6 +1,7 @@
 //! Configurations and small meshes for the tests.
 
 use crate::analytic::{self, Torsion};
+use crate::axes::PerAxis;
 use crate::config::{Config, presets};
 use crate::fem::Mesh;
 use crate::material::Isotropic;
@@ -89,7 +90,7 @@ pub fn committed(
     op: &StepOperator,
     free: &FreeResponse,
     forces: &DVector<f64>,
-    rigid: [f64; 3],
+    rigid: PerAxis<f64>,
     td: &TimeDerivative,
     state: &BodyState,
 ) -> BodyState {

@@ -8,6 +8,7 @@
 use super::line::Line;
 use super::model::RollingModel;
 use super::state::{Audit, State};
+use crate::axes::PerAxis;
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
 
@@ -29,15 +30,15 @@ pub fn start(model: &RollingModel, state: &State) -> Audit {
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
 pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &State) -> Audit {
     let before = &state.audit;
-    let impulse: [f64; 3] =
-        std::array::from_fn(|k| td.impulse(next.hub.driving[k], state.hub.driving[k], before.impulse[k]));
+    let impulse =
+        PerAxis::from_fn(|axis| td.impulse(next.hub.driving[axis], state.hub.driving[axis], before.impulse[axis]));
     let (from, to) = (state.motion.velocities(), next.motion.velocities());
-    let mut mean = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
-    if !next.hub.prescribed[1] {
-        mean[1] = (next.motion.height.now - state.motion.height.now) / next.clock.last_step;
+    let mut mean = PerAxis::from_fn(|axis| 0.5 * (from[axis] + to[axis]));
+    if !next.hub.prescribed.height {
+        mean.height = (next.motion.height.now - state.motion.height.now) / next.clock.last_step;
     }
-    let work: f64 = (0..3).map(|k| impulse[k] * mean[k]).sum();
-    let forces = [state, next].map(|state| state.resultant()[1]);
+    let work = impulse.dot(mean);
+    let forces = [state, next].map(|state| state.resultant().height);
     let damper = [state, next].map(|state| model.wheel.damper_force(state));
     let damper = td.impulse(damper[1], damper[0], before.damper);
     let damping_power = model.bodies.dissipation(next);
@@ -47,13 +48,13 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
         energy: energy(model, next),
         work: before.work + work,
         gravity: before.gravity
-            + 0.5 * (next.clock.time - state.clock.time) * (state.hub.gravity + next.hub.gravity) * mean[0],
+            + 0.5 * (next.clock.time - state.clock.time) * (state.hub.gravity + next.hub.gravity) * mean.travel,
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
-        brake: before.brake - next.hub.brake.impulse * mean[2],
+        brake: before.brake - next.hub.brake.impulse * mean.rotation,
         thermal_work: before.thermal_work,
         friction: before.friction + next.sum(|line| line.contact.traction.friction.work),
         plastic: before.plastic,
-        damping: before.damping + damped + damper * mean[1],
+        damping: before.damping + damped + damper * mean.height,
         throughput: before.throughput + work.abs(),
         damping_power,
         impulse,
@@ -66,7 +67,7 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
 /// Adds the work of heat in the step from `before` to `state`, whose heat step is done: the wheel that grows lifts its
 /// load, and hot layers that swell and pull more than before move the surfaces under the contact.
 pub fn expand(before: &State, state: &mut State) {
-    let growth = (state.growth() - before.growth()) * state.resultant()[1];
+    let growth = (state.growth() - before.growth()) * state.resultant().height;
     let of_line = |(old, new): (&Line, &Line)| {
         let pull = new.contact.traction.pull_work(&old.contact.traction);
         new.layout.share * (swelling_work(old, new) + pull)

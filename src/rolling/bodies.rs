@@ -4,6 +4,7 @@ use super::line::Line;
 use super::lines;
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
+use crate::axes::PerAxis;
 use crate::contact::line::kernel::{line_compliance, line_energy, logarithms};
 use crate::contact::{Influence, LineKernel, Ports};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
@@ -212,20 +213,20 @@ impl Bodies {
 
     /// Kinetic and elastic energy of the deformation and of the track, the coupling with the rigid velocities (V, U̇,
     /// Ω) included [J/m].
-    pub fn energy(&self, state: &State, velocities: [f64; 3]) -> f64 {
+    pub fn energy(&self, state: &State, velocities: PerAxis<f64>) -> f64 {
         let [on_wheel, on_rail] = [0, 1].map(|body| state.loads(body));
         let track = self.support.as_ref().map_or(0.0, |support| support.energy(&state.base));
-        let [x, y] = state.base.velocities();
+        let of_base = along_base(state.base.velocities());
         let [wheel, rail] = self.of(state);
-        wheel.energy(&state.wheel, &on_wheel, velocities) + rail.energy(&state.rail, &on_rail, [x, y, 0.0]) + track
+        wheel.energy(&state.wheel, &on_wheel, velocities) + rail.energy(&state.rail, &on_rail, of_base) + track
     }
 
     /// Power that damping and open ends take out of the bodies and the track [W/m].
     pub fn dissipation(&self, state: &State) -> f64 {
         let track = self.support.as_ref().map_or(0.0, |support| support.dissipation(&state.base));
-        let [velocity, _, omega] = state.motion.values();
+        let motion = state.motion.values();
         let [wheel, rail] = self.of(state);
-        wheel.dissipation(&state.wheel, omega) + rail.dissipation(&state.rail, velocity) + track
+        wheel.dissipation(&state.wheel, motion.rotation) + rail.dissipation(&state.rail, motion.travel) + track
     }
 
     /// Accepts the contact forces in `next`: writes the advanced deformation of both bodies and the motion of the rail
@@ -234,7 +235,7 @@ impl Bodies {
         &self,
         operators: &Operators,
         free: &[FreeResponse; 2],
-        accelerations: [f64; 3],
+        accelerations: PerAxis<f64>,
         td: &TimeDerivative,
         state: &State,
         next: &mut State,
@@ -247,8 +248,8 @@ impl Bodies {
             Some(base) => base.advance(&state.base, td, &free[1], &on_rail),
             None => state.base,
         };
-        let [x, y] = next.base.accelerations();
-        rail.commit(&operators.rail, &free[1], &on_rail, [x, y, 0.0], td, &state.rail, &mut next.rail);
+        let of_base = along_base(next.base.accelerations());
+        rail.commit(&operators.rail, &free[1], &on_rail, of_base, td, &state.rail, &mut next.rail);
     }
 
     /// True if a state has the dimensions of these bodies.
@@ -267,6 +268,11 @@ impl Bodies {
         let [wheel, rail] = self.of(state);
         fits(&state.wheel, wheel) && fits(&state.rail, rail)
     }
+}
+
+/// Motions of the base of the rail, which does not turn, from those in x and y.
+fn along_base([travel, height]: [f64; 2]) -> PerAxis<f64> {
+    PerAxis { travel, height, ..PerAxis::default() }
 }
 
 /// Number of surface components that the contact of a state sees.

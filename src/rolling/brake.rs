@@ -6,6 +6,7 @@
 //! Theory: `docs/theory/time-formula.md`.
 
 use super::state::{Brake, Motion};
+use crate::axes::PerAxis;
 use crate::contact::AxisDrive;
 
 /// Speed of the rim below which a wheel starts at rest [m/s].
@@ -33,9 +34,9 @@ impl Brake {
 /// Drive of the rotation at a stationary start, where the brake slips or holds for good: `rim` is the peripheral
 /// velocity [m/s] at which the wheel starts. A wheel that stands is held against drive and pull as far as the brake
 /// does.
-pub fn at_start(drives: &[AxisDrive; 3], velocity: f64, rim: f64, radius: f64) -> AxisDrive {
-    let AxisDrive::Braked { load, limit } = drives[2] else { return drives[2] };
-    let pull = drives[0].loads().map_or(0.0, |[force, _]| load + radius * force);
+pub fn at_start(drives: &PerAxis<AxisDrive>, velocity: f64, rim: f64, radius: f64) -> AxisDrive {
+    let AxisDrive::Braked { load, limit } = drives.rotation else { return drives.rotation };
+    let pull = drives.travel.loads().map_or(0.0, |[force, _]| load + radius * force);
     let at_rest = velocity.abs() + rim.abs() <= AT_REST;
     if rim.abs() > AT_REST {
         AxisDrive::Free { load: load - limit * rim.signum() }

@@ -8,6 +8,7 @@ use super::patch_lines::PatchLines;
 use super::standing;
 use super::state::State;
 use super::thermal_state::ThermalDeformation;
+use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
@@ -50,7 +51,7 @@ pub struct ContactStep<'a> {
     /// Their answers without contact forces: wheel, rail.
     pub free: &'a [FreeResponse; 2],
     /// The three rigid motions.
-    pub rigid: [RigidMotion; 3],
+    pub rigid: PerAxis<RigidMotion>,
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.
@@ -117,7 +118,7 @@ impl ContactModel {
         let standing =
             self.standing([state.motion.velocity.now, state.motion.omega.now], state.clock.last_step, traction);
         let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction.coefficient);
-        Some([softest, self.least_pressure(traction.resultant[1])])
+        Some([softest, self.least_pressure(traction.resultant.height)])
     }
 
     /// Pressure \[Pa] under which the line load of a contact \[N/m] spreads over most of the zone.
@@ -147,7 +148,7 @@ impl ContactModel {
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         found.resize_with(start.len(), Line::default);
-        let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant[1]);
+        let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant.height);
         // Lines without forces have been laid out for those that are expected.
         let mut load = match carried(start) {
             carried if carried > 0.0 => self.patch.load_of(carried),
@@ -231,8 +232,12 @@ impl ContactModel {
             },
             limits: SteelLimits {
                 pressure: self.yield_pressure,
-                least: self.least_pressure(traction.resultant[1]),
-                sheared: self.standing([step.rigid[0].start(), step.rigid[2].start()], step.duration, traction),
+                least: self.least_pressure(traction.resultant.height),
+                sheared: self.standing(
+                    [step.rigid.travel.start(), step.rigid.rotation.start()],
+                    step.duration,
+                    traction,
+                ),
                 softened: if step.cold_steel { &piecewise::EMPTY } else { &weakening.strength },
                 film: &weakening.film,
             },
@@ -250,20 +255,19 @@ impl ContactModel {
 
     /// True if a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
     /// available friction coefficient from that of the last step, by more than [`JUMP`].
-    pub fn jumped(&self, state: &State, drives: &[AxisDrive; 3], friction: f64) -> bool {
-        let limit = JUMP * self.nominal_line_load();
-        let limits = [limit, limit, limit * self.surfaces.radius];
+    pub fn jumped(&self, state: &State, drives: &PerAxis<AxisDrive>, friction: f64) -> bool {
+        let jump = JUMP * self.nominal_line_load();
         let available = state.available_friction;
         let speeds = state.motion.velocities();
-        let force = |k: usize| {
-            drives[k].loads().is_some_and(|[load, limit]| {
-                let resisting = state.hub.force[k] - load;
+        let force = |axis: Axis| {
+            drives[axis].loads().is_some_and(|[load, limit]| {
+                let (resisting, speed) = (state.hub.force[axis] - load, speeds[axis]);
                 // A holding brake gives what is asked for.
-                let able = if speeds[k] == 0.0 { resisting.clamp(-limit, limit) } else { -limit * speeds[k].signum() };
-                (resisting - able).abs() > limits[k]
+                let able = if speed == 0.0 { resisting.clamp(-limit, limit) } else { -limit * speed.signum() };
+                (resisting - able).abs() > jump * axis.arm(self.surfaces.radius)
             })
         };
-        (friction - available).abs() > JUMP * available.max(friction) || (0..3).any(force)
+        (friction - available).abs() > JUMP * available.max(friction) || Axis::ALL.into_iter().any(force)
     }
 
     /// Turns a failure in a step of `step` seconds at `time` into that of the step.

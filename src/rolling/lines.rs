@@ -6,6 +6,7 @@
 
 use super::line::Line;
 use super::state::State;
+use crate::axes::PerAxis;
 use nalgebra::DVector;
 use std::borrow::Cow;
 
@@ -32,8 +33,8 @@ impl State {
     }
 
     /// Contact forces of all lines on the wheel: x, y [N/m], forward moment about the hub centre \[N].
-    pub fn resultant(&self) -> [f64; 3] {
-        [0, 1, 2].map(|k| self.sum(|line| line.contact.traction.resultant[k]))
+    pub fn resultant(&self) -> PerAxis<f64> {
+        PerAxis::from_fn(|axis| self.sum(|line| line.contact.traction.resultant[axis]))
     }
 
     /// Iterations that the last contact solution took, the same for all lines.
@@ -53,7 +54,7 @@ impl State {
 
     /// Mean of a quantity over all lines, by the normal forces that they carry; without contact by their widths.
     pub fn mean_under_load(&self, of: impl Fn(&Line) -> f64) -> f64 {
-        self.weighted_mean(|line| line.contact.traction.resultant[1], of)
+        self.weighted_mean(|line| line.contact.traction.resultant.height, of)
     }
 
     /// Mean of a quantity over all lines, by the area on which they touch; without contact by their widths.
@@ -81,8 +82,8 @@ impl State {
     }
 
     /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which the contact forces were found.
-    pub fn rigid(&self) -> [f64; 3] {
-        self.lines.first().map_or([0.0; 3], |line| line.contact.traction.rigid)
+    pub fn rigid(&self) -> PerAxis<f64> {
+        self.lines.first().map_or(PerAxis::default(), |line| line.contact.traction.rigid)
     }
 
     /// Forces of all lines together on the ports of wheel (0) or rail (1), contact forces and the pull of hot layers

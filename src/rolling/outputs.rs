@@ -30,7 +30,7 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
     let none = Line::default();
     let pressed = state.line_of_largest(|line| line.contact.traction.pressure_max).unwrap_or(&none);
     let traction = &pressed.contact.traction;
-    let [force_x, force_y, moment] = state.resultant().map(|force| force * width);
+    let force = state.resultant().map(|force| force * width);
     let friction_force = state.sum(|line| line.contact.traction.friction_force());
     let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
     let v_c = model.rolling_radius(state) * omega;
@@ -39,14 +39,14 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         (per_metre(state.friction_power * width, v, v_c), width * state.sum(|line| line.contact.traction.touching()));
     let points = profile_points(model.zone);
     Outputs {
-        contact_force_x: force_x,
-        contact_force_y: force_y,
-        contact_moment: moment,
+        contact_force_x: force.travel,
+        contact_force_y: force.height,
+        contact_moment: force.rotation,
         contact_creepage: creepage(v, v_c),
         contact_slide: slide(v, v_c),
         contact_slip_velocity: v - v_c,
-        contact_adhesion: ratio(force_x, force_y),
-        contact_utilisation: ratio(friction_force.abs() * width, state.friction() * force_y),
+        contact_adhesion: ratio(force.travel, force.height),
+        contact_utilisation: ratio(friction_force.abs() * width, state.friction() * force.height),
         contact_stick_fraction: state.mean_over_area(|line| line.contact.traction.stick_fraction),
         contact_half_width: state.half_width(),
         contact_width: width * state.covered(),
@@ -67,13 +67,13 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         wheel_angle: state.motion.angle,
         wheel_acceleration: state.motion.velocity.rate,
         wheel_angular_acceleration: state.motion.omega.rate,
-        wheel_mass: model.wheel.inertia[1] * width,
-        wheel_inertia: model.wheel.inertia[2] * width,
+        wheel_mass: model.wheel.inertia.height * width,
+        wheel_inertia: model.wheel.inertia.rotation * width,
         hub_height: state.motion.height.now,
         hub_vertical_velocity: state.motion.height.rate,
-        hub_force_x: (state.hub.force[0] - state.hub.gravity) * width,
-        hub_force_y: state.hub.force[1] * width,
-        hub_moment: state.hub.force[2] * width,
+        hub_force_x: (state.hub.force.travel - state.hub.gravity) * width,
+        hub_force_y: state.hub.force.height * width,
+        hub_moment: state.hub.force.rotation * width,
         brake_moment: state.hub.brake.moment * width,
         brake_power: state.hub.brake.power * width,
         brake_locked: state.hub.brake.locked,
@@ -90,7 +90,7 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         damping_energy: state.audit.damping * width,
         t_gamma,
         surface_fatigue: surface_fatigue(
-            ratio(force_x.abs(), force_y),
+            ratio(force.travel.abs(), force.height),
             model.contact.shear_yield,
             traction.pressure_max,
         ),

@@ -69,10 +69,8 @@ impl PatchLines {
             (ContactShape::Line, _) => {
                 return Ok(Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0)));
             }
-            (_, Some(PatchRows { rows, shapes })) => {
-                PatchLayout::rows((rows, &shapes), material, (lines, radius, width))
-            }
-            (_, None) => PatchLayout::ellipse((&config.hertz(), radius), material, (lines, width, load)),
+            (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
+            (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
         if smooth {
             return Ok(Self::Sized(patch));

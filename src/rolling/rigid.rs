@@ -3,6 +3,7 @@
 use super::control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 use super::error::StepError;
 use super::state::{Motion, State};
+use crate::axes::{Axis, PerAxis};
 use crate::config::Config;
 use crate::contact::{AxisDrive, RigidMotion};
 use crate::material::Isotropic;
@@ -25,7 +26,7 @@ pub struct RigidWheel {
     /// Width of the line contact \[m]: forces of the wheel = width × forces per metre.
     pub width: f64,
     /// Inertia in x (with vehicle) and in y [kg/m], about the axle [kg m].
-    pub inertia: [f64; 3],
+    pub inertia: PerAxis<f64>,
     /// Damper between the hub and the vehicle in y [N s/m per m].
     damping: f64,
     /// Speed of surface waves in its material [m/s].
@@ -41,38 +42,38 @@ impl RigidWheel {
         Self {
             radius: config.wheel.radius,
             width,
-            inertia: [mass + config.vehicle.mass / width, mass, moment],
+            inertia: PerAxis { travel: mass + config.vehicle.mass / width, height: mass, rotation: moment },
             damping: config.vehicle.damping / width,
             wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
         }
     }
 
-    /// Drives of translation, hub height and rotation when the inputs have the values `target`.
-    pub fn drives(&self, inputs: &Inputs, target: &Drive) -> [AxisDrive; 3] {
-        [
-            match inputs.translation {
+    /// Drives of the axes when the inputs have the values `target`.
+    pub fn drives(&self, inputs: &Inputs, target: &Drive) -> PerAxis<AxisDrive> {
+        PerAxis {
+            travel: match inputs.translation {
                 Translation::Force => AxisDrive::Free { load: target.force / self.width + self.gravity(target) },
                 Translation::Velocity => AxisDrive::Prescribed { target: target.velocity },
             },
-            match inputs.vertical {
+            height: match inputs.vertical {
                 Vertical::Force => AxisDrive::Free { load: -target.pressing() / self.width },
                 Vertical::Displacement => AxisDrive::Prescribed { target: target.displacement },
             },
-            match inputs.rotation {
+            rotation: match inputs.rotation {
                 Rotation::Moment => AxisDrive::of(target.moment / self.width, target.torque / self.width),
                 Rotation::Velocity => AxisDrive::Prescribed { target: target.omega },
             },
-        ]
+        }
     }
 
     /// Force of gravity along the track, positive in x [N/m].
     pub fn gravity(&self, target: &Drive) -> f64 {
-        -GRAVITY * self.inertia[0] * target.slope / libm::hypot(target.slope, 1.0)
+        -GRAVITY * self.inertia.travel * target.slope / libm::hypot(target.slope, 1.0)
     }
 
     /// Velocity V [m/s] and angular velocity Ω [rad/s] expected after a step `dt` \[s].
-    pub fn predicted_speeds(&self, motion: &Motion, drives: &[AxisDrive; 3], dt: f64) -> [f64; 2] {
-        [(&motion.velocity, drives[0]), (&motion.omega, drives[2])].map(|(history, drive)| match drive {
+    pub fn predicted_speeds(&self, motion: &Motion, drives: &PerAxis<AxisDrive>, dt: f64) -> [f64; 2] {
+        [(&motion.velocity, drives.travel), (&motion.omega, drives.rotation)].map(|(history, drive)| match drive {
             AxisDrive::Free { .. } => history.now + dt * history.rate,
             AxisDrive::Prescribed { target } => target,
             AxisDrive::Braked { .. } => match history.now + dt * history.rate {
@@ -82,7 +83,7 @@ impl RigidWheel {
         })
     }
 
-    /// The three rigid motions of a step as unknowns of the contact problem, by the time formulas of velocities and of
+    /// The rigid motions of a step as unknowns of the contact problem, by the time formulas of velocities and of
     /// the hub height; `speeds` are the predicted ones, `momentum` is that of the free deformation.
     ///
     /// The damper resists `U̇`. In the time formula `Ü = a0 U̇ + h` with what is known of the velocity, h, so that
@@ -90,63 +91,73 @@ impl RigidWheel {
     pub fn motions(
         &self,
         motion: &Motion,
-        drives: &[AxisDrive; 3],
+        drives: &PerAxis<AxisDrive>,
         [td, of_height]: [&TimeDerivative; 2],
         speeds: [f64; 2],
-        momentum: [f64; 3],
-    ) -> [RigidMotion; 3] {
+        momentum: PerAxis<f64>,
+    ) -> PerAxis<RigidMotion> {
         let known = motion.hub_velocity.offset(td);
-        let axis = |k: usize, guess: f64, gain: f64, offset: f64| RigidMotion {
-            drive: drives[k],
+        let motion_of = |axis: Axis, guess: f64, gain: f64, offset: f64| RigidMotion {
+            drive: drives[axis],
             guess,
             gain,
             offset,
-            inertia: self.inertia[k],
-            momentum: momentum[k],
+            inertia: self.inertia[axis],
+            momentum: momentum[axis],
         };
-        let mut hub = axis(1, motion.height.now, td.a0 * of_height.a0, td.a0 * motion.height.offset(of_height) + known);
+        let (gain, offset) = (td.a0 * of_height.a0, td.a0 * motion.height.offset(of_height) + known);
+        let mut hub = motion_of(Axis::Height, motion.height.now, gain, offset);
         hub.inertia += self.damping / td.a0;
         hub.momentum -= self.damping / td.a0 * known;
-        [axis(0, speeds[0], td.a0, motion.velocity.offset(td)), hub, axis(2, speeds[1], td.a0, motion.omega.offset(td))]
+        PerAxis {
+            travel: motion_of(Axis::Travel, speeds[0], td.a0, motion.velocity.offset(td)),
+            height: hub,
+            rotation: motion_of(Axis::Rotation, speeds[1], td.a0, motion.omega.offset(td)),
+        }
     }
 
     /// Forces that drive the hub (x, y, moment): those prescribed, with the brake, and the reactions where a motion is
     /// prescribed or a brake holds the wheel at rest.
     pub fn hub_forces(
         &self,
-        drives: &[AxisDrive; 3],
+        drives: &PerAxis<AxisDrive>,
         motion: &Motion,
         operator: &StepOperator,
         free: &FreeResponse,
         forces: &DVector<f64>,
-        resultant: [f64; 3],
-    ) -> [f64; 3] {
+        resultant: PerAxis<f64>,
+    ) -> PerAxis<f64> {
         let (speeds, accelerations) = (motion.velocities(), motion.accelerations());
-        std::array::from_fn(|k| match drives[k] {
+        PerAxis::from_fn(|axis| match drives[axis] {
             AxisDrive::Free { load } => load,
-            AxisDrive::Braked { load, limit } if speeds[k] != 0.0 => load - limit * speeds[k].signum(),
+            AxisDrive::Braked { load, limit } if speeds[axis] != 0.0 => load - limit * speeds[axis].signum(),
             AxisDrive::Prescribed { .. } | AxisDrive::Braked { .. } => {
+                let k = axis.number();
                 let of_forces: f64 = operator.momentum.row(k).iter().zip(forces.iter()).map(|(m, f)| m * f).sum();
-                let of_motion: f64 = (0..3).map(|l| operator.deformation_inertia[(k, l)] * accelerations[l]).sum();
-                let deformation = free.momentum[k] + of_forces + of_motion;
-                self.inertia[k] * accelerations[k] + deformation - resultant[k]
+                let coupled = |(other, acceleration): (Axis, f64)| {
+                    operator.deformation_inertia[(k, other.number())] * acceleration
+                };
+                let of_motion: f64 = accelerations.iter().map(coupled).sum();
+                let deformation = free.momentum[axis] + of_forces + of_motion;
+                self.inertia[axis] * accelerations[axis] + deformation - resultant[axis]
             }
         })
     }
 
     /// Force of the damper on the vehicle, up positive, where the load drives the hub [N/m].
     pub fn damper_force(&self, state: &State) -> f64 {
-        if state.hub.prescribed[1] { 0.0 } else { self.damping * state.motion.hub_velocity.now }
+        if state.hub.prescribed.height { 0.0 } else { self.damping * state.motion.hub_velocity.now }
     }
 
     /// Kinetic energy of the rigid motion [J/m].
-    pub fn energy(&self, velocities: [f64; 3]) -> f64 {
-        (0..3).map(|k| 0.5 * self.inertia[k] * velocities[k] * velocities[k]).sum()
+    pub fn energy(&self, velocities: PerAxis<f64>) -> f64 {
+        velocities.iter().map(|(axis, velocity)| 0.5 * self.inertia[axis] * velocity * velocity).sum()
     }
 
-    /// Refuses motions (V, U, Ω) well outside the ranges of the inputs that could prescribe them, and velocities at
+    /// Refuses motions well outside the ranges of the inputs that could prescribe them, and velocities at
     /// which loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
-    pub fn check(&self, [velocity, displacement, omega]: [f64; 3]) -> Result<(), StepError> {
+    pub fn check(&self, motions: PerAxis<f64>) -> Result<(), StepError> {
+        let PerAxis { travel: velocity, height: displacement, rotation: omega, .. } = motions;
         // What is prescribed ends within its range; a free wheel that starts at its end may drift a little.
         let motion = Drive { velocity, displacement, omega, ..Drive::default() };
         motion.zip(&motion, |value, _| value / MOTION_MARGIN).validate().map_err(|error| {

@@ -3,6 +3,7 @@
 use super::elevation::Rise;
 use super::line::Line;
 use super::support::BaseMotion;
+use crate::axes::PerAxis;
 use crate::heat::LateralHistory;
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
@@ -68,15 +69,15 @@ pub struct Clock {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HubForces {
     /// Forces that drive the wheel at the end of the step, prescribed or reactions, with gravity and the brake.
-    pub force: [f64; 3],
+    pub force: PerAxis<f64>,
     /// Forces as the time formula takes them: those whose impulses are the exact ones of prescribed forces.
-    pub driving: [f64; 3],
+    pub driving: PerAxis<f64>,
     /// Part of the force in x: gravity along the track [N/m].
     pub gravity: f64,
     /// The brake.
     pub brake: Brake,
-    /// Motions (V, U, Ω) that were prescribed.
-    pub prescribed: [bool; 3],
+    /// Motions that were prescribed.
+    pub prescribed: PerAxis<bool>,
 }
 
 /// Vertical contact force between two communication points, so that what happens between them is not lost.
@@ -105,7 +106,7 @@ impl Pressing {
 
     /// Takes note of an internal step of `dt` seconds that ended in `state`.
     pub fn add(&mut self, state: &State, dt: f64) {
-        let [_, force, _] = state.resultant();
+        let force = state.resultant().height;
         self.lowest = self.lowest.min(force);
         self.highest = self.highest.max(force);
         self.impulse += state.audit.pressed;
@@ -145,19 +146,19 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Values of the three rigid motions (V [m/s], U \[m], Ω [rad/s]).
-    pub fn values(&self) -> [f64; 3] {
-        [self.velocity.now, self.height.now, self.omega.now]
+    /// Values of the rigid motions (V [m/s], U \[m], Ω [rad/s]).
+    pub fn values(&self) -> PerAxis<f64> {
+        PerAxis { travel: self.velocity.now, height: self.height.now, rotation: self.omega.now }
     }
 
     /// Velocities conjugate to the hub forces (V, U̇ [m/s], Ω [rad/s]).
-    pub fn velocities(&self) -> [f64; 3] {
-        [self.velocity.now, self.height.rate, self.omega.now]
+    pub fn velocities(&self) -> PerAxis<f64> {
+        PerAxis { travel: self.velocity.now, height: self.height.rate, rotation: self.omega.now }
     }
 
     /// Rigid accelerations (V̇, Ü [m/s²], Ω̇ [rad/s²]).
-    pub fn accelerations(&self) -> [f64; 3] {
-        [self.velocity.rate, self.hub_velocity.rate, self.omega.rate]
+    pub fn accelerations(&self) -> PerAxis<f64> {
+        PerAxis { travel: self.velocity.rate, height: self.hub_velocity.rate, rotation: self.omega.rate }
     }
 }
 
@@ -182,9 +183,9 @@ pub struct StepControl {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Controlled {
     /// Contact forces on the wheel (x, y, moment) [N/m, N/m, N].
-    pub forces: [f64; 3],
+    pub forces: PerAxis<f64>,
     /// Forces that move the hub besides those on it: of contact, damper and deformation (x, y, moment) [N/m, N/m, N].
-    pub resisting: [f64; 3],
+    pub resisting: PerAxis<f64>,
     /// Force of the damper between hub and vehicle on the latter [N/m].
     pub damper: f64,
     /// Mean slip of the tread in the patch [m/s].
@@ -225,7 +226,7 @@ pub struct Audit {
     /// Present power of damping and radiation in the bodies and the track [W/m].
     pub damping_power: f64,
     /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
-    pub impulse: [f64; 3],
+    pub impulse: PerAxis<f64>,
     /// Impulse of the vertical contact force in it [N s/m].
     pub pressed: f64,
     /// Energy lost to damping and radiation in the bodies and the track in it [J/m].

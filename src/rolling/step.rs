@@ -12,6 +12,7 @@ use super::state::{Brake, Motion, State};
 use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
 use super::zones;
+use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating};
 use crate::mechanics::response::Convection;
@@ -36,9 +37,9 @@ struct Plan {
     /// True if the time formula starts afresh.
     restarted: bool,
     /// Which motions are prescribed, and the forces whose impulses drive the others.
-    drives: [AxisDrive; 3],
+    drives: PerAxis<AxisDrive>,
     /// Forces that the inputs give at the end of the step, where they give any.
-    given: [AxisDrive; 3],
+    given: PerAxis<AxisDrive>,
     /// Predicted V [m/s] and Ω [rad/s].
     speeds: [f64; 2],
     /// Friction of every line.
@@ -119,8 +120,8 @@ fn attempt(
     next.audit = audit::advance(model, &plan.td, state, next);
     next.audit.plastic += next.sum(|line| line.contact.traction.yielding.plastic_work);
     zones::narrow(model, next);
-    let numbers = [next.motion.values(), next.resultant(), next.hub.force, [next.audit.energy; 3]];
-    if !numbers.as_flattened().iter().all(|v| v.is_finite()) {
+    let numbers = [next.motion.values(), next.resultant(), next.hub.force].map(PerAxis::values);
+    if !numbers.as_flattened().iter().chain([&next.audit.energy]).all(|v| v.is_finite()) {
         return Err(StepError::NotFinite { time: state.clock.time, step: plan.dt });
     }
     model.wheel.check_state(next)?;
@@ -168,15 +169,15 @@ impl Plan {
         let before = if jumped { 0.0 } else { demand.last_step };
         let dt = settled(dt, before);
         let td = formula(dt, before);
-        let drives = std::array::from_fn(|k| match (begin[k].loads(), given[k].loads()) {
+        let drives = PerAxis::from_fn(|axis| match (begin[axis].loads(), given[axis].loads()) {
             (Some([from, brake_from]), Some([to, brake_to])) => {
                 let [impulse, of_brake] = [from + to, brake_from + brake_to].map(|sum| 0.5 * dt * sum);
                 // The impulse of the brake comes on top, up to its own: what is known of the past counts once.
-                AxisDrive::of(td.force(impulse, state.hub.driving[k], state.audit.impulse[k]), td.a0 * of_brake)
+                AxisDrive::of(td.force(impulse, state.hub.driving[axis], state.audit.impulse[axis]), td.a0 * of_brake)
             }
-            _ => given[k],
+            _ => given[axis],
         });
-        let of_height = match drives[1] {
+        let of_height = match drives.height {
             AxisDrive::Prescribed { .. } => td,
             _ => position(&td, dt, before),
         };
@@ -233,16 +234,16 @@ fn solve_and_commit(
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
     next.motion = moved(&state.motion, [td, of_height], next.rigid());
-    let accelerations = next.motion.accelerations();
-    model.bodies.commit(&operators, free, accelerations, td, state, next);
+    model.bodies.commit(&operators, free, next.motion.accelerations(), td, state, next);
     let driving = {
         let (forces, resultant) = (next.loads(0), next.resultant());
         model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], &forces, resultant)
     };
     next.hub.driving = driving;
-    next.hub.brake = Brake::applied(plan.given[2], drives[2], &next.motion, next.hub.driving[2], [td.a0, *dt]);
-    next.hub.force = std::array::from_fn(|k| plan.given[k].loads().map_or(next.hub.driving[k], |[load, _]| load));
-    next.hub.force[2] += next.hub.brake.moment;
+    next.hub.brake =
+        Brake::applied(plan.given.rotation, drives.rotation, &next.motion, next.hub.driving.rotation, [td.a0, *dt]);
+    next.hub.force = PerAxis::from_fn(|axis| plan.given[axis].loads().map_or(next.hub.driving[axis], |[load, _]| load));
+    next.hub.force.rotation += next.hub.brake.moment;
     next.hub.gravity = model.wheel.gravity(demand.target);
     next.elevation = demand.target.elevation;
     next.clock.time = state.clock.time + dt;
@@ -263,12 +264,12 @@ fn moved_by(place: f64, speed: &History, to: f64, dt: f64) -> f64 {
     place + 0.5 * dt * (speed.now + to)
 }
 
-/// Rigid motion after a step that ends with the values (V, U, Ω).
-fn moved(motion: &Motion, [td, of_height]: [&TimeDerivative; 2], [velocity, height, omega]: [f64; 3]) -> Motion {
+/// Rigid motion after a step that ends with the values `end`.
+fn moved(motion: &Motion, [td, of_height]: [&TimeDerivative; 2], end: PerAxis<f64>) -> Motion {
     let mut next = *motion;
-    next.velocity.push(td, velocity);
-    next.height.push(of_height, height);
+    next.velocity.push(td, end.travel);
+    next.height.push(of_height, end.height);
     next.hub_velocity.push(td, next.height.rate);
-    next.omega.push(td, omega);
+    next.omega.push(td, end.rotation);
     next
 }

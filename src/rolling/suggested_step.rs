@@ -19,20 +19,20 @@ const SMALLEST: f64 = 1e-6;
 /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and
 /// moments as inputs leave the stiff motion to this model and set no limit (1 s).
 pub fn suggested_step(model: &RollingModel, state: &State) -> f64 {
-    let [x, y, rotation] = state.hub.prescribed;
-    let [mass, wheel, moment] = model.wheel.inertia;
+    let (prescribed, inertia) = (state.hub.prescribed, model.wheel.inertia);
     let radius = model.rolling_radius(state);
-    let (load, approach) = (state.resultant()[1], state.elevation - state.motion.height.now);
+    let (load, approach) = (state.resultant().height, state.elevation - state.motion.height.now);
     let compliance = |prescribed: bool, inverse: f64| if prescribed { inverse } else { 0.0 };
-    let inverse_mass = compliance(x, 1.0 / mass) + compliance(rotation, radius * radius / moment);
+    let inverse_mass = compliance(prescribed.travel, 1.0 / inertia.travel)
+        + compliance(prescribed.rotation, radius * radius / inertia.rotation);
     let mut suggestion = LARGEST;
     if inverse_mass > 0.0 && load > 0.0 {
         let speed = 0.5 * (state.motion.velocity.now + radius * state.motion.omega.now).abs();
         let inverse_damping = state.half_width() * speed / (2.0 * load * radius);
         suggestion = suggestion.min(SAFETY * 2.0 * inverse_damping / inverse_mass);
     }
-    if y && load > 0.0 && approach > 0.0 {
-        suggestion = suggestion.min(SAFETY * 2.0 * (wheel * approach / load).sqrt());
+    if prescribed.height && load > 0.0 && approach > 0.0 {
+        suggestion = suggestion.min(SAFETY * 2.0 * (inertia.height * approach / load).sqrt());
     }
     suggestion.max(SMALLEST)
 }

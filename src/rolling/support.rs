@@ -149,7 +149,8 @@ impl CondensedBase {
     /// Minus `q`: the force on the base that is known before the contact is solved.
     fn known(&self, motion: &BaseMotion, td: &TimeDerivative, free: &FreeResponse) -> [f64; 2] {
         let [velocity, acceleration] = motion.offsets(td);
-        [0, 1].map(|k| -dot(self.inertia[k], acceleration) - self.damping[k] * velocity[k] - free.momentum[k])
+        let momentum = [free.momentum.travel, free.momentum.height];
+        [0, 1].map(|k| -dot(self.inertia[k], acceleration) - self.damping[k] * velocity[k] - momentum[k])
     }
 
     /// Adds to the free response of the rail what the base does without contact forces.

@@ -57,7 +57,7 @@ fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line
     let law = WearLaw::from(&model.config);
     let mass = law.rate(t_gamma, traction.touching()) * velocity.abs().max(STANDSTILL) * dt;
     let volume = mass / model.config.material.density;
-    let load = traction.resultant[1];
+    let load = traction.resultant.height;
     if volume.is_nan() || volume <= 0.0 || load <= 0.0 || traction.friction.dissipation.is_empty() {
         return;
     }

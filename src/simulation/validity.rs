@@ -225,7 +225,7 @@ impl Simulation {
         if stiffness.is_nan() || stiffness <= 0.0 {
             return 0.0;
         }
-        let mass = rolling.wheel.inertia[1] * self.model().config().width();
+        let mass = rolling.wheel.inertia.height * self.model().config().width();
         self.state().rise.error * (stiffness * mass).sqrt()
     }
 

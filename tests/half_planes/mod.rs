@@ -5,6 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
+use wheelrail::axes::PerAxis;
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::line::{ContactGrid, LineState};
@@ -178,7 +179,7 @@ impl HalfPlanes {
         }
         let problem = ContactProblem {
             lines: problems,
-            rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
+            rigid: PerAxis { travel: RigidMotion::held(v, 0.0), height: hub, rotation: RigidMotion::held(omega, 0.0) },
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
         };
@@ -201,7 +202,7 @@ impl HalfPlanes {
     pub fn carter_error(&self, load: f64, share: f64) -> f64 {
         let xi = share * self.full_slip(load);
         let solution = self.roll(load, xi, &self.start()).unwrap();
-        solution.traction.resultant[0] / (FRICTION * load) - carter_force(xi, self.full_slip(load))
+        solution.traction.resultant.travel / (FRICTION * load) - carter_force(xi, self.full_slip(load))
     }
 
     /// Nodal normal force at a candidate [N/m].

@@ -110,7 +110,7 @@ impl HalfSpaces {
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
             solver: SeriesSolver::new(ActiveSetSolver::new(grid.clone()), 0.03, fallback),
-            patch: PatchLayout::ellipse((&hertz, radius), material, (lines, WIDTH, LOAD)),
+            patch: PatchLayout::ellipse(&hertz, radius, material, lines, WIDTH, LOAD),
             hertz,
             radius,
             bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),
@@ -177,7 +177,7 @@ impl HalfSpaces {
 
     /// Creepage of a wheel that is [`Self::driven`] at the speed of rolling.
     pub fn creepage(lines: &Lines) -> f64 {
-        let translation = lines[0].traction.rigid[0];
+        let translation = lines[0].traction.rigid.travel;
         (translation - SPEED) / (0.5 * (translation + SPEED))
     }
 
@@ -196,7 +196,7 @@ impl HalfSpaces {
 
     /// Driving force over friction times the nominal load.
     pub fn utilisation(&self, load: f64, lines: &Lines) -> f64 {
-        self.sum(load, lines, |line| line.traction.resultant[0]) / (FRICTION * LOAD)
+        self.sum(load, lines, |line| line.traction.resultant.travel) / (FRICTION * LOAD)
     }
 
     /// Share of the area that sticks.

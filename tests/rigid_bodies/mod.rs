@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
+use wheelrail::axes::PerAxis;
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch, Influence,
     LineLayout, LineProblem, PatchFlexibility, RigidMotion, SteelLimits, SurfaceResponse,
@@ -94,7 +95,7 @@ impl RigidBodies {
         };
         let problem = ContactProblem {
             lines: layout.iter().enumerate().map(line).collect(),
-            rigid: [motion[0], hub, motion[1]],
+            rigid: PerAxis { travel: motion[0], height: hub, rotation: motion[1] },
             nominal_load,
             edge_tolerance: 1e-5,
         };

@@ -5,6 +5,7 @@
 use nalgebra::DVector;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
+use wheelrail::axes::PerAxis;
 use wheelrail::config::{Config, Material, RailEnds};
 use wheelrail::fem::{DofMap, Face, FemError, Mesh, assemble};
 use wheelrail::linalg::CsrMatrix;
@@ -110,7 +111,7 @@ impl Push {
             }
             let convection = Convection { speed: self.speed, acceleration: 0.0 };
             body.free_response(&op, &state, &td, convection, &mut known);
-            body.commit(&op, &known, &forces, [0.0; 3], &td, &state, &mut next);
+            body.commit(&op, &known, &forces, PerAxis::default(), &td, &state, &mut next);
             std::mem::swap(&mut state, &mut next);
             let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
             if k >= self.quarter {

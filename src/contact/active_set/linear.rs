@@ -1,79 +1,119 @@
-//! Linear problem of given states: all equations of all lines are written and solved together.
+//! Linear problem of given states, and its solution by all equations of all lines together.
 
-use super::axes::Axes;
-use super::unknowns::Unknowns;
+use super::axes::{Axes, Equation};
+use super::unknowns::{Unknowns, scale};
+use crate::axes::Axis;
 use crate::contact::error::ContactError;
-use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::rows::AffineRow;
+use crate::contact::line::rows::{AffineRow, NodeEquation};
 use crate::linalg::DenseSystem;
-use std::ops::Range;
+use crate::linalg::vectorised::dot;
 
-/// Equation of a node. The first function writes the coefficients of the line's own forces at the given ports, and
-/// returns the rest; the second one writes those of the forces of another line.
-type NodeEquation = (
-    fn(&ContactLine, usize, Range<usize>, &mut [f64]) -> AffineRow,
-    fn(&ContactLine, usize, &ContactLine, Range<usize>, &mut [f64]),
-);
+/// Parts of the solution that are known beside the unknowns; empty: none.
+#[derive(Default)]
+pub(super) struct Known {
+    /// Gap that they leave at the candidates of every line \[m].
+    pub gaps: Vec<Vec<f64>>,
+    /// Forces at all ports of every line [N/m].
+    pub forces: Vec<Vec<f64>>,
+}
 
-/// Solves the linear problem of the present states and gives the lines their forces and motions; `rows` is memory for
-/// the coefficients of all ports of every line.
+/// Linear problem of given states.
+#[derive(Clone, Copy)]
+pub(super) struct LinearProblem<'a> {
+    pub axes: &'a Axes<'a>,
+    pub unknowns: &'a Unknowns,
+    pub known: &'a Known,
+}
+
+impl LinearProblem<'_> {
+    /// An equation of node `i` of line `k`, of which `row` is what the forces do not change, with what is known beside
+    /// the unknowns.
+    pub fn equation(&self, k: usize, i: usize, kind: NodeEquation, row: AffineRow) -> Equation {
+        let mut equation = self.axes.equation(row);
+        if let (NodeEquation::Gap, Some(gaps)) = (kind, self.known.gaps.get(k)) {
+            equation.constant += gaps[i];
+        }
+        equation
+    }
+
+    /// An equation of node `i` of line `k`. Writes the coefficients of all port forces of every line to `forces`.
+    pub fn node(
+        &self,
+        lines: &[ContactLine],
+        k: usize,
+        i: usize,
+        kind: NodeEquation,
+        forces: &mut [Vec<f64>],
+    ) -> Equation {
+        let (line, mut affine) = (&lines[k], AffineRow::default());
+        for (j, (other, forces)) in self.unknowns.lines.iter().zip(forces).enumerate() {
+            let window = other.window(line.grid);
+            kind.by_shared(line, i, lines[j].problem.share, window.clone(), forces);
+            match (j == k, kind) {
+                (true, _) => affine = kind.add_own(line, i, window, forces),
+                (false, NodeEquation::Slip) => line.add_slip_by(i, &lines[j], window, forces),
+                (false, NodeEquation::Gap) => {}
+            }
+        }
+        self.equation(k, i, kind, affine)
+    }
+
+    /// Balance of an axis, with what is known beside the unknowns. Writes the coefficients of all port forces of every
+    /// line to `forces`.
+    pub fn balance(&self, axis: Axis, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> Equation {
+        let mut balance = self.axes.row(axis, lines, forces);
+        balance.constant += forces.iter().zip(&self.known.forces).map(|(row, forces)| dot(row, forces)).sum::<f64>();
+        balance
+    }
+
+    /// Constant of an equation with the motions that are not unknown, which are those of a line.
+    pub fn constant(&self, equation: &Equation, line: &ContactLine) -> f64 {
+        let given = Axis::ALL.into_iter().filter(|axis| !self.unknowns.axes.contains(axis));
+        equation.constant + given.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum::<f64>()
+    }
+
+    /// Writes an equation of a line, with the coefficients `forces` of all ports of every line, to the row of a system;
+    /// scales it to a largest coefficient of one.
+    pub fn write(&self, line: &ContactLine, equation: &Equation, forces: &[Vec<f64>], row: (&mut [f64], &mut f64)) {
+        let mut rest = &mut *row.0;
+        for (unknowns, forces) in self.unknowns.lines.iter().zip(forces) {
+            let (own, others) = rest.split_at_mut(unknowns.len());
+            unknowns.write(own, forces, line.grid);
+            rest = others;
+        }
+        for (value, &axis) in rest.iter_mut().zip(&self.unknowns.axes) {
+            *value = equation.motions[axis];
+        }
+        *row.1 = -self.constant(equation, line) * scale(row.0);
+    }
+}
+
+/// Solves the linear problem and gives the lines their forces and motions; `rows` is memory for the coefficients of all
+/// ports of every line.
 pub(super) fn solve(
     lines: &mut [ContactLine],
-    grid: &ContactGrid,
-    axes: &Axes,
-    unknowns: &Unknowns,
-    (rows, system): (&mut [Vec<f64>], &mut DenseSystem),
+    problem: LinearProblem,
+    rows: &mut [Vec<f64>],
+    system: &mut DenseSystem,
 ) -> Result<(), ContactError> {
+    let unknowns = problem.unknowns;
     system.reset(unknowns.len());
     let mut r = 0;
-    for (k, unknown) in unknowns.lines.iter().enumerate() {
-        let gap: NodeEquation = (
-            |line, i, window, row| line.gap_row(i, window, row),
-            |line, i, other, window, row| line.gap_by_shared(i, other.problem.share, window, row),
-        );
-        let slip: NodeEquation = (
-            |line, i, window, row| line.slip_row(i, window, row),
-            |line, i, other, window, row| {
-                line.slip_by_shared(i, other.problem.share, window.clone(), row);
-                line.add_slip_by(i, other, window, row);
-            },
-        );
-        for (nodes, equation) in [(&unknown.closed, gap), (&unknown.stuck, slip)] {
-            for &i in nodes {
-                let row = write_forces(lines, unknowns, (k, i), equation, rows);
-                unknowns.write(system.row(r), (&axes.equation(row), rows), grid, axes);
-                r += 1;
-            }
+    for (k, own) in unknowns.lines.iter().enumerate() {
+        for (i, kind) in own.equations() {
+            let equation = problem.node(lines, k, i, kind, rows);
+            problem.write(&lines[k], &equation, rows, system.row(r));
+            r += 1;
         }
     }
     for &axis in &unknowns.axes {
-        let balance = axes.row(axis, lines, rows);
-        unknowns.write(system.row(r), (&balance, rows), grid, axes);
+        let balance = problem.balance(axis, lines, rows);
+        problem.write(&lines[0], &balance, rows, system.row(r));
         r += 1;
     }
     // Nothing is unknown when a wheel with prescribed motions is off the rail.
     let solution = system.solve().ok_or(ContactError::Singular { closed: unknowns.closed() })?;
-    unknowns.accept(solution, lines, axes);
+    unknowns.accept(solution, lines, problem.axes);
     Ok(())
-}
-
-/// Writes the coefficients of all ports of every line in the equation of node `i` of line `k` to `rows`; returns the
-/// rest of it.
-fn write_forces(
-    lines: &[ContactLine],
-    unknowns: &Unknowns,
-    (k, i): (usize, usize),
-    (own, by_other): NodeEquation,
-    rows: &mut [Vec<f64>],
-) -> AffineRow {
-    let (line, mut affine) = (&lines[k], AffineRow::default());
-    for (j, (other, row)) in unknowns.lines.iter().zip(rows).enumerate() {
-        let window = other.window(line.grid);
-        match j == k {
-            true => affine = own(line, i, window, row),
-            false => by_other(line, i, &lines[j], window, row),
-        }
-    }
-    affine
 }

@@ -9,17 +9,18 @@
 //! within which a node keeps its state grows from iteration to iteration.
 
 use super::axes::Axes;
-use super::fast::Shortcuts;
-use super::linear;
+use super::fast::LinearSolver;
+use super::guess::Guess;
+use super::linear::{Known, LinearProblem};
 use super::states::{self, Comparison, Rules};
 use super::unknowns::Unknowns;
+use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{ContactGrid, exchange, finish, zone};
 use crate::contact::problem::ContactProblem;
-use crate::linalg::DenseSystem;
 
 /// Iterations allowed.
 pub const MAX_ITERATIONS: usize = 40;
@@ -61,12 +62,14 @@ impl ActiveSetScratch {
 #[derive(Default)]
 struct SearchMemory {
     unknowns: Unknowns,
+    /// Nothing is known beside the unknowns.
+    known: Known,
     /// Coefficients of all port forces of every line in the row at hand.
     rows: Vec<Vec<f64>>,
-    system: DenseSystem,
     /// States before an update.
     before: Vec<NodeStatus>,
-    fast: Shortcuts,
+    guess: Guess,
+    solver: LinearSolver,
     solved: [u64; 2],
 }
 
@@ -92,8 +95,8 @@ impl<'a> ActiveSet<'a> {
         let accelerations = problem.rigid.map(|motion| motion.known_acceleration());
         let ActiveSetScratch { lines: buffers, memory } = scratch;
         buffers.resize_with(problem.lines.len(), LineScratch::default);
-        for ((line, (state, _, traction, _)), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
-            buffers.find_known(grid, line, (state, &traction.port_forces), accelerations);
+        for ((line, start), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
+            buffers.find_known(grid, line, start.state, &start.traction.port_forces, accelerations);
         }
         exchange::pulls(grid, &problem.lines, buffers);
         let together = problem.lines.iter().zip(starts).zip(buffers);
@@ -137,10 +140,10 @@ impl<'a> ActiveSet<'a> {
 
     /// Guesses the closed nodes from which the search starts.
     fn guess_closed(&mut self) {
-        let SearchMemory { unknowns, rows, before, fast, .. } = &mut *self.memory;
+        let SearchMemory { rows, guess, solver, .. } = &mut *self.memory;
         let tolerance = states::FORCE_TOLERANCE[0] * self.problem.nominal_load / self.grid.len() as f64;
         let comparison = Comparison { penalty: self.penalties[0], tolerance };
-        fast.guess(&mut self.lines, &self.axes, comparison, (unknowns, rows, before));
+        guess.find(&mut self.lines, &self.axes, comparison, solver, rows);
     }
 
     /// Finds the states of all nodes at the present friction coefficients; returns the iterations made.
@@ -160,7 +163,7 @@ impl<'a> ActiveSet<'a> {
             decided += usize::from(!settled);
             settled = !changed && (settled || self.edges_settled());
             let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
-            let relieved = relieved && self.axes.seeks(2);
+            let relieved = relieved && self.axes.seeks(Axis::Rotation);
             if settled && !turned && !relieved && self.lines.iter().all(states::sticks) {
                 if balancing == MOST_BALANCING || self.turns_balance() {
                     return Ok(decided);
@@ -202,15 +205,12 @@ impl<'a> ActiveSet<'a> {
 
     /// Solves the linear problem of the present states; fills forces, rigid motions, displacements, slips and gaps.
     fn solve_linear(&mut self) -> Result<(), ContactError> {
-        let Self { lines, grid, axes, memory, .. } = self;
-        let SearchMemory { unknowns, rows, system, fast, solved, .. } = &mut **memory;
+        let Self { lines, axes, memory, .. } = self;
+        let SearchMemory { unknowns, known, rows, solver, solved, .. } = &mut **memory;
         unknowns.list(lines, axes);
         lines.iter_mut().for_each(ContactLine::update_rim);
-        let alternated = fast.solve(lines, axes, unknowns, rows);
-        if !alternated {
-            linear::solve(lines, grid, axes, unknowns, (rows, system))?;
-        }
-        solved[usize::from(!alternated)] += 1;
+        let together = solver.solve(lines, LinearProblem { axes, unknowns, known }, rows)?;
+        solved[usize::from(together)] += 1;
         exchange::forces(lines);
         for line in lines {
             line.evaluate(axes.sought_accelerations(line.traction.rigid));
@@ -236,7 +236,7 @@ impl<'a> ActiveSet<'a> {
         }
         let braked = axes.update_brakes(lines, &mut memory.rows, tolerance * grid.len() as f64);
         // A static problem needs a support.
-        let held = problem.rigid[1].gain != 0.0 || !axes.seeks(1);
+        let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
         let closed = !held && states::support(lines);
         closed || changed || braked
     }

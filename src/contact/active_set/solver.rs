@@ -73,7 +73,7 @@ fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineSt
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    Ok((state, history, traction, energy))
+    Ok(LineStart { state, history, traction, energy })
 }
 
 impl ContactSolver for ActiveSetSolver {

@@ -146,7 +146,7 @@ pub(super) fn guess_state(
 /// more than a cell in the step. There sticking needs strains of order one; where both velocities are about opposite
 /// (`rΩ = −V`) its equation even loses its force coefficients, and their sign is no direction of friction.
 pub(super) fn founding_state(line: &ContactLine) -> NodeStatus {
-    let (v, rim) = (line.traction.rigid[0], line.rim_velocity());
+    let (v, rim) = (line.traction.rigid.travel, line.rim_velocity());
     if v * rim >= 0.0 || (v - rim).abs() <= line.problem.time.a0 * line.grid.spacing {
         NodeStatus::Stick
     } else if v < rim {

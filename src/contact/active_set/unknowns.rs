@@ -1,9 +1,11 @@
 //! Unknowns of the linear problem, in their order: of every line normal forces of the closed nodes and tangential
 //! forces of the stuck ones, then motions that are sought.
 
-use super::axes::{Axes, Equation};
+use super::axes::Axes;
+use crate::axes::Axis;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::rows::NodeEquation;
 use std::ops::Range;
 
 /// Unknowns of given states.
@@ -12,7 +14,7 @@ pub(super) struct Unknowns {
     /// Those of every line.
     pub lines: Vec<LineUnknowns>,
     /// Axes whose motions are sought; the height of the hub comes last.
-    pub axes: Vec<usize>,
+    pub axes: Vec<Axis>,
 }
 
 /// Unknown forces of one line.
@@ -46,7 +48,7 @@ impl Unknowns {
             unknowns.friction.resize(unknowns.closed.len(), 0.0);
         }
         self.axes.clear();
-        self.axes.extend(axes.sought().filter(|&axis| axis == 1));
+        self.axes.extend(axes.sought().filter(|&axis| axis == Axis::Height));
     }
 
     /// Number of unknowns.
@@ -57,27 +59,6 @@ impl Unknowns {
     /// Closed nodes of all lines.
     pub fn closed(&self) -> usize {
         self.lines.iter().map(|line| line.closed.len()).sum()
-    }
-
-    /// Writes one equation with the coefficients `forces` of all ports of every line, scaled to a largest coefficient
-    /// of one.
-    pub fn write(
-        &self,
-        (target, side): (&mut [f64], &mut f64),
-        (equation, forces): (&Equation, &[Vec<f64>]),
-        grid: &ContactGrid,
-        axes: &Axes,
-    ) {
-        let mut rest = &mut *target;
-        for (line, forces) in self.lines.iter().zip(forces) {
-            let (own, others) = rest.split_at_mut(line.len());
-            line.write(own, forces, grid);
-            rest = others;
-        }
-        for (value, &k) in rest.iter_mut().zip(&self.axes) {
-            *value = equation.motions[k];
-        }
-        *side = -axes.constant(equation) * scale(target);
     }
 
     /// Gives the lines the solution of the linear problem: port forces and motions.
@@ -107,7 +88,7 @@ impl LineUnknowns {
     }
 
     /// Lists the closed nodes alone.
-    pub fn list_closed(&mut self, line: &ContactLine) {
+    fn list_closed(&mut self, line: &ContactLine) {
         let status = &line.state.status;
         self.closed.clear();
         self.closed.extend((0..status.len()).filter(|&i| status[i].is_active()));
@@ -116,6 +97,12 @@ impl LineUnknowns {
     /// Number of unknowns.
     pub fn len(&self) -> usize {
         self.closed.len() + self.stuck.len()
+    }
+
+    /// Nodes and kinds of the equations of the line, in the order of its unknowns.
+    pub fn equations(&self) -> impl Iterator<Item = (usize, NodeEquation)> {
+        let gaps = self.closed.iter().map(|&i| (i, NodeEquation::Gap));
+        gaps.chain(self.stuck.iter().map(|&i| (i, NodeEquation::Slip)))
     }
 
     /// Ports from the first to the last closed node.

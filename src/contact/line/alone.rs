@@ -22,7 +22,7 @@ impl<'a> LineProblem<'a> {
 impl Alone<'_> {
     /// Writes the displacements of all nodes by tangential (`component` 0) or normal forces (1) at neighbouring nodes,
     /// from the node `first` on \[m].
-    pub fn displace(&self, component: usize, (first, forces): (usize, &[f64]), displaced: &mut Vec<f64>) {
+    pub fn displace(&self, component: usize, first: usize, forces: &[f64], displaced: &mut Vec<f64>) {
         let (along, nodes) = (self.kernel.along(component), self.logarithms.nrows());
         displaced.clear();
         displaced.resize(nodes, along.factor * along.reach * forces.iter().sum::<f64>());

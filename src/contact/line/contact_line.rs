@@ -3,12 +3,13 @@
 use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
-use super::others::OtherLines;
+use super::others::{LineForces, OtherLines};
 use super::retarded::Retarded;
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
 use super::state::LineState;
 use super::streamline::UpwindRows;
+use crate::axes::PerAxis;
 use crate::contact::limits::RESISTANCE;
 use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
@@ -37,8 +38,9 @@ impl LineScratch {
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
-        (state, forces): (&LineState, &DVector<f64>),
-        accelerations: [f64; 3],
+        state: &LineState,
+        forces: &DVector<f64>,
+        accelerations: PerAxis<f64>,
     ) {
         self.given.find(grid, problem, state, forces, accelerations);
         let ports = if problem.bodies.alone.is_some() { grid.ports() } else { 0 };
@@ -88,16 +90,22 @@ pub struct ContactLine<'a> {
 }
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
-pub type LineStart<'a> = (&'a mut LineState, &'a mut LineHistory, &'a mut Traction, &'a mut f64);
+pub struct LineStart<'a> {
+    pub state: &'a mut LineState,
+    pub history: &'a mut LineHistory,
+    pub traction: &'a mut Traction,
+    pub energy: &'a mut f64,
+}
 
 impl<'a> ContactLine<'a> {
     /// A line that starts from the given states; the known part of its problem is that of the `scratch`.
     pub fn new(
         grid: &'a ContactGrid,
         problem: &'a LineProblem<'a>,
-        (state, history, traction, energy): LineStart<'a>,
+        start: LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
+        let LineStart { state, history, traction, energy } = start;
         let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip, displaced } = scratch;
         lift.clear();
         if !problem.limits.is_limited() {
@@ -164,7 +172,7 @@ impl<'a> ContactLine<'a> {
     pub fn rim_velocity(&self) -> f64 {
         let time = &self.problem.time;
         let turning = time.a0 * self.frame.rim_angle + self.history.rim_angle.offset(time);
-        self.problem.radius() * (self.traction.rigid[2] - turning)
+        self.problem.radius() * (self.traction.rigid.rotation - turning)
     }
 
     /// Rim angle \[rad] if the rim goes on turning as it does.
@@ -175,12 +183,12 @@ impl<'a> ContactLine<'a> {
 
     /// Sum of the speeds of both surfaces [m/s].
     pub fn speed(&self) -> f64 {
-        self.traction.rigid[0].abs() + self.rim_velocity().abs()
+        self.traction.rigid.travel.abs() + self.rim_velocity().abs()
     }
 
     /// True if the material arrives from `+x`.
     pub fn upstream_right(&self) -> bool {
-        self.traction.rigid[0] + self.rim_velocity() >= 0.0
+        self.traction.rigid.travel + self.rim_velocity() >= 0.0
     }
 
     /// Takes the upwind differences of the present states and pressures; returns the largest change of their weights.
@@ -192,7 +200,7 @@ impl<'a> ContactLine<'a> {
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
     pub fn update_retarded(&mut self) -> f64 {
-        let own = (&self.traction.port_forces, &self.given.layers.pull);
+        let own = LineForces { contact: &self.traction.port_forces, pull: &self.given.layers.pull };
         self.retarded.update(self.grid, self.problem, self.others.mean(self.problem.share, own))
     }
 

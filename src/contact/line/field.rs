@@ -33,7 +33,7 @@ impl ContactLine<'_> {
     pub fn slip_by_moments(&self, by: usize) -> Option<ByMoments> {
         let patch = self.problem.patch?;
         let between = patch.flexibility.between(patch.line, by);
-        let speeds = [self.problem.time.a0, self.traction.rigid[0] + self.rim_velocity()];
+        let speeds = [self.problem.time.a0, self.traction.rigid.travel + self.rim_velocity()];
         Some(std::array::from_fn(|n| {
             let unit = std::array::from_fn(|k| if k == n { 1.0 } else { 0.0 });
             between.field(&unit).slip(slip_of_field(speeds, patch.half_length))

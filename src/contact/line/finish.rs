@@ -58,14 +58,14 @@ pub fn finish(line: ContactLine) {
     let [friction, work] = power.friction(&problem.time, &mut history.friction);
     let power = traction.friction.dissipate(friction, work, problem.duration);
     let slopes = Slopes { grid, gap: &state.gap, overlap, rail_slope: &given.rail_slope, depth: &given.depth };
-    observe::lift(grid, problem, (&traction.port_forces, load), (lift, displaced));
+    observe::lift(grid, problem, &traction.port_forces, load, lift, displaced);
     let wheel = WheelShape { radius: problem.radius(), frame: &frame, surface: &traction.surface[0], lift };
     traction.resultant = observe::resultant(wheel, slopes, traction);
-    traction.resultant[2] -= problem.radius() * retarded.force.iter().sum::<f64>();
+    traction.resultant.rotation -= problem.radius() * retarded.force.iter().sum::<f64>();
     observe::overlap(grid, state, overlap, traction);
     let limits = &given.strength.limit;
     traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, traction);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
-    observe::read_off(grid, (power, limit), state, slip, traction);
+    observe::read_off(grid, power, limit, state, slip, traction);
 }

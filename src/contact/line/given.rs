@@ -6,6 +6,7 @@ use super::rim;
 use super::state::LineState;
 use super::strength::Strength;
 use super::vectors::copy;
+use crate::axes::PerAxis;
 use crate::contact::problem::{Influence, LineProblem};
 use nalgebra::DVector;
 
@@ -40,15 +41,15 @@ impl KnownPart {
         problem: &LineProblem,
         state: &LineState,
         forces: &DVector<f64>,
-        accelerations: [f64; 3],
+        accelerations: PerAxis<f64>,
     ) {
         rim::sagitta(grid, problem.surfaces.radius, &mut self.sagitta);
         for (body, known) in self.displacement.iter_mut().enumerate() {
             copy(known, problem.bodies.free[body]);
             self.layers.find(grid, problem, body, known);
         }
-        for (k, acceleration) in accelerations.into_iter().enumerate() {
-            self.displacement[0].axpy(acceleration, &problem.bodies.inertial.column(k), 1.0);
+        for (axis, acceleration) in accelerations.iter() {
+            self.displacement[0].axpy(acceleration, &problem.bodies.inertial.column(axis.number()), 1.0);
         }
         self.gap.clear();
         let layers = &self.layers;
@@ -65,7 +66,7 @@ impl KnownPart {
     /// Adds the displacements by the `pull` of other lines' hot layers on wheel and rail, at the candidates [N/m].
     pub fn add_pulls_of_others(&mut self, grid: &ContactGrid, others: &Influence, pull: &[Vec<f64>; 2]) {
         for (body, pull) in pull.iter().enumerate().filter(|(_, pull)| !pull.is_empty()) {
-            self.layers.add_pull(grid, others.compliance[body], (body, pull), &mut self.displacement[body]);
+            self.layers.add_pull(grid, others.compliance[body], body, pull, &mut self.displacement[body]);
         }
     }
 

@@ -41,9 +41,9 @@ impl HotLayers {
         for i in 0..=last {
             pull.push(-0.5 * (at_candidates[(i + 1).min(last)] - at_candidates[i.saturating_sub(1)]));
         }
-        displace(grid, (problem.share, problem.bodies.shared.compliance[body]), pull, membrane);
+        displace(grid, problem.share, problem.bodies.shared.compliance[body], pull, membrane);
         if let Some(alone) = problem.alone() {
-            alone.displace(0, (grid.port(0) / 2, pull), at_candidates);
+            alone.displace(0, grid.port(0) / 2, pull, at_candidates);
             let nodes = membrane.as_mut_slice().as_chunks_mut::<2>().0;
             nodes.iter_mut().zip(&*at_candidates).for_each(|([along, _], moved)| *along += moved);
         }
@@ -56,11 +56,12 @@ impl HotLayers {
         &mut self,
         grid: &ContactGrid,
         compliance: &DMatrix<f64>,
-        (body, pull): (usize, &[f64]),
+        body: usize,
+        pull: &[f64],
         known: &mut DVector<f64>,
     ) {
         let mut by_others = DVector::zeros(known.len());
-        displace(grid, (1.0, compliance), pull, &mut by_others);
+        displace(grid, 1.0, compliance, pull, &mut by_others);
         let membrane = &mut self.membrane[body];
         if membrane.is_empty() {
             membrane.clone_from(&by_others)
@@ -77,12 +78,7 @@ impl HotLayers {
 }
 
 /// Adds the displacement by tangential forces `pull` at the candidates [N/m], a `share` of which the bodies feel.
-fn displace(
-    grid: &ContactGrid,
-    (share, compliance): (f64, &DMatrix<f64>),
-    pull: &[f64],
-    displacement: &mut DVector<f64>,
-) {
+fn displace(grid: &ContactGrid, share: f64, compliance: &DMatrix<f64>, pull: &[f64], displacement: &mut DVector<f64>) {
     let ports = displacement.len();
     // Every other column belongs to a normal force.
     let columns = &compliance.as_slice()[grid.port(0) * ports..];

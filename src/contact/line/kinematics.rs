@@ -2,9 +2,11 @@
 
 use super::contact_line::ContactLine;
 use super::observe::{self, WheelShape};
+use super::others::LineForces;
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
+use crate::axes::PerAxis;
 use crate::linalg::vectorised::add_columns;
 
 impl ContactLine<'_> {
@@ -47,15 +49,16 @@ impl ContactLine<'_> {
 
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
     /// those rigid ones that were not known before, `None` the others.
-    pub fn evaluate(&mut self, accelerations: [Option<f64>; 3]) {
+    pub fn evaluate(&mut self, accelerations: PerAxis<Option<f64>>) {
         self.displace(accelerations);
         let load = self.load_of_all();
-        observe::lift(self.grid, self.problem, (&self.traction.port_forces, load), (self.lift, self.displaced));
+        observe::lift(self.grid, self.problem, &self.traction.port_forces, load, self.lift, self.displaced);
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
-        let [v, height, omega] = self.traction.rigid;
-        let (v_c, rim, to_right) = (problem.radius() * omega, self.rim_velocity(), self.upstream_right());
+        let (v, height) = (self.traction.rigid.travel, self.traction.rigid.height);
+        let (v_c, rim, to_right) =
+            (problem.radius() * self.traction.rigid.rotation, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
@@ -76,11 +79,11 @@ impl ContactLine<'_> {
     }
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
-    fn displace(&mut self, accelerations: [Option<f64>; 3]) {
+    fn displace(&mut self, accelerations: PerAxis<Option<f64>>) {
         let Self { problem, given, others, traction, rim, displaced, .. } = self;
         let bodies = &problem.bodies;
-        let (mean, _) = others.mean(problem.share, (&traction.port_forces, &given.layers.pull));
-        let forces = mean.as_slice();
+        let own = LineForces { contact: &traction.port_forces, pull: &given.layers.pull };
+        let forces = others.mean(problem.share, own).contact.as_slice();
         let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
         let loaded = first..forces.iter().rposition(|force| *force != 0.0).map_or(first, |last| last + 1);
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
@@ -96,7 +99,7 @@ impl ContactLine<'_> {
             for component in 0..2 {
                 forces.clear();
                 forces.extend(traction.port_forces.iter().skip(component).step_by(2));
-                alone.displace(component, (0, forces), displaced);
+                alone.displace(component, 0, forces, displaced);
                 for (surface, sign) in traction.surface.iter_mut().zip([1.0, -1.0]) {
                     let nodes = surface.as_mut_slice().as_chunks_mut::<2>().0;
                     nodes.iter_mut().zip(&*displaced).for_each(|(node, moved)| node[component] += sign * moved);
@@ -106,10 +109,10 @@ impl ContactLine<'_> {
                 }
             }
         }
-        for (k, acceleration) in accelerations.into_iter().enumerate() {
+        for (axis, acceleration) in accelerations.iter() {
             let Some(acceleration) = acceleration else { continue };
-            traction.surface[0].axpy(acceleration, &bodies.inertial.column(k), 1.0);
-            rim.value += acceleration * rim.accelerations[k];
+            traction.surface[0].axpy(acceleration, &bodies.inertial.column(axis.number()), 1.0);
+            rim.value += acceleration * rim.accelerations[axis];
         }
     }
 

@@ -5,6 +5,7 @@ use super::rim::RimFrame;
 use super::slopes::Slopes;
 use super::state::{LineState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
+use crate::axes::PerAxis;
 use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
@@ -37,8 +38,10 @@ pub(in crate::contact) struct WheelShape<'a> {
 pub(in crate::contact) fn lift(
     grid: &ContactGrid,
     problem: &LineProblem,
-    (forces, load): (&DVector<f64>, f64),
-    (lift, memory): (&mut Vec<f64>, &mut [Vec<f64>; 2]),
+    forces: &DVector<f64>,
+    load: f64,
+    lift: &mut Vec<f64>,
+    memory: &mut [Vec<f64>; 2],
 ) {
     lift.clear();
     let kernel = &problem.kernel;
@@ -49,7 +52,7 @@ pub(in crate::contact) fn lift(
     normal.clear();
     normal.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
     for (component, sign) in [(0, 1.0), (1, -1.0)] {
-        alone.displace(component, (first, normal), displaced);
+        alone.displace(component, first, normal, displaced);
         lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
     }
 }
@@ -70,7 +73,8 @@ pub(in crate::contact) fn lever_arms(wheel: WheelShape, slopes: Slopes, i: usize
 /// the steel bears anywhere \[Pa].
 pub fn read_off(
     grid: &ContactGrid,
-    (power, limit): (f64, f64),
+    power: f64,
+    limit: f64,
     state: &LineState,
     centred_slip: &[f64],
     traction: &mut Traction,
@@ -136,16 +140,16 @@ pub(in crate::contact) fn springing_work(
 }
 
 /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
-pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction: &Traction) -> [f64; 3] {
+pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction: &Traction) -> PerAxis<f64> {
     let grid = slopes.grid;
-    let mut sum = [0.0; 3];
+    let mut sum = PerAxis::default();
     for i in 0..grid.len() {
         let port = grid.port(i);
         let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
         let [arm_t, arm_n] = lever_arms(wheel, slopes, i);
-        sum[0] += t + n * slopes.rail(i);
-        sum[1] += n;
-        sum[2] -= arm_t * t + arm_n * n;
+        sum.travel += t + n * slopes.rail(i);
+        sum.height += n;
+        sum.rotation -= arm_t * t + arm_n * n;
     }
     sum
 }

@@ -7,6 +7,15 @@ use super::vectors::copy;
 use crate::contact::flexibility::{ByPowers, Field};
 use nalgebra::DVector;
 
+/// Forces on a line, or those of several.
+#[derive(Clone, Copy)]
+pub struct LineForces<'a> {
+    /// Contact forces on the ports of the wheel [N/m].
+    pub contact: &'a DVector<f64>,
+    /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
+    pub pull: &'a [Vec<f64>; 2],
+}
+
 /// Forces of the other lines on the ports of wheel and rail, each line weighted with its share of the width.
 #[derive(Default)]
 pub struct OtherLines {
@@ -33,24 +42,20 @@ impl OtherLines {
         self.pull.iter_mut().for_each(Vec::clear);
     }
 
-    /// Forces and pulls of all lines together, as the bodies feel them, from those of the line itself with its `share`
-    /// of the width.
-    pub fn mean<'a>(
-        &'a mut self,
-        share: f64,
-        own: (&'a DVector<f64>, &'a [Vec<f64>; 2]),
-    ) -> (&'a DVector<f64>, &'a [Vec<f64>; 2]) {
+    /// Forces of all lines together, as the bodies feel them, from those of the line itself with its `share` of the
+    /// width.
+    pub fn mean<'a>(&'a mut self, share: f64, own: LineForces<'a>) -> LineForces<'a> {
         if self.forces.is_empty() {
             return own;
         }
         let Self { forces, pull, mean, .. } = self;
         copy(&mut mean.0, forces);
-        mean.0.axpy(share, own.0, 1.0);
-        for ((mean, others), own) in mean.1.iter_mut().zip(pull).zip(own.1) {
+        mean.0.axpy(share, own.contact, 1.0);
+        for ((mean, others), own) in mean.1.iter_mut().zip(pull).zip(own.pull) {
             mean.clone_from(others);
             add(share, own, mean);
         }
-        (&mean.0, &mean.1)
+        LineForces { contact: &mean.0, pull: &mean.1 }
     }
 }
 

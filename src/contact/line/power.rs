@@ -40,13 +40,13 @@ impl Power<'_> {
         let rail = &self.traction.surface[1];
         let slope = |i: usize| self.slope(rail, i, self.grid.port(i) + 1) + self.swelling_slope(1, i);
         let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
-        (self.rim_velocity - self.traction.rigid[0]) * (load + self.retarded)
+        (self.rim_velocity - self.traction.rigid.travel) * (load + self.retarded)
     }
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the
     /// change of the expansion in time adds is counted by the audit.
     fn expansion(&self) -> f64 {
-        let velocity = [self.rim_velocity, self.traction.rigid[0]];
+        let velocity = [self.rim_velocity, self.traction.rigid.travel];
         let of_node = |i: usize| {
             let [_, normal] = self.forces(i);
             -normal * (velocity[0] * self.swelling_slope(0, i) + velocity[1] * self.swelling_slope(1, i))

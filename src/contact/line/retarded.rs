@@ -5,6 +5,7 @@
 //! does work on its slope, which is not dissipated. Derivation: `docs/theory/lever-arms.md`, section 4a.
 
 use super::grid::ContactGrid;
+use super::others::LineForces;
 use super::vectors::copy;
 use crate::contact::problem::{LineProblem, RetardedSurface};
 use nalgebra::DVector;
@@ -21,14 +22,9 @@ pub struct Retarded {
 }
 
 impl Retarded {
-    /// Takes the forces that belong to port `forces` of all lines on the wheel and to the `pulls` of their hot layers
-    /// [N/m]; returns the change of their sum [N/m].
-    pub fn update(
-        &mut self,
-        grid: &ContactGrid,
-        problem: &LineProblem,
-        (forces, pulls): (&DVector<f64>, &[Vec<f64>; 2]),
-    ) -> f64 {
+    /// Takes the forces that belong to the forces of all lines; returns the change of their sum [N/m].
+    pub fn update(&mut self, grid: &ContactGrid, problem: &LineProblem, all: LineForces) -> f64 {
+        let LineForces { contact: forces, pull: pulls } = all;
         let before: f64 = self.force.iter().sum();
         self.force = [0.0; 2];
         if !problem.time.is_stationary() {

@@ -7,6 +7,7 @@
 //! the contact with the velocity of the rim, `r (Ω − θ̇)`. Derivation: `docs/theory/lever-arms.md`.
 
 use super::grid::ContactGrid;
+use crate::axes::PerAxis;
 use crate::contact::problem::LineProblem;
 use crate::linalg::vectorised::add_columns;
 use nalgebra::DVector;
@@ -67,7 +68,7 @@ pub struct RimAngleRow {
     /// empty: it has none.
     pub alone: Vec<f64>,
     /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
-    pub accelerations: [f64; 3],
+    pub accelerations: PerAxis<f64>,
     /// Constant \[rad].
     pub constant: f64,
     /// Its value in the present solution, with the weights of the one before \[rad].
@@ -83,7 +84,7 @@ impl RimAngleRow {
         let (ports, bodies) = (frame.grid.ports(), &problem.bodies);
         self.shared.clear();
         self.shared.resize(ports, 0.0);
-        (self.accelerations, self.constant) = ([0.0; 3], 0.0);
+        (self.accelerations, self.constant) = (PerAxis::default(), 0.0);
         self.weights.clear();
         let mut first = 0;
         for (port, weight) in frame.weights(forces) {
@@ -93,7 +94,7 @@ impl RimAngleRow {
             // Nodes without force weigh nothing.
             self.weights.resize((port - first) / 2, 0.0);
             self.weights.push(weight);
-            self.accelerations.iter_mut().enumerate().for_each(|(k, t)| *t += weight * bodies.inertial[(port, k)]);
+            self.accelerations.add(weight, bodies.inertial_at(port));
             self.constant += weight * known[port];
         }
         // Every other column belongs to a normal force.
@@ -101,7 +102,7 @@ impl RimAngleRow {
         add_columns(1.0, columns, 2 * ports, &self.weights, &mut self.shared);
         self.alone.clear();
         if let Some(alone) = problem.alone() {
-            alone.displace(0, (first / 2, &self.weights), &mut self.alone);
+            alone.displace(0, first / 2, &self.weights, &mut self.alone);
         }
     }
 

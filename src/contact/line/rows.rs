@@ -1,6 +1,7 @@
 //! Gap and slip of a line as affine functions of contact forces, rigid motions and their accelerations.
 
 use super::contact_line::ContactLine;
+use crate::axes::{Axis, PerAxis};
 use crate::contact::problem::Influence;
 use crate::linalg::vectorised::vectorised;
 use nalgebra::DMatrix;
@@ -9,27 +10,48 @@ use std::ops::Range;
 /// An affine function without its coefficients of the port forces, which stand beside it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AffineRow {
-    /// Coefficients of the rigid motions V, U, Ω.
-    pub motions: [f64; 3],
+    /// Coefficients of the rigid motions.
+    pub motions: PerAxis<f64>,
     /// Coefficients of their accelerations.
-    pub accelerations: [f64; 3],
+    pub accelerations: PerAxis<f64>,
     /// Constant; it contains the accelerations that are known.
     pub constant: f64,
 }
 
-impl ContactLine<'_> {
-    /// `g` at a closed candidate, `g + c (λ_n − Λ)` at one that yields above the force `Λ` \[m]. Writes the force
-    /// coefficients of the ports `window` to `forces`.
-    pub fn gap_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
-        self.gap_by_shared(i, self.problem.share, window.clone(), forces);
-        self.add_gap(i, window, forces)
+/// Kind of the equation of a node.
+#[derive(Clone, Copy)]
+pub enum NodeEquation {
+    /// A closed node has no gap.
+    Gap,
+    /// A stuck node does not slip.
+    Slip,
+}
+
+impl NodeEquation {
+    /// Writes the change of the value at a candidate with the forces of a line, a `share` of which the bodies feel, at
+    /// the ports `window` to `forces`: as far as the bodies are displaced.
+    pub fn by_shared(self, line: &ContactLine, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
+        match self {
+            Self::Gap => line.gap_by_shared(i, share, window, forces),
+            Self::Slip => line.slip_by_shared(i, share, window, forces),
+        }
     }
 
-    /// Adds to the coefficients of the line's own forces in the gap what only the line feels of them; returns the rest
-    /// of the gap.
+    /// Adds to the coefficients of the line's own forces what only the line feels of them; returns the rest.
+    pub fn add_own(self, line: &ContactLine, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
+        match self {
+            Self::Gap => line.add_gap(i, window, forces),
+            Self::Slip => line.add_slip(i, window, forces),
+        }
+    }
+}
+
+impl ContactLine<'_> {
+    /// Adds to the coefficients of the line's own forces in the gap `g` what only the line feels of them; returns the
+    /// rest of the gap. Where a candidate yields above the force `Λ` it is `g + c (λ_n − Λ)` \[m].
     pub fn add_gap(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let port = self.grid.port(i) + 1;
-        self.add_alone((1, -self.grid.x[i]), [(port, 2.0)], window, forces);
+        self.add_alone(1, -self.grid.x[i], [(port, 2.0)], window, forces);
         let mut row = self.gap_terms(i);
         if self.state.yielded[i] {
             let creep = self.creep(i);
@@ -52,7 +74,7 @@ impl ContactLine<'_> {
     /// the ports `window` to `forces`: as far as the bodies are displaced.
     pub fn slip_by_shared(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
         let (stencil, by_angle) = self.upwind_slip(i);
-        let (v, velocity, gain) = (self.traction.rigid[0], self.rim_velocity(), self.problem.time.a0);
+        let (v, velocity, gain) = (self.traction.rigid.travel, self.rim_velocity(), self.problem.time.a0);
         let Influence { compliance, relative } = self.problem.bodies.shared;
         let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
         let upstream = stencil.map(|(at, weight)| {
@@ -69,7 +91,8 @@ impl ContactLine<'_> {
     /// times the factors beside them, and the rim angle times `turned`.
     fn add_alone<const N: usize>(
         &self,
-        (component, turned): (usize, f64),
+        component: usize,
+        turned: f64,
         ports: [(usize, f64); N],
         window: Range<usize>,
         forces: &mut [f64],
@@ -98,47 +121,40 @@ impl ContactLine<'_> {
     pub fn gap_terms(&self, i: usize) -> AffineRow {
         let (bodies, rim, x) = (&self.problem.bodies, &self.rim, self.grid.x[i]);
         let port = self.grid.port(i) + 1;
-        let accelerations = std::array::from_fn(|k| bodies.inertial[(port, k)] - x * rim.accelerations[k]);
+        let mut accelerations = bodies.inertial_at(port);
+        accelerations.add(-x, rim.accelerations);
         let [wheel, rail] = &self.given.displacement;
         let constant = self.given.gap[i] + wheel[port] - x * rim.constant - rail[port];
-        AffineRow { motions: [0.0, 1.0, 0.0], accelerations, constant }
-    }
-
-    /// Slip at a candidate [m/s], linearised in V, Ω and the rim angle about the present iterate. Writes the force
-    /// coefficients of the ports `window` to `forces`.
-    pub fn slip_row(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
-        self.slip_by_shared(i, self.problem.share, window.clone(), forces);
-        self.add_slip(i, window, forces)
+        AffineRow { motions: PerAxis::unit(Axis::Height), accelerations, constant }
     }
 
     /// Adds to the coefficients of the line's own forces in the slip what only the line feels of them; returns the rest
-    /// of the slip.
+    /// of the slip [m/s], linearised in V, Ω and the rim angle about the present iterate.
     pub fn add_slip(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
         let to_right = self.upstream_right();
         let port = self.grid.port(i);
-        let (v, velocity) = (self.traction.rigid[0], self.rim_velocity());
+        let (v, velocity) = (self.traction.rigid.travel, self.rim_velocity());
         let gain = problem.time.a0;
         let [wheel, rail] = &self.given.displacement;
-        let mut accelerations: [f64; 3] = std::array::from_fn(|k| gain * bodies.inertial[(port, k)]);
+        let mut accelerations = bodies.inertial_at(port).map(|by| gain * by);
         let mut constant = gain * (wheel[port] - rail[port]) + self.given.slip_offset[i];
         let (stencil, by_angle) = self.upwind_slip(i);
         for (at, weight) in stencil {
-            for (k, load) in accelerations.iter_mut().enumerate() {
-                *load -= velocity * weight * bodies.inertial[(at, k)];
-            }
+            accelerations.add(-velocity * weight, bodies.inertial_at(at));
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
-        self.add_alone((0, by_angle), [(port, 2.0 * gain), a, b, c], window.clone(), forces);
+        self.add_alone(0, by_angle, [(port, 2.0 * gain), a, b, c], window.clone(), forces);
         self.add_slip_by(i, self, window, forces);
         let rim = &self.rim;
-        accelerations.iter_mut().zip(rim.accelerations).for_each(|(load, t)| *load += by_angle * t);
+        accelerations.add(by_angle, rim.accelerations);
         constant += by_angle * (rim.constant - self.frame.rim_angle);
-        let motions = [1.0 + stretch_rail, 0.0, -problem.radius() * (1.0 + stretch_wheel)];
-        constant += -v * stretch_rail + problem.radius() * self.traction.rigid[2] * stretch_wheel;
+        let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
+        let motions = PerAxis { travel, rotation, ..PerAxis::default() };
+        constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
         AffineRow { motions, accelerations, constant }
     }
 }

@@ -236,9 +236,9 @@ impl<const N: usize> Powers<N> {
     #[inline(always)]
     fn zeroth(&self) -> [f64; N] {
         // Without a branch: on the stretch 2 stands for the place.
-        let mut zeroth = [0.0; N];
-        for i in 0..N {
-            zeroth[i] = if self.next[i] == 0.0 { 2.0 * self.end[i].abs() } else { 2.0 };
+        let mut zeroth = [2.0; N];
+        for (zeroth, (next, end)) in zeroth.iter_mut().zip(self.next.iter().zip(&self.end)) {
+            *zeroth = if *next == 0.0 { 2.0 * end.abs() } else { *zeroth };
         }
         zeroth = logarithms(&zeroth);
         for zeroth in &mut zeroth {

@@ -58,3 +58,10 @@ pub struct Constants {
     /// Constants of hot layers.
     pub layers: LayerTables,
 }
+
+impl Constants {
+    /// Those of smooth displacements that are polynomials through `points`.
+    pub fn new(points: Lagrange) -> Self {
+        Self { points, tables: Tables::new(), of_points: PointTables::new(), layers: LayerTables::new() }
+    }
+}

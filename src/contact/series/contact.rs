@@ -2,6 +2,7 @@
 
 use super::series_line::SeriesLine;
 use super::surface::{AtPoints, Moments, SmoothSurfaces, displaced_by_powers};
+use crate::axes::{Axis, PerAxis};
 use crate::contact::flexibility::ByMoments;
 use crate::contact::problem::{AxisDrive, RigidMotion, SurfaceResponse};
 use crate::linalg::DenseSystem;
@@ -14,7 +15,7 @@ pub struct SeriesContact<'a> {
     /// The lines, each with the same rigid motions.
     pub lines: Vec<SeriesLine<'a>>,
     /// Rigid motions of the wheel, brakes in given states.
-    pub rigid: &'a [RigidMotion; 3],
+    pub rigid: &'a PerAxis<RigidMotion>,
     /// Moments of the pulls of hot layers on wheel and rail, the mean of all lines.
     pulls: [AtPoints; 2],
     /// Moments of the tractions, the mean of all lines.
@@ -27,7 +28,7 @@ pub struct SeriesContact<'a> {
 
 impl<'a> SeriesContact<'a> {
     /// Contact of at least one line.
-    pub fn new(mut lines: Vec<SeriesLine<'a>>, rigid: &'a [RigidMotion; 3]) -> Self {
+    pub fn new(mut lines: Vec<SeriesLine<'a>>, rigid: &'a PerAxis<RigidMotion>) -> Self {
         let mut pulls = [AtPoints::default(); 2];
         for line in &lines {
             let share = line.problem.line.share;
@@ -78,50 +79,48 @@ impl<'a> SeriesContact<'a> {
     }
 
     /// Forces of the contact on the wheel: x, y [N/m], forward moment \[N].
-    pub fn resultant(&self) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for line in &self.lines {
-            let share = line.problem.line.share;
-            sum.iter_mut().zip(line.resultant()).for_each(|(sum, force)| *sum += share * force);
-        }
+    pub fn resultant(&self) -> PerAxis<f64> {
+        let mut sum = PerAxis::default();
+        self.lines.iter().for_each(|line| sum.add(line.problem.line.share, line.resultant()));
         sum
     }
 
-    /// Rigid motions that are not prescribed, of translation (0) and rotation (2).
-    pub fn free_axes(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
+    /// Axes along the surfaces whose motions are not prescribed.
+    pub fn free_axes(&self) -> impl Iterator<Item = Axis> + Clone + use<'a> {
         let rigid = self.rigid;
-        [0, 2].into_iter().filter(|&axis| rigid[axis].target().is_none())
+        Axis::along().filter(|&axis| rigid[axis].target().is_none())
     }
 
     /// Changes a rigid motion of all lines.
-    pub fn speed_up(&mut self, axis: usize, change: f64) {
+    pub fn speed_up(&mut self, axis: Axis, change: f64) {
         self.lines.iter_mut().for_each(|line| line.rigid[axis] += change);
     }
 
-    /// Residual of the balance of a rigid motion under the present moments and a `resultant` [N/m, N].
-    pub fn unbalance(&self, axis: usize, resultant: [f64; 3]) -> f64 {
+    /// Residual of the balance of a rigid motion under the present moments and a contact `force` [N/m, N].
+    pub fn unbalance(&self, axis: Axis, force: f64) -> f64 {
         match self.rigid[axis].drive {
-            AxisDrive::Free { load } => self.reaction(axis, resultant) - load,
+            AxisDrive::Free { load } => self.reaction(axis, force) - load,
             AxisDrive::Prescribed { .. } | AxisDrive::Braked { .. } => 0.0,
         }
     }
 
-    /// Force [N/m] or moment \[N] that a rigid motion takes under the present moments and a `resultant`.
-    pub fn reaction(&self, axis: usize, resultant: [f64; 3]) -> f64 {
-        let (bodies, motion) = (self.bodies(), &self.rigid[axis]);
-        let mut sum = motion.momentum - resultant[axis];
+    /// Force [N/m] or moment \[N] that a rigid motion takes under the present moments and a contact
+    /// `force`.
+    pub fn reaction(&self, axis: Axis, force: f64) -> f64 {
+        let (bodies, motion, row) = (self.bodies(), &self.rigid[axis], axis.number());
+        let mut sum = motion.momentum - force;
         for (k, (t, n)) in self.moments.tangential.iter().zip(&self.moments.normal).enumerate() {
-            sum += bodies.momentum[(axis, 2 * k)] * (t + self.pulls[0][k]) + bodies.momentum[(axis, 2 * k + 1)] * n;
+            sum += bodies.momentum[(row, 2 * k)] * (t + self.pulls[0][k]) + bodies.momentum[(row, 2 * k + 1)] * n;
         }
-        for (l, acceleration) in self.lines[0].accelerations().into_iter().enumerate() {
-            sum += self.inertia(axis, l) * acceleration;
+        for (other, acceleration) in self.lines[0].accelerations().iter() {
+            sum += self.inertia(axis, other) * acceleration;
         }
         sum
     }
 
     /// Inertia of an axis against the acceleration of another [kg/m, kg, kg m].
-    pub fn inertia(&self, axis: usize, other: usize) -> f64 {
+    pub fn inertia(&self, axis: Axis, other: Axis) -> f64 {
         let own = if axis == other { self.rigid[axis].inertia } else { 0.0 };
-        own + self.bodies().deformation_inertia[(axis, other)]
+        own + self.bodies().deformation_inertia[(axis.number(), other.number())]
     }
 }

@@ -35,7 +35,7 @@ impl SeriesLine<'_> {
 
     /// Changes of the slip with displacement and strain of the field.
     pub fn slip_of_field(&self) -> [f64; 2] {
-        let speed = self.rigid[0] + self.rim_velocity();
+        let speed = self.rigid.travel + self.rim_velocity();
         flexibility::slip_of_field([self.problem.line.time.a0, speed], self.half_length)
     }
 }

@@ -24,7 +24,7 @@ fn energy(line: &SeriesLine) -> f64 {
     let stuck = total(&line.stuck.force, &both);
     // Pulls do little beside friction: of the tangential part the mean under the pressure is enough.
     let along = line.over_pressure(|layers, _| less(&layers.along[0], &layers.along[1]));
-    let along = along * line.resultant()[0] / line.load();
+    let along = along * line.resultant().travel / line.load();
     let lift = line.over_pressure(|layers, x| less(&layers.wheel.lift.at(x), &layers.rail.lift.at(x)));
     let LineKernel { tangential, normal, .. } = line.problem.line.kernel;
     let pressing = normal.factor * (pressed - normal.reach * line.load().powi(2));
@@ -42,7 +42,7 @@ fn slope_power(line: &SeriesLine) -> f64 {
     let slopes: AtPlaces = std::array::from_fn(|q| smooth.slope(line.pressed.x[q]) + coupling * slide * pressed[q]);
     let (pressed, stuck) = (total(&line.pressed.force, &slopes), coupling * total(&line.stuck.force, &stuck));
     let warm = line.over_pressure(|SeriesLayers { rail, .. }, x| plus(&rail.lift.slope(x), &rail.swelling.slope(x)));
-    (line.rim_velocity() - line.rigid[0]) * (pressed + stuck + warm) - expansion(line)
+    (line.rim_velocity() - line.rigid.travel) * (pressed + stuck + warm) - expansion(line)
 }
 
 /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces.
@@ -50,7 +50,7 @@ fn expansion(line: &SeriesLine) -> f64 {
     if line.layers.is_none() {
         return 0.0;
     }
-    let (v, rim) = (line.rigid[0], line.rim_velocity());
+    let (v, rim) = (line.rigid.travel, line.rim_velocity());
     let (points, compliance) = (&line.constants.points, line.problem.line.bodies.shared.compliance);
     // What the pulls do to the bodies less the half-planes.
     let [[wheel, wheel_lift], [rail, rail_lift]] = [0, 1].map(|body| {

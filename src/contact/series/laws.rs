@@ -6,6 +6,7 @@ use super::contact::SeriesContact;
 use super::hot_layers::SeriesLayers;
 use super::pivoting;
 use super::series_line::{SeriesLine, SeriesStart};
+use crate::axes::PerAxis;
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
@@ -72,12 +73,12 @@ pub fn bends(layers: &SeriesLayers, problem: &OneLine, half_width: f64, share: f
 }
 
 /// States of the brakes after a solution.
-fn next(contact: &SeriesContact, problem: &ContactProblem, states: [BrakeState; 3]) -> [BrakeState; 3] {
+fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<BrakeState>) -> PerAxis<BrakeState> {
     let first = &contact.lines[0];
-    std::array::from_fn(|axis| {
+    PerAxis::from_fn(|axis| {
         let AxisDrive::Braked { load, limit } = problem.rigid[axis].drive else { return states[axis] };
-        let arm = if axis == 2 { first.problem.line.radius() } else { 1.0 };
-        let reaction = || contact.reaction(axis, contact.resultant());
+        let arm = axis.arm(first.problem.line.radius());
+        let reaction = || contact.reaction(axis, contact.resultant()[axis]);
         brake::next(states[axis], [load, limit], reaction, first.rigid[axis], ROUND_OFF * problem.nominal_load * arm)
     })
 }

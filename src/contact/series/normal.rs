@@ -5,6 +5,7 @@ use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::surface::{answer, dot};
 use super::tables::{PRESSURE, SMOOTH};
+use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::linalg::POINTS;
 use std::f64::consts::PI;
@@ -64,7 +65,7 @@ impl SeriesLine<'_> {
         let round = self.problem.line.surfaces.round_gap(at, &self.problem.line.placement)
             + self.warm(&[at], |layers, x| layers.gap.at(x))[0];
         let own = -2.0 * kernel.factor * (pressure.logarithm(&[at])[0] - kernel.reach * pressure.total());
-        let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid[1] + own;
+        let gap = round + dot(&values, &self.surface.gap()) - self.rim_angle * at + self.rigid.height + own;
         MiddleGap { gap, own: -2.0 * kernel.factor * (libm::log(0.5 * pressure.half_width) - kernel.reach) }
     }
 
@@ -101,7 +102,7 @@ impl SeriesContact<'_> {
 
     /// Finds the factors by which the loads of the lines have to change \[1]; sets the height of the hub.
     fn carry(&mut self, factors: &mut [f64; MOST_LINES]) -> Result<(), ContactError> {
-        let (first, motion) = (&self.lines[0], &self.rigid[1]);
+        let (first, motion) = (&self.lines[0], &self.rigid.height);
         let bodies = &first.problem.line.bodies;
         let values = first.constants.points.values(first.tractions.pressure.centre);
         let smooth: f64 =
@@ -115,11 +116,11 @@ impl SeriesContact<'_> {
         let lifted: f64 = (0..POINTS).map(|k| values[k] * bodies.inertial[(2 * k + 1, 1)]).sum();
         let by_height = 1.0 + motion.gain * lifted;
         let (change, rise) = if let Some(target) = motion.target() {
-            let rise = target - first.rigid[1];
+            let rise = target - first.rigid.height;
             (-(gap + rise) / by_load, rise)
         } else {
             let momentum: f64 = (0..POINTS).map(|k| values[k] * bodies.momentum[(1, 2 * k + 1)]).sum();
-            let left = self.unbalance(1, [0.0, self.load(), 0.0]);
+            let left = self.unbalance(Axis::Height, self.load());
             let (balance_load, inertia) = (momentum - 1.0, motion.inertia + bodies.deformation_inertia[(1, 1)]);
             let balance_height = motion.gain * inertia;
             // Two linear equations in the changes of load and height.
@@ -139,8 +140,8 @@ impl SeriesContact<'_> {
             }
             *factor = factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR);
         }
-        let height = motion.target().unwrap_or(first.rigid[1] + rise);
-        self.lines.iter_mut().for_each(|line| line.rigid[1] = height);
+        let height = motion.target().unwrap_or(first.rigid.height + rise);
+        self.lines.iter_mut().for_each(|line| line.rigid.height = height);
         Ok(())
     }
 }

@@ -69,7 +69,7 @@ impl SeriesLine<'_> {
         let Arch { centre, half_width: half, terms, .. } = self.tractions.pressure;
         let at = |t: &f64| centre + upstream * half * t;
         let x = tables.slips.each_ref().map(at);
-        let convection = (self.rigid[0] + self.rim_velocity()) * kernel.factor * PI * upstream;
+        let convection = (self.rigid.travel + self.rim_velocity()) * kernel.factor * PI * upstream;
         let rate = -2.0 * kernel.factor * self.problem.line.time.a0 * half;
         let density = self.tractions.pressure.density(&tables.tractions.each_ref().map(at));
         PointProblem {

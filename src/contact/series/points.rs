@@ -161,3 +161,48 @@ impl PointProblem {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shear of half-planes in units of friction at the peak of the pressure, rolling to the leading edge with a creepage over
+    /// that at which all slips, by changing the states that contradict friction; and the number of changes.
+    fn steady(creepage: f64) -> ([f64; COUNT], usize) {
+        let tables = PointTables::new();
+        let problem = PointProblem {
+            by_shear: tables.slips_by_shear([1.0, 0.0], [1.0, 0.0]),
+            known: [creepage; COUNT],
+            powers: [[0.0; COUNT]; POINTS],
+            bears: tables.tractions.map(|t| (1.0 - t * t).sqrt()),
+            most: 1.0,
+        };
+        let mut states = [0; COUNT];
+        for changes in 0..40 {
+            let shear = problem.shears(&states).unwrap()[0];
+            let asked = problem.asked(&states, &shear, &[0.0; POINTS]);
+            if asked == states {
+                return (shear, changes);
+            }
+            states = asked;
+        }
+        panic!("no end at a creepage of {creepage}");
+    }
+
+    /// Carter: `F/μP = 1 − (1 − ξ/ξ_s)²`; see `docs/theory/patch-contact.md`, section 7.
+    #[test]
+    fn the_force_of_steady_rolling_is_that_of_carter_at_every_creepage() {
+        let tables = PointTables::new();
+        let (mut worst, mut most) = (0.0_f64, 0);
+        for k in -120..=120 {
+            let creepage = f64::from(k) / 100.0;
+            let (shear, changes) = steady(creepage);
+            let force = tables.terms_of(&shear, 1.0)[0];
+            let carter = -creepage.signum() * (1.0 - (1.0 - creepage.abs().min(1.0)).powi(2));
+            (worst, most) = (worst.max((force - carter).abs()), most.max(changes));
+            assert!(shear.iter().zip(&tables.tractions).all(|(q, t)| q.abs() <= (1.0 - t * t).sqrt() + 1e-8));
+        }
+        println!("Carter {worst:.1e} of friction, at most {most} changes");
+        assert!(worst < 2e-3 && most <= 12);
+    }
+}

@@ -7,6 +7,7 @@ use super::places::{Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
+use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::line::LineHistory;
 use crate::contact::problem::OneLine;
@@ -45,9 +46,9 @@ pub struct SeriesLine<'a> {
     pub mean_pulls: [AtPoints; 2],
     pub tractions: Tractions,
     /// V [m/s], U \[m], Ω [rad/s].
-    pub rigid: [f64; 3],
+    pub rigid: PerAxis<f64>,
     /// Tractions and motions with which the search began.
-    begun: (Tractions, [f64; 3]),
+    begun: (Tractions, PerAxis<f64>),
     /// See [`SeriesState::slope`].
     pub slope: f64,
     /// Rim angle \[rad].
@@ -77,9 +78,9 @@ pub struct SeriesLine<'a> {
 impl<'a> SeriesLine<'a> {
     pub fn new(constants: &'a Constants, problem: OneLine<'a>, start: &SeriesStart<'a>) -> Self {
         let SeriesStart { before, history, traction } = *start;
-        let start = |k: usize| problem.rigid[k].start();
-        let hub = problem.rigid[1].target().unwrap_or(traction.rigid[1]);
-        let (tractions, rigid) = (before.expected(&problem.line.time), [start(0), hub, start(2)]);
+        let mut rigid = problem.rigid.map(|motion| motion.start());
+        rigid.height = problem.rigid.height.target().unwrap_or(traction.rigid.height);
+        let tractions = before.expected(&problem.line.time);
         let layers = SeriesLayers::new(constants, &problem, &before.tractions.pressure);
         Self {
             constants,
@@ -116,17 +117,18 @@ impl<'a> SeriesLine<'a> {
     /// Velocity with which the rim passes the contact [m/s].
     pub fn rim_velocity(&self) -> f64 {
         let time = &self.problem.line.time;
-        self.problem.line.radius() * (self.rigid[2] - time.a0 * self.rim_angle - self.history.rim_angle.offset(time))
+        self.problem.line.radius()
+            * (self.rigid.rotation - time.a0 * self.rim_angle - self.history.rim_angle.offset(time))
     }
 
     /// Side from which the material arrives: 1 from `+x`.
     pub fn upstream(&self) -> f64 {
-        if self.rigid[0] + self.rim_velocity() >= 0.0 { 1.0 } else { -1.0 }
+        if self.rigid.travel + self.rim_velocity() >= 0.0 { 1.0 } else { -1.0 }
     }
 
     /// Sum of the speeds of both surfaces [m/s].
     pub fn speed(&self) -> f64 {
-        self.rigid[0].abs() + self.rim_velocity().abs()
+        self.rigid.travel.abs() + self.rim_velocity().abs()
     }
 
     /// Load of the patch [N/m].
@@ -135,8 +137,8 @@ impl<'a> SeriesLine<'a> {
     }
 
     /// Rigid accelerations with the present motions.
-    pub fn accelerations(&self) -> [f64; 3] {
-        std::array::from_fn(|k| self.problem.rigid[k].acceleration(self.rigid[k]))
+    pub fn accelerations(&self) -> PerAxis<f64> {
+        PerAxis::from_fn(|axis| self.problem.rigid[axis].acceleration(self.rigid[axis]))
     }
 
     /// Effect of hot layers at x; zero where the surfaces are cold.
@@ -225,10 +227,11 @@ impl<'a> SeriesLine<'a> {
     }
 
     /// Forces of the line on the wheel: x, y [N/m], forward moment \[N].
-    pub fn resultant(&self) -> [f64; 3] {
+    pub fn resultant(&self) -> PerAxis<f64> {
         let tangential = self.friction_force();
         let middle = total(&self.pressed.force, &self.pressed.x);
-        [tangential, self.load(), self.lifted() - self.problem.line.radius() * tangential - middle]
+        let rotation = self.lifted() - self.problem.line.radius() * tangential - middle;
+        PerAxis { travel: tangential, height: self.load(), rotation }
     }
 
     /// Part of the moment that the deformation of the wheel changes \[N]. Lever arms are those of the deformed wheel

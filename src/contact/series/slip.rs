@@ -12,7 +12,7 @@ impl SeriesLine<'_> {
     /// under the pressure, the friction of slip and, if `sticks`, the part that sticking takes away from it.
     pub fn slip<const N: usize>(&self, x: &[f64; N], surface: &SmoothSurfaces, sticks: bool) -> [f64; N] {
         let (Constants { points, .. }, kernel) = (self.constants, self.problem.line.kernel);
-        let ([v, _, omega], rim, radius) = (self.rigid, self.rim_velocity(), self.problem.line.surfaces.radius);
+        let (v, rim, radius) = (self.rigid.travel, self.rim_velocity(), self.problem.line.surfaces.radius);
         let (time, along) = (&self.problem.line.time, kernel.tangential.factor);
         let stick = if sticks { self.tractions.stick } else { Arch::default() };
         let tractions = Tractions { stick, ..self.tractions };
@@ -20,7 +20,7 @@ impl SeriesLine<'_> {
         let SmoothSurfaces { wheel, rail } = surface;
         let carried: AtPoints = std::array::from_fn(|k| v * rail.tangential[k] - rim * wheel.tangential[k]);
         let carried = points.polynomial(&carried);
-        let rigid = v - self.problem.line.radius() * omega;
+        let rigid = v - self.problem.line.radius() * self.rigid.rotation;
         let warm = self.warm(x, |layers, x| layers.stretch(x, [-rim, v]));
         let by_lines = match self.problem.line.patch {
             Some(_) => values(&self.field.slip(self.slip_of_field()), x, self.half_length),

@@ -1,14 +1,14 @@
 //! Contact solver that takes the series where they hold, and the active set elsewhere.
 
 use super::chebyshev::Arch;
-use super::constants::{Constants, LayerTables};
+use super::constants::Constants;
 use super::contact::MOST_LINES;
 use super::hot_layers::SeriesLayers;
-use super::points::PointTables;
 use super::series_line::SeriesStart;
 use super::state::{Past, PatchPast, SeriesState, Tractions};
-use super::tables::{POWER, PRESSURE, Tables};
+use super::tables::{POWER, PRESSURE};
 use super::{finish, laws, transfer};
+use crate::axes::PerAxis;
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
@@ -47,9 +47,7 @@ impl SeriesSolver {
     /// Patches within `reach` \[m] of the contact point on bodies that lack the flexibility that lines have for
     /// themselves, beside a `grid`.
     pub fn new(grid: ActiveSetSolver, reach: f64, fallback: Fallback) -> Self {
-        let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
-        let constants = Constants { points, tables, of_points: PointTables::new(), layers };
-        Self { grid, constants, fallback }
+        Self { grid, constants: Constants::new(Lagrange::new(reach)), fallback }
     }
 
     /// True if the active set solves contacts that are no single smooth patch.
@@ -61,8 +59,8 @@ impl SeriesSolver {
     }
 
     /// True if the material moves by less than a `way` \[m] in a step.
-    fn hardly_moves(rigid: &[RigidMotion; 3], line: &LineProblem, way: f64) -> bool {
-        let [travel, rim] = [rigid[0].start(), line.radius() * rigid[2].start()];
+    fn hardly_moves(rigid: &PerAxis<RigidMotion>, line: &LineProblem, way: f64) -> bool {
+        let [travel, rim] = [rigid.travel.start(), line.radius() * rigid.rotation.start()];
         0.5 * (travel.abs() + rim.abs()) < way * line.time.a0
     }
 
@@ -84,7 +82,7 @@ impl SeriesSolver {
 
     /// Counts the steps on the grid down. While the contact does not suit the series the count begins anew; material that
     /// begins to move is handed over at once, as long as both solvers remember the same and agree.
-    fn rest(&self, rigid: &[RigidMotion; 3], problem: &LineProblem, found: &mut ContactState) {
+    fn rest(&self, rigid: &PerAxis<RigidMotion>, problem: &LineProblem, found: &mut ContactState) {
         let SolverState::Line(line) = &found.solver else { return };
         let rest = match line.rest.saturating_sub(1) {
             0 if Self::stands(rigid, problem, found) => 1,
@@ -97,13 +95,13 @@ impl SeriesSolver {
     }
 
     /// True if some of the material sticks and hardly moves, with a margin.
-    fn stands(rigid: &[RigidMotion; 3], problem: &LineProblem, found: &ContactState) -> bool {
+    fn stands(rigid: &PerAxis<RigidMotion>, problem: &LineProblem, found: &ContactState) -> bool {
         let half_width = found.traction.extent().map_or(0.0, |patch| 0.5 * (patch.high - patch.low));
         found.traction.stick_fraction > 0.0 && Self::hardly_moves(rigid, problem, 2.0 * SHORTEST_WAY * half_width)
     }
 
     /// True if a line that the grid has found could be taken back: hot layers leave a margin.
-    fn suits(&self, rigid: &[RigidMotion; 3], problem: &LineProblem, found: &ContactState) -> bool {
+    fn suits(&self, rigid: &PerAxis<RigidMotion>, problem: &LineProblem, found: &ContactState) -> bool {
         let [edges] = found.traction.edges.as_slice() else { return false };
         let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
         let patch = Arch { centre, half_width, ..Arch::default() };
@@ -175,7 +173,7 @@ impl SeriesSolver {
 
     /// Refuses a line that sticks somewhere while the material hardly moves.
     fn check_motion(
-        rigid: &[RigidMotion; 3],
+        rigid: &PerAxis<RigidMotion>,
         line: &LineProblem,
         tractions: &Tractions,
         before: &SeriesState,

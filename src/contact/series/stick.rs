@@ -3,6 +3,7 @@
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::state::Tractions;
+use crate::axes::{Axis, PerAxis};
 use crate::contact::error::ContactError;
 
 /// Shortest stretch that sticks, over the half-width of the patch \[1].
@@ -124,7 +125,7 @@ impl Search {
 
 /// Motions before an iteration.
 pub struct Motions {
-    rigid: [f64; 3],
+    rigid: PerAxis<f64>,
     /// Slip at which rolling becomes sliding [m/s].
     scale: f64,
 }
@@ -141,8 +142,8 @@ impl Motions {
     /// Change of motions relative to the slip at which rolling becomes sliding.
     pub fn moved(&self, contact: &SeriesContact) -> f64 {
         let first = &contact.lines[0];
-        let radius = first.problem.line.radius();
-        let moved = (first.rigid[0] - self.rigid[0]).abs() + radius * (first.rigid[2] - self.rigid[2]).abs();
+        let change = |axis: Axis| axis.arm(first.problem.line.radius()) * (first.rigid[axis] - self.rigid[axis]).abs();
+        let moved: f64 = Axis::along().map(change).sum();
         // Velocities are rounded.
         moved / self.scale.max(1e-3 * first.speed())
     }

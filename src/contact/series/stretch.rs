@@ -104,7 +104,7 @@ impl SeriesLine<'_> {
         let mut columns = [[0.0; ROOM]; STICK + 1 + POINTS];
         let kernel = self.problem.line.kernel.tangential;
         let factors = SlipFactors {
-            convection: (self.rigid[0] + self.rim_velocity()) * kernel.factor * PI,
+            convection: (self.rigid.travel + self.rim_velocity()) * kernel.factor * PI,
             rate: -2.0 * kernel.factor * self.problem.line.time.a0 * half,
             size: libm::log(half) - kernel.reach,
             upstream: self.upstream(),

@@ -1,5 +1,6 @@
 //! Smooth part of the surface displacements: by forces, accelerations and the past, half-planes apart.
 
+use crate::axes::PerAxis;
 use crate::contact::flexibility::ByMoments;
 use crate::contact::problem::SurfaceResponse;
 use crate::linalg::vectorised::vectorised;
@@ -83,7 +84,12 @@ const PORTS: usize = 2 * POINTS;
 impl SmoothSurfaces {
     /// Displacements under forces on the wheel and the rail's opposite ones, and under the `pulls` of hot layers on
     /// wheel and rail; `accelerations` are the rigid ones.
-    pub fn new(bodies: &SurfaceResponse, moments: &Moments, pulls: &[AtPoints; 2], accelerations: [f64; 3]) -> Self {
+    pub fn new(
+        bodies: &SurfaceResponse,
+        moments: &Moments,
+        pulls: &[AtPoints; 2],
+        accelerations: PerAxis<f64>,
+    ) -> Self {
         let shared = bodies.shared;
         let body = |index: usize, sign: f64| {
             let mut forces = [0.0; 2 * POINTS];
@@ -96,7 +102,7 @@ impl SmoothSurfaces {
         };
         let (mut wheel, rail) = (body(0, 1.0), body(1, -1.0));
         let answers = bodies.inertial.as_slice().chunks(2 * POINTS);
-        for (acceleration, answer) in accelerations.into_iter().zip(answers) {
+        for (acceleration, answer) in accelerations.values().into_iter().zip(answers) {
             for k in 0..POINTS {
                 wheel.tangential[k] += acceleration * answer[2 * k];
                 wheel.normal[k] += acceleration * answer[2 * k + 1];

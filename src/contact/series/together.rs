@@ -7,6 +7,7 @@ use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::stretch::Stretch;
 use super::surface::AtPoints;
+use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::flexibility::{ByMoments, ByPowers, polynomial};
 use crate::linalg::{DenseSystem, POINTS};
@@ -73,8 +74,9 @@ impl SeriesContact<'_> {
                 let (coefficients, side) = system.row(count + row);
                 for (k, (moments, force)) in moments.iter().zip(forces).enumerate() {
                     let ports = self.at_points(by, moments);
-                    let momentum = (0..POINTS).map(|l| self.bodies().momentum[(axis, 2 * l)] * ports[l]).sum::<f64>();
-                    let value = self.arm(axis) * share * force - momentum;
+                    let momentum =
+                        (0..POINTS).map(|l| self.bodies().momentum[(axis.number(), 2 * l)] * ports[l]).sum::<f64>();
+                    let value = self.lines[0].problem.line.sliding(axis) * share * force - momentum;
                     if k == 0 { *side += value } else { coefficients[POINTS * column + k - 1] += value }
                 }
             }
@@ -107,16 +109,11 @@ impl SeriesContact<'_> {
         let resultant = self.resultant();
         for (row, axis) in self.free_axes().enumerate() {
             let (coefficients, side) = system.row(count + row);
-            *side = -self.unbalance(axis, resultant);
+            *side = -self.unbalance(axis, resultant[axis]);
             for (column, other) in self.free_axes().enumerate() {
                 coefficients[count + column] = self.inertia(axis, other) * self.rigid[other].gain;
             }
         }
-    }
-
-    /// Arm of a tangential force about an axis \[1, m].
-    fn arm(&self, axis: usize) -> f64 {
-        if axis == 0 { 1.0 } else { -self.lines[0].problem.line.radius() }
     }
 
     /// Moments of a shear with the polynomials of the bodies, per metre of their width, from those with the powers of the
@@ -136,7 +133,7 @@ impl SeriesContact<'_> {
     fn slips_between(&self, [at, by]: [usize; 2]) -> ByMoments {
         let (line, other, [wheel, rail]) = (&self.lines[at], &self.lines[by], &self.by_powers);
         let (v, rim, a0, reach) =
-            (line.rigid[0], line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
+            (line.rigid.travel, line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
         let powers = |ratio: f64, first: f64| {
             let mut power = first;
             ByPowers::default().map(|_| {
@@ -172,13 +169,14 @@ fn sticking(stretches: &[Option<Stretch>]) -> impl Iterator<Item = (usize, &Stre
 
 impl SeriesLine<'_> {
     /// Change of the slip per unit of V or Ω as a polynomial, the small effect of the strains left out.
-    fn slip_by_motion(&self, axis: usize) -> ByPowers {
+    fn slip_by_motion(&self, axis: Axis) -> ByPowers {
         let (bodies, rim) = (&self.problem.line.bodies, self.rim_velocity());
-        let answer = self.constants.points.polynomial(&std::array::from_fn(|k| bodies.inertial[(2 * k, axis)]));
+        let answer =
+            self.constants.points.polynomial(&std::array::from_fn(|k| bodies.inertial[(2 * k, axis.number())]));
         let (a0, gain) = (self.problem.line.time.a0, self.problem.rigid[axis].gain);
         let [values, slopes] = [answer, answer.derivative()].map(|of| of.by_powers(self.half_length));
         let mut slip: ByPowers = std::array::from_fn(|k| gain * (a0 * values[k] - rim * slopes[k]));
-        slip[0] += if axis == 0 { 1.0 } else { -self.problem.line.radius() };
+        slip[0] += self.problem.line.sliding(axis);
         slip
     }
 }

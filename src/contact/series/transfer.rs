@@ -39,7 +39,7 @@ pub(super) fn to_grid(
     let Tractions { pressure, slide, stick, directions } = &patch.tractions;
     let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
     let slips = |sign: f64| if sign < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
-    let upstream = if traction.rigid[0] < 0.0 { -1.0 } else { 1.0 };
+    let upstream = if traction.rigid.travel < 0.0 { -1.0 } else { 1.0 };
     let status = |x: f64| match directions {
         _ if x <= low || x >= high => NodeStatus::Open,
         Some(directions) => {
@@ -131,7 +131,7 @@ fn even(grid: &ContactGrid) -> Range<usize> {
 /// has not rested for long.
 pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
-    let ([edges], load) = (traction.edges.as_slice(), traction.resultant[1]) else { return None };
+    let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
     let reach = ROOM * constants.points.reach;
     if state.rest > 0 || load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {
         return None;
@@ -140,7 +140,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     if edges.low < grid.x[even.start] || edges.high > grid.x[even.end - 1] {
         return None;
     }
-    let upstream_right = traction.rigid[0] >= 0.0;
+    let upstream_right = traction.rigid.travel >= 0.0;
     let (share, direction) = share(state, upstream_right)?;
     let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };

@@ -4,6 +4,7 @@ use super::super::brake;
 use super::super::control::{Drive, Inputs, peripheral_velocity};
 use super::super::error::StepError;
 use super::super::model::RollingModel;
+use crate::axes::{Axis, PerAxis};
 use crate::contact::{AxisDrive, RigidMotion};
 
 /// Speed of both surfaces together below which the wheel stands [m/s].
@@ -14,18 +15,18 @@ pub(super) struct Goal {
     /// Values of the inputs.
     pub drive: Drive,
     /// Drives of the wheel, the brake included.
-    pub drives: [AxisDrive; 3],
+    pub drives: PerAxis<AxisDrive>,
     /// Drives as the inputs give them.
-    pub given: [AxisDrive; 3],
+    pub given: PerAxis<AxisDrive>,
     /// V [m/s].
     velocity: f64,
     /// Ω [rad/s], if it is given.
     omega: Option<f64>,
     /// Creepage at which the wheel rolls where nothing else says it [1].
     creepage: f64,
-    /// The axis whose speed is sought while its balance of forces holds: 0 travel, 2 rotation; `None`: both speeds are
+    /// The axis whose speed is sought while its balance of forces holds, travel or rotation; `None`: both speeds are
     /// given.
-    pub sought: Option<usize>,
+    pub sought: Option<Axis>,
     pub moving: bool,
 }
 
@@ -35,8 +36,8 @@ pub(super) struct Trial {
     /// V [m/s] and Ω [rad/s] as slip sees them. At standstill, where slip is a direction of motion, those of slow
     /// rolling.
     pub speeds: [f64; 2],
-    /// Accelerations of the three axes.
-    pub accelerations: [f64; 3],
+    /// Accelerations of the axes.
+    pub accelerations: PerAxis<f64>,
 }
 
 impl Goal {
@@ -54,18 +55,17 @@ impl Goal {
             AxisDrive::Free { .. } | AxisDrive::Braked { .. } => None,
         };
         let creepage = initial.creepage.unwrap_or(0.0);
-        let velocity = target(given[0]).unwrap_or(initial.velocity);
+        let velocity = target(given.travel).unwrap_or(initial.velocity);
         let rotation = brake::at_start(&given, velocity, peripheral_velocity(velocity, creepage), radius);
-        let drives = [given[0], given[1], rotation];
-        let prescribed = |k: usize| target(drives[k]);
-        if prescribed(1).is_none() && drive.pressing() <= 0.0 {
+        let drives = PerAxis { rotation, ..given };
+        if target(drives.height).is_none() && drive.pressing() <= 0.0 {
             return Err(StepError::Unpressed { pressing: drive.pressing() });
         }
-        let omega = prescribed(2);
+        let omega = target(drives.rotation);
         let moving = velocity.abs() + (radius * omega.unwrap_or(velocity / radius)).abs() > AT_REST;
         let axis = match (omega, moving) {
-            (None, _) => Some(2),
-            (Some(_), false) => Some(0),
+            (None, _) => Some(Axis::Rotation),
+            (Some(_), false) => Some(Axis::Travel),
             (Some(_), true) => None,
         };
         let sought = axis.filter(|_| initial.creepage.is_none() && drive.friction > 0.0);
@@ -76,8 +76,8 @@ impl Goal {
 
     /// Refuses speeds beyond those of the model.
     pub fn check(&self, model: &RollingModel, speeds: [f64; 2]) -> Result<(), StepError> {
-        let [velocity, omega] = self.actual(speeds);
-        model.wheel.check([velocity, 0.0, omega])
+        let [travel, rotation] = self.actual(speeds);
+        model.wheel.check(PerAxis { travel, rotation, ..PerAxis::default() })
     }
 
     /// Where the search starts: rolling with the rolling `radius` \[m].
@@ -89,7 +89,7 @@ impl Goal {
             let direction = self.direction(radius);
             [direction, rolling(direction)]
         };
-        Trial { speeds, accelerations: [0.0; 3] }
+        Trial { speeds, accelerations: PerAxis::default() }
     }
 
     /// Direction in which a wheel at rest is about to roll: ±1.
@@ -102,7 +102,7 @@ impl Goal {
 
     /// Force [N/m] and moment \[N] where they are prescribed.
     fn free_loads(&self) -> [Option<f64>; 2] {
-        [0, 2].map(|k| self.drives[k].loads().map(|[load, _]| load))
+        [self.drives.travel, self.drives.rotation].map(|drive| drive.loads().map(|[load, _]| load))
     }
 
     /// V [m/s] and Ω [rad/s] of the state whose slip has the given speeds.
@@ -116,30 +116,34 @@ impl Goal {
     /// one is sought, the creepage stays constant, `Ω̇/V̇ = Ω/V = k`, and the sum of both balances,
     /// `m V̇ + k I Ω̇ = F + k M + (F_x + k M_c)`, gives the acceleration: the tangential force drops out, and what
     /// remains in brackets is the small loss of rolling.
-    pub fn accelerations(&self, inertia: [f64; 3], speeds: [f64; 2], resultant: [f64; 3]) -> [f64; 3] {
+    pub fn accelerations(&self, inertia: PerAxis<f64>, speeds: [f64; 2], resultant: PerAxis<f64>) -> PerAxis<f64> {
         let [force, moment] = self.free_loads();
-        if self.sought.is_none() || resultant[1] <= 0.0 {
-            let own = |load: Option<f64>, k: usize| load.map_or(0.0, |load| (load + resultant[k]) / inertia[k]);
-            return [own(force, 0), 0.0, own(moment, 2)];
+        if self.sought.is_none() || resultant.height <= 0.0 {
+            let own = |load: Option<f64>, axis: Axis| load.map_or(0.0, |load| (load + resultant[axis]) / inertia[axis]);
+            let (travel, rotation) = (own(force, Axis::Travel), own(moment, Axis::Rotation));
+            return PerAxis { travel, rotation, ..PerAxis::default() };
         }
-        let (Some(force), Some(moment)) = (force, moment) else { return [0.0; 3] };
+        let (Some(force), Some(moment)) = (force, moment) else { return PerAxis::default() };
         let k = speeds[1] / speeds[0];
-        let driving = force + resultant[0] + k * (moment + resultant[2]);
-        let translation = driving / (inertia[0] + k * k * inertia[2]);
-        [translation, 0.0, k * translation]
+        let driving = force + resultant.travel + k * (moment + resultant.rotation);
+        let travel = driving / (inertia.travel + k * k * inertia.rotation);
+        PerAxis { travel, rotation: k * travel, ..PerAxis::default() }
     }
 
     /// Tangential force [N/m] that the contact has to carry where a speed is sought.
-    pub fn tangential_force(&self, inertia: [f64; 3], trial: &Trial) -> f64 {
+    pub fn tangential_force(&self, inertia: PerAxis<f64>, trial: &Trial) -> f64 {
         let [force, moment] = self.free_loads();
-        let needed = |load: Option<f64>, k: usize| inertia[k] * trial.accelerations[k] - load.unwrap_or(0.0);
-        if self.sought == Some(0) { needed(force, 0) } else { -needed(moment, 2) * trial.speeds[1] / trial.speeds[0] }
+        let needed = |load: Option<f64>, axis: Axis| inertia[axis] * trial.accelerations[axis] - load.unwrap_or(0.0);
+        match self.sought {
+            Some(Axis::Travel) => needed(force, Axis::Travel),
+            _ => -needed(moment, Axis::Rotation) * trial.speeds[1] / trial.speeds[0],
+        }
     }
 
     /// The demand in words, for wheels of the given width \[m].
     pub fn demand(&self, width: f64) -> String {
         let [force, moment] = self.free_loads();
-        let braked = matches!(self.given[2], AxisDrive::Braked { .. });
+        let braked = matches!(self.given.rotation, AxisDrive::Braked { .. });
         let turning = if braked { "drive.moment less brake.torque" } else { "drive.moment" };
         let pulling = if self.drive.slope == 0.0 { "drive.force" } else { "drive.force on this rail.slope" };
         let parts = [(turning, moment, "N m"), (pulling, force, "N")];
@@ -154,23 +158,27 @@ impl Goal {
         &self,
         model: &RollingModel,
         trial: &Trial,
-        sought: Option<usize>,
+        sought: Option<Axis>,
         height: f64,
-        momentum: [f64; 3],
-    ) -> [RigidMotion; 3] {
-        let free = |k: usize, drive: AxisDrive, guess: f64| RigidMotion {
+        momentum: PerAxis<f64>,
+    ) -> PerAxis<RigidMotion> {
+        let free = |axis: Axis, drive: AxisDrive, guess: f64| RigidMotion {
             drive,
             guess,
             gain: 0.0,
-            offset: trial.accelerations[k],
-            inertia: model.wheel.inertia[k],
-            momentum: momentum[k],
+            offset: trial.accelerations[axis],
+            inertia: model.wheel.inertia[axis],
+            momentum: momentum[axis],
         };
-        let axis = |k: usize, speed: f64| match (sought == Some(k), self.drives[k]) {
-            (false, _) => RigidMotion::held(speed, trial.accelerations[k]),
-            (true, AxisDrive::Prescribed { .. }) => free(k, AxisDrive::Free { load: 0.0 }, speed),
-            (true, drive) => free(k, drive, speed),
+        let motion = |axis: Axis, speed: f64| match (sought == Some(axis), self.drives[axis]) {
+            (false, _) => RigidMotion::held(speed, trial.accelerations[axis]),
+            (true, AxisDrive::Prescribed { .. }) => free(axis, AxisDrive::Free { load: 0.0 }, speed),
+            (true, drive) => free(axis, drive, speed),
         };
-        [axis(0, trial.speeds[0]), free(1, self.drives[1], height), axis(2, trial.speeds[1])]
+        PerAxis {
+            travel: motion(Axis::Travel, trial.speeds[0]),
+            height: free(Axis::Height, self.drives.height, height),
+            rotation: motion(Axis::Rotation, trial.speeds[1]),
+        }
     }
 }

@@ -13,6 +13,7 @@ use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::State;
 use super::thermal::HeatSupply;
+use crate::axes::Axis;
 use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
 use settle::{scale, settle};
@@ -83,7 +84,8 @@ pub fn start(
 /// radius.
 fn difference(model: &RollingModel, before: &State, now: &State) -> f64 {
     let ([from, to], half_width) = ([before, now].map(State::resultant), now.half_width());
-    let force = (0..2).map(|k| (to[k] - from[k]).abs()).fold(0.0, f64::max) / scale(model, to);
+    let forces = [Axis::Travel, Axis::Height].map(|axis| (to[axis] - from[axis]).abs());
+    let force = forces.into_iter().fold(0.0, f64::max) / scale(model, to);
     let [v, v_before] = [now, before].map(|state| state.motion.velocity.now);
     let [v_c, v_c_before] = [now, before].map(|state| model.wheel.radius * state.motion.omega.now);
     let speed = v.abs() + v_c.abs();

@@ -12,6 +12,7 @@ use super::super::thermal;
 use super::super::thermal_state::ThermalState;
 use super::super::zones;
 use super::goal::{Goal, Trial};
+use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating, LineLayout};
 use crate::mechanics::response::Convection;
@@ -32,8 +33,8 @@ const SLIGHT: f64 = 1e-9;
 const NEARLY_ALL: f64 = 0.99;
 
 /// Contact force that changes are compared with [N/m].
-pub(super) fn scale(model: &RollingModel, resultant: [f64; 3]) -> f64 {
-    resultant[1].abs().max(SLIGHT * model.contact.nominal_line_load())
+pub(super) fn scale(model: &RollingModel, resultant: PerAxis<f64>) -> f64 {
+    resultant.height.abs().max(SLIGHT * model.contact.nominal_line_load())
 }
 
 /// Stationary contact at given temperatures of every line.
@@ -64,7 +65,7 @@ pub(super) fn settle(
     let mut change = f64::INFINITY;
     for number in 0..MAX_PASSES {
         // The first pass finds out where wheel and rail touch, and whether they do.
-        let touching = number > 0 && state.resultant()[1] > 0.0;
+        let touching = number > 0 && state.resultant().height > 0.0;
         let sought = goal.sought.filter(|_| touching);
         let pass = Pass { model, goal, friction, sought };
         let mut passed = pass.run(&state, &mut trial, workspace, &mut next);
@@ -122,7 +123,7 @@ struct Pass<'a> {
     /// Friction of every line.
     friction: &'a [Friction],
     /// The axis whose speed is sought in this pass.
-    sought: Option<usize>,
+    sought: Option<Axis>,
 }
 
 impl Pass<'_> {
@@ -140,15 +141,15 @@ impl Pass<'_> {
         let operators = model.bodies.operators(td.a0, state, &mut workspace.operators)?;
         let [velocity, omega] = goal.actual(trial.speeds);
         let streams = [
-            Convection { speed: omega, acceleration: trial.accelerations[2] },
-            Convection { speed: velocity, acceleration: trial.accelerations[0] },
+            Convection { speed: omega, acceleration: trial.accelerations.rotation },
+            Convection { speed: velocity, acceleration: trial.accelerations.travel },
         ];
         model.bodies.free_responses(&operators, state, &td, streams, &mut workspace.free);
         let free = &workspace.free;
         let contact = ContactStep {
             operators: &operators,
             free,
-            rigid: goal.motions(model, trial, self.sought, state.rigid()[1], free[0].momentum),
+            rigid: goal.motions(model, trial, self.sought, state.rigid().height, free[0].momentum),
             time: td,
             duration: 0.0,
             place: [0.0; 2],
@@ -162,21 +163,22 @@ impl Pass<'_> {
         model.bodies.commit(&operators, free, accelerations, &td, state, next);
 
         let resultant = next.resultant();
-        let [v, _, omega] = next.rigid();
-        trial.speeds = [v, omega];
+        let rigid = next.rigid();
+        trial.speeds = [rigid.travel, rigid.rotation];
         trial.accelerations = goal.accelerations(model.wheel.inertia, trial.speeds, resultant);
-        next.hub.force = std::array::from_fn(|k| match goal.drives[k] {
-            AxisDrive::Free { load } if k != 1 => load,
-            _ => -resultant[k],
+        next.hub.force = PerAxis::from_fn(|axis| match goal.drives[axis] {
+            AxisDrive::Free { load } if axis != Axis::Height => load,
+            _ => -resultant[axis],
         });
         next.hub.driving = next.hub.force;
-        let unbalanced = |k: usize| (trial.accelerations[k] - accelerations[k]).abs() * model.wheel.inertia[k];
+        let unbalanced =
+            |axis: Axis| (trial.accelerations[axis] - accelerations[axis]).abs() * model.wheel.inertia[axis];
         let lines = next.lines.iter().zip(&state.lines).map(|(next, line)| {
             let (now, before) = (&next.contact.traction.port_forces, &line.contact.traction.port_forces);
             now.iter().zip(before.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         });
         let change = lines.fold(0.0, f64::max);
-        Ok((0..3).map(unbalanced).fold(change, f64::max) / scale(model, resultant))
+        Ok(Axis::ALL.into_iter().map(unbalanced).fold(change, f64::max) / scale(model, resultant))
     }
 
     /// Solves the contact; `contact` is its problem.
@@ -208,7 +210,7 @@ impl Pass<'_> {
     fn check_adhesion(&self, state: &State, trial: &Trial, share: f64) -> Result<(), StepError> {
         let width = self.model.wheel.width;
         let asked = self.goal.tangential_force(self.model.wheel.inertia, trial) * width;
-        let load = state.resultant()[1] * width;
+        let load = state.resultant().height * width;
         let friction = state.friction();
         let carried = friction * load;
         if self.sought.is_none() || asked.abs() < share * carried {
@@ -224,24 +226,25 @@ fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) 
     if !goal.moving {
         state.lines.iter_mut().for_each(|line| line.contact.rest());
     }
-    let ([velocity, omega], accelerations) = (goal.actual(trial.speeds), trial.accelerations);
-    let [_, height, _] = state.rigid();
-    state.lines.iter_mut().for_each(|line| line.contact.traction.rigid = [velocity, height, omega]);
+    let ([travel, rotation], accelerations) = (goal.actual(trial.speeds), trial.accelerations);
+    let rigid = PerAxis { travel, rotation, ..state.rigid() };
+    state.lines.iter_mut().for_each(|line| line.contact.traction.rigid = rigid);
     state.motion = Motion {
-        velocity: History { rate: accelerations[0], ..History::constant(velocity) },
-        omega: History { rate: accelerations[2], ..History::constant(omega) },
-        height: History::constant(height),
+        velocity: History { rate: accelerations.travel, ..History::constant(rigid.travel) },
+        omega: History { rate: accelerations.rotation, ..History::constant(rigid.rotation) },
+        height: History::constant(rigid.height),
         hub_velocity: History::default(),
         ..state.motion
     };
     zones::narrow(model, &mut state);
     (state.hub.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
-    state.hub.brake = Brake::stationary(goal.given[2], omega, state.hub.force[2]);
-    state.hub.force[2] = goal.given[2].loads().map_or(state.hub.force[2], |[load, _]| load + state.hub.brake.moment);
+    state.hub.brake = Brake::stationary(goal.given.rotation, rotation, state.hub.force.rotation);
+    let moment = &mut state.hub.force.rotation;
+    *moment = goal.given.rotation.loads().map_or(*moment, |[load, _]| load + state.hub.brake.moment);
     state.hub.driving = state.hub.force;
     state.clock.control = substeps::unlimited(model, &state);
     state.friction_power = state.sum(|line| line.contact.traction.friction.power);
     state.audit = audit::start(model, &state);
-    state.pressing = Pressing::constant(state.resultant()[1]);
+    state.pressing = Pressing::constant(state.resultant().height);
     state
 }

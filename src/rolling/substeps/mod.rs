@@ -27,6 +27,7 @@ use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::{Pressing, State, StepControl};
 use super::step::{Demand, step};
+use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
@@ -93,7 +94,7 @@ pub fn advance(
     }
     let end = inputs.at(h);
     end.validate()?;
-    let [velocity, displacement, omega] = state.motion.values();
+    let PerAxis { travel: velocity, height: displacement, rotation: omega, .. } = state.motion.values();
     let start = Drive { omega, velocity, displacement, ..inputs.at(0.0) };
     let h = h + state.clock.pending;
     if h < SHORTEST_STEP {
@@ -134,8 +135,8 @@ impl Ramp<'_> {
 
 /// Longest internal step that resolves the surfaces which the wheel meets in the coming `h` seconds \[s].
 fn resolving_step(model: &RollingModel, state: &State, h: f64) -> f64 {
-    let (radius, [velocity, _, omega]) = (model.wheel.radius, state.motion.values());
-    let speed = velocity.abs().max((radius * omega).abs());
+    let (radius, motion) = (model.wheel.radius, state.motion.values());
+    let speed = motion.travel.abs().max((radius * motion.rotation).abs());
     let patch = 2.0 * model.contact.nominal_half_width();
     let wave = model.contact.surfaces.shortest_wavelength(state.place(radius), model.zone + speed * h, patch);
     (wave / (STEPS_PER_WAVE * speed)).min(AUTOMATIC)

@@ -23,6 +23,7 @@
 //! at standstill, too, and short steps need not follow what the elasticity of the patch takes up. What a prescribed
 //! velocity explains of a missed slip is no error.
 
+use crate::axes::{Axis, PerAxis};
 use crate::rolling::error::StepError;
 use crate::rolling::line::Line;
 use crate::rolling::model::RollingModel;
@@ -40,7 +41,7 @@ pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
     let accelerations = state.motion.accelerations();
     Controlled {
         forces: state.resultant(),
-        resisting: std::array::from_fn(|k| model.wheel.inertia[k] * accelerations[k] - state.hub.driving[k]),
+        resisting: PerAxis::from_fn(|axis| model.wheel.inertia[axis] * accelerations[axis] - state.hub.driving[axis]),
         damper: model.wheel.damper_force(state),
         slip: state.tread_slip(),
         temperatures: [0, 1].map(|body| {
@@ -91,20 +92,19 @@ impl Found {
         let ratio = if first { 0.0 } else { dt / last_step };
         let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
-        let arms = [1.0, 1.0, radius];
         let flies = !from.touches() && !to.touches();
-        let force = |k: usize| match flies && !to.hub.prescribed[k] {
-            true => missed(&|c| c.resisting[k]).abs() / (AIRBORNE * load * arms[k]),
-            false => missed(&|c| c.forces[k]).abs() / (load * arms[k]),
+        let force = |axis: Axis| match flies && !to.hub.prescribed[axis] {
+            true => missed(&|c| c.resisting[axis]).abs() / (AIRBORNE * load * axis.arm(radius)),
+            false => missed(&|c| c.forces[axis]).abs() / (load * axis.arm(radius)),
         };
-        let (mut error, mut warming) = ((0..3).map(force).fold(0.0, f64::max), 0.0f64);
+        let (mut error, mut warming) = (Axis::ALL.into_iter().map(force).fold(0.0, f64::max), 0.0f64);
         if flies {
             error = error.max(missed(&|c| c.damper).abs() / load);
         }
         // What slip and temperature of the patch are without a patch is a convention.
         if from.touches() && to.touches() {
-            let [translation, _, rotation] = to.hub.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
-            let explained = missed(&|c| translation * c.velocity - rotation * radius * c.omega).abs();
+            let known = to.hub.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
+            let explained = missed(&|c| known.travel * c.velocity - known.rotation * radius * c.omega).abs();
             let half_width = model.contact.nominal_half_width();
             let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());
             let scale = (half_width / radius * (speed + half_width / dt)).max(found.slip.abs());

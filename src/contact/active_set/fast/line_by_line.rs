@@ -1,15 +1,17 @@
-//! Linear problem of several lines, solved line by line.
+//! Linear problem of any lines, solved line by line.
 //!
 //! Lines feel each other through the bodies and the motions of the hub alone, and what the bodies pass on is smooth. So
 //! the equations of each line are factorised by themselves, the motions follow from their balances, and the forces of
 //! the other lines from an iteration (GMRES) to which all of this is a good approximation: four lines cost four times
 //! as much as one, not 64 times.
 
-use crate::contact::active_set::axes::{Axes, Equation};
+use crate::axes::Axis;
+use crate::contact::active_set::linear::LinearProblem;
 use crate::contact::active_set::unknowns::{LineUnknowns, Unknowns, scale};
 use crate::contact::flexibility::{ByMoments, ByPowers, add, at};
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::rows::NodeEquation;
 use crate::linalg::DenseSystem;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use crate::linalg::vectorised::dot;
@@ -18,15 +20,6 @@ use std::ops::Range;
 /// Change of the forces that counts as none, and that which is accepted where round-off allows no smaller one, over
 /// their norm \[1].
 const PRECISION: [f64; 2] = [1e-14, 1e-11];
-
-/// Parts of the solution that are known beside the unknowns; empty: none.
-#[derive(Default)]
-pub struct Known {
-    /// Gap that they leave at the candidates of every line \[m].
-    pub gaps: Vec<Vec<f64>>,
-    /// Forces at all ports of every line [N/m].
-    pub forces: Vec<Vec<f64>>,
-}
 
 /// Equations of all lines, and the memory to solve them.
 #[derive(Default)]
@@ -53,7 +46,7 @@ struct LineEquations {
     own: DenseSystem,
     /// Own forces without those of other lines and motions, and their change with the motions.
     alone: Vec<f64>,
-    by_motions: [Vec<f64>; 3],
+    by_motions: [Vec<f64>; Axis::COUNT],
     /// Coefficients of other lines' forces at the ports of the window, row by row.
     shared: Vec<f64>,
     /// Slips by unit moments of every line of the patch, in which the own ones are none; empty: there is no patch.
@@ -64,7 +57,7 @@ struct LineEquations {
     /// Moments of the own forces [N/m].
     moments: ByPowers,
     /// Coefficients of the own forces in the balances.
-    balances: [Vec<f64>; 3],
+    balances: [Vec<f64>; Axis::COUNT],
     /// Forces at all ports, those within the window [N/m].
     forces: Vec<f64>,
     /// An equation.
@@ -77,76 +70,48 @@ struct MotionBalances {
     count: usize,
     /// Coefficients of the motions once the forces are eliminated.
     system: DenseSystem,
-    known: [f64; 3],
-    values: [f64; 3],
-}
-
-/// Solves the linear problem of the present states and gives the lines their forces and motions; `false`: it takes all
-/// equations together. `rows` is memory for the coefficients of all ports of every line.
-pub fn solve(
-    lines: &mut [ContactLine],
-    axes: &Axes,
-    (unknowns, known): (&Unknowns, &Known),
-    rows: &mut [Vec<f64>],
-    equations: &mut LineByLine,
-) -> bool {
-    let solved = equations.write(lines, axes, (unknowns, known), rows) && equations.solve(lines[0].grid, unknowns);
-    if solved {
-        unknowns.accept(&equations.unknowns, lines, axes);
-    }
-    solved
-}
-
-/// Part of an equation that motions which are sought, but not unknown, make known.
-fn by_known_motions(equation: &Equation, line: &ContactLine, axes: &Axes, unknowns: &Unknowns) -> f64 {
-    let known = (0..3).filter(|axis| axes.seeks(*axis) && !unknowns.axes.contains(axis));
-    known.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum()
+    known: [f64; Axis::COUNT],
+    values: [f64; Axis::COUNT],
 }
 
 impl LineByLine {
+    /// Solves a linear problem and gives the lines their forces and motions; `false`: it takes all equations together.
+    /// `rows` is memory for the coefficients of all ports of every line.
+    pub fn solve(&mut self, lines: &mut [ContactLine], problem: LinearProblem, rows: &mut [Vec<f64>]) -> bool {
+        let solved = self.write(lines, problem, rows) && self.find(lines[0].grid, problem.unknowns);
+        if solved {
+            problem.unknowns.accept(&self.unknowns, lines, problem.axes);
+        }
+        solved
+    }
+
     /// Writes all equations, and the present forces as a guess; whether those of every line have a solution.
-    fn write(
-        &mut self,
-        lines: &[ContactLine],
-        axes: &Axes,
-        (unknowns, known): (&Unknowns, &Known),
-        rows: &mut [Vec<f64>],
-    ) -> bool {
+    fn write(&mut self, lines: &[ContactLine], problem: LinearProblem, rows: &mut [Vec<f64>]) -> bool {
         let Some(grid) = lines.first().map(|line| line.grid) else { return false };
-        let windows = unknowns.lines.iter().map(|line| line.window(grid)).filter(|window| !window.is_empty());
+        let unknowns = &problem.unknowns.lines;
+        let windows = unknowns.iter().map(|line| line.window(grid)).filter(|window| !window.is_empty());
         let Some(window) = windows.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else { return false };
         self.window = window;
         self.lines.resize_with(lines.len(), LineEquations::default);
         self.unknowns.clear();
         for (k, equations) in self.lines.iter_mut().enumerate() {
-            let own = &unknowns.lines[k];
-            let gaps = known.gaps.get(k).map_or(&[][..], |gaps| gaps);
-            if !equations.write(&lines[k], axes, (own, unknowns, gaps), (&self.window, rows)) {
+            if !equations.write(k, lines, problem, &self.window, &mut rows[k]) {
                 return false;
             }
-            equations.write_patch(k, own, lines);
-            let present = own.closed.iter().map(|&i| lines[k].normal(i));
-            self.unknowns.extend(present.chain(own.stuck.iter().map(|&i| lines[k].tangential(i))));
+            equations.write_patch(k, &unknowns[k], lines);
+            let present = unknowns[k].closed.iter().map(|&i| lines[k].normal(i));
+            self.unknowns.extend(present.chain(unknowns[k].stuck.iter().map(|&i| lines[k].tangential(i))));
         }
-        self.write_balances(lines, axes, (unknowns, known), rows)
+        self.write_balances(lines, problem, rows)
     }
 
     /// Writes the balances, from which the forces are eliminated; whether they have a solution.
-    fn write_balances(
-        &mut self,
-        lines: &[ContactLine],
-        axes: &Axes,
-        (unknowns, known): (&Unknowns, &Known),
-        rows: &mut [Vec<f64>],
-    ) -> bool {
-        let Self { lines: equations, motions, .. } = self;
+    fn write_balances(&mut self, lines: &[ContactLine], problem: LinearProblem, rows: &mut [Vec<f64>]) -> bool {
+        let (Self { lines: equations, motions, .. }, unknowns) = (self, problem.unknowns);
         motions.count = unknowns.axes.len();
         motions.system.reset(motions.count);
         for (a, &axis) in unknowns.axes.iter().enumerate() {
-            let balance = axes.row(axis, lines, rows);
-            let by_forces = rows.iter().zip(&known.forces).map(|(row, forces)| dot(row, forces)).sum::<f64>();
-            let mut side = -axes.constant(&balance) - by_forces;
-            side -= by_known_motions(&balance, &lines[0], axes, unknowns);
+            let balance = problem.balance(axis, lines, rows);
             let (coefficients, _) = motions.system.row(a);
             coefficients.iter_mut().zip(&unknowns.axes).for_each(|(value, &axis)| *value = balance.motions[axis]);
             for ((line, own), row) in equations.iter_mut().zip(&unknowns.lines).zip(&*rows) {
@@ -157,18 +122,18 @@ impl LineByLine {
             }
             let scale = scale(coefficients);
             equations.iter_mut().for_each(|line| line.balances[a].iter_mut().for_each(|value| *value *= scale));
-            motions.known[a] = side * scale;
+            motions.known[a] = -problem.constant(&balance, &lines[0]) * scale;
         }
         motions.system.factorise()
     }
 
     /// Solves for all forces and motions; `false`: the iteration does not converge.
-    fn solve(&mut self, grid: &ContactGrid, unknowns: &Unknowns) -> bool {
+    fn find(&mut self, grid: &ContactGrid, unknowns: &Unknowns) -> bool {
         let mut forces = std::mem::take(&mut self.unknowns);
         let mut change = std::mem::take(&mut self.change);
         change.clear();
         change.resize(forces.len(), 0.0);
-        let mut solved = self.answer(grid, unknowns, (&forces, true), &mut change);
+        let mut solved = self.answer(grid, unknowns, &forces, true, &mut change);
         if solved {
             change.iter_mut().zip(&forces).for_each(|(change, force)| *change -= force);
             let norm = |values: &[f64]| dot(values, values).sqrt();
@@ -180,7 +145,7 @@ impl LineByLine {
             self.gmres = gmres;
             forces.iter_mut().zip(&change).for_each(|(force, change)| *force += change);
             // Once more with the motions, which belong to these forces.
-            solved = solved && self.answer(grid, unknowns, (&forces, true), &mut change);
+            solved = solved && self.answer(grid, unknowns, &forces, true, &mut change);
             std::mem::swap(&mut forces, &mut change);
         }
         forces.extend_from_slice(&self.motions.values[..self.motions.count]);
@@ -194,7 +159,8 @@ impl LineByLine {
         &mut self,
         grid: &ContactGrid,
         unknowns: &Unknowns,
-        (given, known): (&[f64], bool),
+        given: &[f64],
+        known: bool,
         forces: &mut [f64],
     ) -> bool {
         let Self { lines, motions, window, mean, .. } = self;
@@ -203,16 +169,16 @@ impl LineByLine {
         let mut rest = given;
         for (line, own) in lines.iter_mut().zip(&unknowns.lines) {
             let (given, others) = rest.split_at(own.len());
-            line.place(own, (given, grid), window, mean);
+            line.place(own, given, grid, window, mean);
             rest = others;
         }
         let moments: Vec<_> = lines.iter().map(|line| line.moments).collect();
-        motions.values = if known { motions.known } else { [0.0; 3] };
+        motions.values = if known { motions.known } else { [0.0; Axis::COUNT] };
         let values = &mut motions.values[..motions.count];
         let (mut rest, mut finite) = (&mut *forces, true);
         for (line, own) in lines.iter_mut().zip(&unknowns.lines) {
             let (forces, others) = rest.split_at_mut(own.len());
-            finite &= line.answer((mean, &moments), (window, known), forces);
+            finite &= line.answer(mean, &moments, window, known, forces);
             values.iter_mut().zip(&line.balances).for_each(|(value, balance)| *value -= dot(balance, forces));
             rest = others;
         }
@@ -230,49 +196,45 @@ impl LineByLine {
 }
 
 impl LineEquations {
-    /// Writes the equations of a line; whether they have a solution. `gaps` are known at its candidates.
+    /// Writes the equations of the line number `k`; whether they have a solution. `forces` is memory for the
+    /// coefficients of its ports.
     fn write(
         &mut self,
-        line: &ContactLine,
-        axes: &Axes,
-        (own, unknowns, gaps): (&LineUnknowns, &Unknowns, &[f64]),
-        (window, rows): (&Range<usize>, &mut [Vec<f64>]),
+        k: usize,
+        lines: &[ContactLine],
+        problem: LinearProblem,
+        window: &Range<usize>,
+        forces: &mut [f64],
     ) -> bool {
-        let (size, count, patch) = (own.len(), unknowns.axes.len(), own.window(line.grid));
-        let [others, forces, ..] = rows else { return false };
+        let (line, own, axes) = (&lines[k], &problem.unknowns.lines[k], &problem.unknowns.axes);
+        let (size, patch) = (own.len(), own.window(line.grid));
         self.share = line.problem.share;
         self.own.reset(size);
-        self.row.resize(size + count, 0.0);
+        self.row.resize(size + axes.len(), 0.0);
         self.alone.resize(size, 0.0);
         self.by_motions.iter_mut().for_each(|values| values.resize(size, 0.0));
         self.shared.clear();
         self.stuck.clear();
-        let nodes = own.closed.iter().map(|&i| (i, false)).chain(own.stuck.iter().map(|&i| (i, true)));
-        for (r, (i, sticks)) in nodes.enumerate() {
-            match sticks {
-                true => line.slip_by_shared(i, 1.0, window.clone(), others),
-                false => line.gap_by_shared(i, 1.0, window.clone(), others),
-            }
+        let others = &mut self.forces;
+        others.resize(line.grid.ports(), 0.0);
+        for (r, (i, kind)) in own.equations().enumerate() {
+            kind.by_shared(line, i, 1.0, window.clone(), others);
             let shared = forces[patch.clone()].iter_mut().zip(&others[patch.clone()]);
             shared.for_each(|(force, by_all)| *force = self.share * by_all);
-            let equation = axes.equation(match sticks {
-                true => line.add_slip(i, patch.clone(), forces),
-                false => line.add_gap(i, patch.clone(), forces),
-            });
+            let equation = problem.equation(k, i, kind, kind.add_own(line, i, patch.clone(), forces));
             let (coefficients, motions) = self.row.split_at_mut(size);
             own.write(coefficients, forces, line.grid);
-            motions.iter_mut().zip(&unknowns.axes).for_each(|(value, &axis)| *value = equation.motions[axis]);
+            motions.iter_mut().zip(axes).for_each(|(value, &axis)| *value = equation.motions[axis]);
             let scale = scale(&mut self.row);
-            let known = gaps.get(i).copied().unwrap_or(0.0) + by_known_motions(&equation, line, axes, unknowns);
-            self.alone[r] = -scale * (axes.constant(&equation) + known);
+            self.alone[r] = -scale * problem.constant(&equation, line);
             self.own.row(r).0.copy_from_slice(&self.row[..size]);
             self.by_motions.iter_mut().zip(&self.row[size..]).for_each(|(by_motion, value)| by_motion[r] = *value);
             self.shared.extend(others[window.clone()].iter().map(|by_all| scale * by_all));
-            if let Some(patch) = line.problem.patch.filter(|_| sticks) {
+            if let (Some(patch), NodeEquation::Slip) = (line.problem.patch, kind) {
                 self.stuck.push((patch.powers(line.grid.x[i]), scale));
             }
         }
-        let motions = self.by_motions.iter_mut().take(count);
+        let motions = self.by_motions.iter_mut().take(axes.len());
         self.own.factorise() && motions.chain([&mut self.alone]).all(|side| self.own.solve_with(side))
     }
 
@@ -291,7 +253,8 @@ impl LineEquations {
     fn place(
         &mut self,
         own: &LineUnknowns,
-        (forces, grid): (&[f64], &ContactGrid),
+        forces: &[f64],
+        grid: &ContactGrid,
         window: &Range<usize>,
         mean: &mut [f64],
     ) {
@@ -310,8 +273,10 @@ impl LineEquations {
     /// `moments`: those of every line.
     fn answer(
         &mut self,
-        (mean, moments): (&[f64], &[ByPowers]),
-        (window, known): (&Range<usize>, bool),
+        mean: &[f64],
+        moments: &[ByPowers],
+        window: &Range<usize>,
+        known: bool,
         forces: &mut [f64],
     ) -> bool {
         let others = &mut self.forces[window.clone()];
@@ -340,7 +305,7 @@ struct BetweenLines<'a> {
 impl LinearSystem for BetweenLines<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
         // What is not finite ends the iteration.
-        self.equations.answer(self.grid, self.unknowns, (x, false), out);
+        self.equations.answer(self.grid, self.unknowns, x, false, out);
         out.iter_mut().zip(x).for_each(|(out, x)| *out = x - *out);
     }
 

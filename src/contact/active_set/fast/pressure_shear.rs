@@ -3,7 +3,8 @@
 //! Unknowns are the normal forces of the closed nodes, the *sheared* unknowns (tangential forces of the stuck nodes,
 //! velocities of the hub that are free), and the height of the hub where it is free, in this order.
 
-use super::patch_inverse::PatchInverse;
+use super::patch_factor::PatchMatrices;
+use crate::axes::Axis;
 use crate::linalg::DenseSystem;
 use crate::linalg::vectorised::{add_columns, dot};
 
@@ -18,7 +19,7 @@ pub struct PressureShear {
     /// Gap at the closed nodes without contact forces and free motions [m].
     pub gap: Vec<f64>,
     /// Its change with each of the free motions, in their order.
-    pub motions: [Vec<f64>; 3],
+    pub motions: [Vec<f64>; Axis::COUNT],
     /// Place of the closed nodes \[m]: the rim angle tilts the gap about the contact point.
     pub place: Vec<f64>,
     /// Rim angle by the normal and by the tangential force at each closed node [rad/(N/m)].
@@ -44,6 +45,7 @@ pub struct PressureShear {
     /// Gap to be closed \[m], and the normal forces that close it [N/m].
     open: Vec<f64>,
     normal: Vec<f64>,
+    product: Vec<f64>,
 }
 
 impl PressureShear {
@@ -64,7 +66,7 @@ impl PressureShear {
     }
 
     /// Solves by alternation; `false`: it does not converge.
-    pub fn solve(&mut self, patch: PatchInverse) -> bool {
+    pub fn solve(&mut self, patch: PatchMatrices) -> bool {
         if !self.factorise() {
             return false;
         }
@@ -94,18 +96,18 @@ impl PressureShear {
     }
 
     /// Effect of the height of the hub on the normal forces.
-    fn raise(&mut self, patch: PatchInverse) {
+    fn raise(&mut self, patch: PatchMatrices) {
         let height = self.constants.len() > self.sheared;
         self.raised.clear();
         if height && let Some(by_height) = self.motions.iter().rfind(|motion| !motion.is_empty()) {
-            self.raised.resize(by_height.len(), 0.0);
-            add_columns(-1.0, patch.inverse, by_height.len(), by_height, &mut self.raised);
+            self.raised.extend(by_height.iter().map(|by_height| -by_height));
+            patch.factor.solve(&mut self.raised, &mut self.product);
         }
     }
 
     /// Finds normal forces and height for the present shear; returns the largest change of the forces over the largest
     /// force.
-    fn find_pressure(&mut self, patch: PatchInverse) -> f64 {
+    fn find_pressure(&mut self, patch: PatchMatrices) -> f64 {
         let (closed, width) = (self.gap.len(), self.unknowns.len());
         let (normal, others) = self.unknowns.split_at_mut(closed);
         self.shear.clear();
@@ -114,14 +116,16 @@ impl PressureShear {
         let turned = dot(&self.rim_angle[0], normal) + dot(&self.rim_angle[1], &self.shear);
         self.open.clear();
         self.open.extend(self.gap.iter().zip(&self.place).map(|(gap, x)| gap - x * turned));
-        add_columns(1.0, patch.coupling, patch.apart, &self.shear, &mut self.open);
+        if self.shear.iter().any(|force| *force != 0.0) {
+            add_columns(1.0, patch.coupling, patch.apart, &self.shear, &mut self.open);
+        }
         let free_velocities = &others[self.stuck.len()..self.sheared];
         for (motion, value) in self.motions.iter().zip(free_velocities) {
             self.open.iter_mut().zip(motion).for_each(|(open, by_motion)| *open += by_motion * value);
         }
         self.normal.clear();
-        self.normal.resize(closed, 0.0);
-        add_columns(-1.0, patch.inverse, closed, &self.open, &mut self.normal);
+        self.normal.extend(self.open.iter().map(|open| -open));
+        patch.factor.solve(&mut self.normal, &mut self.product);
         if let (Some(constant), Some(row)) =
             (self.constants.get(self.sheared), self.rows.chunks(width).nth(self.sheared))
         {
@@ -170,6 +174,7 @@ fn take(forces: &mut [f64], new: &[f64], scale: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::InverseFactor;
     use nalgebra::DMatrix;
 
     const CLOSED: usize = 12;
@@ -224,8 +229,11 @@ mod tests {
     }
 
     fn solve(equations: &mut PressureShear, [compliance, coupling]: &[DMatrix<f64>; 2]) -> bool {
-        let inverse = compliance.clone().try_inverse().unwrap();
-        equations.solve(PatchInverse { inverse: inverse.as_slice(), coupling: coupling.as_slice(), apart: CLOSED })
+        let mut factor = InverseFactor::default();
+        for i in 0..CLOSED {
+            factor.append((0..i).map(|j| compliance[(i, j)]), compliance[(i, i)]).unwrap();
+        }
+        equations.solve(PatchMatrices { factor: &factor, coupling: coupling.as_slice(), apart: CLOSED })
     }
 
     #[test]

@@ -1,11 +1,10 @@
-//! Inverse of the normal part of the compliance of a patch, kept from step to step: it gives the pressures that close
-//! the patch. Measured: factors that patches share take a rough rail's step without heat to 0.83 (rolling freely) and
-//! 0.85 (braking) of its time with one factorisation per patch.
+//! Factor of the inverse of the normal part of the compliance of a patch, kept from step to step: it gives the pressures
+//! that close the patch. Measured: factors that patches share take a rough rail's step without heat to 0.83 (rolling
+//! freely) and 0.85 (braking) of its time with one factorisation per patch.
 //!
-//! Patches that begin at the same node share one factor: the longer one only has more rows. So an inverse costs little
-//! where uneven surfaces move the edges, and the [guess](super::initial_guess) of the closed nodes needs the factor
-//! alone. A kept factor has the same bits whatever came before ([`InverseFactor`]), so that a step is a function of the
-//! state alone.
+//! Patches that begin at the same node share one factor: the longer one only has more rows. So it costs little where
+//! uneven surfaces move the edges. A kept factor has the same bits whatever came before ([`InverseFactor`]), so that a
+//! step is a function of the state alone.
 
 use crate::contact::kernel::LineKernel;
 use crate::contact::line::ContactGrid;
@@ -13,20 +12,20 @@ use crate::contact::problem::LineProblem;
 use crate::linalg::InverseFactor;
 use std::ops::Range;
 
-/// Number of step sizes that are kept, and of factors and inverses of each.
-const KEPT: [usize; 3] = [4, 16, 8];
+/// Number of step sizes that are kept, and of factors of each.
+const KEPT: [usize; 2] = [4, 16];
 
 /// Matrices of one patch of neighbouring nodes and of one step size.
 #[derive(Clone, Copy)]
-pub struct PatchInverse<'a> {
-    /// Normal forces at the closed nodes per gap [N/m per m], by columns.
-    pub inverse: &'a [f64],
+pub struct PatchMatrices<'a> {
+    /// Factor of the normal forces at the closed nodes per gap [N/m per m]; it may have more rows.
+    pub factor: &'a InverseFactor,
     /// Columns of the gap at the closed nodes per tangential force there [m/(N/m)], which are `apart` entries apart.
     pub coupling: &'a [f64],
     pub apart: usize,
 }
 
-/// Factors and inverses of one step size.
+/// Factors of one step size.
 struct OfStep {
     /// Weight of the new value in the time formula [1/s].
     a0: f64,
@@ -38,19 +37,16 @@ struct OfStep {
     coupling: Vec<f64>,
     /// First closed nodes and their factors, the last one used at the end.
     factors: Vec<(usize, InverseFactor)>,
-    /// Patches and their inverses, the last one used at the end: products with them are cheaper than with their
-    /// factors.
-    inverses: Vec<(Range<usize>, Vec<f64>)>,
 }
 
-/// Inverses of the last patches.
+/// Factors of the last patches.
 #[derive(Default)]
-pub struct KeptInverses {
+pub struct KeptFactors {
     recent: Vec<OfStep>,
 }
 
 /// Normal displacement at candidate `i` per normal force at candidate `j` [m/(N/m)].
-pub fn compliance(problem: &LineProblem, grid: &ContactGrid, i: usize, j: usize) -> f64 {
+fn compliance(problem: &LineProblem, grid: &ContactGrid, i: usize, j: usize) -> f64 {
     problem.compliance(grid.port(i) + 1, grid.port(j) + 1)
 }
 
@@ -70,12 +66,11 @@ impl OfStep {
             kernel: (problem.share, problem.kernel),
             coupling: nodes.clone().flat_map(of_shear).collect(),
             factors: Vec::new(),
-            inverses: Vec::new(),
         }
     }
 
-    /// The factor of the compliance from one node on with at least `size` rows; `None` if there is none.
-    fn factor(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<&InverseFactor> {
+    /// Puts the factor of a patch at the end; `None` if there is none.
+    fn factor(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<()> {
         match self.factors.iter().position(|(first, _)| *first == patch.start) {
             Some(at) => self.factors[at..].rotate_left(1),
             None if self.factors.len() < KEPT[1] => self.factors.push((patch.start, InverseFactor::default())),
@@ -91,28 +86,6 @@ impl OfStep {
             let beside = (patch.start..i).map(|j| compliance(problem, grid, i, j));
             factor.append(beside, compliance(problem, grid, i, i))?;
         }
-        Some(factor)
-    }
-
-    /// The inverse of a patch; `None` if there is none.
-    fn inverse(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<()> {
-        if let Some(at) = self.inverses.iter().position(|(of, _)| of == patch) {
-            self.inverses[at..].rotate_left(1);
-            return Some(());
-        }
-        self.factor(problem, grid, patch)?;
-        let factor = &self.factors.last()?.1;
-        let mut inverse = if self.inverses.len() < KEPT[2] { Vec::new() } else { self.inverses.remove(0).1 };
-        inverse.clear();
-        let (mut column, mut product) = (Vec::new(), Vec::new());
-        for j in 0..patch.len() {
-            column.clear();
-            column.resize(patch.len(), 0.0);
-            column[j] = 1.0;
-            factor.solve(&mut column, &mut product);
-            inverse.extend_from_slice(&column);
-        }
-        self.inverses.push((patch.clone(), inverse));
         Some(())
     }
 }
@@ -123,23 +96,13 @@ fn first_column<'a>(problem: &LineProblem<'a>, grid: &ContactGrid) -> &'a [f64] 
     &relative.as_slice()[(grid.port(0) + 1) * relative.nrows()..][..relative.nrows()]
 }
 
-impl KeptInverses {
+impl KeptFactors {
     /// The matrices of a patch; `None` if its compliance has no inverse.
-    pub fn of(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<PatchInverse<'_>> {
+    pub fn of(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<PatchMatrices<'_>> {
         let kept = self.of_step(problem, grid)?;
-        kept.inverse(problem, grid, patch)?;
+        kept.factor(problem, grid, patch)?;
         let (coupling, apart) = (&kept.coupling[patch.start * (grid.len() + 1)..], grid.len());
-        Some(PatchInverse { inverse: &kept.inverses.last()?.1, coupling, apart })
-    }
-
-    /// A factor of the inverse of a patch, which may have more rows.
-    pub fn factor(
-        &mut self,
-        problem: &LineProblem,
-        grid: &ContactGrid,
-        patch: &Range<usize>,
-    ) -> Option<&InverseFactor> {
-        self.of_step(problem, grid)?.factor(problem, grid, patch)
+        Some(PatchMatrices { factor: &kept.factors.last()?.1, coupling, apart })
     }
 
     fn of_step(&mut self, problem: &LineProblem, grid: &ContactGrid) -> Option<&mut OfStep> {
