@@ -3,18 +3,19 @@
 use super::vectorised::vectorised;
 use nalgebra::DMatrix;
 
-/// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting. Systems of contact
-/// have some tens of unknowns: blocks, with which libraries begin, do not pay yet.
+/// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting: unknowns change
+/// places, so that equations may have any scale. Systems of contact have some tens of unknowns: blocks, with which
+/// libraries begin, do not pay yet.
 ///
 /// Once the buffers have the size of the largest system, nothing is allocated any more.
 #[derive(Default)]
 pub struct DenseSystem {
     size: usize,
-    /// Rows of `A`, one after the other; overwritten by the factors of `P A`, L with a diagonal of 1.
+    /// Rows of `A`, one after the other; overwritten by the factors of `A Q`, L with a diagonal of 1.
     rows: Vec<f64>,
     rhs: Vec<f64>,
     permuted: Vec<f64>,
-    /// Rows of `A` in the order of those of `P A`.
+    /// Unknowns in the order of the columns of `A Q`.
     order: Vec<usize>,
 }
 
@@ -50,32 +51,33 @@ impl DenseSystem {
 
     /// `x ← A⁻¹ x` with the factors of [`Self::factorise`]; whether the result is finite.
     pub fn solve_with(&mut self, x: &mut [f64]) -> bool {
+        substitute(&self.rows, x);
         self.permuted.clear();
         self.permuted.extend_from_slice(x);
-        x.iter_mut().zip(&self.order).for_each(|(x, &from)| *x = self.permuted[from]);
-        substitute(&self.rows, x);
+        self.order.iter().zip(&self.permuted).for_each(|(&to, value)| x[to] = *value);
         x.iter().all(|x| x.is_finite())
     }
 }
 
 vectorised! {
-    /// Replaces a matrix, given by rows, by its factors, and exchanges the rows of `order` with its own; false: it is
+    /// Replaces a matrix, given by rows, by its factors, and exchanges the items of `order` with its columns; false: it is
     /// singular or not finite.
     fn factorise<'a, S>(_simd, rows: &'a mut [f64], order: &'a mut [usize]) -> bool {
         let n = order.len();
         for k in 0..n {
+            let row = &rows[k * n..][..n];
             let mut largest = k;
-            for i in k + 1..n {
-                if rows[i * n + k].abs() > rows[largest * n + k].abs() {
-                    largest = i;
+            for j in k + 1..n {
+                if row[j].abs() > row[largest].abs() {
+                    largest = j;
                 }
             }
-            let (above, below) = rows.split_at_mut((k + 1) * n);
-            let pivots = &mut above[k * n..];
             if largest > k {
-                pivots.swap_with_slice(&mut below[(largest - k - 1) * n..][..n]);
+                rows.chunks_exact_mut(n).for_each(|row| row.swap(k, largest));
                 order.swap(k, largest);
             }
+            let (above, below) = rows.split_at_mut((k + 1) * n);
+            let pivots = &above[k * n..];
             let over = 1.0 / pivots[k];
             if !over.is_finite() {
                 return false;

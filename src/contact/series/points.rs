@@ -4,7 +4,7 @@
 //! `θ_i − π/(2N + 2)`, half a point upstream. For steady rolling the matrix of slips by tractions is that of Cauchy for
 //! interlacing points, of which every principal minor is positive: there is one solution, and it is found by changing the
 //! states of points that contradict friction. Where tractions and slips have the same places odd minors vanish, and the
-//! search goes in circles. Theory: `docs/theory/patch-contact.md`, section 7.
+//! search goes in circles. Theory: `docs/theory/patch-contact.md`, section 3.
 
 use super::chebyshev::{TERMS, cauchy_terms, logarithm_terms};
 use super::equations::{Coefficients, ROOM, eliminate};
@@ -189,7 +189,7 @@ mod tests {
         panic!("no end at a creepage of {creepage}");
     }
 
-    /// Carter: `F/μP = 1 − (1 − ξ/ξ_s)²`; see `docs/theory/patch-contact.md`, section 7.
+    /// Carter: `F/μP = 1 − (1 − ξ/ξ_s)²`; see `docs/theory/patch-contact.md`, section 3.
     #[test]
     fn the_force_of_steady_rolling_is_that_of_carter_at_every_creepage() {
         let tables = PointTables::new();

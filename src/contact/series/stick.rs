@@ -30,8 +30,9 @@ const NOTICED: f64 = 10.0;
 const TOLERANCE: f64 = 2e-9;
 /// Largest change of pressures before the last solution of the tangential problem \[1]; that after it is far smaller.
 const PRESSED: f64 = 1e-8;
-/// Largest change of both in equilibria, which others improve from solution to solution.
-const AT_REST: f64 = 1e-10;
+/// Largest change of both where solutions are wanted to round-off: in equilibria, which others improve from solution to
+/// solution, and for differences of steps.
+const EXACT: f64 = 1e-10;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
 const WARM: usize = 3;
 const CLOSE: f64 = 1e-3;
@@ -67,8 +68,8 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
 impl SeriesContact<'_> {
     /// True if the changes of an iteration are the last ones that count.
     pub fn settles(&self, normal: f64, tangential: f64) -> bool {
-        match self.lines[0].problem.line.time.is_stationary() {
-            true => normal.max(tangential) <= AT_REST,
+        match self.exact {
+            true => normal.max(tangential) <= EXACT,
             false => normal <= PRESSED && tangential <= TOLERANCE,
         }
     }

@@ -1,7 +1,7 @@
 //! From the patch to the grid and back: both describe the same surfaces, and what the slip of the next step refers to,
 //! the tangential displacement at the last two times, goes over as a function of x.
 
-use super::chebyshev::Arch;
+use super::chebyshev::{Arch, TERMS};
 use super::constants::Constants;
 use super::state::{Past, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE};
@@ -104,8 +104,6 @@ fn surface(
 /// those of a single patch of which a part at the trailing edge slips in one direction; and this direction.
 fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
     let closed: Vec<NodeStatus> = state.status.iter().copied().filter(|s| s.is_active()).collect();
-    let first = state.status.iter().position(|s| s.is_active())?;
-    let last = state.status.iter().rposition(|s| s.is_active())?;
     let stuck = closed.iter().filter(|s| s.is_stuck()).count();
     let from_edge = |s: &&NodeStatus| s.is_stuck();
     let at_edge = match upstream_right {
@@ -114,8 +112,33 @@ fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
     };
     let directions: f64 = closed.iter().map(|s| s.friction_direction()).sum();
     let slips = (closed.len() - stuck) as f64;
-    let single = last + 1 - first == closed.len() && at_edge == stuck && directions.abs() == slips;
+    let single = at_edge == stuck && directions.abs() == slips;
     single.then(|| (stuck as f64 / closed.len() as f64, directions.signum()))
+}
+
+/// True if all closed nodes lie beside each other.
+fn is_single(state: &LineState) -> bool {
+    let closed = || state.status.iter().map(|status| status.is_active());
+    let (first, last) = (closed().position(|closed| closed), closed().rposition(|closed| closed));
+    let length = first.zip(last).map_or(0, |(first, last)| last + 1 - first);
+    length > 0 && closed().filter(|closed| *closed).count() == length
+}
+
+/// Tractions at points in the states of the nodes next to them, on a patch with the given pressure.
+fn on_points(
+    constants: &Constants,
+    grid: &ContactGrid,
+    from: &ContactState,
+    state: &LineState,
+    pressure: Arch,
+) -> Tractions {
+    let upstream = if from.traction.rigid.travel < 0.0 { -1.0 } else { 1.0 };
+    let x = constants.of_points.tractions.map(|t| pressure.centre + upstream * pressure.half_width * t);
+    let next = |x: f64| grid.x.partition_point(|node| *node < x - 0.5 * grid.spacing).min(grid.len() - 1);
+    let directions = x.map(|x| state.status[next(x)].friction_direction() as i8);
+    let terms = constants.of_points.terms_of(&x.map(|x| from.traction.shear.at(x)), upstream);
+    let stick = Arch { count: TERMS, terms: std::array::from_fn(|k| terms[k]), ..pressure };
+    Tractions { pressure, slide: 0.0, stick, directions: Some(directions) }
 }
 
 /// Nodes in the middle of a grid that have one spacing; those of a wide grid grow apart outside of them.
@@ -141,21 +164,27 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
         return None;
     }
     let upstream_right = traction.rigid.travel >= 0.0;
-    let (share, direction) = share(state, upstream_right)?;
+    if !is_single(state) {
+        return None;
+    }
     let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
     pressure.terms[0] = 2.0 * load / (PI * half_width);
-    let mut stick = Arch::default();
     let side = if upstream_right { 1.0 } else { -1.0 };
-    if share > 0.0 {
-        (stick.half_width, stick.centre) = (share * half_width, centre + side * (1.0 - share) * half_width);
-    }
-    let slide = direction * traction.friction.coefficient;
+    let tractions = match share(state, upstream_right) {
+        Some((share, direction)) => {
+            let mut stick = Arch::default();
+            if share > 0.0 {
+                (stick.half_width, stick.centre) = (share * half_width, centre + side * (1.0 - share) * half_width);
+            }
+            Tractions { pressure, slide: direction * traction.friction.coefficient, stick, directions: None }
+        }
+        None => on_points(constants, grid, from, state, Arch { ..pressure }),
+    };
     let history = |before: bool| {
         let value = |h: &History| if before { h.before } else { h.now };
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
-    let tractions = Tractions { pressure, slide, stick, directions: None };
     let friction = friction_history(constants, &tractions, side, from);
     let patch =
         SeriesState { tractions, kernel: LineKernel::default(), past: [history(false), history(true)], slope: 0.0 };
@@ -182,13 +211,14 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
 /// Friction at the places of the slipping part, read off the profiles.
 fn friction_history(constants: &Constants, tractions: &Tractions, side: f64, from: &ContactState) -> FrictionHistory {
     let before = &from.history.friction;
-    let Tractions { pressure, slide, stick, .. } = tractions;
-    let half = pressure.half_width - stick.half_width;
-    let centre = pressure.centre - side * stick.half_width;
+    let Tractions { pressure, stick, directions, .. } = tractions;
+    // Where points have the shear they slip throughout.
+    let stuck = if directions.is_some() { 0.0 } else { stick.half_width };
+    let (half, centre) = (pressure.half_width - stuck, pressure.centre - side * stuck);
     let tables = &constants.tables;
     let places = tables.places.map(|t| centre + half * t);
-    let densities = pressure.density(&places);
-    let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * slide * densities[q]);
+    let shear = tractions.shear(&places);
+    let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * shear[q]);
     let span = duration(&before.force, &before.impulse);
     FrictionHistory {
         force: force.to_vec(),
