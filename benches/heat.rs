@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use wheelrail::config::{ConductanceLaw, Config, Hub};
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatScratch, HeatState};
+use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatLine, HeatModel, HeatScratch, HeatState};
 use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
 
@@ -62,7 +62,9 @@ fn heat(c: &mut Criterion) {
                 let factor = 1.0 + change * f64::from(k % 7);
                 let (dt, v) = (1e-3 * factor, SPEED * factor);
                 let omega = rolling * v / 0.5;
-                let flows = heat.step(&state, &mut next, dt, v, omega, &exchange, &mut scratch).expect("step");
+                let mut line = [HeatLine::new(&state, &mut next, &exchange)];
+                heat.step(&mut line, dt, v, omega, &mut scratch).expect("step");
+                let flows = line[0].flows;
                 std::mem::swap(&mut state, &mut next);
                 flows
             })

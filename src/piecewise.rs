@@ -113,6 +113,13 @@ impl Piecewise {
         }
     }
 
+    /// Value at ascending positions, one after the other, see [`Self::at`].
+    pub fn ascending(&self) -> impl FnMut(f64) -> f64 + '_ {
+        let inside = self.x.first().zip(self.x.last()).map(|(first, last)| *first..=*last);
+        let mut value = ascending(&self.x, &self.value);
+        move |x| if inside.as_ref().is_some_and(|inside| inside.contains(&x)) { value(x) } else { 0.0 }
+    }
+
     /// Replaces `out` by the values at ascending positions, see [`Self::at`].
     pub fn sample(&self, at: &[f64], out: &mut Vec<f64>) {
         resample(&self.x, &self.value, at, out);
@@ -195,12 +202,18 @@ pub fn straight(points: &[[f64; 2]]) -> [f64; 2] {
 
 /// Replaces `out` by the values at the ascending positions `at`, see [`interpolate`].
 pub fn resample(x: &[f64], values: &[f64], at: &[f64], out: &mut Vec<f64>) {
-    let mut next = 0;
+    let mut value = ascending(x, values);
     out.clear();
-    out.extend(at.iter().map(|&at| {
+    out.extend(at.iter().map(|&at| value(at)));
+}
+
+/// Value at ascending positions, one after the other, see [`interpolate`]: each costs the nodes since the one before.
+pub fn ascending<'a>(x: &'a [f64], values: &'a [f64]) -> impl FnMut(f64) -> f64 + 'a {
+    let mut next = 0;
+    move |at| {
         next += x[next..].iter().take_while(|&&node| node <= at).count();
         between(x, values, at, next)
-    }));
+    }
 }
 
 /// Mean over an interval of the function that is linear between nodes and zero outside; zero for an empty interval.
@@ -236,12 +249,12 @@ pub fn smear(x: &[f64], values: &mut [f64], reach: f64) {
 /// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule);
 /// zero for a weight without integral.
 pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
-    let (mut sum, mut total) = (0.0, 0.0);
+    let (mut sum, mut total, mut value) = (0.0, 0.0, ascending(x, values));
     for (i, &at) in weight.x.iter().enumerate() {
         let (before, after) = (weight.x[i.saturating_sub(1)], weight.x[(i + 1).min(weight.x.len() - 1)]);
         let share = 0.5 * (after - before) * weight.value[i];
         total += share;
-        sum += share * interpolate(x, values, at);
+        sum += share * value(at);
     }
     if total > 0.0 { sum / total } else { 0.0 }
 }

@@ -9,7 +9,7 @@ use wheelrail::heat::*;
 fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
     let v = 50.0 * KMH;
     let heat = heat(&config(1e5, 1.1 * v));
-    let rolling = Exchange { tread: brake_blocks(60.0), ..carter(1e5, v, -8e-4) };
+    let rolling = Exchange { sources: brake_blocks(60.0), ..carter(1e5, v, -8e-4) };
     let mut exchange = rolling.clone();
     let (mut state, mut next) = (heat.initial(20.0, 0.0), HeatState::default());
     let (mut seen, mut scratch) = (Observation::default(), HeatScratch::default());
@@ -23,12 +23,13 @@ fn a_step_with_its_observation_requests_memory_for_the_coupling_matrix_only() {
             let before = heap::requests();
             exchange.clear();
             exchange.patches.extend_from_slice(&rolling.patches);
-            exchange.tread.extend_from_slice(&rolling.tread);
+            exchange.sources.extend_from_slice(&rolling.sources);
             for (&x, &value) in rolling.friction_power.x.iter().zip(&rolling.friction_power.value) {
                 exchange.friction_power.push(x, value * wave);
             }
             let omega = turning * omega(v * wave, -8e-4);
-            heat.step(&state, &mut next, dt * wave, v * wave, omega, &exchange, &mut scratch).unwrap();
+            let mut line = [HeatLine::new(&state, &mut next, &exchange)];
+            heat.step(&mut line, dt * wave, v * wave, omega, &mut scratch).unwrap();
             heat.observe(&next, &mut seen).unwrap();
             std::mem::swap(&mut state, &mut next);
             // The first steps of each kind lay out the buffers.

@@ -67,15 +67,14 @@ fn reversal_of_both_speeds_mirrors_the_temperatures() {
     let (load, v, creepage) = (1e5, 50.0 * KMH, -6e-4);
     let config = config(load, v);
     let heat = heat(&config);
-    let forward =
-        Exchange { tread: vec![TreadHeat { angle: 1.0, width: 0.3, heat: 100.0 }], ..carter(load, v, creepage) };
+    let forward = Exchange { sources: vec![HeatSource::on_tread(1.0, 0.3, 100.0)], ..carter(load, v, creepage) };
     let mirrored = |profile: &Piecewise| Piecewise {
         x: profile.x.iter().rev().map(|x| -x).collect(),
         value: profile.value.iter().rev().copied().collect(),
     };
     let backward = Exchange {
         friction_power: mirrored(&forward.friction_power),
-        tread: vec![TreadHeat { angle: -1.0, width: 0.3, heat: 100.0 }],
+        sources: vec![HeatSource::on_tread(-1.0, 0.3, 100.0)],
         ..forward.clone()
     };
     let omega = omega(v, creepage);

@@ -34,14 +34,16 @@ fn compare(name: &str, heat: &Heat, steps: usize, dt: f64, at: impl Fn(usize) ->
             .iter()
             .zip(&mut next)
             .zip(&exchanges)
-            .map(|((state, next), exchange)| HeatLine { state, next, exchange, flows: HeatFlows::default() })
+            .map(|((state, next), exchange)| HeatLine::new(state, next, exchange))
             .collect();
-        heat.step_lines(&mut lines, dt, v, omega, &mut scratch).unwrap();
+        heat.step(&mut lines, dt, v, omega, &mut scratch).unwrap();
         let flows: Vec<HeatFlows> = lines.iter().map(|line| line.flows).collect();
         joined = next;
         for (l, exchange) in exchanges.iter().enumerate() {
             let mut next = HeatState::default();
-            let flow = heat.step(&alone[l], &mut next, dt, v, omega, exchange, &mut own[l]).unwrap();
+            let mut line = [HeatLine::new(&alone[l], &mut next, exchange)];
+            heat.step(&mut line, dt, v, omega, &mut own[l]).unwrap();
+            let flow = line[0].flows;
             alone[l] = next;
             let scale = flow.friction.abs().max(flow.to_rail.abs()).max(1.0);
             worst = worst.max(apart(&alone[l], &joined[l])).max((flow.to_wheel - flows[l].to_wheel).abs() / scale);

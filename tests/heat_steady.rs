@@ -95,8 +95,11 @@ fn rail_chill() {
         let v = speed * KMH;
         let name = format!("chill at {speed} km/h");
         let a = half_width(1e4);
-        let exchange =
-            Exchange { patches: vec![Interval { low: -a, high: a }], tread: brake_blocks(60.0), ..Exchange::default() };
+        let exchange = Exchange {
+            patches: vec![Interval { low: -a, high: a }],
+            sources: brake_blocks(60.0),
+            ..Exchange::default()
+        };
         let config = with(config(1e4, v), |c| c.thermal.hub = Hub::Insulated);
         let (t, f) = stationary(&name, &config, v, omega(v, 0.0), &exchange);
         compare(

@@ -10,7 +10,7 @@ use wheelrail::piecewise::Piecewise;
 fn manoeuvre(heat: &Heat, steps: usize) -> [f64; 4] {
     let v = |t: f64| 14.0 - 6.0 * (1.0 - (2.0 * t).cos());
     let exchange = |t: f64| Exchange {
-        tread: vec![TreadHeat { angle: 1.5, width: 0.8, heat: 1e4 * (1.0 + 0.5 * (3.0 * t).sin()) }],
+        sources: vec![HeatSource::on_tread(1.5, 0.8, 1e4 * (1.0 + 0.5 * (3.0 * t).sin()))],
         ..carter(1e5, v(t), -8e-4)
     };
     let (mut state, _) = heat.stationary(v(0.0), omega(v(0.0), -8e-4), &exchange(0.0)).unwrap();
@@ -84,7 +84,7 @@ fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
         {
             let (v, creepage) = rolling[(k / 10 + k) % rolling.len()];
             let mut exchange = carter(load, v, creepage);
-            exchange.tread = brake_blocks(200.0 * (k % 3) as f64);
+            exchange.sources = brake_blocks(200.0 * (k % 3) as f64);
             if k % 5 == 4 {
                 exchange.patches.clear();
                 exchange.friction_power = Piecewise::default();
@@ -209,7 +209,8 @@ fn bad_input_is_refused_by_name_with_its_value() {
     let state = heat.initial(3.0, 0.0);
     let (mut next, mut scratch) = (HeatState::default(), HeatScratch::default());
     let mut refuse = |dt: f64, v: f64, omega: f64, exchange: &Exchange, words: &str| {
-        let message = heat.step(&state, &mut next, dt, v, omega, exchange, &mut scratch).unwrap_err().to_string();
+        let mut line = [HeatLine::new(&state, &mut next, exchange)];
+        let message = heat.step(&mut line, dt, v, omega, &mut scratch).unwrap_err().to_string();
         println!("{message}");
         assert!(message.contains(words), "{message}");
     };
@@ -225,10 +226,10 @@ fn bad_input_is_refused_by_name_with_its_value() {
     refuse(1e-3, 14.0, 28.0, &bad, "positions must ascend");
     let bad = Exchange { patches: vec![Interval { low: -1.0, high: 0.0 }], ..good.clone() };
     refuse(1e-3, 14.0, 28.0, &bad, "contact patch reaches x = -1 m");
-    let bad = Exchange { tread: vec![TreadHeat { angle: 1.0, width: 0.1, heat: f64::NAN }], ..good.clone() };
-    refuse(1e-3, 14.0, 28.0, &bad, "tread heat is NaN");
-    let bad = Exchange { tread: vec![TreadHeat { angle: f64::INFINITY, width: 0.1, heat: 1.0 }], ..good.clone() };
-    refuse(1e-3, 14.0, 28.0, &bad, "angle of tread heat is inf");
+    let bad = Exchange { sources: vec![HeatSource::on_tread(1.0, 0.1, f64::NAN)], ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "heat of a source is NaN");
+    let bad = Exchange { sources: vec![HeatSource::on_tread(f64::INFINITY, 0.1, 1.0)], ..good.clone() };
+    refuse(1e-3, 14.0, 28.0, &bad, "angle of a heat source is inf");
     let bad = Exchange { patches: vec![Interval { low: 1e-4, high: -1e-4 }], ..good.clone() };
     refuse(1e-3, 14.0, 28.0, &bad, "contact patch from 0.0001 m to -0.0001 m");
     for (config, word) in [
@@ -247,7 +248,7 @@ fn heat_without_a_way_out_has_no_stationary_state() {
     let closed = heat(&with(config(1e5, 20.0), |c| c.thermal.hub = Hub::Insulated));
     let a = half_width(1e5);
     let patches = vec![Interval { low: -a, high: a }];
-    let heating = Exchange { tread: brake_blocks(60.0), patches, ..Exchange::default() };
+    let heating = Exchange { sources: brake_blocks(60.0), patches, ..Exchange::default() };
     let refused = closed.stationary(0.0, 0.0, &heating).unwrap_err();
     println!("{refused}");
     assert!(matches!(refused, HeatError::NoStationaryState { .. }), "{refused:?}");

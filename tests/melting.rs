@@ -5,7 +5,7 @@ mod heat_common;
 use heat_common::{KMH, Run, config, with};
 use std::f64::consts::PI;
 use wheelrail::config::Hub;
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatScratch, HeatState, TreadHeat};
+use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatScratch, HeatSource, HeatState};
 
 const FLUX: f64 = 2e8;
 
@@ -23,7 +23,7 @@ fn molten_steel() -> HeatConfig {
 fn even_heat(config: &HeatConfig) -> Exchange {
     let width = 2.0 * PI;
     let heat = FLUX * width * config.wheel.radius;
-    Exchange { tread: vec![TreadHeat { angle: 0.0, width, heat }], ..Exchange::default() }
+    Exchange { sources: vec![HeatSource::on_tread(0.0, width, heat)], ..Exchange::default() }
 }
 
 /// Conductivity, heat capacity, solidus, mushy interval, latent heat over specific heat.

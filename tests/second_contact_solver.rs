@@ -222,7 +222,7 @@ fn models_with_place() -> ([RollingModel; 2], Arc<Mutex<[f64; 2]>>) {
         place: Arc::clone(&place),
     };
     let smooth = || Surfaces::smooth(config.wheel.radius);
-    let toys = RollingModel::with_solver(config.clone(), toys, smooth(), Box::new(toy), None).unwrap();
+    let toys = RollingModel::with_solver(config.clone(), toys, smooth(), Box::new(toy)).unwrap();
     let models = [toys, RollingModel::new(config.clone(), grids, smooth()).unwrap()];
     (models, place)
 }

@@ -8,8 +8,8 @@ use common::preset;
 use std::f64::consts::PI;
 use wheelrail::config::{Config, Response, StartTemperature};
 use wheelrail::heat::{
-    Exchange, HeatConfig, HeatError, HeatFlows, HeatModel, HeatScratch, HeatState, Observation, TemperatureField,
-    Temperatures,
+    Exchange, HeatConfig, HeatError, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatState, Observation,
+    TemperatureField, Temperatures,
 };
 use wheelrail::mechanics::{Basis, bodies};
 use wheelrail::piecewise::{Interval, Piecewise};
@@ -86,14 +86,14 @@ impl FlashModel {
         }
         let power: f64 = exchange.friction_power.segments().map(|(x, q)| 0.5 * (x[1] - x[0]) * (q[0] + q[1])).sum();
         let friction = self.heat_ratio * power * (1.0 + exchange.friction_excess);
-        let tread: f64 = exchange.tread.iter().map(|tread| tread.heat).sum();
+        let supplied: f64 = exchange.sources.iter().map(|source| source.heat).sum();
         let flows = HeatFlows {
             friction,
-            tread,
+            supplied,
             to_wheel: 0.5 * friction,
             to_rail: 0.5 * friction,
             outflow: 0.5 * friction,
-            stored_wheel: 0.5 * friction + tread,
+            stored_wheel: 0.5 * friction + supplied,
             ..HeatFlows::default()
         };
         Ok((HeatState::new(values), flows))
@@ -123,18 +123,17 @@ impl HeatModel for FlashModel {
 
     fn step(
         &self,
-        state: &HeatState,
-        next: &mut HeatState,
+        lines: &mut [HeatLine],
         dt: f64,
         velocity: f64,
         omega: f64,
-        exchange: &Exchange,
         _scratch: &mut HeatScratch,
-    ) -> Result<HeatFlows, HeatError> {
-        let (found, flows) = self.evaluate(state.values[0], [velocity, omega], exchange)?;
-        *next = found;
-        next.values[0] += dt * flows.stored_wheel / self.capacity;
-        Ok(flows)
+    ) -> Result<(), HeatError> {
+        for line in lines {
+            (*line.next, line.flows) = self.evaluate(line.state.values[0], [velocity, omega], line.exchange)?;
+            line.next.values[0] += dt * line.flows.stored_wheel / self.capacity;
+        }
+        Ok(())
     }
 
     fn fits(&self, state: &HeatState) -> bool {

@@ -200,7 +200,7 @@ fn exchange(c: &HeatConfig, random: &mut Random) -> Exchange {
         pressure: profile(pressure),
         friction_power: profile(power),
         friction_excess: random.between(-1.0, 3.0),
-        tread: vec![TreadHeat { angle: random.between(-PI, PI), width: 0.5, heat }],
+        sources: vec![HeatSource::on_tread(random.between(-PI, PI), 0.5, heat)],
         ..Exchange::default()
     }
 }
@@ -239,7 +239,8 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
             }
             let dt = random.logarithmic(1e-6, 1e-1);
             let mut next = HeatState::default();
-            let flows = match heat.step(&state, &mut next, dt, speed, omega, &acting, &mut scratch) {
+            let mut line = [HeatLine::new(&state, &mut next, &acting)];
+            let flows = match heat.step(&mut line, dt, speed, omega, &mut scratch).map(|()| line[0].flows) {
                 Ok(flows) => flows,
                 Err(error) if named(&error.to_string()) => break,
                 Err(error) => {

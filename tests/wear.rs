@@ -262,7 +262,8 @@ fn the_flat_of_a_locked_wheel_is_as_long_as_its_saved_profile_shows() {
         inputs.drive.friction = 0.0;
         run(&mut simulation, &inputs, 1e-3, 30);
         let rolled = simulation.outputs();
-        assert!((rolled.flat_length / outputs.flat_length - 1.0).abs() < 0.02, "{case}: {}", rolled.flat_length);
+        // Read off between nodes a sixth of the contact apart.
+        assert!((rolled.flat_length / outputs.flat_length - 1.0).abs() < 0.03, "{case}: {}", rolled.flat_length);
     }
 }
 

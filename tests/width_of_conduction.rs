@@ -7,7 +7,7 @@ use heat_common::{Run, deviation, heat};
 use std::f64::consts::PI;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::config::{CrossSection, Hub};
-use wheelrail::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, TreadHeat};
+use wheelrail::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, HeatSource};
 use wheelrail::piecewise::Piecewise;
 use wheelrail::simulation::{Inputs, Simulation};
 
@@ -74,8 +74,8 @@ fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_6
         let heat = heat(&config);
         let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
         // 1 W/m² all around.
-        let tread = vec![TreadHeat { angle: 0.0, width: 2.0 * PI, heat: 2.0 * PI * config.wheel.radius }];
-        let exchange = Exchange { tread, ..Exchange::default() };
+        let sources = vec![HeatSource::on_tread(0.0, 2.0 * PI, 2.0 * PI * config.wheel.radius)];
+        let exchange = Exchange { sources, ..Exchange::default() };
         let (mut time, mut worst) = (0.0, 0.0_f64);
         for after in [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 60.0] {
             let h = (after - time) / 100.0;

@@ -140,8 +140,8 @@ impl Traction {
     }
 
     /// Integral of the pressure times a function of x, that of its middle in every piece of the pressure [N/m times the
-    /// unit of the function].
-    pub fn load_times(&self, of: impl Fn(f64) -> f64) -> f64 {
+    /// unit of the function]; it is asked from low x to high.
+    pub fn load_times(&self, mut of: impl FnMut(f64) -> f64) -> f64 {
         self.pressure.segments().map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1]) * of(0.5 * (x[0] + x[1]))).sum()
     }
 

@@ -1,17 +1,34 @@
-//! Exchange of heat at the surfaces during a step: patches, pressure, frictional heat, heat on the tread.
+//! Exchange of heat at the surfaces during a step: patches, pressure, frictional heat, other sources.
 
 use crate::piecewise::{Interval, Piecewise};
 use serde::{Deserialize, Serialize};
 
-/// Prescribed heat on an arc of the tread that is fixed in space (a brake block).
+/// Source of prescribed heat into the wheel, beside friction in the contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TreadHeat {
-    /// Angle of its middle from the contact point, positive on the leading side \[rad].
-    pub angle: f64,
-    /// Angle that it covers \[rad].
-    pub width: f64,
-    /// Heat into the wheel [W/m], uniform over the arc.
+pub struct HeatSource {
+    /// Where it enters, uniformly.
+    pub place: HeatPlace,
+    /// Heat into the wheel [W/m].
     pub heat: f64,
+}
+
+impl HeatSource {
+    /// Source on an arc of the tread around the `angle` \[rad] of the `width` \[rad].
+    pub fn on_tread(angle: f64, width: f64, heat: f64) -> Self {
+        Self { place: HeatPlace::Tread { angle, width }, heat }
+    }
+}
+
+/// Part of the wheel that a source heats; it is fixed in space, and the wheel turns through it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum HeatPlace {
+    /// Arc of the tread, of the width of a brake block.
+    Tread {
+        /// Angle of its middle from the contact point, positive on the leading side \[rad].
+        angle: f64,
+        /// Angle that it covers \[rad].
+        width: f64,
+    },
 }
 
 /// Contact and heat at the surfaces per metre of width at the end of a step; all but the friction power holds over the
@@ -29,8 +46,8 @@ pub struct Exchange {
     /// By how much the mean of the friction power over the step exceeds that at its end, relative to the latter \[1];
     /// zero: it holds over the step.
     pub friction_excess: f64,
-    /// Heat on the tread of the wheel.
-    pub tread: Vec<TreadHeat>,
+    /// Sources of heat beside friction.
+    pub sources: Vec<HeatSource>,
     /// Reversible temperatures over x that conduct besides those of the fields: wheel less rail \[K].
     pub reversible: Piecewise,
     /// Temperature of the rail that arrives with the stream, over the reference \[K].
@@ -44,7 +61,7 @@ impl Exchange {
         self.pressure.clear();
         self.friction_power.clear();
         self.friction_excess = 0.0;
-        self.tread.clear();
+        self.sources.clear();
         self.reversible.clear();
         self.arriving = 0.0;
     }

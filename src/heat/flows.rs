@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 pub struct HeatFlows {
     /// Friction heat into both bodies, `γ_f ∫|τs| dx`.
     pub friction: f64,
-    /// Prescribed heat on the tread.
-    pub tread: f64,
+    /// Heat of the sources into the wheel.
+    pub supplied: f64,
     /// Wheel to rail through the contact conductance.
     pub conduction: f64,
     /// Net heat into the wheel through the contact: friction share and conduction.
@@ -34,7 +34,7 @@ pub struct HeatFlows {
 impl HeatFlows {
     /// Heat that the wheel receives, less the heat that it passes on and stores [W/m]; zero but for round-off.
     pub fn wheel_imbalance(&self) -> f64 {
-        self.to_wheel + self.tread - self.to_hub - self.wheel_to_air - self.stored_wheel
+        self.to_wheel + self.supplied - self.to_hub - self.wheel_to_air - self.stored_wheel
     }
 
     /// Heat that the rail receives, less the heat that it passes on and stores [W/m]; zero but for round-off.
@@ -49,13 +49,23 @@ impl HeatFlows {
         if largest > 0.0 { worst / largest } else { 0.0 }
     }
 
+    /// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: each flow is
+    /// counted at its source and at its sink.
+    pub fn balance(&self) -> [f64; 2] {
+        let sources = [self.friction, self.supplied];
+        let Self { stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air, .. } = *self;
+        let sinks = [stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air];
+        let amount: f64 = sources.iter().chain(&sinks).map(|flow| flow.abs()).sum();
+        [sources.iter().sum::<f64>() - sinks.iter().sum::<f64>(), 0.5 * amount]
+    }
+
     /// Adds a share of other flows: the sum over all steps with their shares of the time is the mean.
     pub fn add(&mut self, share: f64, other: &Self) {
-        let Self { friction, tread, conduction, to_wheel, to_rail, to_hub, outflow, .. } = self;
+        let Self { friction, supplied, conduction, to_wheel, to_rail, to_hub, outflow, .. } = self;
         let Self { wheel_to_air, rail_to_air, stored_wheel, stored_rail, iterations, .. } = other;
         for (mean, flow) in [
             (friction, other.friction),
-            (tread, other.tread),
+            (supplied, other.supplied),
             (conduction, other.conduction),
             (to_wheel, other.to_wheel),
             (to_rail, other.to_rail),
@@ -74,7 +84,7 @@ impl HeatFlows {
     fn all(&self) -> [f64; 9] {
         [
             self.friction,
-            self.tread,
+            self.supplied,
             self.conduction,
             self.to_hub,
             self.outflow,

@@ -181,7 +181,8 @@ impl LateralMixing {
         }
     }
 
-    /// Mixes the bounds that fields keep. What was hotter than the data of a cell is a datum of it from now on.
+    /// Mixes the bounds that fields keep, and the data: the mean of fields that stay within the margin of theirs stays
+    /// within the margin of their mean.
     fn mix_bounds(&self, states: &mut [&mut HeatState]) {
         let count = states.first().map_or(0, |state| state.rows.len());
         if states.iter().any(|state| state.rows.len() != count) {
@@ -189,6 +190,7 @@ impl LateralMixing {
         }
         let known: Vec<Vec<RowBounds>> = states.iter().map(|state| state.rows.clone()).collect();
         let ranges: Vec<[f64; 2]> = states.iter().map(|state| state.range).collect();
+        let data: Vec<[f64; 2]> = states.iter().map(|state| state.data).collect();
         for (i, state) in states.iter_mut().enumerate() {
             for (place, row) in state.rows.iter_mut().enumerate() {
                 let mut mean = RowBounds { found: [0.0; 2], moved: 0.0 };
@@ -199,9 +201,11 @@ impl LateralMixing {
                 }
                 *row = mean;
             }
-            let mean = |end: usize| ranges.iter().enumerate().map(|(j, range)| self.share(i, j) * range[end]).sum();
-            state.range = [mean(0), mean(1)];
-            state.data = [state.data[0].min(state.range[0]), state.data[1].max(state.range[1])];
+            let mixed = |of: &[[f64; 2]]| {
+                let shares = (0..of.len()).map(|j| self.share(i, j)).enumerate().filter(|(_, share)| *share > 0.0);
+                shares.fold([0.0; 2], |mean, (j, share)| [0, 1].map(|end| mean[end] + share * of[j][end]))
+            };
+            (state.range, state.data) = (mixed(&ranges), mixed(&data));
         }
     }
 }

@@ -6,7 +6,7 @@
 //! flows towards −x.
 //!
 //! ```text
-//! wheel    ρc (∂_t T − ω ∂_φ T) = k ΔT      hub: T = 0 or insulated; tread: q_tread, −h T
+//! wheel    ρc (∂_t T − ω ∂_φ T) = k ΔT      hub: T = 0 or insulated; sources: q; tread: −h T
 //! rail     ρc (∂_t T − V ∂_x T) = k ΔT      inflow: ρc|V|T − k ∂_n T = 0; outflow: k ∂_n T = 0; base insulated
 //! contact  q → wheel = β γ_f |τ s| − k_c (T_w − T_r),   q → rail = (1 − β) γ_f |τ s| + k_c (T_w − T_r)
 //! ```
@@ -35,7 +35,7 @@ mod tensor;
 
 pub use crate::piecewise::Interval;
 pub use error::HeatError;
-pub use exchange::{Exchange, TreadHeat};
+pub use exchange::{Exchange, HeatPlace, HeatSource};
 pub use flows::HeatFlows;
 pub use lateral::{LateralCells, LateralHistory, LateralMixing, MIXED_AT};
 pub use limits::{LARGEST_STEP, SMALLEST_STEP};

@@ -20,6 +20,13 @@ pub struct HeatLine<'a> {
     pub flows: HeatFlows,
 }
 
+impl<'a> HeatLine<'a> {
+    /// Step from `state` to `next` under `exchange` that is still to be taken.
+    pub fn new(state: &'a HeatState, next: &'a mut HeatState, exchange: &'a Exchange) -> Self {
+        Self { state, next, exchange, flows: HeatFlows::default() }
+    }
+}
+
 /// Model of the temperature of wheel and rail, per metre of the contact's width; immutable, its data are in the state.
 ///
 /// Velocities are that of the wheel's centre [m/s] and the angular one [rad/s], forward rolling positive. Temperatures
@@ -42,38 +49,18 @@ pub trait HeatModel: Send + Sync {
         wheel: f64,
     ) -> Result<(HeatState, HeatFlows), HeatError>;
 
-    /// Replaces `next` by the state `dt` \[s] after `state` with the exchange held over the step.
-    ///
-    /// Returns the mean flows over the step. The memory of `next` is reused; on error its content is meaningless.
-    #[allow(clippy::too_many_arguments)]
-    fn step(
-        &self,
-        state: &HeatState,
-        next: &mut HeatState,
-        dt: f64,
-        velocity: f64,
-        omega: f64,
-        exchange: &Exchange,
-        scratch: &mut HeatScratch,
-    ) -> Result<HeatFlows, HeatError>;
-
-    /// A step as [`Self::step`] takes it, for lines side by side that have speeds and step size in common; heat does
-    /// not flow from line to line. Results are those of each line alone, to round-off.
+    /// Takes lines side by side, which have speeds and step size in common, on by `dt` \[s] with the exchange of each
+    /// held over the step. Heat does not flow from line to line: results are those of each line alone, to round-off.
     ///
     /// On error all states at the end and flows are meaningless.
-    fn step_lines(
+    fn step(
         &self,
         lines: &mut [HeatLine],
         dt: f64,
         velocity: f64,
         omega: f64,
         scratch: &mut HeatScratch,
-    ) -> Result<(), HeatError> {
-        for line in lines {
-            line.flows = self.step(line.state, line.next, dt, velocity, omega, line.exchange, scratch)?;
-        }
-        Ok(())
-    }
+    ) -> Result<(), HeatError>;
 
     /// Test that a state has the dimensions of this model.
     fn fits(&self, state: &HeatState) -> bool;

@@ -60,6 +60,6 @@ pub(super) struct BoundaryState {
     pub speeds: [f64; 2],
     /// Contact conductance integrated over the patch [W/(m K)].
     pub conductance: f64,
-    /// Friction heat and heat on the tread [W/m].
+    /// Friction heat and heat of the sources [W/m].
     pub heat: [f64; 2],
 }

@@ -1,31 +1,21 @@
 //! Small dense matrices: systems solved over and over in buffers that are kept, and exact symmetry.
 
 use super::vectorised::vectorised;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::factor::{self, PartialPivLuParams};
-use faer::{Auto, MatMut, Par, Spec};
 use nalgebra::DMatrix;
 
-/// Factorises column by column, without products of blocks: those keep a buffer with a destructor in the thread that
-/// asks for them, which would hold a library of an FMU loaded as long as the thread of its master lives.
-fn by_columns() -> Spec<PartialPivLuParams, f64> {
-    Spec::new(PartialPivLuParams { recursion_threshold: usize::MAX, ..<PartialPivLuParams as Auto<f64>>::auto() })
-}
-
-/// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting.
+/// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting. Systems of contact
+/// have some tens of unknowns: blocks, with which libraries begin, do not pay yet.
 ///
 /// Once the buffers have the size of the largest system, nothing is allocated any more.
 #[derive(Default)]
 pub struct DenseSystem {
     size: usize,
-    /// Rows of `A`, one after the other; overwritten by the factors of `Aᵀ`.
+    /// Rows of `A`, one after the other; overwritten by the factors of `P A`, L with a diagonal of 1.
     rows: Vec<f64>,
     rhs: Vec<f64>,
     permuted: Vec<f64>,
-    permutation: [Vec<usize>; 2],
-    stack: Option<MemBuffer>,
-    /// Size for which `stack` suffices.
-    prepared: usize,
+    /// Rows of `A` in the order of those of `P A`.
+    order: Vec<usize>,
 }
 
 impl DenseSystem {
@@ -53,41 +43,58 @@ impl DenseSystem {
 
     /// Replaces the matrix by its factors; whether they are finite.
     pub fn factorise(&mut self) -> bool {
-        let n = self.size;
-        if n == 0 {
-            return true;
-        }
-        if self.stack.is_none() || self.prepared < n {
-            let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, by_columns());
-            self.stack = Some(MemBuffer::new(factor));
-            self.prepared = n;
-        }
-        let [forward, inverse] = &mut self.permutation;
-        forward.resize(n, 0);
-        inverse.resize(n, 0);
-        let Some(stack) = &mut self.stack else { return false };
-        // Rows of A in memory are columns of Aᵀ, which faer factorises; A x = b is then the transposed solve.
-        let transposed = MatMut::from_column_major_slice_mut(&mut self.rows, n, n);
-        let (forward, inverse) = (&mut forward[..n], &mut inverse[..n]);
-        factor::lu_in_place(transposed, forward, inverse, Par::Seq, MemStack::new(stack), by_columns());
-        (0..n).all(|i| self.rows[i * (n + 1)].is_finite())
+        self.order.clear();
+        self.order.extend(0..self.size);
+        factorise(&mut self.rows, &mut self.order)
     }
 
     /// `x ← A⁻¹ x` with the factors of [`Self::factorise`]; whether the result is finite.
     pub fn solve_with(&mut self, x: &mut [f64]) -> bool {
-        // Aᵀ = P⁻¹ L U, so that A = Uᵀ Lᵀ P.
-        substitute_transposed(&self.rows, x);
         self.permuted.clear();
         self.permuted.extend_from_slice(x);
-        let [_, inverse] = &self.permutation;
-        x.iter_mut().zip(inverse).for_each(|(x, &from)| *x = self.permuted[from]);
+        x.iter_mut().zip(&self.order).for_each(|(x, &from)| *x = self.permuted[from]);
+        substitute(&self.rows, x);
         x.iter().all(|x| x.is_finite())
     }
 }
 
 vectorised! {
-    /// `x ← L⁻ᵀ U⁻ᵀ x` with the factors of a matrix, columns one after the other; the diagonal of L is 1.
-    fn substitute_transposed<'a, S>(simd, factors: &'a [f64], x: &'a mut [f64]) {
+    /// Replaces a matrix, given by rows, by its factors, and exchanges the rows of `order` with its own; false: it is
+    /// singular or not finite.
+    fn factorise<'a, S>(_simd, rows: &'a mut [f64], order: &'a mut [usize]) -> bool {
+        let n = order.len();
+        for k in 0..n {
+            let mut largest = k;
+            for i in k + 1..n {
+                if rows[i * n + k].abs() > rows[largest * n + k].abs() {
+                    largest = i;
+                }
+            }
+            let (above, below) = rows.split_at_mut((k + 1) * n);
+            let pivots = &mut above[k * n..];
+            if largest > k {
+                pivots.swap_with_slice(&mut below[(largest - k - 1) * n..][..n]);
+                order.swap(k, largest);
+            }
+            let over = 1.0 / pivots[k];
+            if !over.is_finite() {
+                return false;
+            }
+            for row in below.chunks_exact_mut(n) {
+                let factor = row[k] * over;
+                row[k] = factor;
+                for (value, pivot) in row[k + 1..].iter_mut().zip(&pivots[k + 1..]) {
+                    *value -= factor * pivot;
+                }
+            }
+        }
+        true
+    }
+}
+
+vectorised! {
+    /// `x ← U⁻¹ L⁻¹ x` with the factors of a matrix, by rows.
+    fn substitute<'a, S>(simd, factors: &'a [f64], x: &'a mut [f64]) {
         let n = x.len();
         let product = |a: &[f64], b: &[f64]| {
             let ((a, a_rest), (b, b_rest)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
@@ -95,13 +102,12 @@ vectorised! {
             let sum = a.iter().zip(b).fold(zero, |sum, (&a, &b)| simd.mul_add_e_f64s(a, b, sum));
             simd.reduce_sum_f64s(sum) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
         };
-        for j in 0..n {
-            let column = &factors[j * n..(j + 1) * n];
-            x[j] = (x[j] - product(&column[..j], &x[..j])) / column[j];
+        for i in 0..n {
+            x[i] -= product(&factors[i * n..][..i], &x[..i]);
         }
-        for j in (0..n).rev() {
-            let column = &factors[j * n..(j + 1) * n];
-            x[j] -= product(&column[j + 1..], &x[j + 1..]);
+        for i in (0..n).rev() {
+            let row = &factors[i * n..][..n];
+            x[i] = (x[i] - product(&row[i + 1..], &x[i + 1..])) / row[i];
         }
     }
 }

@@ -4,10 +4,12 @@ use super::MechanicsError;
 use super::damping::{BodyDamping, DampedModes};
 use super::motion::{self, Equations};
 use super::reduction::scale_columns;
+use super::remainder::missing;
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
-use super::retarded::RetardedLayer;
+use super::retarded::{RetardedLayer, quadratic_form};
 use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
+use crate::analytic::HalfPlane;
 use crate::axes::PerAxis;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
@@ -22,6 +24,8 @@ pub struct FullBody {
     pattern: CholeskyPattern,
     centrifugal: bool,
     damping: Option<FullDamping>,
+    /// Flexibility that the finite elements lack between near surface nodes, see [`missing`] [m/(N/m)].
+    near: DMatrix<f64>,
 }
 
 /// Damping of all finite elements.
@@ -30,7 +34,7 @@ struct FullDamping {
     rayleigh: [f64; 2],
     /// The modes that ratios damp, and through which the stream carries strain.
     modes: Arc<DampedModes>,
-    /// Flexibility that the contact adds to the surface, with stiffness-proportional damping only.
+    /// That flexibility, with stiffness-proportional damping only.
     layer: Option<Arc<RetardedLayer>>,
 }
 
@@ -48,7 +52,8 @@ impl FullBody {
     /// Analyses the pattern of `a0² M + a0 D + K` once for all `a0`; `centrifugal`: with the centrifugal load.
     pub fn new(system: BodySystem, centrifugal: bool) -> Result<Self, MechanicsError> {
         let pattern = CholeskyPattern::new(&step_matrix(&system, [0.0; 2], 0.0)?)?;
-        Ok(Self { system, pattern, centrifugal, damping: None })
+        let ports = system.surface.len();
+        Ok(Self { system, pattern, centrifugal, damping: None, near: DMatrix::zeros(ports, ports) })
     }
 
     /// Body with damping, for which the lowest `modes` vibration modes are computed.
@@ -63,11 +68,20 @@ impl FullBody {
             return Ok(body);
         }
         let modes = Arc::new(DampedModes::compute(&body.system, modes, damping)?);
-        let ports = body.system.surface.len();
         let layer = (damping.stiffness > 0.0)
-            .then(|| Arc::new(RetardedLayer { flexibility: DMatrix::zeros(ports, ports), time: damping.stiffness }));
+            .then(|| Arc::new(RetardedLayer { flexibility: body.near.clone(), time: damping.stiffness }));
         body.damping = Some(FullDamping { rayleigh: [damping.mass, damping.stiffness], modes, layer });
         Ok(body)
+    }
+
+    /// This body with the flexibility that it lacks between its surface nodes `x` \[m] beside one with the elasticity of
+    /// `half_plane`; the body lies above its surface (`side` 1) or below it (−1).
+    pub(super) fn corrected(mut self, x: &[f64], half_plane: HalfPlane, side: f64) -> Result<Self, MechanicsError> {
+        self.near = missing(&self.operator(0.0)?.surface, x, half_plane, side);
+        if let Some(layer) = self.damping.as_mut().and_then(|damping| damping.layer.as_mut()) {
+            Arc::make_mut(layer).flexibility.clone_from(&self.near);
+        }
+        Ok(self)
     }
 
     /// This body with only the surface components `ports`.
@@ -77,9 +91,10 @@ impl FullBody {
         let damping = self.damping.as_ref().map(|FullDamping { rayleigh, modes, layer }| FullDamping {
             rayleigh: *rayleigh,
             modes: modes.clone(),
-            layer: layer.as_ref().map(|layer| Arc::new(layer.cut(ports))),
+            layer: layer.as_ref().map(|layer| Arc::new(layer.cut(ports.clone()))),
         });
-        Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping }
+        let near = self.near.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
+        Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping, near }
     }
 
     fn rayleigh(&self) -> [f64; 2] {
@@ -237,9 +252,6 @@ impl BodyResponse for FullBody {
                 rigid += &**shapes * (weights * shapes.tr_mul(&system.rigid));
                 let on_surface = system.rows_on_surface(shapes);
                 surface.gemm(1.0, &(&on_surface * weights), &on_surface.transpose(), 1.0);
-                if let Some(layer) = &damping.layer {
-                    surface += &layer.flexibility * layer.share(a0);
-                }
                 symmetrise(&mut surface);
                 Box::new(Corrected { factor, correction })
             }
@@ -248,6 +260,7 @@ impl BodyResponse for FullBody {
         let momentum = inertial_response.transpose() * -(a0 * a0);
         let deformation_inertia = system.rigid.tr_mul(&rigid) * -(a0 * a0);
         let layer = self.damping.as_ref().and_then(|damping| damping.layer.clone());
+        surface += &self.near * layer.as_ref().map_or(1.0, |layer| layer.share(a0));
         Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
     }
 
@@ -275,14 +288,17 @@ impl BodyResponse for FullBody {
         motion::commit(self, op, free, forces, rigid, td, state, next);
     }
 
-    fn energy(&self, state: &BodyState, _forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
+    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let system = &self.system;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
         let elastic = 0.5 * system.stiffness.bilinear(y, y);
         let kinetic = 0.5 * system.mass.bilinear(v, v);
         let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
         let coupling: f64 = momentum.zip(rigid_velocity.values()).map(|(p, w)| p * w).sum();
-        let layer = self.layer().map_or(0.0, |layer| layer.energy(&state.retarded));
+        let layer = match self.layer() {
+            Some(layer) => layer.energy(&state.retarded),
+            None => 0.5 * quadratic_form(&self.near, forces),
+        };
         elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
@@ -302,11 +318,6 @@ impl BodyResponse for FullBody {
 
     fn retarded_len(&self) -> usize {
         self.layer().map_or(0, |layer| layer.flexibility.nrows())
-    }
-
-    fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
-        let layer = self.damping.as_mut().and_then(|damping| damping.layer.as_mut().map(Arc::make_mut));
-        layer.map(|layer| layer.flexibility += flexibility).is_some()
     }
 }
 

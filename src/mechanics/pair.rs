@@ -87,10 +87,7 @@ pub fn bodies(
     let ports = 2 * parts * core.start..2 * (parts * (core.end - 1) + 1);
     let [narrow, wide]: [TwoBodies; 2] = match basis {
         Some(Basis { wheel, rail, .. }) => {
-            let finer = |body: ReducedBasis, side| match parts {
-                1 => body,
-                _ => body.refined(&elements, &surface_x, half_plane, side),
-            };
+            let finer = |body: ReducedBasis, side| body.refined(&elements, &surface_x, half_plane, side);
             let (wheel, rail) = (finer(wheel, 1.0), finer(rail, -1.0));
             [(wheel.cut(ports.clone()), rail.cut(ports.clone())), (wheel, rail)].map(|(w, r)| -> TwoBodies {
                 [
@@ -106,6 +103,8 @@ pub fn bodies(
             progress("assembling the rail", 0.5);
             let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
             progress("assembling the rail", 1.0);
+            let (wheel, rail) =
+                (wheel.corrected(&surface_x, half_plane, 1.0)?, rail.corrected(&surface_x, half_plane, -1.0)?);
             [[Box::new(wheel.cut(ports.clone())), Box::new(rail.cut(ports.clone()))], [Box::new(wheel), Box::new(rail)]]
         }
     };

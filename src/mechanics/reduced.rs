@@ -248,10 +248,6 @@ impl BodyResponse for ReducedBody {
     fn retarded_len(&self) -> usize {
         self.layer.as_ref().map_or(0, |layer| layer.flexibility.nrows())
     }
-
-    fn take_layer(&mut self, flexibility: &DMatrix<f64>) -> bool {
-        self.layer.as_mut().map(Arc::make_mut).map(|layer| layer.flexibility += flexibility).is_some()
-    }
 }
 
 /// `out ← out + A B` for a symmetric product: the lower half is computed in blocks of columns and mirrored.

@@ -85,10 +85,13 @@ fn rows_between(between: &DMatrix<f64>, rows: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::axes::PerAxis;
     use crate::material::Isotropic;
+    use crate::mechanics::motion::Equations;
     use crate::mechanics::testing::paper_d;
-    use crate::mechanics::{BodyDamping, ReducedBody};
+    use crate::mechanics::{BodyDamping, BodyState, FullBody, ReducedBody};
     use crate::mechanics::{BodyResponse, BodySystem, contact_zone, rail_system, wheel_system};
+    use nalgebra::DVector;
 
     /// Surface nodes of the uniform zone with `elements` per half-width, and the body of a system on them.
     fn body(elements: usize, system: &BodySystem) -> (Vec<f64>, ReducedBasis) {
@@ -131,6 +134,36 @@ mod tests {
         let [coarse, fine] = [5, 10].map(differences);
         println!("{coarse:?} with 5 elements, {fine:?} with 10");
         assert!(coarse[0] < 5e-2 && fine[0] < 0.5 * coarse[0] && coarse[1] < 2e-2 && fine[1] < coarse[1]);
+    }
+
+    /// With as many contact nodes as finite elements have: static, in steps of 0.1 ms, and with the energy of nodal
+    /// forces.
+    #[test]
+    fn full_and_reduced_bodies_have_the_flexibility_between_near_nodes_that_finite_elements_lack() {
+        let config = paper_d(5);
+        let half_plane = Isotropic::from(&config.material).half_plane();
+        let (system, x) = (rail_system(&config).unwrap(), contact_zone(&config).surface_x());
+        let basis = ReducedBasis::compute(&system, 40, &mut |_| {}).unwrap();
+        let reduced = ReducedBody::new(basis.refined(&x, &x, half_plane, -1.0), false, &BodyDamping::NONE);
+        let plain = FullBody::new(system.clone(), false).unwrap().operator(0.0).unwrap().surface;
+        let full = FullBody::new(system, false).unwrap().corrected(&x, half_plane, -1.0).unwrap();
+        for a0 in [0.0, 1.5e4] {
+            let [one, other] = [full.operator(a0).unwrap().surface, reduced.operator(a0).unwrap().surface];
+            let difference = (&one - &other).amax() / one.amax();
+            println!("a0 = {a0}: {difference:.1e}");
+            assert!(difference < 1e-3, "{difference:e}");
+        }
+        let compliance = full.operator(0.0).unwrap().surface;
+        assert!((&compliance - &plain).amax() > 0.05 * half_plane.kernel, "the elements must lack some");
+        let forces = DVector::from_fn(compliance.nrows(), |i, _| ((i * 37) % 11) as f64 - 5.0);
+        let mut state = BodyState::zeros(full.state_len());
+        let mut load = DVector::zeros(full.state_len());
+        full.add_surface_forces(&forces, &mut load);
+        full.operator(0.0).unwrap().solver.solve_in_place(&mut load);
+        state.displacement = load;
+        let (found, expected) =
+            (full.energy(&state, &forces, PerAxis::default()), 0.5 * forces.dot(&(&compliance * &forces)));
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found:e} J/m, {expected:e} J/m");
     }
 
     #[test]

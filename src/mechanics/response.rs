@@ -78,12 +78,6 @@ pub trait BodyResponse: Send + Sync {
     fn retarded_len(&self) -> usize {
         0
     }
-
-    /// Takes a flexibility of the surface that the contact adds, so that it is damped as that of the body is. Returns
-    /// whether it is part of the body from now on: only with stiffness-proportional damping.
-    fn take_layer(&mut self, _flexibility: &DMatrix<f64>) -> bool {
-        false
-    }
 }
 
 /// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.

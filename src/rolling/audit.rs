@@ -10,13 +10,14 @@ use super::model::RollingModel;
 use super::state::{Audit, State};
 use crate::axes::PerAxis;
 use crate::multistep::TimeDerivative;
+use crate::piecewise::Piecewise;
 
 /// Kinetic and elastic energy of a state, with that of steel which yields and springs back [J/m].
 pub fn energy(model: &RollingModel, state: &State) -> f64 {
     let velocities = state.motion.velocities();
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
-        + model.bodies.correction_energy(state)
+        + model.bodies.energy_of_contact(state)
         + state.sum(|line| line.contact.traction.yielding.springing_work)
 }
 
@@ -78,5 +79,9 @@ pub fn expand(before: &State, state: &mut State) {
 /// Work of the pressure on what the hot layers of a line swell in a step from `before` to `line` [J/m].
 fn swelling_work(before: &Line, line: &Line) -> f64 {
     let layers = before.deformation().swelling.iter().zip(&line.deformation().swelling);
-    layers.map(|(old, new)| line.contact.traction.load_times(|x| new.at(x) - old.at(x))).sum()
+    let of_layer = |(old, new): (&Piecewise, &Piecewise)| {
+        let (mut old, mut new) = (old.ascending(), new.ascending());
+        line.contact.traction.load_times(|x| new(x) - old(x))
+    };
+    layers.map(of_layer).sum()
 }

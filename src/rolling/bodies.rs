@@ -5,7 +5,7 @@ use super::lines;
 use super::state::State;
 use super::support::{CondensedBase, TrackSupport};
 use crate::axes::PerAxis;
-use crate::contact::line::kernel::{KernelCorrection, line_compliance, line_energy, logarithms};
+use crate::contact::line::kernel::{line_compliance, line_energy, logarithms};
 use crate::contact::{Influence, LineKernel, Ports};
 use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
 use crate::mechanics::{MechanicsError, Pair};
@@ -28,18 +28,14 @@ pub struct Bodies {
     smooth: Option<[Box<dyn BodyResponse>; 2]>,
     /// Track below its base; `None`: the base is fixed.
     pub support: Option<TrackSupport>,
-    /// Correction of their compliance at grid scale, if there is any.
-    correction: Option<KernelCorrection>,
     /// Positions of the nodes of the narrow and of the wide ports \[m], and their distance in the middle \[m].
     nodes: ([Vec<f64>; 2], f64),
     /// Flexibility of one body that belongs to lines, where they have one of their own beside that of the bodies, and
     /// the logarithms of the distances of the nodes of the narrow and of the wide ports \[1].
     apart: Option<(LineKernel, [Arc<DMatrix<f64>>; 2])>,
-    /// True if this correction is part of them, because it is damped as they are.
-    hold_correction: bool,
 }
 
-/// Answers of both bodies for one step size, corrected at grid scale.
+/// Answers of both bodies for one step size.
 pub struct Operators {
     /// Weight of the new value in the time formula [1/s].
     pub a0: f64,
@@ -91,23 +87,13 @@ pub struct OperatorCache {
 }
 
 impl Bodies {
-    /// Wheel and rail, the rail on its `support`, with a `correction` of their compliance at grid scale.
-    pub fn new(pair: Pair, support: Option<TrackSupport>, correction: Option<KernelCorrection>) -> Self {
-        let (wide, mut hold_correction) = (pair.wide, false);
-        let wings = wide.as_ref().map_or(Vec::new(), |wide| wide.surface_x.clone());
-        let nodes = ([pair.surface_x.clone(), wings], pair.spacing);
-        let mut corrected = |wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, ports: usize| {
-            let mut bodies = [wheel, rail];
-            let mut layers = [DMatrix::zeros(ports, ports), DMatrix::zeros(ports, ports)];
-            correct(correction.as_ref(), layers.each_mut());
-            let taken = bodies.iter_mut().zip(&layers).map(|(body, layer)| body.take_layer(layer));
-            hold_correction = taken.fold(true, |all, one| all & one);
-            bodies
-        };
-        let narrow = corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len());
-        let wide = wide.map(|pair| corrected(pair.wheel, pair.rail, 2 * pair.surface_x.len()));
+    /// Wheel and rail, the rail on its `support`.
+    pub fn new(pair: Pair, support: Option<TrackSupport>) -> Self {
+        let wings = pair.wide.as_ref().map_or(Vec::new(), |wide| wide.surface_x.clone());
+        let nodes = ([pair.surface_x, wings], pair.spacing);
+        let wide = pair.wide.map(|pair| [pair.wheel, pair.rail]);
         let smooth = pair.smooth.map(|pair| [pair.wheel, pair.rail]);
-        Self { narrow, wide, smooth, support, correction, nodes, apart: None, hold_correction }
+        Self { narrow: [pair.wheel, pair.rail], wide, smooth, support, nodes, apart: None }
     }
 
     /// Wheel and rail as the contact of a state sees them.
@@ -157,13 +143,8 @@ impl Bodies {
     }
 
     /// Elastic energy of the contact that the bodies do not count [J/m].
-    pub fn correction_energy(&self, state: &State) -> f64 {
-        let forces = lines::mean(&state.lines, |line| &line.contact.traction.port_forces);
-        let correction = match (ports_of(state), &self.correction) {
-            (Ports::Narrow | Ports::Wide, Some(correction)) if !self.hold_correction => correction.energy(&forces),
-            (Ports::Narrow | Ports::Wide | Ports::Smooth, _) => 0.0,
-        };
-        correction + state.sum(|line| line.contact.energy) + self.energy_of_lines(state)
+    pub fn energy_of_contact(&self, state: &State) -> f64 {
+        state.sum(|line| line.contact.energy) + self.energy_of_lines(state)
     }
 
     /// Elastic energy of the flexibility of lines that the bodies do not count, less that which they count in its place
@@ -200,14 +181,8 @@ impl Bodies {
                 recent.remove(0);
             }
             let [wheel, rail] = self.of(state);
-            let (mut wheel, mut rail) = (wheel.operator(a0)?, rail.operator(a0)?);
+            let (wheel, mut rail) = (wheel.operator(a0)?, rail.operator(a0)?);
             let base = self.support.as_ref().map(|support| support.condense(&mut rail));
-            match ports {
-                Ports::Narrow | Ports::Wide if !self.hold_correction => {
-                    correct(self.correction.as_ref(), [&mut wheel.surface, &mut rail.surface]);
-                }
-                Ports::Narrow | Ports::Wide | Ports::Smooth => {}
-            }
             let relative = &wheel.surface + &rail.surface;
             let (shared, logarithms) =
                 (self.shared(ports, [&wheel.surface, &rail.surface]), self.logarithms(ports).cloned());
@@ -298,12 +273,6 @@ impl Bodies {
 /// Motions of the base of the rail, which does not turn, from those in x and y.
 fn along_base([travel, height]: [f64; 2]) -> PerAxis<f64> {
     PerAxis { travel, height, ..PerAxis::default() }
-}
-
-/// Adds half of a correction to the surface compliance of each body.
-fn correct(correction: Option<&KernelCorrection>, compliances: [&mut DMatrix<f64>; 2]) {
-    let Some(correction) = correction else { return };
-    compliances.into_iter().for_each(|compliance| correction.add_to(compliance, 0.5));
 }
 
 /// Number of surface components that the contact of a state sees.

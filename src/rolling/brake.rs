@@ -1,12 +1,10 @@
-//! The brake of the wheel: what it does in a step, and where its power goes.
+//! The brake of the wheel: what it does in a step.
 //!
 //! Its strength is that of the input `brake.torque`; whether it slips or holds is found with the contact
 //! ([`crate::contact::active_set`]). There it is an impulse of the step, as all forces in the time formula are: the
 //! brake that stops the wheel within a step gives what that takes, and one that holds it balances what the step brings.
 //! Theory: `docs/theory/time-formula.md`.
 
-use super::control::Drive;
-use super::model::RollingModel;
 use super::state::{Brake, Motion};
 use crate::axes::PerAxis;
 use crate::contact::AxisDrive;
@@ -47,9 +45,4 @@ pub fn at_start(drives: &PerAxis<AxisDrive>, velocity: f64, rim: f64, radius: f6
     } else {
         AxisDrive::Prescribed { target: 0.0 }
     }
-}
-
-/// Heat into the tread of the whole wheel \[W]: that of the input, and the share of the `power` [W/m] of the brake.
-pub fn tread_heat(model: &RollingModel, drive: &Drive, power: f64) -> f64 {
-    drive.tread_heat + model.config.brake.tread_share * power * model.wheel.width
 }

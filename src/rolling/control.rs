@@ -91,6 +91,16 @@ pub struct DriveRow {
 }
 
 impl DriveRow {
+    /// Heat that a source brings: of all inputs these alone are powers.
+    pub fn is_heat(&self) -> bool {
+        self.measure.unit == "W"
+    }
+
+    /// Input that acts on temperatures alone.
+    pub fn is_thermal(&self) -> bool {
+        self.is_heat() || self.measure.unit == "K"
+    }
+
     /// Refuses a value out of range, infinite or not a number.
     fn check(&self, value: f64) -> Result<(), InputError> {
         let DriveRow { name, low, high, measure, .. } = *self;
@@ -255,6 +265,12 @@ impl Drive {
     /// All that presses the hub down \[N].
     pub fn pressing(&self) -> f64 {
         self.load + self.load_change
+    }
+
+    /// Usual sizes of all inputs, where their values are not larger.
+    pub fn sizes(&self) -> Self {
+        let values = self.values();
+        Self::from_values(std::array::from_fn(|k| values[k].abs().max(Self::ROWS[k].nominal)))
     }
 
     /// `f` of the values of both, one by one.

@@ -13,7 +13,6 @@ use crate::analytic;
 use crate::config::{Config, ContactMethod};
 use crate::contact::active_set::ActiveSetSolver;
 use crate::contact::line::ContactGrid;
-use crate::contact::line::kernel::KernelCorrection;
 use crate::contact::series::{Fallback, SeriesSolver};
 use crate::contact::{self, ContactSolver, LineKernel};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
@@ -36,6 +35,8 @@ pub struct RollingModel {
     pub tread: TreadLevel,
     /// Temperatures, unless they are switched off.
     pub thermal: Option<ThermalModel>,
+    /// Distance of the nodes on which contact is looked for \[m].
+    pub spacing: f64,
     /// Half-length of the zone in which ordinary contact is looked for \[m].
     pub zone: f64,
     /// Half-length of the zone beyond which contact is never looked for \[m].
@@ -77,9 +78,6 @@ impl RollingModel {
     /// Builds the model on given bodies with given surfaces, with contact on the grid of their surface nodes.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
-        let (wheel, rail) = (bodies.wheel.operator(0.0)?, bodies.rail.operator(0.0)?);
-        let modulus = Isotropic::from(&config.material).contact_modulus();
-        let correction = KernelCorrection::new(&(&wheel.surface + &rail.surface), modulus);
         let mut solver = ActiveSetSolver::new(grid(&bodies));
         if let Some(wide) = &bodies.wide {
             solver = solver.with_wider(grid(wide));
@@ -92,7 +90,7 @@ impl RollingModel {
             }
             None => Box::new(solver),
         };
-        Self::with_solver(config, bodies, surfaces, solver, Some(correction))
+        Self::with_solver(config, bodies, surfaces, solver)
     }
 
     /// Distance up to which the bodies less half-planes are known \[m], where the series are asked for and no parameter
@@ -109,37 +107,35 @@ impl RollingModel {
         (!reversible).then_some(smooth.reach)
     }
 
-    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports;
-    /// `correction`: that of their compliance at grid scale, if the solver needs it.
+    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
     pub fn with_solver(
         config: Config,
         bodies: Pair,
         surfaces: Surfaces,
         solver: Box<dyn ContactSolver>,
-        correction: Option<KernelCorrection>,
     ) -> Result<Self, ModelError> {
         let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
+        let spacing = bodies.spacing;
         let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
         let steel = Isotropic::from(&config.material);
         let shear = steel.shear_wave_speed();
         let thermal = match config.thermal.enabled {
-            true => Some(ThermalModel::new(&config, zone, bodies.spacing, reach)?),
+            true => Some(ThermalModel::new(&config, zone, spacing, reach)?),
             false => None,
         };
         Ok(Self {
             wheel: RigidWheel::new(&config),
             tread: TreadLevel::of(&surfaces),
             bodies: match config.contact.shape.is_line() {
-                true => Bodies::new(bodies, TrackSupport::new(&config), correction),
-                false => {
-                    Bodies::new(bodies, TrackSupport::new(&config), correction).with_lines(patch_lines::apart(&config))
-                }
+                true => Bodies::new(bodies, TrackSupport::new(&config)),
+                false => Bodies::new(bodies, TrackSupport::new(&config)).with_lines(patch_lines::apart(&config)),
             },
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach))?,
             reach: zone.max(reach),
             patch_width: config.nominal_patch().width,
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
             thermal,
+            spacing,
             zone,
             config,
         })

@@ -11,7 +11,6 @@ use super::suggested_step::suggested_step;
 use super::thermal_state::ThermalState;
 use crate::damage::surface_fatigue;
 use crate::heat::HeatFlows;
-use crate::mechanics::grid_spacing;
 use crate::piecewise::Piecewise;
 use crate::surface::WearLaw;
 
@@ -143,11 +142,7 @@ fn sampled(profile: &Piecewise, points: &[f64]) -> Vec<f64> {
 /// Outputs about the material that the surfaces have lost and about heat. Profiles are those of the line `shown`.
 fn surface_outputs(model: &RollingModel, state: &State, shown: &Line, others: Outputs) -> Outputs {
     let none = Line::default();
-    let flat = model.tread.flat(
-        &model.contact.surfaces,
-        &deepest_line(state, &none).flattening[0],
-        grid_spacing(&model.config),
-    );
+    let flat = model.tread.flat(&model.contact.surfaces, &deepest_line(state, &none).flattening[0], model.spacing);
     Outputs {
         flat_length: flat.length,
         flat_depth: flat.depth,
@@ -258,5 +253,5 @@ fn deepest_line<'a>(state: &'a State, none: &'a Line) -> &'a Line {
 pub fn tread(model: &RollingModel, state: &State) -> Vec<[f64; 2]> {
     let none = Line::default();
     let flattening = &deepest_line(state, &none).flattening[0];
-    model.contact.surfaces.tread(flattening, SAMPLING * grid_spacing(&model.config))
+    model.contact.surfaces.tread(flattening, SAMPLING * model.spacing)
 }

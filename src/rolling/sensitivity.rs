@@ -66,12 +66,12 @@ fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
         load_change: load,
         displacement: approach,
         friction: 1.0,
-        tread_heat: inputs.drive.tread_heat.abs().max(1e4),
         torque: load * radius,
         temperature: 100.0,
         slope: 1.0,
         elevation: approach,
         elevation_rate: 1.0,
+        ..inputs.drive.sizes()
     }
 }
 

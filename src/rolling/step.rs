@@ -1,7 +1,6 @@
 //! One implicit step: predict → solve the contact → commit → audit → heat.
 
 use super::audit;
-use super::brake;
 use super::contact_model::ContactStep;
 use super::control::{Drive, Inputs};
 use super::error::StepError;
@@ -10,7 +9,7 @@ use super::line::Line;
 use super::model::{RollingModel, Workspace};
 use super::spreading;
 use super::state::{Brake, Motion, State};
-use super::thermal::{self, HeatStep, ThermalLine, ThermalScratch};
+use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
 use super::zones;
 use crate::axes::PerAxis;
@@ -139,8 +138,8 @@ fn heat(
     next: &mut State,
 ) -> Result<(), StepError> {
     let brake_power = (next.audit.brake - state.audit.brake) / dt;
-    let tread_heat = model.narrowing(next) * brake::tread_heat(model, demand.target, brake_power);
-    let step = HeatStep { dt, tread_heat, criteria: thermal::criteria(demand.tuning) };
+    let supply = HeatSupply { drive: demand.target, brake_power, narrowing: model.narrowing(next) };
+    let step = HeatStep { dt, supply, criteria: thermal::criteria(demand.tuning) };
     next.tread_point = demand.tuning.tread_point;
     let taken: Vec<_> = next.lines.iter_mut().map(|line| line.thermal.take().unwrap_or_default()).collect();
     if let Some(thermal) = &model.thermal {

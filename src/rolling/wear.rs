@@ -10,7 +10,6 @@ use super::line::Line;
 use super::model::RollingModel;
 use super::state::State;
 use crate::material::Isotropic;
-use crate::mechanics::grid_spacing;
 use crate::piecewise::Piecewise;
 use crate::surface::{WearIncrement, WearLaw};
 
@@ -64,7 +63,7 @@ fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line
     }
     let distribution = traction.friction.dissipation.clone();
     let wears_rail = traction.extent().is_some_and(|patch| passing.stand(model, patch)[1]);
-    let spacing = grid_spacing(&model.config).max(FINEST);
+    let spacing = model.spacing.max(FINEST);
     let smoothing = smoothing_length(model, volume / load).min(model.wheel.radius);
     let smoothing = if smoothing > SHORTEST_SMOOTHING * spacing { smoothing } else { 0.0 };
     let increment =

@@ -1,6 +1,6 @@
 //! Obstacles to a start that was not found, in the words of the user.
 
-use super::{Inputs, Translation};
+use super::{Drive, Inputs, Translation};
 use crate::config::{Config, display_number};
 use crate::rolling::control::creepage;
 
@@ -30,8 +30,9 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
     let mut found = Vec::new();
     if thermal.enabled && initial.temperature.is_stationary() {
         let mut heat = Vec::new();
-        if drive.tread_heat > 0.0 {
-            heat.push(format!("drive.tread_heat = {} W", number(drive.tread_heat)));
+        for (row, value) in Drive::ROWS.iter().zip(drive.values()).filter(|(row, value)| row.is_heat() && *value > 0.0)
+        {
+            heat.push(format!("{} = {} W", row.name, number(value)));
         }
         if drive.torque > 0.0 && config.brake.tread_share > 0.0 {
             let share = number(config.brake.tread_share);

@@ -134,7 +134,7 @@ impl Simulation {
             Limit::ThermalLoad => (heat * load, AtLeast(config.thermal.smallest_load_ratio * nominal)),
             Limit::Patch => {
                 let on_grid = self.state().lines.iter().any(|line| line.contact.ports != Ports::Smooth);
-                let cells = outputs.contact_half_width / grid_spacing(config);
+                let cells = outputs.contact_half_width / self.model().rolling.spacing;
                 (if on_grid { cells } else { 0.0 }, AtLeast(FEWEST_ELEMENTS))
             }
             Limit::Zone => (load, AtMost(ZONE_LOAD * nominal)),
@@ -154,7 +154,7 @@ impl Simulation {
             }
             Limit::StickSlip => (self.unresolved_phase(), AtMost(RESOLVED_PHASE)),
             Limit::Chatter => (self.state().clock.last_step, AtLeast(self.indefinite_step())),
-            Limit::Waves => (self.shortest_wave(), AtLeast(FEWEST_PER_WAVE * grid_spacing(config))),
+            Limit::Waves => (self.shortest_wave(), AtLeast(FEWEST_PER_WAVE * self.model().rolling.spacing)),
             Limit::Sampling => {
                 let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
                 let way = mean.max(self.speed() * self.state().clock.last_step);

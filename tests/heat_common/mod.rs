@@ -4,7 +4,8 @@
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{ConductanceLaw, Config, Hub};
 use wheelrail::heat::{
-    Exchange, Heat, HeatConfig, HeatFlows, HeatModel, HeatScratch, HeatState, Observation, Temperatures, TreadHeat,
+    Exchange, Heat, HeatConfig, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatSource, HeatState, Observation,
+    Temperatures,
 };
 pub use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
@@ -84,7 +85,9 @@ impl Run for Heat {
         scratch: &mut HeatScratch,
     ) -> HeatFlows {
         let mut next = HeatState::default();
-        let flows = self.step(state, &mut next, dt, velocity, omega, exchange, scratch).unwrap();
+        let mut line = HeatLine::new(state, &mut next, exchange);
+        self.step(std::slice::from_mut(&mut line), dt, velocity, omega, scratch).unwrap();
+        let flows = line.flows;
         *state = next;
         flows
     }
@@ -130,13 +133,9 @@ pub fn carter(load: f64, velocity: f64, creepage: f64) -> Exchange {
 }
 
 /// Two brake blocks of 45° at ±90° from the contact.
-pub fn brake_blocks(total: f64) -> Vec<TreadHeat> {
-    let block = |sign: f64| TreadHeat {
-        angle: sign * std::f64::consts::FRAC_PI_2,
-        width: std::f64::consts::FRAC_PI_4,
-        heat: 0.5 * total,
-    };
-    vec![block(1.0), block(-1.0)]
+pub fn brake_blocks(total: f64) -> Vec<HeatSource> {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+    [1.0, -1.0].map(|side| HeatSource::on_tread(side * FRAC_PI_2, FRAC_PI_4, 0.5 * total)).to_vec()
 }
 
 pub fn heat(config: &HeatConfig) -> Heat {

@@ -105,7 +105,7 @@ impl Run {
     pub fn heat_imbalance(&self) -> f64 {
         let Some(thermal) = &self.simulation.state().lines[0].thermal else { return f64::NAN };
         let flows = &thermal.flows;
-        flows.wheel_imbalance().abs().max(flows.rail_imbalance().abs()) / (flows.friction + flows.tread)
+        flows.wheel_imbalance().abs().max(flows.rail_imbalance().abs()) / (flows.friction + flows.supplied)
     }
 
     /// Temperatures over the reference \[K] at all nodes of wheel (about its centre) and rail.

@@ -1,59 +1,10 @@
-//! Correction of the surface compliance at grid scale.
-//!
-//! The Q1 surface kernel differs from that of the elastic half-plane for wavelengths of a few elements, which biases
-//! the creep forces and shifts the contact edges. The differences of neighbouring entries of the compliance are
-//! replaced by those of the kernel `1/(n + ½)`, to which the edge-consistent slip rows belong
-//! (see [`super::streamline`]); beyond [`REACH`] nodes both kernels agree.
+//! Flexibility of a line for itself on the nodes of a grid: the discrete kernel `1/(n + ½)`, to which the edge-consistent
+//! slip rows belong (see [`super::streamline`]).
 
 use crate::analytic::digamma;
 use crate::contact::kernel::{LineKernel, Logarithm};
 use crate::linalg::vectorised::quadratic_form;
 use nalgebra::{DMatrix, DVector};
-
-/// Number of neighbours that are corrected.
-pub const REACH: usize = 8;
-
-/// Toeplitz addition to the compliance of both bodies together, per displacement component.
-#[derive(Clone, Debug)]
-pub struct KernelCorrection {
-    /// Tangential part by node distance [m/(N/m)].
-    pub tangential: [f64; REACH],
-    /// Normal part by node distance [m/(N/m)].
-    pub normal: [f64; REACH],
-}
-
-impl KernelCorrection {
-    /// From the static compliance of both bodies together (`relative`, interleaved components) and the contact
-    /// modulus `E*` \[Pa]: with `s_k = G_{j+k} − G_{j+k+1}` in a central column, `d_k = 2/(πE*)/(k+½) − s_k` and
-    /// `Δ_k = Σ_{l≥k} d_l`.
-    pub fn new(relative: &DMatrix<f64>, contact_modulus: f64) -> Self {
-        let centre = relative.nrows() / 4;
-        let component = |c: usize| {
-            let column = |k: usize| relative[(2 * (centre + k) + c, 2 * centre + c)];
-            let mut correction = [0.0; REACH];
-            let mut sum = 0.0;
-            for k in (0..REACH).rev() {
-                let half_plane = 2.0 / (std::f64::consts::PI * contact_modulus) / (k as f64 + 0.5);
-                sum += half_plane - (column(k) - column(k + 1));
-                correction[k] = sum;
-            }
-            correction
-        };
-        Self { tangential: component(0), normal: component(1) }
-    }
-
-    /// Adds `share` of the correction to the surface compliance of one body.
-    pub fn add_to(&self, surface: &mut DMatrix<f64>, share: f64) {
-        let nodes = surface.nrows() / 2;
-        for i in 0..nodes {
-            for j in i.saturating_sub(REACH - 1)..(i + REACH).min(nodes) {
-                let k = i.abs_diff(j);
-                surface[(2 * i, 2 * j)] += share * self.tangential[k];
-                surface[(2 * i + 1, 2 * j + 1)] += share * self.normal[k];
-            }
-        }
-    }
-}
 
 /// Logarithms of the distances of `nodes` over 1 m, with their signs reversed \[1]; `spacing` is the distance of the
 /// nodes in the middle \[m]. At neighbouring nodes their differences are those of the discrete kernel `1/(n + ½)`:
@@ -93,22 +44,6 @@ pub fn line_energy(kernel: &LineKernel, logarithms: &DMatrix<f64>, forces: &DVec
         0.5 * factor * (reach * sum * sum + quadratic_form(logarithms.as_slice(), &forces))
     };
     of_component(0) + of_component(1)
-}
-
-impl KernelCorrection {
-    /// Elastic energy of the correction under nodal forces [J/m].
-    pub fn energy(&self, forces: &DVector<f64>) -> f64 {
-        let forces = forces.as_slice();
-        let mut energy = 0.0;
-        for k in 0..REACH.min(forces.len() / 2) {
-            // Pairs of neighbours stand for both orders.
-            let share = if k == 0 { 0.5 } else { 1.0 };
-            let (nodes, others) = (forces.as_chunks::<2>().0, forces[2 * k..].as_chunks::<2>().0);
-            let products = nodes.iter().zip(others).fold([0.0; 2], |[t, n], (a, b)| [t + a[0] * b[0], n + a[1] * b[1]]);
-            energy += share * (self.tangential[k] * products[0] + self.normal[k] * products[1]);
-        }
-        energy
-    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@
 //!
 //! where `−Z_0/0` stands for `−ln 2` on the stretch and for `ln ½(|t| + √(t² − 1))` beyond it.
 
-use crate::linalg::vectorised::vectorised;
+use crate::linalg::vectorised::{logarithms, vectorised};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 
@@ -235,11 +235,14 @@ impl<const N: usize> Powers<N> {
     /// Stand-in for `−Z_0/0`.
     #[inline(always)]
     fn zeroth(&self) -> [f64; N] {
-        let mut zeroth = [-LN_2; N];
+        // Without a branch: on the stretch 2 stands for the place.
+        let mut zeroth = [2.0; N];
         for (zeroth, (next, end)) in zeroth.iter_mut().zip(self.next.iter().zip(&self.end)) {
-            if *next == 0.0 {
-                *zeroth = -libm::log(2.0 * end.abs());
-            }
+            *zeroth = if *next == 0.0 { 2.0 * end.abs() } else { *zeroth };
+        }
+        zeroth = logarithms(&zeroth);
+        for zeroth in &mut zeroth {
+            *zeroth = -*zeroth;
         }
         zeroth
     }

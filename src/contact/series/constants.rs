@@ -1,6 +1,7 @@
 //! Constants of all problems on a patch.
 
 use super::chebyshev::TERMS;
+use super::points::PointTables;
 use super::tables::{SLOPE, Tables};
 use crate::linalg::Lagrange;
 use std::f64::consts::PI;
@@ -52,6 +53,15 @@ pub struct Constants {
     pub points: Lagrange,
     /// Constants of the series.
     pub tables: Tables,
+    /// Constants of points.
+    pub of_points: PointTables,
     /// Constants of hot layers.
     pub layers: LayerTables,
+}
+
+impl Constants {
+    /// Those of smooth displacements that are polynomials through `points`.
+    pub fn new(points: Lagrange) -> Self {
+        Self { points, tables: Tables::new(), of_points: PointTables::new(), layers: LayerTables::new() }
+    }
 }

@@ -1,8 +1,9 @@
 //! Lines side by side on their way to a solution: what they share.
 
 use super::series_line::SeriesLine;
-use super::surface::{AtPoints, Moments, SmoothSurfaces};
+use super::surface::{AtPoints, Moments, SmoothSurfaces, displaced_by_powers};
 use crate::axes::{Axis, PerAxis};
+use crate::contact::flexibility::ByMoments;
 use crate::contact::problem::{AxisDrive, RigidMotion, SurfaceResponse};
 use crate::linalg::DenseSystem;
 
@@ -19,6 +20,8 @@ pub struct SeriesContact<'a> {
     pulls: [AtPoints; 2],
     /// Moments of the tractions, the mean of all lines.
     moments: Moments,
+    /// See [`displaced_by_powers`].
+    pub by_powers: [ByMoments; 2],
     /// Equations of all lines.
     pub system: DenseSystem,
 }
@@ -34,7 +37,8 @@ impl<'a> SeriesContact<'a> {
             }
         }
         lines.iter_mut().for_each(|line| line.mean_pulls = pulls);
-        Self { lines, rigid, pulls, moments: Moments::default(), system: DenseSystem::default() }
+        let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
+        Self { lines, rigid, pulls, moments: Moments::default(), by_powers, system: DenseSystem::default() }
     }
 
     /// Linear answer of the bodies.

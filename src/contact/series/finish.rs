@@ -129,7 +129,7 @@ pub(super) fn finish(
         patches.clear();
         patches.push(Interval { low, high });
     }
-    traction.stick_fraction = line.tractions.stick.half_width / line.tractions.pressure.half_width;
+    traction.stick_fraction = line.tractions.share();
     traction.yielding.overlap.clear();
     (traction.yielding.plastic_work, traction.yielding.share, traction.iterations) = (0.0, 0.0, 1);
     write_profiles(line, traction);

@@ -241,16 +241,14 @@ fn pull(constants: &Constants, patch: &Arch, force: &LayerSamples) -> AtPoints {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::series::tables::Tables;
     use crate::linalg::Lagrange;
 
     const PATCH: Arch = Arch { centre: 1e-3, half_width: 6e-3, count: 0, terms: [0.0; TERMS] };
 
     /// Layers in which the wheel is chilled and the rail warmed with the root of the way through the patch.
     fn layer() -> SeriesLayer {
-        let (points, tables, layers) = (Lagrange::new(0.012), Tables::new(), LayerTables::new());
         let kernel = Logarithm { factor: 2.8e-12, reach: 0.0 };
-        let constants = Constants { points, tables, layers };
+        let constants = Constants::new(Lagrange::new(0.012));
         let force = constants.layers.places.map(|t| -4e4 * (1.0 - t).sqrt());
         let [profile, swelling] = [force, force].map(|samples| LayerProfile::new(&constants.layers, &PATCH, &samples));
         let lift = LayerProfile::new(&constants.layers, &PATCH, &lift(2.5e-12, &force, 1.0));

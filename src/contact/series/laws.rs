@@ -4,8 +4,8 @@
 use super::constants::Constants;
 use super::contact::SeriesContact;
 use super::hot_layers::SeriesLayers;
+use super::pivoting;
 use super::series_line::{SeriesLine, SeriesStart};
-use super::stick;
 use crate::axes::PerAxis;
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
@@ -85,7 +85,7 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
 
 /// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.
 fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    stick::solve(contact)?;
+    pivoting::solve(contact)?;
     if !contact.lines.iter().any(|line| line.problem.line.friction.varies()) {
         return Ok(());
     }
@@ -104,7 +104,7 @@ fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
         if settled {
             return Ok(());
         }
-        stick::solve(contact)?;
+        pivoting::solve(contact)?;
     }
     Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" })
 }

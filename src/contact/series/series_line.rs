@@ -47,6 +47,8 @@ pub struct SeriesLine<'a> {
     pub tractions: Tractions,
     /// V [m/s], U \[m], Ω [rad/s].
     pub rigid: PerAxis<f64>,
+    /// Tractions and motions with which the search began.
+    begun: (Tractions, PerAxis<f64>),
     /// See [`SeriesState::slope`].
     pub slope: f64,
     /// Rim angle \[rad].
@@ -78,6 +80,7 @@ impl<'a> SeriesLine<'a> {
         let SeriesStart { before, history, traction } = *start;
         let mut rigid = problem.rigid.map(|motion| motion.start());
         rigid.height = problem.rigid.height.target().unwrap_or(traction.rigid.height);
+        let tractions = before.expected(&problem.line.time);
         let layers = SeriesLayers::new(constants, &problem, &before.tractions.pressure);
         Self {
             constants,
@@ -87,8 +90,9 @@ impl<'a> SeriesLine<'a> {
             pulls: hot_layers::pulls(&layers),
             mean_pulls: Default::default(),
             layers,
-            tractions: before.tractions,
+            tractions,
             rigid,
+            begun: (tractions, rigid),
             slope: before.slope,
             rim_angle: history.rim_angle.now,
             friction: problem.line.friction.coefficient(traction.friction.tread_slip),
@@ -102,6 +106,12 @@ impl<'a> SeriesLine<'a> {
             field: Field::default(),
             slips: [0.0; POWER],
         }
+    }
+
+    /// Returns to where the search began.
+    pub fn begin_anew(&mut self) {
+        (self.tractions, self.rigid) = self.begun;
+        (self.slope, self.rim_angle) = (self.before.slope, self.history.rim_angle.now);
     }
 
     /// Velocity with which the rim passes the contact [m/s].
@@ -212,7 +222,7 @@ impl<'a> SeriesLine<'a> {
 
     /// Tangential force on the wheel [N/m].
     pub fn friction_force(&self) -> f64 {
-        let Tractions { pressure, slide, stick } = &self.tractions;
+        let Tractions { pressure, slide, stick, .. } = &self.tractions;
         slide * pressure.total() + stick.total()
     }
 
@@ -240,7 +250,8 @@ impl<'a> SeriesLine<'a> {
     /// Ends of the slipping part \[m]; `None` where all sticks.
     pub fn slipping_ends(&self) -> [f64; 2] {
         let (patch, stick) = (self.tractions.pressure.ends(), self.tractions.stick.ends());
-        match (self.tractions.slides(), self.upstream() > 0.0) {
+        let throughout = self.tractions.slides() || self.tractions.directions.is_some();
+        match (throughout, self.upstream() > 0.0) {
             (true, _) => patch,
             (false, true) => [patch[0], stick[0]],
             (false, false) => [stick[1], patch[1]],
@@ -252,8 +263,11 @@ impl<'a> SeriesLine<'a> {
         let (tables, [low, high]) = (&self.constants.tables, self.slipping_ends());
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let places = tables.places.map(|t| centre + half * t);
-        let densities = self.tractions.pressure.density(&places);
-        let force = |q: usize| half * tables.weights[q] * self.tractions.slide * densities[q];
+        let densities = match self.tractions.directions {
+            Some(_) => self.tractions.stick.density(&places),
+            None => self.tractions.pressure.density(&places).map(|p| self.tractions.slide * p),
+        };
+        let force = |q: usize| half * tables.weights[q] * densities[q];
         (places, std::array::from_fn(force))
     }
 

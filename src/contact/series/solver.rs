@@ -1,12 +1,12 @@
 //! Contact solver that takes the series where they hold, and the active set elsewhere.
 
 use super::chebyshev::Arch;
-use super::constants::{Constants, LayerTables};
+use super::constants::Constants;
 use super::contact::MOST_LINES;
 use super::hot_layers::SeriesLayers;
 use super::series_line::SeriesStart;
 use super::state::{Past, PatchPast, SeriesState, Tractions};
-use super::tables::{POWER, PRESSURE, Tables};
+use super::tables::{POWER, PRESSURE};
 use super::{finish, laws, transfer};
 use crate::axes::PerAxis;
 use crate::contact::active_set::ActiveSetSolver;
@@ -47,9 +47,7 @@ impl SeriesSolver {
     /// Patches within `reach` \[m] of the contact point on bodies that lack the flexibility that lines have for
     /// themselves, beside a `grid`.
     pub fn new(grid: ActiveSetSolver, reach: f64, fallback: Fallback) -> Self {
-        let (points, tables, layers) = (Lagrange::new(reach), Tables::new(), LayerTables::new());
-        let constants = Constants { points, tables, layers };
-        Self { grid, constants, fallback }
+        Self { grid, constants: Constants::new(Lagrange::new(reach)), fallback }
     }
 
     /// True if the active set solves contacts that are no single smooth patch.
@@ -198,7 +196,8 @@ impl ContactSolver for SeriesSolver {
         let mut pressure = Arch { centre: 0.0, half_width, count: PRESSURE, ..Arch::default() };
         // That of a cylinder is found in the first iteration.
         pressure.terms[0] = 1.0;
-        let tractions = Tractions { pressure, slide: 1.0, stick: Arch { terms: Default::default(), ..pressure } };
+        let stick = Arch { terms: Default::default(), ..pressure };
+        let tractions = Tractions { pressure, slide: 1.0, stick, directions: None };
         let past = [(); 2].map(|()| Past::Patch(PatchPast::default()));
         let state = SeriesState { tractions, past, ..SeriesState::default() };
         let zeros = || DVector::zeros(2 * POINTS);

@@ -1,10 +1,17 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::{Arch, logarithm_of_both};
+use super::points::Directions;
 use crate::contact::flexibility::{ByPowers, at, powers, values};
 use crate::contact::kernel::LineKernel;
 use crate::linalg::{Lagrange, POINTS};
+use crate::multistep::TimeDerivative;
 use serde::{Deserialize, Serialize};
+
+/// Largest change of the share in a step that is expected to go on \[1]: beyond, slip comes and goes.
+const EXPECTED: f64 = 0.05;
+/// Share of stick or slip at which it is \[1].
+const SURE: f64 = 0.1;
 
 /// Tractions of a single patch: pressure on all of it, friction in slip, and the part of it that sticking takes away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -15,6 +22,8 @@ pub struct Tractions {
     pub slide: f64,
     /// Shear less that of slip where it sticks \[Pa].
     pub stick: Arch,
+    /// States of the points where slip is not one stretch in one direction: `stick` is all of the shear then, `slide` zero.
+    pub directions: Option<Directions>,
 }
 
 // A run on a patch keeps the larger variant, without memory to allocate in every step.
@@ -91,7 +100,38 @@ impl Default for Past {
     }
 }
 
+impl SeriesState {
+    /// Tractions that are expected after a step: the part that sticks goes on changing as it did in the last one.
+    pub fn expected(&self, time: &TimeDerivative) -> Tractions {
+        let now = self.tractions;
+        let Past::Patch(PatchPast { tractions: earlier, .. }) = &self.past[1] else { return now };
+        let (ratio, share) = (time.step_ratio(), now.share());
+        let change = ratio * (share - earlier.share());
+        // Where nearly all or nothing sticks, slip may come from the other side or go.
+        let steady = change.abs() <= EXPECTED && (SURE..=1.0 - SURE).contains(&(share + change));
+        if !now.same_branch(earlier) || now.slides() || now.directions.is_some() || !steady {
+            return now;
+        }
+        let [new, old] = [&now.stick, &earlier.stick];
+        let onwards = |new: f64, old: f64| new + ratio * (new - old);
+        let stick = Arch {
+            centre: onwards(new.centre, old.centre),
+            half_width: (share + change) * now.pressure.half_width,
+            count: new.count,
+            terms: std::array::from_fn(|k| onwards(new.terms[k], old.terms[k])),
+        };
+        Tractions { stick, ..now }
+    }
+}
+
 impl Tractions {
+    /// Half-length of the stretch that sticks over that of the patch \[1].
+    pub fn share(&self) -> f64 {
+        let sticks =
+            |points: Directions| points.iter().filter(|state| **state == 0).count() as f64 / points.len() as f64;
+        self.directions.map_or(self.stick.half_width / self.pressure.half_width, sticks)
+    }
+
     /// Shear on the wheel at x \[Pa].
     pub fn shear<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         self.together(self.pressure.density(x), self.stick.density(x))
@@ -119,7 +159,9 @@ impl Tractions {
 
     /// True if slip and stick are the same but for their lengths.
     pub fn same_branch(&self, other: &Self) -> bool {
-        self.slides() == other.slides() && (self.slide < 0.0) == (other.slide < 0.0)
+        self.slides() == other.slides()
+            && (self.slide < 0.0) == (other.slide < 0.0)
+            && self.directions == other.directions
     }
 
     /// True if all of the patch slips.

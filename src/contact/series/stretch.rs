@@ -2,8 +2,9 @@
 
 use super::chebyshev::{Arch, TERMS};
 use super::equations::{Coefficients, ROOM, eliminate};
-use super::places::moments;
+use super::places::{AtPlaces, moments};
 use super::series_line::SeriesLine;
+use super::state::Tractions;
 use super::surface::SmoothSurfaces;
 use super::tables::{SHEAR, STICK, Tables};
 use crate::contact::error::ContactError;
@@ -16,25 +17,39 @@ use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 const ROOT_PLACES: [f64; 4] =
     [0.923_879_532_511_286_7, 0.382_683_432_365_089_8, -0.382_683_432_365_089_8, -0.923_879_532_511_286_7];
 
-/// Tractions of a stretch that sticks: ten terms of the shear and the strength of a root at the end where slip begins
+/// Place of the root behind the terms of the shear.
+const ROOT: usize = TERMS;
+
+/// Tractions of a stretch that sticks: terms of the shear and the strength of a root at the end where slip begins
 /// \[Pa], for the known part of the slip and for the slip of all else, which is a polynomial: per unit of every power of
 /// the place over the half-length of the line.
 pub struct Stretch {
     /// Half of its length \[m].
     half: f64,
-    /// Moments of the terms of the shear and of the root with the powers \[m]. That of the root is exact: so those of the
-    /// whole stretch, by which lines feel each other, hardly depend on where slip begins.
-    moments: [ByPowers; SHEAR],
-    root: ByPowers,
+    /// Moments of the terms of the shear and, behind them, of the root with the powers \[m].
+    moments: [ByPowers; ROOT + 1],
     /// Solutions: of the known part, then those that a unit of each power takes away.
     solutions: [Coefficients; 1 + POINTS],
 }
 
 impl Stretch {
+    /// Tractions on half of a length `half` \[m] with the given terms; `of_terms` times `powers` are summed to the moments of
+    /// the terms.
+    pub fn new(
+        half: f64,
+        of_terms: &[AtPlaces; TERMS],
+        powers: &[AtPlaces; POINTS],
+        solutions: [Coefficients; 1 + POINTS],
+    ) -> Self {
+        let mut all = [ByPowers::default(); ROOT + 1];
+        all[..TERMS].copy_from_slice(&moments(of_terms, powers, half));
+        Self { half, moments: all, solutions }
+    }
+
     /// Moments with the powers [N/m] of the tractions of a solution.
     fn moments_of(&self, x: &Coefficients) -> ByPowers {
-        let mut sums = self.root.map(|moment| x[SHEAR] * moment);
-        for (term, moments) in x[..SHEAR].iter().zip(&self.moments) {
+        let mut sums = ByPowers::default();
+        for (term, moments) in x.iter().zip(&self.moments) {
             sums.iter_mut().zip(moments).for_each(|(sum, moment)| *sum += term * moment);
         }
         sums
@@ -47,7 +62,7 @@ impl Stretch {
 
     /// Force of the tractions under the known slip [N/m], and those that a unit of each power takes away.
     pub fn forces(&self) -> [f64; 1 + POINTS] {
-        self.solutions.each_ref().map(|x| FRAC_PI_2 * self.half * (x[0] + 2.0 * x[SHEAR]))
+        self.solutions.each_ref().map(|x| FRAC_PI_2 * self.half * (x[0] + 2.0 * x[ROOT]))
     }
 
     /// Terms of the shear and the root under a slip besides the known one \[Pa].
@@ -70,6 +85,15 @@ impl SeriesLine<'_> {
             Arch { centre, half_width: half, count: SHEAR, terms: [0.0; TERMS] }
         });
         self.slide_all();
+    }
+
+    /// Makes the stretch that sticks longer by a factor, and its shear stronger, as that of Carter's solution is.
+    pub fn restretch(&mut self, factor: f64) {
+        let (upstream, Tractions { pressure, stick, .. }) = (self.upstream(), &mut self.tractions);
+        stick.half_width *= factor;
+        stick.centre = pressure.centre + upstream * (pressure.half_width - stick.half_width);
+        stick.terms.iter_mut().for_each(|term| *term *= factor);
+        self.place_shear();
     }
 
     /// Tractions of the stretch that sticks, with the smooth displacements `surface` of the friction of slip.
@@ -96,9 +120,13 @@ impl SeriesLine<'_> {
             return Err(ContactError::Unsuited { reason: "the equations of stick are singular" });
         }
         let values = self.powers_at(&tables.places.map(|t| centre + half * t));
-        let solutions = std::array::from_fn(|k| columns[STICK + k]);
-        let moments = moments(&tables.moments, &values, half);
-        Ok(Stretch { half, moments, root: self.root_moments(), solutions })
+        let mut solutions: [Coefficients; 1 + POINTS] = std::array::from_fn(|k| columns[STICK + k]);
+        solutions.iter_mut().for_each(|x| x.swap(SHEAR, ROOT));
+        let mut stretch = Stretch::new(half, &tables.moments, &values, solutions);
+        // That of the root is exact: so those of the whole stretch, by which lines feel each other, hardly depend on where
+        // slip begins.
+        stretch.moments[ROOT] = self.root_moments();
+        Ok(stretch)
     }
 
     /// Moments of the traction `√((1 − t)/(1 + t))` with the powers, by the rule of Gauss and Chebyshev \[m].
@@ -109,8 +137,8 @@ impl SeriesLine<'_> {
         powers.map(|power| power.iter().zip(&weights).map(|(power, weight)| power * weight).sum())
     }
 
-    /// ByPowers of the place over the half-length of the line, by power.
-    fn powers_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
+    /// Powers of the place over the half-length of the line, by power.
+    pub fn powers_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
         let (mut power, scale) = ([1.0; N], 1.0 / self.half_length);
         std::array::from_fn(|_| {
             let now = power;
@@ -122,8 +150,8 @@ impl SeriesLine<'_> {
     /// Takes the terms of the shear; returns the strength of the traction `√((1 − t)/(1 + t))` that holds the end of
     /// the stretch \[Pa]: no friction can, so that it vanishes in a solution.
     pub fn take(&mut self, x: &Coefficients) -> f64 {
-        self.tractions.stick.terms[..SHEAR].copy_from_slice(&x[..SHEAR]);
-        x[SHEAR]
+        self.tractions.stick.terms.copy_from_slice(&x[..TERMS]);
+        x[ROOT]
     }
 }
 

@@ -1,9 +1,10 @@
 //! Smooth part of the surface displacements: by forces, accelerations and the past, half-planes apart.
 
 use crate::axes::PerAxis;
+use crate::contact::flexibility::ByMoments;
 use crate::contact::problem::SurfaceResponse;
-use crate::linalg::POINTS;
 use crate::linalg::vectorised::vectorised;
+use crate::linalg::{Lagrange, POINTS};
 use nalgebra::DMatrix;
 
 /// Values at the points of the polynomial.
@@ -124,4 +125,17 @@ impl SmoothSurfaces {
 /// Row `at · compliance` of one pair of components, by point of the force.
 pub fn answer(compliance: &DMatrix<f64>, component: usize, force: usize, at: &AtPoints) -> AtPoints {
     std::array::from_fn(|l| (0..POINTS).map(|k| at[k] * compliance[(2 * k + component, 2 * l + force)]).sum())
+}
+
+/// Tangential displacements of wheel and rail by unit moments of a shear on the wheel, and the rail's opposite one, with
+/// the powers of `x/reach`, as polynomials of it.
+pub fn displaced_by_powers(bodies: &SurfaceResponse, points: &Lagrange) -> [ByMoments; 2] {
+    [(0, 1.0), (1, -1.0)].map(|(body, sign)| {
+        let compliance = bodies.shared.compliance[body];
+        std::array::from_fn(|n| {
+            let forces = points.moments(&std::array::from_fn(|k| if k == n { sign } else { 0.0 }));
+            let moved = |k: usize| (0..POINTS).map(|l| compliance[(2 * k, 2 * l)] * forces[l]).sum();
+            points.polynomial(&std::array::from_fn(moved)).by_powers(points.reach)
+        })
+    })
 }

@@ -41,7 +41,7 @@ pub struct Tables {
     /// Its weights for whole functions that rise like a root at both ends.
     pub weights: [f64; QUADRATURE],
     /// `√(1 − t²) U_k` at the places times their weights, by k.
-    pub moments: [[f64; QUADRATURE]; SHEAR],
+    pub moments: [[f64; QUADRATURE]; TERMS],
     /// Points of the profiles: shares of a stretch, denser towards its ends.
     pub profile: [f64; PROFILE],
 }

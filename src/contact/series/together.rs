@@ -52,16 +52,15 @@ impl SeriesContact<'_> {
 impl SeriesContact<'_> {
     /// Finds the motions that are not prescribed, and the slips of all lines that stick by all that the known slip does
     /// not contain, as polynomials.
-    fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<[ByPowers; MOST_LINES], ContactError> {
+    pub fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<[ByPowers; MOST_LINES], ContactError> {
         let (count, axes) = (POINTS * sticking(stretches).count(), self.free_axes());
         let mut system = std::mem::take(&mut self.system);
         system.reset(count + axes.clone().count());
         self.write_motions(stretches, &mut system);
-        let bodies = self.displaced_by_powers();
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
             let (moments, forces, share) = (stretch.moments(), stretch.forces(), self.lines[by].problem.line.share);
             for (row, (at, _)) in sticking(stretches).enumerate() {
-                let between = self.slips_between([at, by], &bodies);
+                let between = self.slips_between([at, by]);
                 let slips = moments.map(|moments| polynomial(&between, &moments));
                 for p in 0..POINTS {
                     // The known tractions stand on the right, the others take away from them.
@@ -130,23 +129,9 @@ impl SeriesContact<'_> {
         points.moments(&of_bodies)
     }
 
-    /// Tangential displacements of wheel and rail by unit moments of a shear on the wheel, and the rail's opposite one, with
-    /// the powers of `x/reach`, as polynomials of it.
-    fn displaced_by_powers(&self) -> [ByMoments; 2] {
-        let points = &self.lines[0].constants.points;
-        [(0, 1.0), (1, -1.0)].map(|(body, sign)| {
-            let compliance = self.bodies().shared.compliance[body];
-            std::array::from_fn(|n| {
-                let forces = points.moments(&std::array::from_fn(|k| if k == n { sign } else { 0.0 }));
-                let moved = |k: usize| (0..POINTS).map(|l| compliance[(2 * k, 2 * l)] * forces[l]).sum();
-                points.polynomial(&std::array::from_fn(moved)).by_powers(points.reach)
-            })
-        })
-    }
-
     /// Slips of a line by unit moments of the shear of another one, given what those do to the bodies.
-    fn slips_between(&self, [at, by]: [usize; 2], [wheel, rail]: &[ByMoments; 2]) -> ByMoments {
-        let (line, other) = (&self.lines[at], &self.lines[by]);
+    fn slips_between(&self, [at, by]: [usize; 2]) -> ByMoments {
+        let (line, other, [wheel, rail]) = (&self.lines[at], &self.lines[by], &self.by_powers);
         let (v, rim, a0, reach) =
             (line.rigid.travel, line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
         let powers = |ratio: f64, first: f64| {

@@ -36,13 +36,21 @@ pub(super) fn to_grid(
 ) -> ContactState {
     let (traction, mut forces) = (&from.traction, target.traction.port_forces.clone());
     let SolverState::Line(state) = &mut target.solver else { return target };
-    let Tractions { pressure, slide, stick } = &patch.tractions;
+    let Tractions { pressure, slide, stick, directions } = &patch.tractions;
     let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
-    let slipping = if *slide < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
-    let status = |x: f64| match x {
-        x if x <= low || x >= high => NodeStatus::Open,
-        x if x > stick_low && x < stick_high => NodeStatus::Stick,
-        _ => slipping,
+    let slips = |sign: f64| if sign < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
+    let upstream = if traction.rigid.travel < 0.0 { -1.0 } else { 1.0 };
+    let status = |x: f64| match directions {
+        _ if x <= low || x >= high => NodeStatus::Open,
+        Some(directions) => {
+            let place = upstream * (x - pressure.centre) / pressure.half_width;
+            match directions[constants.of_points.nearest(place)] {
+                0 => NodeStatus::Stick,
+                direction => slips(f64::from(direction)),
+            }
+        }
+        None if x > stick_low && x < stick_high => NodeStatus::Stick,
+        None => slips(*slide),
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
     let past = |k: usize, x: f64| patch.past[k].at(&[x], (patch.kernel.tangential.factor, None), &constants.points)[0];
@@ -52,7 +60,7 @@ pub(super) fn to_grid(
     let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
     let friction = &from.history.friction;
     let span = duration(&friction.force, &friction.impulse);
-    let slip = |i: usize| if status(grid.x[i]) == slipping { traction.slip.at(grid.x[i]) } else { 0.0 };
+    let slip = |i: usize| if status(grid.x[i]).friction_direction() != 0.0 { traction.slip.at(grid.x[i]) } else { 0.0 };
     state.slip = (0..grid.len()).map(slip).collect();
     target.history.rim_angle = from.history.rim_angle;
     target.history.friction = FrictionHistory {
@@ -147,7 +155,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
         let value = |h: &History| if before { h.before } else { h.now };
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
-    let tractions = Tractions { pressure, slide, stick };
+    let tractions = Tractions { pressure, slide, stick, directions: None };
     let friction = friction_history(constants, &tractions, side, from);
     let patch =
         SeriesState { tractions, kernel: LineKernel::default(), past: [history(false), history(true)], slope: 0.0 };
@@ -174,7 +182,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
 /// Friction at the places of the slipping part, read off the profiles.
 fn friction_history(constants: &Constants, tractions: &Tractions, side: f64, from: &ContactState) -> FrictionHistory {
     let before = &from.history.friction;
-    let Tractions { pressure, slide, stick } = tractions;
+    let Tractions { pressure, slide, stick, .. } = tractions;
     let half = pressure.half_width - stick.half_width;
     let centre = pressure.centre - side * stick.half_width;
     let tables = &constants.tables;

@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::fmi::variable::Variable;
-use crate::simulation::{Inputs, Outputs};
+use crate::simulation::{Drive, Inputs, Outputs};
 
 /// Difference of an input without effect from what it would have to be \[1], up to which it is taken for a copy of
 /// that.
@@ -15,7 +15,7 @@ pub(super) fn is_used(row: &Variable, inputs: &Inputs) -> bool {
 
 /// Reason why an input has no effect, and what to do about it; `None` if it has one.
 pub(super) fn idle(name: &str, inputs: &Inputs, config: &Config) -> Option<String> {
-    if !config.thermal.enabled && ["drive.tread_heat", "rail.temperature"].contains(&name) {
+    if !config.thermal.enabled && Drive::ROWS.iter().any(|row| row.name == name && row.is_thermal()) {
         return Some("temperatures are not computed; set thermal.enabled = true".to_owned());
     }
     let [control, present, selected, wanted] = partner(name, inputs)?;

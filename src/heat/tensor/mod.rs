@@ -68,21 +68,6 @@ impl HeatModel for Heat {
 
     fn step(
         &self,
-        state: &HeatState,
-        next: &mut HeatState,
-        dt: f64,
-        velocity: f64,
-        omega: f64,
-        exchange: &Exchange,
-        scratch: &mut HeatScratch,
-    ) -> Result<HeatFlows, HeatError> {
-        let mut line = HeatLine { state, next, exchange, flows: HeatFlows::default() };
-        self.step_lines(std::slice::from_mut(&mut line), dt, velocity, omega, scratch)?;
-        Ok(line.flows)
-    }
-
-    fn step_lines(
-        &self,
         lines: &mut [HeatLine],
         dt: f64,
         velocity: f64,

@@ -15,7 +15,7 @@ use super::solve::tridiagonal::TridiagonalFactor;
 use super::step::loads::SurfaceLoads;
 use crate::config::{ConductanceLaw, Config, Hub};
 use crate::fem::grading::graded;
-use crate::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, HeatState, Interval, Observation};
+use crate::heat::{Exchange, HeatConfig, HeatLine, HeatModel, HeatScratch, HeatState, Interval, Observation};
 use crate::linalg::Update;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use crate::piecewise::Piecewise;
@@ -184,7 +184,9 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
                 last.speeds = last.speeds.map(|speed| 1.1 * speed);
             }
             let mut scratch = scratch(k);
-            let flows = heat.step(&state, &mut next, 1e-3, speed, 1.001 * speed / R, &exchange, &mut scratch).unwrap();
+            let mut line = [HeatLine::new(&state, &mut next, &exchange)];
+            heat.step(&mut line, 1e-3, speed, 1.001 * speed / R, &mut scratch).unwrap();
+            let flows = line[0].flows;
             std::mem::swap(&mut state, &mut next);
             assert!(flows.relative_imbalance() < 1e-12, "{k}: {:e}", flows.relative_imbalance());
             heat.observe(&state, &mut seen).unwrap();
@@ -202,7 +204,8 @@ fn inverses_shared_by_neighbouring_speeds_change_no_temperature_and_lose_no_heat
     let mut kept = Some(HeatScratch::default());
     let mut advance = |state: &HeatState, speed: f64| {
         let (mut next, mut scratch) = (HeatState::default(), kept.take().unwrap());
-        heat.step(state, &mut next, 1e-3, speed, speed / R, &Exchange::default(), &mut scratch).unwrap();
+        let idle = Exchange::default();
+        heat.step(&mut [HeatLine::new(state, &mut next, &idle)], 1e-3, speed, speed / R, &mut scratch).unwrap();
         kept = Some(scratch);
         next
     };

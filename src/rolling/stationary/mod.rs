@@ -8,11 +8,11 @@
 mod goal;
 mod settle;
 
-use super::brake;
 use super::control::Inputs;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::State;
+use super::thermal::HeatSupply;
 use crate::axes::Axis;
 use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
@@ -55,9 +55,9 @@ pub fn start(
             let mut temperatures = match model.config.initial.temperature {
                 StartTemperature::Uniform => thermal.uniform(&contact)?,
                 StartTemperature::Stationary => {
-                    let blocks = brake::tread_heat(model, &goal.drive, state.hub.brake.power);
-                    let tread_heat = model.narrowing(&state) * blocks;
-                    thermal.stationary(&state.motion, &contact, tread_heat)?
+                    let (brake_power, narrowing) = (state.hub.brake.power, model.narrowing(&state));
+                    let supply = HeatSupply { drive: &goal.drive, brake_power, narrowing };
+                    thermal.stationary(&state.motion, &contact, supply)?
                 }
             };
             if let (Some(before), true) = (&line.thermal, averaged > 0) {

@@ -8,6 +8,7 @@ mod deformation;
 mod exchange;
 mod history;
 mod smoothing;
+mod sources;
 mod thermoelastic;
 mod warming;
 mod weakening;
@@ -22,17 +23,18 @@ use crate::config::Config;
 use crate::contact::{ContactState, Heating};
 use crate::damage::{ConductionScratch, Criteria};
 use crate::heat::{
-    Exchange, Heat, HeatConfig, HeatError, HeatFlows, HeatLine, HeatModel, HeatScratch, Observation, TemperatureField,
+    Exchange, Heat, HeatConfig, HeatError, HeatLine, HeatModel, HeatScratch, Observation, TemperatureField,
 };
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
-use exchange::BrakeBlocks;
 pub use exchange::ThermalContact;
 pub use history::criteria;
 use history::{MaterialHistory, ObservedStep};
 use smoothing::Smoothing;
+use sources::HeatSources;
+pub use sources::HeatSupply;
 use thermoelastic::Thermoelastic;
 use warming::Warming;
 use weakening::WeakSteel;
@@ -58,7 +60,7 @@ pub struct ThermalModel {
     reference: f64,
     /// Excess temperature of the wheel at the start [K].
     wheel_excess: f64,
-    blocks: BrakeBlocks,
+    sources: HeatSources,
     /// Coefficient of thermal expansion [1/K].
     thermal_expansion: f64,
     /// Unless `physics.thermal_expansion` is off.
@@ -77,11 +79,11 @@ pub struct ThermalModel {
 
 /// A heat step beside the mechanical one.
 #[derive(Clone, Copy, Debug)]
-pub struct HeatStep {
+pub struct HeatStep<'a> {
     /// Length of the step \[s].
     pub dt: f64,
-    /// Heat of the brake blocks into the tread \[W].
-    pub tread_heat: f64,
+    /// Givers of heat beside friction.
+    pub supply: HeatSupply<'a>,
     /// Limits that decide about the structure of the steel.
     pub criteria: Criteria,
 }
@@ -143,7 +145,7 @@ impl ThermalModel {
             heat,
             reference: config.thermal.reference,
             wheel_excess: config.thermal.wheel_excess,
-            blocks: BrakeBlocks::new(config),
+            sources: HeatSources::new(config),
             thermal_expansion: config.material.expansion,
             expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
@@ -202,11 +204,12 @@ impl ThermalModel {
         &self,
         motion: &Motion,
         contact: &ThermalContact,
-        tread_heat: f64,
+        supply: HeatSupply,
     ) -> Result<ThermalState, StepError> {
         let (v, omega) = (motion.velocity.now, motion.omega.now);
         let mut exchange = Exchange::default();
-        contact.fill(&self.blocks, tread_heat, &Weakening::NONE.film, &mut exchange);
+        contact.fill(&Weakening::NONE.film, &mut exchange);
+        self.sources.list(supply, &mut exchange.sources);
         let (fields, flows) = self.heat.after_long_rolling(v, omega, &exchange, self.wheel_excess)?;
         self.begun(contact, ThermalState { fields, flows, ..ThermalState::default() })
     }
@@ -228,17 +231,18 @@ impl ThermalModel {
         step: HeatStep,
         scratch: &mut ThermalScratch,
     ) -> Result<(), StepError> {
-        let HeatStep { dt, tread_heat, .. } = step;
+        let HeatStep { dt, supply, .. } = step;
         let ThermalScratch { heat, exchanges, .. } = scratch;
         exchanges.resize_with(lines.len().max(exchanges.len()), Exchange::default);
         for (line, exchange) in lines.iter().zip(&mut *exchanges) {
-            line.contact.fill(&self.blocks, tread_heat, &line.before.weakening.film, exchange);
+            line.contact.fill(&line.before.weakening.film, exchange);
+            self.sources.list(supply, &mut exchange.sources);
         }
         let fields = lines.iter_mut().zip(&*exchanges).map(|(ThermalLine { before, thermal, .. }, exchange)| {
-            HeatLine { state: &before.fields, next: &mut thermal.fields, exchange, flows: HeatFlows::default() }
+            HeatLine::new(&before.fields, &mut thermal.fields, exchange)
         });
         let mut fields: Vec<_> = fields.collect();
-        self.heat.step_lines(&mut fields, dt, motion.velocity.now, motion.omega.now, heat)?;
+        self.heat.step(&mut fields, dt, motion.velocity.now, motion.omega.now, heat)?;
         let flows: Vec<_> = fields.into_iter().map(|field| field.flows).collect();
         for (line, flows) in lines.iter_mut().zip(flows) {
             line.thermal.flows = flows;
@@ -277,7 +281,7 @@ impl ThermalModel {
             thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));
             thermal.deformation.radius_growth = growth;
         }
-        let [sum, amount] = balance(&thermal.flows);
+        let [sum, amount] = thermal.flows.balance();
         thermal.unaccounted = before.unaccounted + dt * sum;
         thermal.turned_over = before.turned_over + dt * amount;
         Ok(())
@@ -386,14 +390,4 @@ pub fn share_growth(lines: &mut [Line]) {
     for thermal in lines.iter_mut().filter_map(|line| line.thermal.as_mut()) {
         thermal.deformation.radius_growth = growth;
     }
-}
-
-/// Heat put in less heat passed on or stored, and half the sum of the amounts of all flows [W/m]: each flow is counted
-/// at its source and at its sink.
-fn balance(flows: &HeatFlows) -> [f64; 2] {
-    let sources = [flows.friction, flows.tread];
-    let HeatFlows { stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air, .. } = *flows;
-    let sinks = [stored_wheel, stored_rail, to_hub, outflow, wheel_to_air, rail_to_air];
-    let amount: f64 = sources.iter().chain(&sinks).map(|flow| flow.abs()).sum();
-    [sources.iter().sum::<f64>() - sinks.iter().sum::<f64>(), 0.5 * amount]
 }

@@ -129,20 +129,19 @@ vectorised! {
 }
 
 vectorised! {
-    /// Lowest and highest value of all rows of `x` at the nodes at which the modes have the values `shapes`, mode by
-    /// mode; from each block of [`NODES`] nodes on only so many modes count as `reach` says.
-    fn extremes<'a, S>(simd, x: &'a [f64], shapes: &'a [f64], modes: usize, reach: &'a [usize]) -> [f64; 2] {
-        let shapes = S::as_simd_f64s(shapes).0;
-        let k = shapes.len() / modes;
+    /// Lowest and highest value of all rows of `modes` numbers at the nodes of all `blocks`: values of the first modes,
+    /// as many as count there, at [`NODES`] nodes, mode by mode.
+    fn extremes<'a, S>(simd, x: &'a [f64], modes: usize, blocks: &'a [Vec<f64>]) -> [f64; 2] {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY].map(|end| simd.splat_f64s(end));
         for row in x.chunks_exact(modes) {
-            for first in (0..k).step_by(REGISTERS) {
-                let (row, shapes) = (&row[..reach[first * S::F64_LANES / NODES]], &shapes[first..]);
-                let ends = match k - first {
-                    1 => extremes_of::<S, 1>(simd, row, shapes, k),
-                    2 => extremes_of::<S, 2>(simd, row, shapes, k),
-                    3 => extremes_of::<S, 3>(simd, row, shapes, k),
-                    _ => extremes_of::<S, REGISTERS>(simd, row, shapes, k),
+            for block in blocks {
+                let shapes = S::as_simd_f64s(block).0;
+                let ends = match NODES / S::F64_LANES {
+                    1 => extremes_of::<S, 1>(simd, row, shapes),
+                    2 => extremes_of::<S, 2>(simd, row, shapes),
+                    4 => extremes_of::<S, 4>(simd, row, shapes),
+                    8 => extremes_of::<S, 8>(simd, row, shapes),
+                    _ => extremes_of::<S, NODES>(simd, row, shapes),
                 };
                 range = [simd.min_f64s(range[0], ends[0]), simd.max_f64s(range[1], ends[1])];
             }
@@ -151,16 +150,15 @@ vectorised! {
     }
 }
 
-/// Nodes of a block, and registers whose nodes are summed at a time.
+/// Nodes of a block, whose values are summed at a time.
 pub const NODES: usize = 16;
-const REGISTERS: usize = 4;
 
-/// Extremes of the sums of `B` registers of all shapes, which are `k` registers apart, each times its number in `row`.
+/// Extremes of the sums of `B` registers of all shapes, each times its number in `row`.
 #[inline(always)]
-fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s], k: usize) -> [S::f64s; 2] {
+fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]) -> [S::f64s; 2] {
     let mut sums = [simd.splat_f64s(0.0); B];
-    for (&x, shape) in row.iter().zip(shapes.chunks(k)) {
-        let (x, shape) = (simd.splat_f64s(x), &shape[..B]);
+    for (&x, shape) in row.iter().zip(shapes.as_chunks::<B>().0) {
+        let x = simd.splat_f64s(x);
         for q in 0..B {
             sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
         }

@@ -14,9 +14,8 @@ pub struct Nodal {
     modes: usize,
     /// Values of the modes at the nodes, mode by mode, where the first node fills up the last register.
     shapes: Vec<f64>,
-    /// Numbers of modes that count from the first node of each block on: the steep ones live in the thin layers at the
-    /// surface.
-    reach: Vec<usize>,
+    /// Values at blocks of nodes of the modes that count there: the steep ones live in the thin layers at the surface.
+    blocks: Vec<Vec<f64>>,
     /// Coefficients of a field that is 1 at one node, node by node.
     to_modes: Vec<f64>,
     /// `∫ g N dz` of every node: its share of the heat content \[m].
@@ -34,7 +33,7 @@ impl Nodal {
         let mut nodal = Self {
             modes: nm,
             shapes: modes.shapes.as_slice().chunks_exact(size).flat_map(filled_up).collect(),
-            reach: reach(modes),
+            blocks: blocks(modes),
             to_modes: vec![0.0; size * nm],
             weights: Vec::with_capacity(size),
             peaks: modes.shapes.column_iter().map(|column| column.amax()).collect(),
@@ -80,7 +79,7 @@ impl Nodal {
 
     /// Lowest and highest value of a field at its nodes, or of the part of it below some surface nodes.
     pub fn extremes(&self, field: &[f64]) -> [f64; 2] {
-        kernels::extremes(field, &self.shapes, self.modes, &self.reach)
+        kernels::extremes(field, self.modes, &self.blocks)
     }
 
     /// Takes the bounds of the `rows` of the field `from` on to the field `to`, and returns those of all rows: one is
@@ -122,17 +121,21 @@ pub fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
 }
 
-/// Number of modes that count at the nodes of each block or below.
-fn reach(modes: &DepthModes) -> Vec<usize> {
-    let counts = |first: usize| {
+/// Values of the modes at blocks of [`kernels::NODES`] nodes, mode by mode; the last node fills up the last block. Modes
+/// count that are noticed in it or below.
+fn blocks(modes: &DepthModes) -> Vec<Vec<f64>> {
+    let size = modes.shapes.nrows();
+    let block = |first: usize| {
         let noticed = |column: &[f64]| {
             let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             largest(&column[first..]) > NEGLIGIBLE * largest(column)
         };
-        let columns = modes.shapes.as_slice().chunks_exact(modes.shapes.nrows());
-        columns.enumerate().rfind(|(_, column)| noticed(column)).map_or(0, |(mode, _)| mode + 1)
+        let columns = modes.shapes.as_slice().chunks_exact(size);
+        let count = columns.clone().rposition(noticed).map_or(0, |mode| mode + 1);
+        let nodes = (first..first + kernels::NODES).map(|node| node.min(size - 1));
+        columns.take(count).flat_map(|column| nodes.clone().map(|node| column[node])).collect()
     };
-    (0..modes.shapes.nrows()).step_by(kernels::NODES).map(counts).collect()
+    (0..size).step_by(kernels::NODES).map(block).collect()
 }
 
 /// The values `column` at the nodes, with the first one again until registers are full.

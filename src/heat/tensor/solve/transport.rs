@@ -110,6 +110,11 @@ impl Transport {
     }
 }
 
+/// Elements that bear a load, with its moments: most of a surface bears none.
+pub fn bearing(moments: &[[f64; 2]]) -> impl Iterator<Item = (usize, [f64; 2])> {
+    moments.iter().copied().enumerate().filter(|(_, q)| *q != [0.0; 2])
+}
+
 vectorised! {
     /// Replaces the rows of the first node of every element by what the element adds to them: diagonal and upper band
     /// of `M̃`, upper band of `F`; the weights are `ρc v` and the conductivity.

@@ -20,14 +20,14 @@ const SLIGHT: f64 = 0.05;
 const NO_FLUX: f64 = 1e-6;
 
 /// Coldest and hottest datum of a step \[K]: hub and air at the reference, the arriving rail, the wheel at the start,
-/// and the range of reversible temperatures. There is no lower bound while brake blocks cool, and no upper one while
-/// they or friction heat; from the end of the heat on, the hottest node is a datum. Friction never cools: where
+/// and the range of reversible temperatures. There is no lower bound while a source cools, and no upper one while
+/// one or friction heats; from the end of the heat on, the hottest node is a datum. Friction never cools: where
 /// round-off gives it a negative share somewhere, the lower bound holds all the same.
 pub fn data(layout: &HeatLayout, state: &HeatState, exchange: &Exchange) -> [f64; 2] {
     let moved = exchange.reversible.value.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let cooled = exchange.tread.iter().any(|tread| tread.heat < 0.0);
+    let cooled = exchange.sources.iter().any(|source| source.heat < 0.0);
     let heated = exchange.friction_power.value.iter().any(|power| *power > NO_FLUX)
-        || exchange.tread.iter().any(|tread| tread.heat > 0.0);
+        || exchange.sources.iter().any(|source| source.heat > 0.0);
     let [low, high] = state.data;
     let high = if high == f64::INFINITY && !heated { layout.extremes(&state.values)[1].max(0.0) } else { high };
     [

@@ -54,7 +54,7 @@ impl LineConduction {
     ) {
         let StageEnd { temperature, content, rate, ahead } = *ends;
         flows.friction += weight * loads.friction_heat();
-        flows.tread += weight * loads.tread.iter().map(|q| q[0]).sum::<f64>();
+        flows.supplied += weight * loads.sources.heat();
         if self.coupled() {
             self.set_jump_ahead(stage, layout, temperature, rate, ahead);
             let moments = &loads.conductance[self.elements.clone()];

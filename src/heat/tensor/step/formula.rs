@@ -36,7 +36,7 @@ use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::line_conduction::contact_nodes;
 use crate::heat::tensor::solve::operators::{StageKey, StageOperators};
 
-/// A step of [`HeatModel::step_lines`](crate::heat::HeatModel::step_lines).
+/// A step of [`HeatModel`](crate::heat::HeatModel).
 pub fn advance(
     heat: &Heat,
     lines: &mut [HeatLine],

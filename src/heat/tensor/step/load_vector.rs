@@ -4,6 +4,7 @@ use super::loads::SurfaceLoads;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::operators::StageOperators;
 use crate::heat::tensor::solve::stage::LineField;
+use crate::heat::tensor::solve::transport::bearing;
 
 /// Adds everything that does not depend on the temperature of a line to `out`.
 pub fn add_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoads, (line, out): LineField) {
@@ -32,12 +33,8 @@ pub fn add_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoa
         {
             body.add_load(node, &[stream * loads.arriving], &body.modes.content, out);
         }
-        if body.line.closed > 0.0 && !loads.tread.is_empty() {
-            surface.fill(0.0);
-            for (e, q) in bearing(&loads.tread) {
-                transport.add_load(&body.line, e, q, surface);
-            }
-            body.add_load(0, surface, &body.modes.block, out);
+        if body.line.closed > 0.0 {
+            loads.sources.add(layout, transport, surface, out);
         }
         if !radiation.load.is_empty() {
             surface.fill(0.0);
@@ -47,9 +44,4 @@ pub fn add_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoa
             body.add_load(0, surface, &radiation.load, out);
         }
     }
-}
-
-/// Elements that bear a load, with its moments: most of a surface bears none.
-fn bearing(moments: &[[f64; 2]]) -> impl Iterator<Item = (usize, [f64; 2])> {
-    moments.iter().copied().enumerate().filter(|(_, q)| *q != [0.0; 2])
 }

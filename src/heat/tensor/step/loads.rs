@@ -5,15 +5,14 @@
 //! profile, edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
 
 use super::radiation::Radiation;
+use super::sources::SourceLoads;
 use crate::config::Thermal;
 use crate::heat::error::HeatError;
-use crate::heat::exchange::{Exchange, TreadHeat};
+use crate::heat::exchange::Exchange;
 use crate::heat::state::BoundaryState;
 use crate::heat::tensor::mesh::layout::HeatLayout;
-use crate::heat::tensor::mesh::streamline::Streamline;
 use crate::heat::tensor::solve::conductance::even_conductance;
 use crate::piecewise::{Interval, Piecewise, interpolate};
-use std::f64::consts::PI;
 
 /// Exponent of the pressure in the conductance of rough surfaces in plastic contact.
 const PRESSURE_EXPONENT: f64 = 0.95;
@@ -27,8 +26,8 @@ pub struct SurfaceLoads {
     pub friction: Vec<[f64; 2]>,
     /// Share of it that acts in the present stage [1].
     pub friction_share: f64,
-    /// `∫ q (1, ξ) ds` on the elements of the tread [W/m]; empty without heat there.
-    pub tread: Vec<[f64; 2]>,
+    /// Loads of the sources beside friction.
+    pub sources: SourceLoads,
     /// `∫ k_c (1, ξ) (reversible temperature of the wheel less that of the rail) ds` on the elements of the contact
     /// zone [W/m]; empty without.
     pub reversible: Vec<[f64; 2]>,
@@ -61,17 +60,15 @@ impl SurfaceLoads {
         if !exchange.reversible.is_empty() {
             zone.add_reversible(&exchange.reversible, &self.conductance, &mut self.reversible)?;
         }
-        self.tread.clear();
-        add_tread(&layout.wheel.line, layout.config.wheel.radius, &exchange.tread, &mut self.tread)
+        self.sources.set(layout, &exchange.sources)
     }
 
     /// Sums of the loads, at the given speeds.
     pub fn boundary(&self, speeds: [f64; 2]) -> BoundaryState {
-        let total = |moments: &[[f64; 2]]| moments.iter().map(|q| q[0]).sum();
         BoundaryState {
             speeds,
             conductance: self.conductance.iter().map(|c| c[0]).sum(),
-            heat: [total(&self.friction), total(&self.tread)],
+            heat: [self.friction.iter().map(|q| q[0]).sum(), self.sources.heat()],
         }
     }
 }
@@ -190,37 +187,6 @@ impl Zone<'_> {
         }
         Ok(())
     }
-}
-
-/// Adds the moments of heat on arcs of the tread, which has the given `radius` \[m].
-fn add_tread(line: &Streamline, radius: f64, segments: &[TreadHeat], out: &mut Vec<[f64; 2]>) -> Result<(), HeatError> {
-    for segment in segments {
-        let TreadHeat { angle, width, heat } = *segment;
-        for (name, value) in [("tread heat", heat), ("angle of tread heat", angle)] {
-            if !value.is_finite() {
-                return Err(HeatError::Input { name, value });
-            }
-        }
-        if !(width > 0.0 && width <= 2.0 * PI) {
-            return Err(HeatError::Input { name: "width of tread heat", value: width });
-        }
-        out.resize(line.len(), [0.0; 2]);
-        let length = width * radius;
-        let middle = angle.rem_euclid(2.0 * PI) * radius;
-        for (e, h) in line.lengths.iter().enumerate() {
-            for turn in -2..=1 {
-                let start = line.nodes[e] - f64::from(turn) * line.closed;
-                let low = ((middle - 0.5 * length - start) / h).clamp(0.0, 1.0);
-                let high = ((middle + 0.5 * length - start) / h).clamp(0.0, 1.0);
-                if high > low {
-                    let part = heat / length * (high - low) * h;
-                    out[e][0] += part;
-                    out[e][1] += part * 0.5 * (low + high);
-                }
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Refuses a profile that is no function.

@@ -11,4 +11,5 @@ pub mod loads;
 pub mod memory;
 mod plan;
 pub mod radiation;
+pub mod sources;
 pub mod stationary;

@@ -6,7 +6,7 @@ use super::limiter::keep_bounds;
 use super::load_vector::add_loads;
 use super::loads::SurfaceLoads;
 use crate::heat::error::HeatError;
-use crate::heat::exchange::{Exchange, TreadHeat};
+use crate::heat::exchange::{Exchange, HeatSource};
 use crate::heat::flows::HeatFlows;
 use crate::heat::limits::check_speeds;
 use crate::heat::state::HeatState;
@@ -87,7 +87,7 @@ fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Re
     let even = Exchange {
         patches: exchange.patches.clone(),
         pressure: exchange.pressure.clone(),
-        tread: vec![TreadHeat { angle: 0.0, width: 2.0 * PI, heat: 1.0 }],
+        sources: vec![HeatSource::on_tread(0.0, 2.0 * PI, 1.0)],
         ..Exchange::default()
     };
     let mut loads = SurfaceLoads::default();

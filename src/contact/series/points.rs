@@ -1,0 +1,208 @@
+//! Shear at points that move with the patch: any of them sticks, or slips in either direction.
+//!
+//! Tractions stand at the zeros of `U_N`, `t_i = cos θ_i` with `θ_i = iπ/(N + 1)` from the leading edge on, slips at
+//! `θ_i − π/(2N + 2)`, half a point upstream. For steady rolling the matrix of slips by tractions is that of Cauchy for
+//! interlacing points, of which every principal minor is positive: there is one solution, and it is found by changing the
+//! states of points that contradict friction. Where tractions and slips have the same places odd minors vanish, and the
+//! search goes in circles. Theory: `docs/theory/patch-contact.md`, section 7.
+
+use super::chebyshev::{TERMS, cauchy_terms, logarithm_terms};
+use super::equations::{Coefficients, ROOM, eliminate};
+use crate::linalg::POINTS;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Number of points: that of the terms of a traction.
+pub const COUNT: usize = TERMS;
+/// Excess of shear over friction, or slip against it, over friction at the peak of the pressure, that is round-off \[1].
+const ROUND_OFF: f64 = 1e-9;
+/// Signs of the shear of points that slip, from the leading edge on; 0 where they stick.
+pub type Directions = [i8; COUNT];
+
+/// Places of the points, and what tractions there do; places are counted from the middle to the leading edge, over the
+/// half-width of the patch.
+#[derive(Clone, Debug)]
+pub struct PointTables {
+    /// Places of tractions and of slips.
+    pub tractions: [f64; COUNT],
+    pub slips: [f64; COUNT],
+    /// Terms of a traction by its values: `c_k = 2/(N + 1) Σ_j q_j sin (k + 1)θ_j`, by k.
+    terms: [[f64; COUNT]; COUNT],
+    /// Cauchy integrals over π, and logarithmic ones, at the places of the slips, by point of the traction.
+    cauchy: [[f64; COUNT]; COUNT],
+    logarithm: [[f64; COUNT]; COUNT],
+}
+
+impl PointTables {
+    /// All constants.
+    pub fn new() -> Self {
+        let part = PI / (COUNT + 1) as f64;
+        let slips = std::array::from_fn(|i| libm::cos((i as f64 + 0.5) * part));
+        let term = |k: usize, j: usize| 2.0 / (COUNT + 1) as f64 * libm::sin((k + 1) as f64 * (j + 1) as f64 * part);
+        let terms: [[f64; COUNT]; COUNT] = std::array::from_fn(|k| std::array::from_fn(|j| term(k, j)));
+        let by_point = |of: fn(f64, usize) -> [f64; TERMS]| {
+            let at: [[f64; TERMS]; COUNT] = slips.map(|t| of(t, TERMS));
+            let value = |i: usize, j: usize| (0..COUNT).map(|k| at[i][k] * terms[k][j]).sum();
+            std::array::from_fn(|j| std::array::from_fn(|i| value(i, j)))
+        };
+        Self {
+            tractions: std::array::from_fn(|i| libm::cos((i + 1) as f64 * part)),
+            slips,
+            terms,
+            cauchy: by_point(cauchy_terms),
+            logarithm: by_point(logarithm_terms),
+        }
+    }
+
+    /// Point of the traction next to a place.
+    pub fn nearest(&self, place: f64) -> usize {
+        let angle = libm::acos(place.clamp(-1.0, 1.0)) * (COUNT + 1) as f64 / PI;
+        (angle.round() as usize).clamp(1, COUNT) - 1
+    }
+
+    /// Slips [m/s/Pa] by shear at every point of a patch of half-width `half` \[m]: `convection` times the Cauchy integrals
+    /// over π, and `rate` times the logarithmic ones, of which the line takes those at its `reach` away.
+    pub fn slips_by_shear(&self, [convection, rate]: [f64; 2], [half, reach]: [f64; 2]) -> [[f64; COUNT]; COUNT] {
+        let size = FRAC_PI_2 * (libm::log(half) - reach);
+        std::array::from_fn(|j| {
+            let total = self.terms[0][j] * size;
+            std::array::from_fn(|i| convection * self.cauchy[j][i] + rate * (self.logarithm[j][i] + total))
+        })
+    }
+
+    /// Terms of the traction with values `q` at the points; the leading edge lies at `t = upstream`.
+    pub fn terms_of(&self, q: &[f64; COUNT], upstream: f64) -> Coefficients {
+        let mut sign = upstream;
+        std::array::from_fn(|k| {
+            sign *= upstream;
+            if k < COUNT { sign * self.terms[k].iter().zip(q).map(|(by, q)| by * q).sum::<f64>() } else { 0.0 }
+        })
+    }
+}
+
+impl Default for PointTables {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The tangential problem of one line for the slips of the other lines and motions.
+pub struct PointProblem {
+    /// Slips by the tractions of every point [m/s/Pa].
+    pub by_shear: [[f64; COUNT]; COUNT],
+    /// Slips without shear on this line [m/s].
+    pub known: [f64; COUNT],
+    /// Powers of the place over the half-length of the line at the slips.
+    pub powers: [[f64; COUNT]; POINTS],
+    /// Friction that points bear, and that at the peak of the pressure \[Pa].
+    pub bears: [f64; COUNT],
+    pub most: f64,
+}
+
+/// Shear of a line for given states \[Pa]: under the known slip, then what a unit of each power takes away.
+pub type Shears = [[f64; COUNT]; 1 + POINTS];
+
+impl PointProblem {
+    /// Shear for the given states; `None`: the equations are singular.
+    pub fn shears(&self, directions: &Directions) -> Option<Shears> {
+        let mut shears = [[0.0; COUNT]; 1 + POINTS];
+        let (mut stuck, mut count) = ([0; COUNT], 0);
+        for (j, direction) in directions.iter().enumerate() {
+            if *direction == 0 {
+                (stuck[count], count) = (j, count + 1);
+            }
+            shears[0][j] = f64::from(*direction) * self.bears[j];
+        }
+        let (stuck, slip) = (&stuck[..count], self.slips(&self.known, &shears[0]));
+        let mut columns = [[0.0; ROOM]; COUNT + 1 + POINTS];
+        for (row, i) in stuck.iter().enumerate() {
+            for (column, j) in columns.iter_mut().zip(stuck) {
+                column[row] = self.by_shear[*j][*i];
+            }
+            columns[count][row] = -slip[*i];
+            columns[count + 1..].iter_mut().zip(&self.powers).for_each(|(column, power)| column[row] = power[*i]);
+        }
+        if !eliminate(&mut columns[..count + 1 + POINTS], count) {
+            return None;
+        }
+        for (shear, column) in shears.iter_mut().zip(&columns[count..]) {
+            stuck.iter().zip(column).for_each(|(j, value)| shear[*j] = *value);
+        }
+        Some(shears)
+    }
+
+    /// Slips [m/s] from those without shear.
+    fn slips(&self, without: &[f64; COUNT], shear: &[f64; COUNT]) -> [f64; COUNT] {
+        let mut slips = *without;
+        for (by, q) in self.by_shear.iter().zip(shear) {
+            slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
+        }
+        slips
+    }
+
+    /// States that friction asks for, given those with which a shear was found and the slip by all else as a polynomial.
+    pub fn asked(&self, states: &Directions, shear: &[f64; COUNT], others: &[f64; POINTS]) -> Directions {
+        let mut without = self.known;
+        for (power, value) in self.powers.iter().zip(others) {
+            without.iter_mut().zip(power).for_each(|(slip, power)| *slip += value * power);
+        }
+        let (slips, excess) = (self.slips(&without, shear), ROUND_OFF * self.most);
+        std::array::from_fn(|i| {
+            let (q, least) = (shear[i], self.by_shear[i][i].abs().max(f64::MIN_POSITIVE));
+            // Shear that would hold the point.
+            let held = q - slips[i] / least;
+            let beyond = |shear: f64| shear.abs() > self.bears[i] + excess;
+            match states[i] {
+                0 if beyond(q) => q.signum() as i8,
+                0 => 0,
+                state if f64::from(state) * (held - q) >= -excess => state,
+                _ if beyond(held) => held.signum() as i8,
+                _ => 0,
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shear of half-planes in units of friction at the peak of the pressure, rolling to the leading edge with a creepage over
+    /// that at which all slips, by changing the states that contradict friction; and the number of changes.
+    fn steady(creepage: f64) -> ([f64; COUNT], usize) {
+        let tables = PointTables::new();
+        let problem = PointProblem {
+            by_shear: tables.slips_by_shear([1.0, 0.0], [1.0, 0.0]),
+            known: [creepage; COUNT],
+            powers: [[0.0; COUNT]; POINTS],
+            bears: tables.tractions.map(|t| (1.0 - t * t).sqrt()),
+            most: 1.0,
+        };
+        let mut states = [0; COUNT];
+        for changes in 0..40 {
+            let shear = problem.shears(&states).unwrap()[0];
+            let asked = problem.asked(&states, &shear, &[0.0; POINTS]);
+            if asked == states {
+                return (shear, changes);
+            }
+            states = asked;
+        }
+        panic!("no end at a creepage of {creepage}");
+    }
+
+    /// Carter: `F/μP = 1 − (1 − ξ/ξ_s)²`; see `docs/theory/patch-contact.md`, section 7.
+    #[test]
+    fn the_force_of_steady_rolling_is_that_of_carter_at_every_creepage() {
+        let tables = PointTables::new();
+        let (mut worst, mut most) = (0.0_f64, 0);
+        for k in -120..=120 {
+            let creepage = f64::from(k) / 100.0;
+            let (shear, changes) = steady(creepage);
+            let force = tables.terms_of(&shear, 1.0)[0];
+            let carter = -creepage.signum() * (1.0 - (1.0 - creepage.abs().min(1.0)).powi(2));
+            (worst, most) = (worst.max((force - carter).abs()), most.max(changes));
+            assert!(shear.iter().zip(&tables.tractions).all(|(q, t)| q.abs() <= (1.0 - t * t).sqrt() + 1e-8));
+        }
+        println!("Carter {worst:.1e} of friction, at most {most} changes");
+        assert!(worst < 2e-3 && most <= 12);
+    }
+}
