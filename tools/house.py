@@ -107,6 +107,23 @@ def split_fields(body):
     return [part for part in [*parts, part.strip()] if part]
 
 
+def bundled(code):
+    """Name and line of every function that takes arguments apart which it gets as tuples.
+
+    >>> bundled("fn f((a, b): (u8, u8)) {}\\nfn g(a: (u8, u8), h: impl Fn((u8, u8))) {}\\nfn h<T: Fn(u8)>(x: T, (y, z): P) {}")
+    [('f', 1), ('h', 3)]
+    """
+    found = []
+    for head in re.finditer(rf"\bfn\s+({WORD})", code):
+        at = head.end()
+        if code[at] == "<":
+            at += re.search(r"(?<!-)>\s*\(", code[at:]).end() - 1
+        arguments = split_fields(code[at + 1 : closing(code, at) - 1])
+        if any(argument.startswith("(") for argument in arguments):
+            found.append((head[1], line_of(code, head.start())))
+    return found
+
+
 def structs(code):
     """Name, line and number of named fields of every struct.
 
@@ -238,6 +255,7 @@ def count(sources):
         for file, code in codes.items()
         for found in re.finditer(r"\bmem::take\b", code)
     ]
+    tuples = [f"{file}:{line} {name}" for file, code in codes.items() for name, line in bundled(code)]
     twice = sorted((-len(files), name, sorted(files)) for name, files in defined.items() if len(files) > 1)
     begins = {word: [] for word in beginning("")}
     for file, text in sources.items():
@@ -256,6 +274,7 @@ def count(sources):
         (f"types with impl in more than {MAX_IMPL_FILES} files", spread),
         (f"structs of more than {MAX_FIELDS} fields", wide),
         ("mem::take", takes),
+        ("functions that take tuples of arguments apart", tuples),
         ("type names defined more than once", [f"{name}: {', '.join(files)}" for _, name, files in twice]),
         *((f"doc comments beginning with {word}", cases) for word, cases in begins.items()),
         (f"comment lines over {MAX_COLUMNS} columns", broad),

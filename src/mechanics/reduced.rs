@@ -18,7 +18,7 @@ use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
-use crate::axes::PerAxis;
+use crate::axes::{Axis, PerAxis};
 use crate::linalg::vectorised::{self, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
@@ -108,7 +108,7 @@ impl ReducedBody {
         let Some(damping) = damping else {
             let inverse = diagonal.map(|value| 1.0 / value);
             let weighted = scale_columns(shapes, &inverse);
-            let answer = DMatrix::from_fn(self.basis.modes(), 3, |i, k| inverse[i] * rigid[(i, k)]);
+            let answer = DMatrix::from_fn(self.basis.modes(), Axis::COUNT, |i, k| inverse[i] * rigid[(i, k)]);
             return Ok(Factorised { solver: Box::new(Diagonal { inverse }), weighted, answer });
         };
         let mut matrix = damping * a0;
@@ -271,7 +271,7 @@ const COLUMNS: usize = 32;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axes::Axis;
+
     use crate::mechanics::testing::{committed, free, paper_d};
     use crate::mechanics::{FullBody, rail_system, wheel_system};
 

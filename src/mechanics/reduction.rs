@@ -70,7 +70,7 @@ impl ReducedBasis {
         let weighted = scale_columns(&shapes, &flexibility);
         let (n, ports) = (system.unknowns(), system.surface.len());
         let mut residual = DMatrix::zeros(ports, ports);
-        let mut rigid_static = DMatrix::zeros(ports, 3);
+        let mut rigid_static = DMatrix::zeros(ports, Axis::COUNT);
         let mut centrifugal_static = DMatrix::zeros(ports, 1);
         let centrifugal_load = DMatrix::from_column_slice(n, 1, system.centrifugal.as_slice());
         for part in &parts {
@@ -142,7 +142,7 @@ impl ReducedBasis {
         self.shapes.shape() == (ports, m)
             && self.residual.shape() == (ports, ports)
             && self.rigid.shape() == (m, Axis::COUNT)
-            && self.rigid_residual.shape() == (ports, 3)
+            && self.rigid_residual.shape() == (ports, Axis::COUNT)
             && self.centrifugal.len() == m
             && self.centrifugal_residual.len() == ports
             && self.gyroscopic.shape() == (m, m)

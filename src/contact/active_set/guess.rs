@@ -32,14 +32,14 @@ pub struct Guess {
     /// Gap by them at the candidates of every line \[m].
     gaps: Vec<Vec<f64>>,
     displaced: Displaced,
-    starts: Vec<GuessStart>,
+    starts: Vec<LineBefore>,
     /// States before an update.
     before: Vec<NodeStatus>,
 }
 
 /// A line before the guess.
 #[derive(Default)]
-struct GuessStart {
+struct LineBefore {
     status: Vec<NodeStatus>,
     port_forces: DVector<f64>,
     height: f64,
@@ -70,7 +70,7 @@ impl Guess {
         if lines.iter().all(skipped) {
             return;
         }
-        self.starts.resize_with(lines.len(), GuessStart::default);
+        self.starts.resize_with(lines.len(), LineBefore::default);
         for (start, line) in self.starts.iter_mut().zip(&*lines) {
             start.status.clone_from(&line.state.status);
             start.port_forces.clone_from(&line.traction.port_forces);
