@@ -1,5 +1,4 @@
-//! Slip in both directions, at the leading edge and in several stretches on a single smooth patch, `solver.contact = patch`,
-//! which has no grid to fall back to.
+//! Slip in both directions, at the leading edge and in several stretches on a single smooth patch.
 
 mod common;
 use common::random::Random;
@@ -42,27 +41,29 @@ fn forces_after_jumps_of_the_creepage_are_those_of_the_grid() {
     let worst = errors.iter().fold(0.0_f64, |worst, error| worst.max(*error));
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
     println!("from the grid at most {worst:.1e} of friction, rms {rms:.1e}");
-    assert!(worst < 1e-2 && rms < 3e-3);
+    assert!(worst < 1e-3 && rms < 3e-4);
 }
 
 #[test]
-fn moments_that_jump_on_lines_side_by_side_never_leave_the_patch_and_their_energy_is_accounted_for() {
+fn moments_that_jump_on_lines_side_by_side_are_solved_within_friction_and_their_energy_is_accounted_for() {
     for preset in ["railway", "railway_ellipse"] {
-        let model = railway(ContactMethod::Patch, preset);
+        let model = railway(ContactMethod::Auto, preset);
         let mut random = Random(11);
         let mut inputs = Inputs::rolling(model.config());
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-        let mut worst = 0.0_f64;
+        let (mut worst, mut on_grid) = (0.0_f64, 0);
         for _ in 0..120 {
             inputs.drive.moment = random.between(-14e3, 14e3);
             for _ in 0..5 {
                 simulation.advance(&inputs, 1e-3).unwrap();
                 let outputs = simulation.outputs();
-                assert!(is_patch(&simulation) && outputs.contact_utilisation <= 1.0 + 1e-9);
+                assert!(outputs.contact_utilisation <= 1.0 + 1e-9);
                 worst = worst.max(outputs.energy_residual.abs());
+                on_grid += usize::from(!is_patch(&simulation));
             }
         }
-        println!("{preset}: energy missing {worst:.1e}");
-        assert!(worst < 2e-2);
+        println!("{preset}: energy missing {worst:.1e}, {on_grid} of 600 steps on the grid");
+        // Without points every reversal costs 32 steps there.
+        assert!(worst < 2e-2 && on_grid < 60);
     }
 }

@@ -247,6 +247,4 @@ pub struct ContactProblem<'a> {
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
-    /// True where solutions are wanted to round-off, for differences of them.
-    pub exact: bool,
 }

@@ -66,8 +66,6 @@ pub struct ContactStep<'a> {
     pub friction: &'a [Friction],
     /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
-    /// See [`ContactProblem::exact`].
-    pub exact: bool,
 }
 
 impl ContactModel {
@@ -194,7 +192,6 @@ impl ContactModel {
             rigid: step.rigid,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
-            exact: step.exact,
         };
         let before: Vec<_> = start.iter().map(|line| &line.contact).collect();
         let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();

@@ -61,8 +61,6 @@ pub struct Workspace {
     pub contact: contact::ContactScratch,
     /// Of the heat step.
     pub heat: thermal::ThermalScratch,
-    /// True while contact is solved to round-off, for differences of steps.
-    pub exact: bool,
     /// State before and after an internal step.
     pub states: [State; 2],
 }

@@ -104,9 +104,7 @@ pub fn difference(
         let mut ends = [-1.0, 1.0].map(|sign| {
             let by = sign * width;
             let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
-            workspace.exact = true;
             let end = repeat(model, tuning, origin, &inputs, workspace);
-            workspace.exact = false;
             beyond_range |= matches!(end, Err(StepError::Input(_)));
             end.ok().filter(|end| same_branch(model, end, state)).map(|end| Box::new(observe_all(model, &end)))
         });

@@ -229,7 +229,6 @@ fn solve_and_commit(
         cold_steel: false,
         friction: &plan.friction,
         edge_tolerance: EDGE_TOLERANCE,
-        exact: workspace.exact,
     };
     let solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;

@@ -98,7 +98,6 @@ impl RigidBodies {
             rigid: PerAxis { travel: motion[0], height: hub, rotation: motion[1] },
             nominal_load,
             edge_tolerance: 1e-5,
-            exact: true,
         };
         let mut found = start.to_vec();
         let before: Vec<_> = start.iter().collect();

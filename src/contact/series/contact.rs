@@ -22,15 +22,13 @@ pub struct SeriesContact<'a> {
     moments: Moments,
     /// See [`displaced_by_powers`].
     pub by_powers: [ByMoments; 2],
-    /// True where the solution is wanted to round-off.
-    pub exact: bool,
     /// Equations of all lines.
     pub system: DenseSystem,
 }
 
 impl<'a> SeriesContact<'a> {
     /// Contact of at least one line.
-    pub fn new(mut lines: Vec<SeriesLine<'a>>, (rigid, exact): (&'a PerAxis<RigidMotion>, bool)) -> Self {
+    pub fn new(mut lines: Vec<SeriesLine<'a>>, rigid: &'a PerAxis<RigidMotion>) -> Self {
         let mut pulls = [AtPoints::default(); 2];
         for line in &lines {
             let share = line.problem.line.share;
@@ -40,7 +38,7 @@ impl<'a> SeriesContact<'a> {
         }
         lines.iter_mut().for_each(|line| line.mean_pulls = pulls);
         let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
-        Self { lines, rigid, pulls, moments: Moments::default(), by_powers, exact, system: DenseSystem::default() }
+        Self { lines, rigid, pulls, moments: Moments::default(), by_powers, system: DenseSystem::default() }
     }
 
     /// Linear answer of the bodies.

@@ -35,8 +35,7 @@ pub fn solve<R>(
         let rigid = brake::driven(&problem.rigid, states);
         let line =
             |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid, nominal_load: 0.0 }, start);
-        let mut contact =
-            SeriesContact::new(problem.lines.iter().zip(starts).map(line).collect(), (&rigid, problem.exact));
+        let mut contact = SeriesContact::new(problem.lines.iter().zip(starts).map(line).collect(), &rigid);
         check_layers(&contact)?;
         std::mem::swap(&mut contact.system, system);
         let found = find(&mut contact);

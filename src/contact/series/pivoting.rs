@@ -5,7 +5,7 @@ use super::contact::{MOST_LINES, SeriesContact};
 use super::points::{COUNT, Directions, PointProblem, Shears};
 use super::series_line::SeriesLine;
 use super::state::Tractions;
-use super::stick::{self, Motions};
+use super::stick::{self, Motions, is_settled};
 use super::stretch::Stretch;
 use super::surface::SmoothSurfaces;
 use crate::contact::error::ContactError;
@@ -148,7 +148,7 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
             changes.fold(0.0, f64::max) / most.max(f64::MIN_POSITIVE)
         });
         let change = change.fold(before.moved(contact), f64::max);
-        if contact.settles(normal, change) {
+        if is_settled(normal, change) {
             for line in &mut contact.lines {
                 line.slips = line.slip(&line.slipping().0, &line.surface, true);
             }

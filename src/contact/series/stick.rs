@@ -27,12 +27,9 @@ const NOTICED: f64 = 10.0;
 
 /// Largest error of the places where slip begins, and largest change of motions, that end the search \[1]: friction forces
 /// are off by about twice as much.
-const TOLERANCE: f64 = 2e-9;
+const TOLERANCE: f64 = 1e-10;
 /// Largest change of pressures before the last solution of the tangential problem \[1]; that after it is far smaller.
-const PRESSED: f64 = 1e-8;
-/// Largest change of both where solutions are wanted to round-off: in equilibria, which others improve from solution to
-/// solution, and for differences of steps.
-const EXACT: f64 = 1e-10;
+const PRESSED: f64 = 1e-9;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
 const WARM: usize = 3;
 const CLOSE: f64 = 1e-3;
@@ -57,7 +54,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     // Normal and tangential problem improve each other by turns.
     for _ in 0..MOST {
         let tangential = search.advance(contact, normal)?;
-        if contact.settles(normal, tangential) && search.check(contact)? {
+        if is_settled(normal, tangential) && search.check(contact)? {
             return Ok(());
         }
         normal = contact.press()?;
@@ -65,14 +62,9 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
 }
 
-impl SeriesContact<'_> {
-    /// True if the changes of an iteration are the last ones that count.
-    pub fn settles(&self, normal: f64, tangential: f64) -> bool {
-        match self.exact {
-            true => normal.max(tangential) <= EXACT,
-            false => normal <= PRESSED && tangential <= TOLERANCE,
-        }
-    }
+/// True if the changes of an iteration are the last ones that count.
+pub fn is_settled(normal: f64, tangential: f64) -> bool {
+    normal <= PRESSED && tangential <= TOLERANCE
 }
 
 /// The searches on all lines.

@@ -157,7 +157,6 @@ impl Pass<'_> {
             cold_steel: false,
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
-            exact: true,
         };
         self.solve(contact, (state, trial), &mut workspace.contact, next)?;
         let accelerations = trial.accelerations;
