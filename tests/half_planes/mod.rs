@@ -181,6 +181,7 @@ impl HalfPlanes {
             rigid: [RigidMotion::held(v, 0.0), hub, RigidMotion::held(omega, 0.0)],
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
+            layouts: None,
         };
         let mut found = vec![ContactState::default(); lines.len()];
         let mut places: Vec<_> = found.iter_mut().collect();

@@ -97,6 +97,7 @@ impl RigidBodies {
             rigid: [motion[0], hub, motion[1]],
             nominal_load,
             edge_tolerance: 1e-5,
+            layouts: None,
         };
         let mut found = start.to_vec();
         let before: Vec<_> = start.iter().collect();

@@ -9,7 +9,7 @@ use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
 use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::line::LineHistory;
-use crate::contact::problem::OneLine;
+use crate::contact::problem::{LineProblem, OneLine};
 use crate::contact::solver::{ContactState, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
@@ -101,6 +101,17 @@ impl<'a> SeriesLine<'a> {
             field: Field::default(),
             slips: [0.0; POWER],
         }
+    }
+
+    /// Goes on in another layout, with its load times `factor`.
+    pub fn relay(&mut self, line: &'a LineProblem<'a>, factor: f64) {
+        let further = line.kernel.tangential.reach - self.problem.line.kernel.tangential.reach;
+        if let Some(layers) = &mut self.layers {
+            layers.reach_further(further);
+        }
+        self.half_length = line.patch.map_or(self.half_length, |patch| patch.half_length);
+        self.problem.line = line;
+        self.resize(0.0, factor);
     }
 
     /// Velocity with which the rim passes the contact [m/s].
