@@ -30,7 +30,7 @@ fn patches_grow_with_the_third_root_from_a_hundredth_to_three_times_the_nominal_
             let found = seen(share);
             let errors = [0, 1, 2].map(|k| found.0[k] / nominal.0[k] / share.cbrt() - 1.0);
             let force = found.1 - nominal.1;
-            println!("{name}, {share}: pressure, length, width {errors:.1e?}, force {force:+.4} of {:.3}", nominal.1);
+            println!("{name}, {share}: pressure, length, width {errors:?}, force {force:+.4} of {:.3}", nominal.1);
             assert!(errors.iter().all(|error| error.abs() < 2e-3), "{errors:?}");
             assert!(force.abs() < 0.015, "{force}");
         }
@@ -68,6 +68,24 @@ fn pressure_size_and_forces_change_smoothly_with_the_load() {
                 println!("{name}, {nominal} N, hot {hot}, {k}: largest change {:.3} medians", largest / median);
                 assert!(median > 0.0 && largest < 2.0 * median, "{largest:e} {median:e}");
             }
+        }
+    }
+}
+
+/// Under so much load steel yields and patches are long: on meshes of every density a rolling wheel finds its start, whose pressure is
+/// that of the steel at most.
+#[test]
+fn heavy_patches_on_yielding_steel_start_at_a_prescribed_creepage() {
+    for (name, elements) in [("railway_s1002_3mm", 10), ("railway_s1002_0mm", 5), ("railway_s1002_0mm", 10)] {
+        for share in [1.5, 1.9, 2.5, 3.0] {
+            let model = model(preset(name, elements));
+            let mut inputs = prescribed(&model, 20.0, 0.0);
+            (inputs.drive.load, inputs.drive.omega) = (1e5 * share, 43.4);
+            let simulation = Simulation::new(model.clone(), &inputs).unwrap();
+            let o = simulation.outputs();
+            println!("{name}, {elements} elements, {share}: {:.0} MPa", 1e-6 * o.contact_pressure_max);
+            assert!((o.contact_force_y / inputs.drive.load - 1.0).abs() < 1e-9);
+            assert!(o.contact_pressure_max < 2e9 && o.contact_force_x.abs() < o.friction * o.contact_force_y);
         }
     }
 }
