@@ -138,8 +138,8 @@ impl ContactModel {
 
     /// Solves for the contact forces of all lines; `start` are the results of the step before.
     ///
-    /// Lines are laid out for a load, and solved again where they have found another one: a search by tangents of the
-    /// load as a function of the approach.
+    /// Lines are laid out for a load. A solver that is able to lets them follow the load that it finds, others solve again
+    /// where they have found another one: a search by tangents of the load as a function of the approach.
     pub fn solve(
         &self,
         step: &ContactStep,
@@ -154,21 +154,19 @@ impl ContactModel {
             carried if carried > 0.0 => self.patch.load_of(carried),
             _ => self.patch.load_of(self.patch.load_laid_out(start)),
         };
-        // Layouts after which the load is still far off count as iterations: they tell one branch from another.
-        let (mut far, mut closing) = (0, false);
+        // More layouts count as iterations: they tell one branch from another.
+        let mut more = 0;
         for _ in 0..MOST_LAYOUTS {
             self.patch.lay_out(load, found);
             let laid_out = self.solve_laid_out(step, start, (found, load), scratch);
             load = laid_out.map_err(|error| self.of_patch(error, load))?;
             let next = self.patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
-            let missed = missed(load, next);
-            if closing || missed <= SAME_LOAD {
+            if missed(load, next) <= SAME_LOAD {
                 break;
             }
-            (load, closing) = (next, missed <= NEAR_LOAD);
-            far += usize::from(!closing);
+            (load, more) = (next, more + 1);
         }
-        found.iter_mut().for_each(|line| line.contact.traction.iterations += far);
+        found.iter_mut().for_each(|line| line.contact.traction.iterations += more);
         Ok(())
     }
 
@@ -352,13 +350,12 @@ const JUMP: f64 = 0.02;
 const MOST_LAYOUTS: usize = 12;
 /// Largest factor from one of them to the next.
 const LARGEST_FACTOR: f64 = 30.0;
-/// Relative difference of the load carried from that laid out for which counts as none \[1]: pressures err by half of it.
-const SAME_LOAD: f64 = 1e-9;
+/// Relative difference of the load carried from that laid out for which counts as none \[1]. The approach then errs by
+/// a ninth of its square.
+const SAME_LOAD: f64 = 2e-3;
 /// Differences with which a solver changes the layout while it searches \[1].
 const SETTLED_LOAD: f64 = 1e-12;
 const LARGEST_CHANGE: f64 = 0.3;
-/// Difference after which one more layout is the last: it leaves a ninth of its square.
-const NEAR_LOAD: f64 = 2e-3;
 
 /// Length of the contact zone over the longest patch of softened steel \[1].
 const SPREAD: f64 = 1.15;
