@@ -229,8 +229,8 @@ fn advice_about_the_load_of_a_patch_is_right_when_it_is_obeyed() {
         (ROWS, 1.9e5, &["take up heat", "set model.nominal_load to the mean load"], &[&little(1.9e5)]),
         (ELLIPSE, 2e5 + 1e4, &["raise model.nominal_load and set drive.load"], &[&little(2.1e5)]),
         (ROWS, 2e5 + 1e4, &["raise model.nominal_load and set drive.load"], &[&little(2.1e5)]),
-        (ELLIPSE, 5e3, &["below a tenth of model.nominal_load", "set model.nominal_load to the load"], &[&little(5e3)]),
-        (ROWS, 5e3, &["below a tenth of model.nominal_load", "set model.nominal_load to the load"], &[&little(5e3)]),
+        (ELLIPSE, 5e3, &["take up heat", "set model.nominal_load to the mean load"], &[&little(5e3)]),
+        (ROWS, 5e3, &["take up heat", "set model.nominal_load to the mean load"], &[&little(5e3)]),
         (ROWS, 2e3, &["smallest_load_ratio cannot be below 0.05", "lower model.nominal_load"], &[&little(2e3)]),
         (LINE, 4e4, &["lower thermal.smallest_load_ratio to 0.39 or less"], &[&ratio(0.39), &little(4e4)]),
     ];

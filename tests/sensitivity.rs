@@ -228,3 +228,47 @@ fn derivatives_by_heat_that_is_off_and_after_a_tunable_change_are_those_of_the_s
     simulation.retune(&config.tuning);
     assert_eq!(simulation.difference(&load).unwrap().quotient(|o| o.contact_force_x), before);
 }
+
+/// Patches of several lines with moment and load varying: their lines follow the load, and the derivatives by it are those of
+/// the repeated step.
+#[test]
+fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
+    let patch: [(&str, Output, f64); 2] = [
+        ("contact.pressure_max", |o| o.contact_pressure_max, 1e9),
+        ("contact.half_width", |o| o.contact_half_width, 6e-3),
+    ];
+    for name in ["railway_ellipse", "railway_s1002_0mm", "railway_s1002_3mm"] {
+        let model = model(preset(name, 10));
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let mut again = Simulation::new(model.clone(), &inputs).unwrap();
+        let mut largest = 0.0_f64;
+        for k in 0..73 {
+            inputs.drive.moment = -3e3 * (0.1 * f64::from(k)).sin();
+            inputs.drive.load = 1e5 * (1.0 + 0.1 * (0.3 * f64::from(k)).sin());
+            let before = simulation.checkpoint().clone();
+            simulation.advance(&inputs, 1e-3).unwrap();
+            // At first there is no force, and both directions of slip are as near.
+            let inputs_varied = INPUTS.into_iter().filter(|(input, ..)| k > 0 && matches!(*input, "load" | "moment"));
+            for (input, field, size) in inputs_varied {
+                let mut direction = Drive::default();
+                *field(&mut direction) = 1.0;
+                let difference = simulation.difference(&direction).unwrap();
+                let [low, high] = [-1e-5, 1e-5].map(|by| {
+                    let mut inputs = inputs;
+                    *field(&mut inputs.drive) += by * size;
+                    again.recall(before.clone()).unwrap();
+                    again.advance(&inputs, 1e-3).unwrap();
+                    again.outputs().clone()
+                });
+                for (output, get, unit) in OUTPUTS.into_iter().take(3).chain(patch) {
+                    let (found, expected) = (difference.quotient(get), (get(&high) - get(&low)) / (2e-5 * size));
+                    let error = (found - expected).abs() / expected.abs().max(unit / size);
+                    largest = largest.max(error);
+                    assert!(error < 1e-5, "{name}, {k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
+                }
+            }
+        }
+        println!("{name}: largest error {largest:.1e}");
+    }
+}

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that layout,
 /// with which they are too soft.
-pub const LEAST: f64 = 0.1;
+const LEAST: f64 = 1e-3;
 
 /// Length of lines that stay over that under their load on which they feel each other's tangential forces \[1].
 const ROOM: f64 = 1.5;

@@ -8,6 +8,7 @@ use super::error::ContactError;
 use super::flexibility::InPatch;
 use super::friction::Friction;
 use super::kernel::LineKernel;
+use super::layout::LineLayout;
 use super::limits::SteelLimits;
 use crate::axes::{Axis, PerAxis};
 use crate::multistep::TimeDerivative;
@@ -159,6 +160,7 @@ impl RigidMotion {
 
 /// Gap and slip of one contact line as functions of contact forces and rigid motions, for one step or a stationary
 /// state. Forces are per metre of its own width.
+#[derive(Clone, Copy)]
 pub struct LineProblem<'a> {
     /// Its width over that of the bodies \[1].
     pub share: f64,
@@ -206,6 +208,13 @@ impl LineProblem<'_> {
         }
     }
 
+    /// This line in another layout, of which the gap is the change from the present one.
+    pub fn laid_out(&self, layout: &LineLayout) -> Self {
+        let LineLayout { share, kernel, half_length, gap, .. } = *layout;
+        let placement = Placement { elevation: self.placement.elevation - gap, ..self.placement };
+        Self { share, kernel, patch: self.patch.map(|patch| InPatch { half_length, ..patch }), placement, ..*self }
+    }
+
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
@@ -247,4 +256,16 @@ pub struct ContactProblem<'a> {
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].
     pub edge_tolerance: f64,
+    /// Layouts that follow the load, by which a solver may replace that at hand; `None`: there is only this one.
+    pub layouts: Option<&'a dyn LayoutsOfLoad>,
+}
+
+/// Layouts of lines that follow the load of all.
+pub trait LayoutsOfLoad {
+    /// Begins a search with the layout of the problem.
+    fn begin(&self);
+
+    /// Layout under a load of all lines [N/m], which the search goes on with; its gaps are the changes from those of the
+    /// problem. `None`: that at hand is the one, or too far from it.
+    fn under(&self, load: f64) -> Option<Vec<LineLayout>>;
 }

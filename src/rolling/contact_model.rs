@@ -13,7 +13,7 @@ use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch,
-    LineLayout, LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
+    LayoutsOfLoad, LineLayout, LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -21,6 +21,7 @@ use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
 use crate::piecewise;
 use crate::surface::{Placement, Surfaces};
+use std::cell::Cell;
 
 /// Contact of the wheel with the rail.
 pub struct ContactModel {
@@ -138,8 +139,8 @@ impl ContactModel {
 
     /// Solves for the contact forces of all lines; `start` are the results of the step before.
     ///
-    /// Lines are laid out for a load, and solved again where they have found another one: a search by tangents of the
-    /// load as a function of the approach.
+    /// Lines are laid out for a load. A solver that is able to lets them follow the load that it finds, others solve again
+    /// where they have found another one: a search by tangents of the load as a function of the approach.
     pub fn solve(
         &self,
         step: &ContactStep,
@@ -154,15 +155,19 @@ impl ContactModel {
             carried if carried > 0.0 => self.patch.load_of(carried),
             _ => self.patch.load_of(self.patch.load_laid_out(start)),
         };
+        // More layouts count as iterations: they tell one branch from another.
+        let mut more = 0;
         for _ in 0..MOST_LAYOUTS {
             self.patch.lay_out(load, found);
-            self.solve_laid_out(step, start, found, scratch).map_err(|error| self.of_patch(error, load))?;
+            let laid_out = self.solve_laid_out(step, start, (found, load), scratch);
+            load = laid_out.map_err(|error| self.of_patch(error, load))?;
             let next = self.patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
-            if (next - load).abs() <= SAME_LOAD * load {
+            if missed(load, next) <= SAME_LOAD {
                 break;
             }
-            load = next;
+            (load, more) = (next, more + 1);
         }
+        found.iter_mut().for_each(|line| line.contact.traction.iterations += more);
         Ok(())
     }
 
@@ -177,25 +182,31 @@ impl ContactModel {
         }
     }
 
-    /// Solves for the contact forces of lines that have a layout.
+    /// Solves for the contact forces of lines that are laid out for a `load` \[N]. Returns the load of the layout with
+    /// which the solver ends.
     fn solve_laid_out(
         &self,
         step: &ContactStep,
         start: &[Line],
-        found: &mut [Line],
+        (found, load): (&mut [Line], f64),
         scratch: &mut ContactScratch,
-    ) -> Result<(), ContactError> {
+    ) -> Result<f64, ContactError> {
         let layouts: Vec<_> = found.iter().map(|line| line.layout).collect();
+        let following = Following { model: self, layouts: &layouts, first: load, now: Cell::new(load) };
         let lines = start.iter().zip(step.friction).zip(&layouts).enumerate();
         let problem = ContactProblem {
             lines: lines.map(|(k, ((line, friction), layout))| self.line(step, line, *friction, (k, layout))).collect(),
             rigid: step.rigid,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
+            layouts: Some(&following),
         };
         let before: Vec<_> = start.iter().map(|line| &line.contact).collect();
         let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();
-        self.solver.solve(&problem, &before, &mut after, scratch)
+        self.solver.solve(&problem, &before, &mut after, scratch)?;
+        let load = following.now.get();
+        self.patch.lay_out(load, found);
+        Ok(load)
     }
 
     /// Problem of a line with its number and layout, which is in the state `start`.
@@ -285,6 +296,37 @@ impl ContactModel {
     }
 }
 
+/// Layouts that follow the load in a search.
+struct Following<'a> {
+    model: &'a ContactModel,
+    /// Layouts with which it begins, and their load \[N].
+    layouts: &'a [LineLayout],
+    first: f64,
+    /// Load of the present layout \[N].
+    now: Cell<f64>,
+}
+
+impl LayoutsOfLoad for Following<'_> {
+    fn begin(&self) {
+        self.now.set(self.first);
+    }
+
+    fn under(&self, load: f64) -> Option<Vec<LineLayout>> {
+        let ContactModel { patch, width, .. } = self.model;
+        let next = patch.load_of(width * load);
+        let missed = missed(self.now.get(), next);
+        let mut lines = (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next))??;
+        lines.iter_mut().zip(self.layouts).for_each(|(line, first)| line.gap -= first.gap);
+        self.now.set(next);
+        Some(lines)
+    }
+}
+
+/// Relative difference of a load from that of a layout \[1]; zero where there is none.
+fn missed(load: f64, next: f64) -> f64 {
+    if load > 0.0 { (next / load - 1.0).abs() } else { 0.0 }
+}
+
 /// Linear answer of the bodies under a line.
 fn surface_response<'a>(step: &'a ContactStep) -> SurfaceResponse<'a> {
     let (operators, [wheel, rail]) = (step.operators, step.free);
@@ -315,6 +357,9 @@ const LARGEST_FACTOR: f64 = 30.0;
 /// Relative difference of the load carried from that laid out for which counts as none \[1]. The approach then errs by
 /// a ninth of its square.
 const SAME_LOAD: f64 = 2e-3;
+/// Differences with which a solver changes the layout while it searches \[1].
+const SETTLED_LOAD: f64 = 1e-12;
+const LARGEST_CHANGE: f64 = 0.3;
 
 /// Length of the contact zone over the longest patch of softened steel \[1].
 const SPREAD: f64 = 1.15;

@@ -153,6 +153,14 @@ impl PatchLines {
         }
     }
 
+    /// Lines under a load \[N], if that matters.
+    pub fn layouts(&self, load: f64) -> Option<Vec<LineLayout>> {
+        match self {
+            Self::Constant { .. } => None,
+            Self::Sized(patch) => Some(patch.moving(load).collect()),
+        }
+    }
+
     /// Gives lines the layout of a load \[N].
     pub fn lay_out(&self, load: f64, lines: &mut [Line]) {
         match self {

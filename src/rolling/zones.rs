@@ -19,11 +19,13 @@ pub fn widened(model: &RollingModel, state: &State) -> Option<State> {
     Some(wide)
 }
 
-/// Returns a state to the narrow zone if none of its lines needs the wide one any longer.
+/// Returns a state to the narrow zone, or to patches, if none of its lines needs more any longer.
 pub fn narrow(model: &RollingModel, state: &mut State) {
     let load = model.contact.nominal_line_load();
     let lines = state.lines.iter().map(|line| model.contact.solver.narrowed(&line.contact, load));
-    if let Some(contacts) = lines.collect::<Option<Vec<_>>>() {
+    let Some(contacts) = lines.collect::<Option<Vec<_>>>() else { return };
+    // All lines are where the bodies are, so they go together or stay.
+    if contacts.windows(2).all(|pair| pair[0].ports == pair[1].ports) {
         place(state, contacts);
     }
 }

@@ -8,8 +8,6 @@ use crate::contact::{FrictionLaw, Ports};
 use crate::material::INDENTATION;
 use crate::mechanics::{grid_spacing, nominal_half_width};
 
-pub use crate::contact::layout::LEAST as SMALLEST_LAYOUT;
-
 /// Makes the enumeration and the list of its items.
 macro_rules! limits {
     ($($(#[$doc:meta])* $name:ident,)*) => {

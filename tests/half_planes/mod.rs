@@ -182,6 +182,7 @@ impl HalfPlanes {
             rigid: PerAxis { travel: RigidMotion::held(v, 0.0), height: hub, rotation: RigidMotion::held(omega, 0.0) },
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
+            layouts: None,
         };
         let mut found = vec![ContactState::default(); lines.len()];
         let mut places: Vec<_> = found.iter_mut().collect();

@@ -98,6 +98,7 @@ impl RigidBodies {
             rigid: PerAxis { travel: motion[0], height: hub, rotation: motion[1] },
             nominal_load,
             edge_tolerance: 1e-5,
+            layouts: None,
         };
         let mut found = start.to_vec();
         let before: Vec<_> = start.iter().collect();

@@ -4,11 +4,19 @@ use super::series_line::SeriesLine;
 use super::surface::{AtPoints, Moments, SmoothSurfaces, displaced_by_powers};
 use crate::axes::{Axis, PerAxis};
 use crate::contact::flexibility::ByMoments;
-use crate::contact::problem::{AxisDrive, RigidMotion, SurfaceResponse};
+use crate::contact::problem::{AxisDrive, ContactProblem, LineProblem, RigidMotion, SurfaceResponse};
 use crate::linalg::DenseSystem;
+use std::cell::OnceCell;
 
 /// Largest number of lines side by side.
 pub const MOST_LINES: usize = 16;
+
+/// Problem whose layouts follow the load, and memory for those that are not taken yet.
+#[derive(Clone, Copy)]
+pub struct Relaid<'a> {
+    pub problem: &'a ContactProblem<'a>,
+    pub memory: &'a [OnceCell<Vec<LineProblem<'a>>>],
+}
 
 /// Contact of one or several lines in the present iterate.
 pub struct SeriesContact<'a> {
@@ -22,23 +30,46 @@ pub struct SeriesContact<'a> {
     moments: Moments,
     /// See [`displaced_by_powers`].
     pub by_powers: [ByMoments; 2],
+    /// Lines in other layouts.
+    relaid: Relaid<'a>,
     /// Equations of all lines.
     pub system: DenseSystem,
 }
 
 impl<'a> SeriesContact<'a> {
     /// Contact of at least one line.
-    pub fn new(mut lines: Vec<SeriesLine<'a>>, rigid: &'a PerAxis<RigidMotion>) -> Self {
-        let mut pulls = [AtPoints::default(); 2];
-        for line in &lines {
+    pub fn new(lines: Vec<SeriesLine<'a>>, rigid: &'a PerAxis<RigidMotion>, relaid: Relaid<'a>) -> Self {
+        relaid.problem.layouts.inspect(|layouts| layouts.begin());
+        let (pulls, moments, system) = Default::default();
+        let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
+        let mut contact = Self { lines, rigid, pulls, moments, by_powers, relaid, system };
+        contact.share_pulls();
+        contact
+    }
+
+    /// Gives lines the layout of the load that they carry; returns the change of their share \[1].
+    pub fn follow_load(&mut self) -> f64 {
+        let Relaid { problem, memory: [free, rest @ ..] } = self.relaid else { return 0.0 };
+        let Some(layouts) = problem.layouts.and_then(|layouts| layouts.under(self.load())) else { return 0.0 };
+        let lines = || problem.lines.iter().zip(&layouts).map(|(line, layout)| line.laid_out(layout)).collect();
+        let lines: &Vec<_> = free.get_or_init(lines);
+        self.relaid.memory = rest;
+        let factor = self.lines[0].problem.line.share / lines[0].share;
+        self.lines.iter_mut().zip(lines).for_each(|(line, relaid)| line.relay(relaid, factor));
+        self.share_pulls();
+        (factor - 1.0).abs()
+    }
+
+    /// Gives all lines the mean pulls of their hot layers.
+    fn share_pulls(&mut self) {
+        self.pulls = Default::default();
+        for line in &self.lines {
             let share = line.problem.line.share;
-            for (sum, pull) in pulls.as_flattened_mut().iter_mut().zip(line.pulls.as_flattened()) {
+            for (sum, pull) in self.pulls.as_flattened_mut().iter_mut().zip(line.pulls.as_flattened()) {
                 *sum += share * pull;
             }
         }
-        lines.iter_mut().for_each(|line| line.mean_pulls = pulls);
-        let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
-        Self { lines, rigid, pulls, moments: Moments::default(), by_powers, system: DenseSystem::default() }
+        self.lines.iter_mut().for_each(|line| line.mean_pulls = self.pulls);
     }
 
     /// Linear answer of the bodies.

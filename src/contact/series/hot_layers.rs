@@ -204,6 +204,17 @@ impl SeriesLayers {
         std::array::from_fn(|i| scale * ((sums[i] * base[i] + turn) / root[i]).re)
     }
 
+    /// Lets the effect of a line's own forces end at another distance, the logarithm of which is larger `by` so much.
+    pub fn reach_further(&mut self, by: f64) {
+        let mut shifts = [0.0; 2];
+        for (shift, layer) in shifts.iter_mut().zip([&mut self.wheel, &mut self.rail]) {
+            layer.kernel.reach += by;
+            *shift = layer.kernel.factor * PI * layer.force.turn * by;
+        }
+        self.relative.iter_mut().for_each(|moved| *moved += shifts[0] - shifts[1]);
+        self.along.iter_mut().zip(shifts).for_each(|(along, shift)| along.iter_mut().for_each(|moved| *moved += shift));
+    }
+
     /// Largest term of the slope of the gap that the pressure does not follow, times the half-width \[m].
     pub fn unresolved(&self) -> f64 {
         self.slope[SMOOTH..].iter().fold(0.0, |most, term| most.max(term.abs()))

@@ -2,7 +2,7 @@
 //! slip.
 
 use super::constants::Constants;
-use super::contact::SeriesContact;
+use super::contact::{Relaid, SeriesContact};
 use super::hot_layers::SeriesLayers;
 use super::pivoting;
 use super::series_line::{SeriesLine, SeriesStart};
@@ -12,6 +12,7 @@ use crate::contact::error::ContactError;
 use crate::contact::friction::CoefficientSearch;
 use crate::contact::problem::{AxisDrive, ContactProblem, OneLine};
 use crate::linalg::DenseSystem;
+use std::cell::OnceCell;
 
 /// States of the brakes that are tried: a reversal passes through rest.
 const MOST_STATES: usize = 6;
@@ -19,6 +20,8 @@ const MOST_STATES: usize = 6;
 const ROUND_OFF: f64 = 1e-9;
 /// Largest term of the slope of a hot layer beyond those of the pressure, over the slope of the round wheel \[1].
 pub const UNRESOLVED: f64 = 0.02;
+/// Layouts that follow the load.
+const MOST_LAYOUTS: usize = 30;
 /// Friction coefficients that are tried.
 const MOST_COEFFICIENTS: usize = 150;
 
@@ -33,9 +36,11 @@ pub fn solve<R>(
     let mut states = brake::founding(&problem.rigid);
     for _ in 0..MOST_STATES {
         let rigid = brake::driven(&problem.rigid, states);
+        let memory: [_; MOST_LAYOUTS] = std::array::from_fn(|_| OnceCell::new());
         let line =
             |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid, nominal_load: 0.0 }, start);
-        let mut contact = SeriesContact::new(problem.lines.iter().zip(starts).map(line).collect(), &rigid);
+        let lines = problem.lines.iter().zip(starts).map(line).collect();
+        let mut contact = SeriesContact::new(lines, &rigid, Relaid { problem, memory: &memory });
         check_layers(&contact)?;
         std::mem::swap(&mut contact.system, system);
         let found = find(&mut contact);

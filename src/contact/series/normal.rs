@@ -70,7 +70,7 @@ impl SeriesLine<'_> {
     }
 
     /// Moves the patch, and scales it to its load times `factor`; returns the largest relative change.
-    fn resize(&mut self, shift: f64, factor: f64) -> f64 {
+    pub fn resize(&mut self, shift: f64, factor: f64) -> f64 {
         let pressure = &mut self.tractions.pressure;
         let moved = shift.abs() / pressure.half_width;
         pressure.centre += shift;
@@ -96,6 +96,7 @@ impl SeriesContact<'_> {
         self.carry(&mut factors)?;
         let changes = self.lines.iter_mut().zip(shifts).zip(factors);
         let change = changes.map(|((line, shift), factor)| line.resize(shift, factor)).fold(0.0, f64::max);
+        let change = change.max(self.follow_load());
         self.displace();
         Ok(change)
     }

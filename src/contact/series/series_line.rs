@@ -10,7 +10,7 @@ use super::tables::{POWER, QUADRATURE};
 use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::line::LineHistory;
-use crate::contact::problem::OneLine;
+use crate::contact::problem::{LineProblem, OneLine};
 use crate::contact::solver::{ContactState, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
@@ -112,6 +112,17 @@ impl<'a> SeriesLine<'a> {
     pub fn begin_anew(&mut self) {
         (self.tractions, self.rigid) = self.begun;
         (self.slope, self.rim_angle) = (self.before.slope, self.history.rim_angle.now);
+    }
+
+    /// Goes on in another layout, with its load times `factor`.
+    pub fn relay(&mut self, line: &'a LineProblem<'a>, factor: f64) {
+        let further = line.kernel.tangential.reach - self.problem.line.kernel.tangential.reach;
+        if let Some(layers) = &mut self.layers {
+            layers.reach_further(further);
+        }
+        self.half_length = line.patch.map_or(self.half_length, |patch| patch.half_length);
+        self.problem.line = line;
+        self.resize(0.0, factor);
     }
 
     /// Velocity with which the rim passes the contact [m/s].

@@ -8,7 +8,6 @@ use crate::fmi::table::{find, named};
 use crate::fmi::variable::{Access, Causality, Kind, Reference, Value, Variable};
 use crate::simulation::mistaken_units::{cold, unusual};
 use crate::simulation::validity::Limit;
-use crate::simulation::validity::SMALLEST_LAYOUT;
 use crate::simulation::{Inputs, Outputs, Simulation};
 use wheelrail_slave::{Life, Log, Status};
 
@@ -52,7 +51,6 @@ impl Notices {
             of_creepage(settings, config),
             of_load(settings, config),
             of_width(settings, config),
-            of_little_load(settings, config),
             of_idle_rows(settings, config),
             of_rows_load(settings, config),
         ];
@@ -221,26 +219,6 @@ fn of_load(settings: &Settings, config: &Config) -> Option<String> {
              whole they warm {warms:.2} times as much as they should; set model.nominal_load to the mean load of the run",
             display_number(load),
             display_number(nominal)
-        )
-    })
-}
-
-/// Warning of a load at the start under which lines of a patch are too wide, with the errors of the contact that
-/// `docs/patches.md` has.
-fn of_little_load(settings: &Settings, config: &Config) -> Option<String> {
-    let (inputs, nominal) = (settings.inputs(config, true), config.model.nominal_load);
-    let (load, least) = (inputs.drive.load, SMALLEST_LAYOUT * nominal);
-    let smooth = config.wheel.profile.is_empty() && config.rail.profile.is_empty();
-    let patch = smooth && !config.contact.shape.is_line() && !inputs.vertical.prescribes_motion();
-    (patch && load > 0.0 && load < least).then(|| {
-        format!(
-            "drive.load = {} N is below a tenth of model.nominal_load = {} N, and lines keep the places that they have under that \
-             tenth: the patch is {:.2} times as wide as it should be, pressure and length are too small, by 10 % at 5 %, by 20 % at \
-             2 % and by 25 % at 1 % of model.nominal_load, and creep forces are too large, there by up to .05, .11 and .13 of \
-             friction times load; set model.nominal_load to the load of the run",
-            display_number(load),
-            display_number(nominal),
-            libm::cbrt(least / load)
         )
     })
 }
