@@ -145,6 +145,7 @@ fn same_branch(model: &RollingModel, a: &State, b: &State) -> bool {
     let same = |(a, b): (&Line, &Line)| model.contact.solver.same_branch(&a.contact, &b.contact);
     a.lines.iter().zip(&b.lines).all(same)
         && a.hub.brake.locked == b.hub.brake.locked
+        && a.clock.restarted == b.clock.restarted
         && a.clock.internal_steps == b.clock.internal_steps
         && a.clock.iterations == b.clock.iterations
 }

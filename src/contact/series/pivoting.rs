@@ -5,7 +5,7 @@ use super::contact::{MOST_LINES, SeriesContact};
 use super::points::{COUNT, Directions, PointProblem, Shears};
 use super::series_line::SeriesLine;
 use super::state::Tractions;
-use super::stick::{self, Motions, is_settled};
+use super::stick::{self, Motions, Settling};
 use super::stretch::Stretch;
 use super::surface::SmoothSurfaces;
 use crate::contact::error::ContactError;
@@ -135,7 +135,7 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
     contact.displace();
     let states: Vec<Directions> = contact.lines.iter().map(SeriesLine::directions).collect();
     contact.lines.iter_mut().zip(states).for_each(|(line, states)| line.tractions.directions = Some(states));
-    let mut normal = contact.press()?;
+    let (mut normal, mut settling) = (contact.press()?, Settling::new(contact));
     for _ in 0..MOST {
         let before = Motions::of(contact);
         let terms =
@@ -148,7 +148,7 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
             changes.fold(0.0, f64::max) / most.max(f64::MIN_POSITIVE)
         });
         let change = change.fold(before.moved(contact), f64::max);
-        if is_settled(normal, change) {
+        if settling.is_last(normal, change) {
             for line in &mut contact.lines {
                 line.slips = line.slip(&line.slipping().0, &line.surface, true);
             }

@@ -26,10 +26,13 @@ const LONG: f64 = 1e-6;
 const NOTICED: f64 = 10.0;
 
 /// Largest error of the places where slip begins, and largest change of motions, that end the search \[1]: friction forces
-/// are off by about twice as much.
-const TOLERANCE: f64 = 1e-10;
-/// Largest change of pressures before the last solution of the tangential problem \[1]; that after it is far smaller.
-const PRESSED: f64 = 1e-9;
+/// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
+const TOLERANCE: f64 = 2e-11;
+const AT_REST: f64 = 1e-12;
+/// Largest change that ends it where rounding allows no more.
+const ROUNDING: f64 = 1e-9;
+/// Weight of the change of pressures before the last solution of the tangential problem \[1]; that after it is far smaller.
+const PRESSED: f64 = 0.1;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
 const WARM: usize = 3;
 const CLOSE: f64 = 1e-3;
@@ -50,11 +53,11 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
         }
         normal = contact.press()?;
     }
-    let mut search = Search::new(contact);
+    let (mut search, mut settling) = (Search::new(contact), Settling::new(contact));
     // Normal and tangential problem improve each other by turns.
     for _ in 0..MOST {
         let tangential = search.advance(contact, normal)?;
-        if is_settled(normal, tangential) && search.check(contact)? {
+        if settling.is_last(normal, tangential) && search.check(contact)? {
             return Ok(());
         }
         normal = contact.press()?;
@@ -62,9 +65,25 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
 }
 
-/// True if the changes of an iteration are the last ones that count.
-pub fn is_settled(normal: f64, tangential: f64) -> bool {
-    normal <= PRESSED && tangential <= TOLERANCE
+/// When iterations end.
+pub struct Settling {
+    tolerance: f64,
+    /// Change of the last iteration.
+    last: f64,
+}
+
+impl Settling {
+    pub fn new(contact: &SeriesContact) -> Self {
+        let stationary = contact.lines[0].problem.line.time.is_stationary();
+        Self { tolerance: if stationary { AT_REST } else { TOLERANCE }, last: f64::INFINITY }
+    }
+
+    /// True if the relative changes of an iteration are the last ones that count.
+    pub fn is_last(&mut self, normal: f64, tangential: f64) -> bool {
+        let change = tangential.max(PRESSED * normal);
+        let last = std::mem::replace(&mut self.last, change);
+        change <= self.tolerance || change <= ROUNDING && change >= last
+    }
 }
 
 /// The searches on all lines.
