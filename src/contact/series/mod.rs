@@ -1,11 +1,12 @@
 //! Contact on a single smooth patch: tractions as series that fit the patch and the part of it that sticks.
 //!
 //! [`chebyshev`] has the series and their effect on a half-plane, [`tables`] and [`constants`] their constants,
-//! [`surface`] the smooth part of the bodies, [`field`] what the lines of a patch do to each other, [`hot_layers`] the effect of hot layers, [`places`] integrates over
-//! tractions, [`series_line`] has one line and [`contact`] what lines share, [`normal`] solves the normal problem,
-//! [`slip`], [`stretch`] and [`together`] given stretches of stick with [`equations`], [`stick`] finds where slip
-//! begins, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and power,
-//! [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
+//! [`surface`] the smooth part of the bodies, [`field`] what the lines of a patch do to each other, [`hot_layers`] the
+//! effect of hot layers, [`places`] integrates over tractions, [`series_line`] has one line and [`contact`] what lines
+//! share, [`normal`] solves the normal problem, [`slip`], [`stretch`] and [`together`] given stretches of stick with
+//! [`equations`], [`stick`] finds where slip begins, [`points`] and [`pivoting`] which points stick where slip is not one
+//! stretch in one direction, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and
+//! power, [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
 //! `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
 
 pub mod chebyshev;
