@@ -54,7 +54,7 @@ def test_explicit_master_of_the_wheel_is_stable_only_below_carters_limit(
     limit = split.rolling.carter_limit(speed)
     split.close()
     assert slip_growth(fmu, master, speed, stable * limit) < 0.99
-    assert slip_growth(fmu, master, speed, unstable * limit) > 1.1
+    assert slip_growth(fmu, master, speed, unstable * limit) > 1.05
 
 
 def test_iterative_master_of_the_wheel_is_stable_far_beyond_carters_limit(fmu):
