@@ -63,7 +63,6 @@ fn moments_that_jump_on_lines_side_by_side_are_solved_within_friction_and_their_
             }
         }
         println!("{preset}: energy missing {worst:.1e}, {on_grid} of 600 steps on the grid");
-        // Without points every reversal costs 32 steps there.
         assert!(worst < 3e-2 && on_grid < 60);
     }
 }

@@ -109,7 +109,9 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
             return Err(error);
         }
     } else if !contact.lines.iter().all(SeriesLine::suits_points) {
-        return Err(ContactError::Unsuited { reason: "the material moves too little for points" });
+        return Err(ContactError::Unsuited {
+            reason: "slip has no single beginning, and the material moves too little in the step",
+        });
     }
     on_points(contact)?;
     let arches: Option<Vec<Tractions>> = contact.lines.iter().map(SeriesLine::as_arch).collect();
