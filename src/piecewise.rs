@@ -24,6 +24,18 @@ pub struct Interval {
     pub high: f64,
 }
 
+impl Interval {
+    /// Place in the middle.
+    pub fn middle(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Half of the length.
+    pub fn half_length(self) -> f64 {
+        0.5 * (self.high - self.low)
+    }
+}
+
 /// Positions and values that make no piecewise linear function.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PiecewiseError {

@@ -6,9 +6,7 @@ use rigid_bodies::{RigidBodies, SMOOTH, Step};
 use wheelrail::analytic::{
     HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure,
 };
-use wheelrail::contact::active_set::ActiveSetSolver;
-use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::series::{Fallback, SeriesSolver};
+use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
     ContactError, ContactSolver, ContactState, Friction, LineKernel, LineLayout, RigidMotion, SolverState,
 };
@@ -38,11 +36,9 @@ impl HalfPlanes {
             kernel: 1.0 / (std::f64::consts::PI * modulus()),
             coupling: if coupling { (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG } else { 0.0 },
         };
-        let grid = ContactGrid::uniform((-9..=9).map(|i| f64::from(i) * 1e-3).collect(), 1e-3, 3);
         let line =
             LineLayout { share: 1.0, kernel: LineKernel::of_half_plane(half_plane, 1.0), ..LineLayout::default() };
-        let solver = SeriesSolver::new(ActiveSetSolver::new(grid), 0.02, Fallback::Refuse);
-        Self { solver, line, bodies: RigidBodies::new(SMOOTH) }
+        Self { solver: SeriesSolver::new(0.02), line, bodies: RigidBodies::new(SMOOTH) }
     }
 
     /// Rolling at mean speed `speed` with prescribed creepage, in a step with the time formula `time`.

@@ -128,7 +128,8 @@ impl ContactSolver for Hertz {
         found: &mut [&mut ContactState],
         _scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let (problem, [found]) = (&problem.single()?, found) else { return Err(ContactError::ForeignState) };
+        let (nominal_load, problem) = (problem.nominal_load, &problem.single()?);
+        let [found] = found else { return Err(ContactError::ForeignState) };
         let radius = problem.line.radius();
         *self.place.lock().unwrap() = [problem.line.placement.distance, problem.line.placement.angle];
         // The load at which what presses the wheel down is what holds it up; a secant of an almost linear function.
@@ -140,23 +141,23 @@ impl ContactSolver for Hertz {
                     self.unbalance(problem, Axis::Height, &forces, &rigid) - load
                 }
                 AxisDrive::Prescribed { target } => {
-                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), target) * problem.nominal_load * 1e4
+                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), target) * nominal_load * 1e4
                 }
             }
         };
-        let (mut a, mut b) = (0.9 * problem.nominal_load, problem.nominal_load);
+        let (mut a, mut b) = (0.9 * nominal_load, nominal_load);
         let (mut at_a, mut iterations) = (missing(a), 0);
         loop {
             let at_b = missing(b);
             iterations += 1;
-            if at_b.abs() <= 1e-11 * problem.nominal_load {
+            if at_b.abs() <= 1e-11 * nominal_load {
                 break;
             }
             if iterations > 40 {
                 return Err(ContactError::NotConverged { iterations });
             }
             let next = b - at_b * (b - a) / (at_b - at_a);
-            (a, at_a, b) = (b, at_b, next.max(1e-3 * problem.nominal_load));
+            (a, at_a, b) = (b, at_b, next.max(1e-3 * nominal_load));
         }
         let (rigid, half_width) = (self.motion(problem, b, radius), hertz_half_width(b, radius, self.modulus));
         let forces = self.forces(b, radius);

@@ -3,12 +3,14 @@
 //! The bodies enter only through the answer of their surfaces ([`ContactProblem`]), so this room knows neither finite
 //! elements nor how the rolling motion is advanced. What anyone else learns of a solved contact is its [`Traction`];
 //! how it was found is the business of a [`ContactSolver`]: [`series`] takes the tractions of single smooth patches as
-//! series, [`active_set`] solves all others on the paired surface nodes of a [`mod@line`]. Everything is per metre of width; [`crate::patch`] has the closed forms of a patch of finite width.
+//! series, [`active_set`] solves any contact on the paired surface nodes of a [`mod@line`], and [`choice`] decides
+//! between them. Everything is per metre of width; [`crate::patch`] has the closed forms of a patch of finite width.
 //! Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure) lifts it; the rail receives the
 //! opposite.
 
 pub mod active_set;
 mod brake;
+pub mod choice;
 pub mod error;
 pub mod film;
 mod flexibility;

@@ -228,8 +228,6 @@ pub struct OneLine<'a> {
     pub line: &'a LineProblem<'a>,
     /// Rigid motions of the wheel.
     pub rigid: &'a PerAxis<RigidMotion>,
-    /// Line load that scales tolerances [N/m].
-    pub nominal_load: f64,
 }
 
 impl ContactProblem<'_> {
@@ -240,7 +238,7 @@ impl ContactProblem<'_> {
     /// [`ContactError::SingleLine`] if there are several.
     pub fn single(&self) -> Result<OneLine<'_>, ContactError> {
         match self.lines.as_slice() {
-            [line] => Ok(OneLine { line, rigid: &self.rigid, nominal_load: self.nominal_load }),
+            [line] => Ok(OneLine { line, rigid: &self.rigid }),
             lines => Err(ContactError::SingleLine { lines: lines.len() }),
         }
     }

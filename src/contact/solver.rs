@@ -1,6 +1,7 @@
 //! Seam behind which contact is solved.
 
 use super::active_set::ActiveSetScratch;
+use super::choice::Stay;
 use super::error::ContactError;
 use super::line::LineHistory;
 use super::line::state::LineState;
@@ -20,8 +21,7 @@ pub trait ContactSolver: Send + Sync {
     /// forces yet.
     fn touching(&self, half_width: f64) -> ContactState;
 
-    /// A start for bodies that rest and stick: in another discretisation, where [`Self::solve`] takes the first steps in
-    /// it.
+    /// A start for bodies that rest and stick: on other nodes, if [`Self::solve`] takes the first steps on them.
     fn touching_at_rest(&self, half_width: f64) -> ContactState {
         self.touching(half_width)
     }
@@ -45,15 +45,15 @@ pub trait ContactSolver: Send + Sync {
         a.solver == b.solver
     }
 
-    /// The state on ports with room for wider patches or for more than one, where [`Self::solve`] found them to exceed
-    /// the zone or its own reach. `None` if there is no more room.
-    fn widened(&self, _state: &ContactState) -> Option<ContactState> {
+    /// The lines of a contact on other nodes, on which [`Self::solve`] may find it where it has not on theirs; all are on
+    /// the same ones. `None` if there are no others.
+    fn on_other_nodes(&self, _lines: &[&ContactState]) -> Option<Vec<ContactState>> {
         None
     }
 
-    /// The state without that room, if it has it and the patches under about the load `nominal_load` [N/m] no longer
-    /// need it.
-    fn narrowed(&self, _state: &ContactState, _nominal_load: f64) -> Option<ContactState> {
+    /// The lines of a contact on nodes that the solver prefers to theirs, if the contact under about the load
+    /// `nominal_load` [N/m] fits on them; all are on the same ones.
+    fn on_preferred_nodes(&self, _lines: &[&ContactState], _nominal_load: f64) -> Option<Vec<ContactState>> {
         None
     }
 
@@ -88,6 +88,8 @@ pub struct ContactState {
     pub energy: f64,
     /// Memory of the solver.
     pub solver: SolverState,
+    /// Memory of the choice between kinds of nodes.
+    pub stay: Stay,
 }
 
 /// Memory of a contact solver from step to step. States are stored, so that this is the one list of solvers.
@@ -96,9 +98,9 @@ pub enum SolverState {
     /// No memory.
     #[default]
     Stateless,
-    /// Of the active set on paired nodes.
+    /// Of a line on paired nodes.
     Line(Box<LineState>),
-    /// Of the series on a single patch.
+    /// Of a line as series.
     Series(Box<SeriesState>),
 }
 

@@ -122,7 +122,7 @@ impl Traction {
 
     /// Half of the distance between the outermost contact edges \[m]; zero without contact.
     pub fn half_width(&self) -> f64 {
-        hull(&self.edges).map_or(0.0, |edges| 0.5 * (edges.high - edges.low))
+        hull(&self.edges).map_or(0.0, Interval::half_length)
     }
 
     /// Length that is in contact, all patches together \[m].

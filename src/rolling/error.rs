@@ -129,9 +129,8 @@ pub enum StepError {
 }
 
 impl StepError {
-    /// True if another view of the same surfaces may have an answer: a wider zone, or a grid in place of a single
-    /// patch.
-    pub fn asks_for_width(&self) -> bool {
+    /// True if the contact may be found on other nodes: those of a wider zone, or of a grid in place of points.
+    pub fn asks_for_other_nodes(&self) -> bool {
         match self {
             StepError::ZoneExceeded { .. } => true,
             error => error.wants_a_grid(),

@@ -10,7 +10,7 @@
 //! | [`support`], [`bodies`], [`rigid`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
-//! | [`zones`] | how much of the surfaces the contact sees |
+//! | [`nodes`] | nodes on which the contact is looked for |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
 //! | [`output_rows`], [`outputs`], `across`, [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
@@ -45,7 +45,7 @@ pub mod support;
 pub mod thermal;
 pub mod thermal_state;
 pub mod wear;
-pub mod zones;
+pub mod nodes;
 
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};

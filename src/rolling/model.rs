@@ -11,9 +11,9 @@ use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::analytic;
 use crate::config::{Config, ContactMethod};
-use crate::contact::active_set::ActiveSetSolver;
+use crate::contact::choice::NodeChoice;
 use crate::contact::line::ContactGrid;
-use crate::contact::series::{Fallback, SeriesSolver};
+use crate::contact::series::SeriesSolver;
 use crate::contact::{self, ContactSolver, LineKernel};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
@@ -75,20 +75,13 @@ impl RollingModel {
         Ok(())
     }
 
-    /// Builds the model on given bodies with given surfaces, with contact on the grid of their surface nodes.
+    /// Builds the model on given bodies with given surfaces, with contact on the nodes that the configuration asks for.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
-        let mut solver = ActiveSetSolver::new(grid(&bodies));
-        if let Some(wide) = &bodies.wide {
-            solver = solver.with_wider(grid(wide));
-        }
-        let solver: Box<dyn ContactSolver> = match Self::patch_reach(&config, &bodies, &surfaces) {
-            Some(reach) => {
-                let only = config.solver.contact.requires_patch();
-                let fallback = if only { Fallback::Refuse } else { Fallback::ActiveSet };
-                Box::new(SeriesSolver::new(solver, reach, fallback))
-            }
-            None => Box::new(solver),
+        let points = Self::patch_reach(&config, &bodies, &surfaces).map(SeriesSolver::new);
+        let solver: Box<dyn ContactSolver> = match points {
+            Some(points) if config.solver.contact.requires_patch() => Box::new(points),
+            points => Box::new(NodeChoice::new(grid(&bodies), bodies.wide.as_deref().map(grid), points)),
         };
         Self::with_solver(config, bodies, surfaces, solver)
     }

@@ -7,11 +7,11 @@ use super::error::StepError;
 use super::flattening;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
+use super::nodes;
 use super::spreading;
 use super::state::{Brake, Motion, State};
 use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
-use super::zones;
 use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating};
@@ -106,20 +106,11 @@ fn attempt(
     workspace: &mut Workspace,
     next: &mut State,
 ) -> Result<(), StepError> {
-    let mut solved = solve_and_commit(model, state, demand, plan, workspace, next);
-    let mut wide = None;
-    while let Err(error) = &solved
-        && error.asks_for_width()
-        && let Some(wider) = zones::widened(model, wide.as_ref().unwrap_or(state))
-    {
-        solved = solve_and_commit(model, &wider, demand, plan, workspace, next);
-        wide = Some(wider);
-    }
-    solved?;
-    // The energy is that of the solution found: another solver that takes over has none of its own yet.
+    nodes::try_in_turn(model, state, |state| solve_and_commit(model, state, demand, plan, workspace, next))?;
+    // The energy is that of the solution found: the state on other nodes has none of its own yet.
     next.audit = audit::advance(model, &plan.td, state, next);
     next.audit.plastic += next.sum(|line| line.contact.traction.yielding.plastic_work);
-    zones::narrow(model, next);
+    nodes::prefer(model, next);
     let numbers = [next.motion.values(), next.resultant(), next.hub.force].map(PerAxis::values);
     if !numbers.as_flattened().iter().chain([&next.audit.energy]).all(|v| v.is_finite()) {
         return Err(StepError::NotFinite { time: state.clock.time, step: plan.dt });

@@ -9,10 +9,10 @@ use rigid_bodies::{RigidBodies, SMOOTH, Step};
 use serde_json::Value as Json;
 use std::f64::consts::PI;
 use wheelrail::analytic::{HalfPlane, contact_modulus};
-use wheelrail::contact::active_set::ActiveSetSolver;
+use wheelrail::contact::choice::NodeChoice;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::line::kernel::logarithms;
-use wheelrail::contact::series::{Fallback, SeriesSolver};
+use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
     RigidMotion,
@@ -34,6 +34,8 @@ pub const SHEAR_MODULUS: f64 = 0.5 * YOUNG / (1.0 + NU);
 const MEAN_AXIS: f64 = 6e-3;
 /// Width of the bodies, which are rigid here but for their half-spaces [m].
 const WIDTH: f64 = 0.05;
+/// Reach of the points [m].
+const REACH: f64 = 0.03;
 /// Half of the length of the grid over that of the patch [1].
 const ROOM: f64 = 1.2;
 
@@ -71,7 +73,7 @@ pub type Lines = Vec<ContactState>;
 
 /// Two half-spaces that touch in an ellipse.
 pub struct HalfSpaces {
-    solver: SeriesSolver,
+    solver: Box<dyn ContactSolver>,
     pub hertz: Hertz,
     pub radius: f64,
     patch: PatchLayout,
@@ -84,15 +86,22 @@ pub struct HalfSpaces {
 impl HalfSpaces {
     /// With the ratio `aspect` of the half axes along and across the direction of rolling; on series alone.
     pub fn new(aspect: f64, lines: usize) -> Self {
-        Self::build(aspect, lines, (4, Fallback::Refuse))
+        Self::build(aspect, lines, 4, |_| Box::new(SeriesSolver::new(REACH)))
     }
 
     /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
-        Self::build(aspect, lines, (nodes, Fallback::ActiveSet))
+        Self::build(aspect, lines, nodes, |grid| {
+            Box::new(NodeChoice::new(grid.clone(), None, Some(SeriesSolver::new(REACH))))
+        })
     }
 
-    fn build(aspect: f64, lines: usize, (nodes, fallback): (u32, Fallback)) -> Self {
+    fn build(
+        aspect: f64,
+        lines: usize,
+        nodes: u32,
+        solver: impl Fn(&ContactGrid) -> Box<dyn ContactSolver>,
+    ) -> Self {
         // The radii of curvature of a unit contact of this aspect, scaled to the mean axis.
         let lateral = |ratio: f64| Hertz::new(1.0, ratio, modulus());
         let (mut low, mut high) = (1e-4_f64, 1e4_f64);
@@ -109,7 +118,7 @@ impl HalfSpaces {
         let (spacing, side) = (hertz.under(LOAD).a / f64::from(nodes), (ROOM * f64::from(nodes)).ceil() as i32);
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
-            solver: SeriesSolver::new(ActiveSetSolver::new(grid.clone()), 0.03, fallback),
+            solver: solver(&grid),
             patch: PatchLayout::ellipse(&hertz, radius, material, lines, WIDTH, LOAD),
             hertz,
             radius,
@@ -130,12 +139,12 @@ impl HalfSpaces {
 
     /// Lines of the grid as series, if the solver takes all of them back.
     pub fn as_series(&self, lines: &Lines) -> Option<Lines> {
-        lines.iter().map(|line| self.solver.narrowed(line, LOAD / WIDTH)).collect()
+        self.solver.on_preferred_nodes(&lines.iter().collect::<Vec<_>>(), LOAD / WIDTH)
     }
 
     /// Lines of the series on the grid.
     pub fn as_grid(&self, lines: &Lines) -> Lines {
-        lines.iter().map(|line| self.solver.widened(line).unwrap()).collect()
+        self.solver.on_other_nodes(&lines.iter().collect::<Vec<_>>()).unwrap()
     }
 
     pub fn layout(&self, load: f64) -> Vec<LineLayout> {
@@ -159,7 +168,7 @@ impl HalfSpaces {
         let load = [load / WIDTH, LOAD / WIDTH];
         let (lines, flexibility) = ((&layout[..], logarithms), Some(&**self.patch.flexibility()));
         let step = Step { radius: self.radius, lines, flexibility, load, motion, laws };
-        bodies.solve(&self.solver, &step, start)
+        bodies.solve(&*self.solver, &step, start)
     }
 
     /// Motions with a prescribed creepage.

@@ -7,8 +7,7 @@
 //! the flexibility that it has for itself, [`others`] the forces of the lines beside it and [`exchange`] how they come
 //! there, [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip, [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure
 //! pushes, [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of
-//! the grid, [`regrid`] the change to a wider or narrower grid. Of a solution [`power`] takes the power, [`observe`]
-//! the traction, and [`mod@finish`] both. Theory:
+//! the grid. Of a solution [`power`] takes the power, [`observe`] the traction, and [`mod@finish`] both. Theory:
 //! `docs/theory/contact.md`.
 
 pub(super) mod alone;
@@ -25,7 +24,6 @@ pub(super) mod kinematics;
 pub mod observe;
 pub(super) mod others;
 pub(super) mod power;
-pub(super) mod regrid;
 pub(super) mod retarded;
 pub(super) mod rim;
 pub(super) mod rows;

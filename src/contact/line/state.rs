@@ -75,8 +75,6 @@ pub struct LineState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
-    /// Steps before another solver is tried again.
-    pub rest: u32,
 }
 
 impl LineState {
@@ -87,6 +85,5 @@ impl LineState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
-        self.rest = other.rest;
     }
 }

@@ -6,11 +6,11 @@
 //! share, [`normal`] solves the normal problem, [`slip`], [`stretch`] and [`together`] given stretches of stick with
 //! [`equations`], [`stick`] finds where slip begins, [`points`] and [`pivoting`] which points stick where slip is not one
 //! stretch in one direction, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and
-//! power, [`transfer`] leads to the grid and back, and [`solver`] decides between the two. Theory:
-//! `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
+//! power, and [`solver`] is the contact solver that says which contacts suit it. Theory: `docs/theory/patch-contact.md`,
+//! `docs/theory/lines.md`.
 
 pub mod chebyshev;
-mod constants;
+pub(super) mod constants;
 mod contact;
 mod equations;
 mod field;
@@ -28,10 +28,9 @@ pub(super) mod state;
 mod stick;
 mod stretch;
 mod surface;
-mod tables;
+pub(super) mod tables;
 mod together;
-mod transfer;
 
 pub use chebyshev::Arch;
-pub use solver::{Fallback, SeriesSolver};
+pub use solver::SeriesSolver;
 pub use state::{Past, SeriesState, Tractions};

@@ -6,11 +6,11 @@ use super::super::error::StepError;
 use super::super::flattening;
 use super::super::line::Line;
 use super::super::model::{RollingModel, Workspace};
+use super::super::nodes;
 use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State};
 use super::super::substeps;
 use super::super::thermal;
 use super::super::thermal_state::ThermalState;
-use super::super::zones;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
@@ -68,15 +68,8 @@ pub(super) fn settle(
         let touching = number > 0 && state.resultant().height > 0.0;
         let sought = goal.sought.filter(|_| touching);
         let pass = Pass { model, goal, friction, sought };
-        let mut passed = pass.run(&state, &mut trial, workspace, &mut next);
-        while let Err(error) = &passed
-            && error.asks_for_width()
-            && let Some(wide) = zones::widened(model, &state)
-        {
-            state = wide;
-            passed = pass.run(&state, &mut trial, workspace, &mut next);
-        }
-        let passed = passed?;
+        let run = |state: &State| pass.run(state, &mut trial, workspace, &mut next);
+        let passed = nodes::try_in_turn(model, &state, run)?;
         change = if sought == goal.sought || !touching && number > 0 { passed } else { f64::INFINITY };
         std::mem::swap(&mut state, &mut next);
         if change <= TOLERANCE {
@@ -236,7 +229,7 @@ fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) 
         hub_velocity: History::default(),
         ..state.motion
     };
-    zones::narrow(model, &mut state);
+    nodes::prefer(model, &mut state);
     (state.hub.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
     state.hub.brake = Brake::stationary(goal.given.rotation, rotation, state.hub.force.rotation);
     let moment = &mut state.hub.force.rotation;

@@ -1,12 +1,12 @@
-//! From the patch to the grid and back: both describe the same surfaces, and what the slip of the next step refers to,
-//! the tangential displacement at the last two times, goes over as a function of x.
+//! From points to a grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
+//! tangential displacement at the last two times, goes over as a function of x.
 
-use super::chebyshev::{Arch, TERMS};
-use super::constants::Constants;
-use super::state::{Past, SeriesState, Tractions};
-use super::tables::{POWER, PRESSURE};
 use crate::contact::kernel::LineKernel;
 use crate::contact::line::{ContactGrid, FrictionHistory, LineHistory, LineState, NodeStatus};
+use crate::contact::series::chebyshev::TERMS;
+use crate::contact::series::constants::Constants;
+use crate::contact::series::tables::{POWER, PRESSURE};
+use crate::contact::series::{Arch, Past, SeriesState, Tractions};
 use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
@@ -15,8 +15,6 @@ use nalgebra::DVector;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Steps on the grid before the patch is tried again.
-pub(super) const REST: u32 = 32;
 /// Share of the reach of the smooth displacements that a patch may take when it comes from the grid \[1].
 const ROOM: f64 = 0.9;
 
@@ -26,16 +24,18 @@ fn duration(force: &[f64], impulse: &[f64]) -> f64 {
     if ratio.is_finite() { ratio } else { 0.0 }
 }
 
-/// Gives the state of a patch the nodes of a grid; `grid_state` is one of the grid.
+/// The state of a line on points as that of a `target` on a grid, which touches there without forces; `None` where one
+/// of both is of another solver.
 pub(super) fn to_grid(
     constants: &Constants,
     from: &ContactState,
-    patch: &SeriesState,
     grid: &ContactGrid,
     mut target: ContactState,
-) -> ContactState {
+) -> Option<ContactState> {
     let (traction, mut forces) = (&from.traction, target.traction.port_forces.clone());
-    let SolverState::Line(state) = &mut target.solver else { return target };
+    let (SolverState::Series(patch), SolverState::Line(state)) = (&from.solver, &mut target.solver) else {
+        return None;
+    };
     let Tractions { pressure, slide, stick, directions } = &patch.tractions;
     let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
     let slips = |sign: f64| if sign < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
@@ -55,7 +55,6 @@ pub(super) fn to_grid(
     state.status = grid.x.iter().map(|&x| status(x)).collect();
     let past = |k: usize, x: f64| patch.past[k].at(&[x], (patch.kernel.tangential.factor, None), &constants.points)[0];
     state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
-    state.rest = REST;
     let closed = |i: usize| status(grid.x[i]).is_active();
     let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
     let friction = &from.history.friction;
@@ -76,7 +75,7 @@ pub(super) fn to_grid(
     }
     let surface = [0, 1].map(|body| surface(constants, patch, &traction.surface[body], grid, body));
     target.traction = Traction { loads: [forces.clone(), -&forces], port_forces: forces, surface, ..traction.clone() };
-    target
+    Some(target)
 }
 
 /// Displacements of a body at all nodes, but for a constant and the small strains under pressure.
@@ -150,13 +149,13 @@ fn even(grid: &ContactGrid) -> Range<usize> {
     first..(middle..x.len() - 1).find(uneven).map_or(x.len(), |i| i + 1)
 }
 
-/// The state of a grid as that of a patch; `None` where it is none, reaches nodes that lie farther apart, or the grid
-/// has not rested for long.
-pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
+/// The state of a line on a grid as that on points; `None` where it has not a single patch, or one that reaches nodes
+/// that lie farther apart.
+pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
     let reach = ROOM * constants.points.reach;
-    if state.rest > 0 || load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {
+    if load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {
         return None;
     }
     let even = even(grid);
@@ -167,7 +166,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
     if !is_single(state) {
         return None;
     }
-    let (centre, half_width) = (0.5 * (edges.low + edges.high), 0.5 * (edges.high - edges.low));
+    let (centre, half_width) = (edges.middle(), edges.half_length());
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
     pressure.terms[0] = 2.0 * load / (PI * half_width);
     let side = if upstream_right { 1.0 } else { -1.0 };
@@ -179,7 +178,7 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
             }
             Tractions { pressure, slide: direction * traction.friction.coefficient, stick, directions: None }
         }
-        None => on_points(constants, grid, from, state, Arch { ..pressure }),
+        None => on_points(constants, grid, from, state, pressure),
     };
     let history = |before: bool| {
         let value = |h: &History| if before { h.before } else { h.now };
@@ -192,8 +191,8 @@ pub(super) fn to_patch(constants: &Constants, grid: &ContactGrid, from: &Contact
         ports: Ports::Smooth,
         traction: traction.clone(),
         history: LineHistory { rim_angle: from.history.rim_angle, friction },
-        energy: 0.0,
         solver: SolverState::Series(Box::new(patch)),
+        ..ContactState::default()
     };
     let mut forces = DVector::zeros(2 * POINTS);
     for i in 0..grid.len() {

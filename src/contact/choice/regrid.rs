@@ -4,9 +4,8 @@
 //! open nodes without forces. Gaps and displacements of new nodes start as those of the outermost old one: nodes that
 //! close in the very step of the change lie next to it, and after it all are known.
 
-use super::grid::ContactGrid;
-use super::history::FrictionHistory;
-use super::state::{LineState, NodeStatus};
+use crate::contact::line::{ContactGrid, FrictionHistory, LineState, NodeStatus};
+use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
 
@@ -47,42 +46,33 @@ fn components(values: &DVector<f64>, ports: usize, outside: Option<[f64; 2]>) ->
     DVector::from_iterator(ports, resized.into_iter().flatten())
 }
 
-/// Gives a state the nodes of `grid`.
-pub(in crate::contact) fn move_to(
-    grid: &ContactGrid,
-    state: &mut LineState,
-    friction: &mut FrictionHistory,
-    traction: &mut Traction,
-) {
+/// The state of a line on the nodes of `grid`, which belong to the given ports; `None` for one of another solver.
+pub(super) fn moved(line: &ContactState, grid: &ContactGrid, to: Ports) -> Option<ContactState> {
     let (n, ports) = (grid.len(), grid.ports());
-    if state.status.is_empty() {
-        return;
-    }
-    let LineState { status, yielded, slip, gap, tangential_gap, rest: _ } = state;
+    let mut moved = ContactState { ports: to, ..line.clone() };
+    let SolverState::Line(state) = &mut moved.solver else { return None };
+    let LineState { status, yielded, slip, gap, tangential_gap } = &mut **state;
     *status = padded(status, n, NodeStatus::Open);
     *yielded = padded(yielded, n, false);
     *slip = padded(slip, n, 0.0);
     *gap = nearest(gap, n);
     *tangential_gap = nearest(tangential_gap, n);
-    let FrictionHistory { force, impulse, slip, slope_power: _, slope_work: _ } = friction;
+    let FrictionHistory { force, impulse, slip, slope_power: _, slope_work: _ } = &mut moved.history.friction;
     for values in [force, impulse, slip] {
         *values = padded(values, n, 0.0);
     }
-    let Traction { port_forces, loads, surface, .. } = traction;
+    let Traction { port_forces, loads, surface, .. } = &mut moved.traction;
     for forces in loads.iter_mut().chain([port_forces]) {
         *forces = components(forces, ports, Some([0.0; 2]));
     }
     surface.iter_mut().for_each(|u| *u = components(u, ports, None));
+    Some(moved)
 }
 
-/// True if a state of the grid `wide` may as well live on the smaller grid `narrow`.
-pub(in crate::contact) fn fits_into(
-    narrow: &ContactGrid,
-    wide: &ContactGrid,
-    state: &LineState,
-    traction: &Traction,
-    nominal_load: f64,
-) -> bool {
+/// True if the state of a line on a `wide` grid may as well live on a `narrow` one, under about the `nominal_load`
+/// [N/m].
+pub(super) fn fits_into([narrow, wide]: [&ContactGrid; 2], line: &ContactState, nominal_load: f64) -> bool {
+    let SolverState::Line(state) = &line.solver else { return false };
     let end = LEAVING * narrow.x.last().copied().unwrap_or(0.0);
     let beyond = |(x, status): (&f64, &NodeStatus)| status.is_active() && x.abs() > end;
     if wide.x.iter().zip(&state.status).any(beyond) {
@@ -93,12 +83,13 @@ pub(in crate::contact) fn fits_into(
         let (before, from_first) = loads.as_slice().split_at(inner);
         before.iter().chain(&from_first[narrow.ports()..]).map(|force| force.abs()).sum()
     };
-    traction.loads.iter().all(|loads| pull(loads) <= SLIGHT_PULL * nominal_load)
+    line.traction.loads.iter().all(|loads| pull(loads) <= SLIGHT_PULL * nominal_load)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::line::LineHistory;
 
     #[test]
     fn a_state_that_goes_to_a_wider_grid_and_back_is_the_same() {
@@ -115,29 +106,36 @@ mod tests {
             ..LineState::default()
         };
         state.status[4] = NodeStatus::Stick;
-        let mut friction = FrictionHistory {
+        let friction = FrictionHistory {
             force: values(9, 4.0),
             impulse: values(9, 5.0),
             slip: values(9, 6.0),
             ..FrictionHistory::default()
         };
-        let mut traction = Traction {
+        let traction = Traction {
             port_forces: vector(7.0),
             loads: [vector(8.0), vector(9.0)],
             surface: [vector(10.0), vector(11.0)],
             ..Traction::default()
         };
-        let before = (state.clone(), friction.clone(), traction.clone());
-        move_to(&wide, &mut state, &mut friction, &mut traction);
-        assert_eq!((state.status.len(), state.status[9], traction.port_forces.len()), (19, NodeStatus::Stick, 46));
-        assert_eq!((traction.loads[0][0], traction.surface[0][1], state.slip[18]), (0.0, 11.0, 0.0));
-        assert!(fits_into(&narrow, &wide, &state, &traction, 1.0));
-        state.status[5] = NodeStatus::Stick;
-        assert!(!fits_into(&narrow, &wide, &state, &traction, 1.0));
-        state.status[5] = NodeStatus::Open;
-        traction.loads[1][2] = 0.02;
-        assert!(!fits_into(&narrow, &wide, &state, &traction, 1.0));
-        move_to(&narrow, &mut state, &mut friction, &mut traction);
-        assert_eq!((state, friction, traction), before);
+        let history = LineHistory { friction, ..LineHistory::none(9) };
+        let before =
+            ContactState { traction, history, solver: SolverState::Line(Box::new(state)), ..ContactState::default() };
+        let mut line = moved(&before, &wide, Ports::Wide).unwrap();
+        let state = |line: &ContactState| match &line.solver {
+            SolverState::Line(state) => (**state).clone(),
+            other => panic!("{other:?}"),
+        };
+        let (on_wide, traction) = (state(&line), &line.traction);
+        assert_eq!((on_wide.status.len(), on_wide.status[9], traction.port_forces.len()), (19, NodeStatus::Stick, 46));
+        assert_eq!((traction.loads[0][0], traction.surface[0][1], on_wide.slip[18]), (0.0, 11.0, 0.0));
+        let fits = |line: &ContactState| fits_into([&narrow, &wide], line, 1.0);
+        assert!(fits(&line));
+        let mut longer = on_wide;
+        longer.status[5] = NodeStatus::Stick;
+        assert!(!fits(&ContactState { solver: SolverState::Line(Box::new(longer)), ..line.clone() }));
+        line.traction.loads[1][2] = 0.02;
+        assert!(!fits(&line));
+        assert_eq!(moved(&line, &narrow, Ports::Narrow), Some(before));
     }
 }
